@@ -1,0 +1,91 @@
+"""Physical values of requests: a number in SI units, or a text with a unit ("300 mm")."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, core_schema
+
+from mckibben.physics.errors import InputError
+from mckibben.physics.units import si
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """Turns what a request gives into SI, and describes it in OpenAPI.
+
+    Attributes:
+        unit: SI unit of the value inside; a text must have a compatible one.
+        example: a text that would be right.
+        above, at_least, at_most, below: bounds of the SI value.
+    """
+
+    unit: str
+    example: str
+    above: float | None = None
+    at_least: float | None = None
+    at_most: float | None = None
+    below: float | None = None
+
+    def __call__(self, value: object) -> float:
+        """The value in SI.
+
+        Raises:
+            InputError: not a finite number, an unknown or wrong unit, or out of bounds.
+        """
+        if isinstance(value, bool) or not isinstance(value, int | float | str):
+            raise InputError("must be a number in SI units or a text with a unit", hint=self._hint)
+        number = si(value, self.unit)
+        wrong = (
+            (self.above is not None and number <= self.above and f"above {self.above:g}")
+            or (self.at_least is not None and number < self.at_least and f"at least {self.at_least:g}")
+            or (self.at_most is not None and number > self.at_most and f"at most {self.at_most:g}")
+            or (self.below is not None and number >= self.below and f"below {self.below:g}")
+        )
+        if wrong:
+            unit = "" if self.unit == "1" else f" {self.unit}"
+            raise InputError(f"must be {wrong}{unit}, not {number:g}{unit}", hint=self._hint)
+        return number
+
+    @property
+    def _hint(self) -> str:
+        return f"E.g. '{self.example}'; a bare number is in {self.unit if self.unit != '1' else 'parts of one'}."
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """Validation by `__call__`; nothing of the annotated float's own."""
+        return core_schema.no_info_plain_validator_function(self)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """Number with bounds, or text; the SI unit as ``unit``."""
+        bounds = {
+            "exclusiveMinimum": self.above,
+            "minimum": self.at_least,
+            "maximum": self.at_most,
+            "exclusiveMaximum": self.below,
+        }
+        number = {"type": "number"} | {name: bound for name, bound in bounds.items() if bound is not None}
+        return {
+            "anyOf": [number, {"type": "string", "minLength": 1, "maxLength": 64}],
+            "unit": self.unit,
+            "examples": [self.example],
+        }
+
+
+# Bounds far outside of anything built: they keep nonsense out of the arithmetic, not designs.
+Length = Annotated[float, Quantity("m", "300 mm", above=0.0, at_most=1e3)]
+Diameter = Annotated[float, Quantity("m", "20 mm", above=0.0, at_most=10.0)]
+Thickness = Annotated[float, Quantity("m", "1.8 mm", at_least=0.0, at_most=1.0)]
+Angle = Annotated[float, Quantity("rad", "25 deg", above=0.0, below=1.5707)]
+Turns = Annotated[float, Quantity("1", "1.48", above=0.0, at_most=1e6)]
+Pressure = Annotated[float, Quantity("Pa", "6 bar", at_least=0.0, at_most=1e8)]
+PositivePressure = Annotated[float, Quantity("Pa", "6 bar", above=0.0, at_most=1e8)]
+Force = Annotated[float, Quantity("N", "500 N", at_least=-1e9, at_most=1e9)]
+Load = Annotated[float, Quantity("N", "500 N", at_least=0.0, at_most=1e9)]
+Temperature = Annotated[float, Quantity("K", "20 degC", at_least=150.0, at_most=600.0)]
+Contraction = Annotated[float, Quantity("1", "10 %", at_least=-5.0, at_most=1.0)]
+Volume = Annotated[float, Quantity("m3", "15 ml", at_least=0.0, at_most=10.0)]

@@ -1,0 +1,56 @@
+"""What a server is started with."""
+
+from __future__ import annotations
+
+import ipaddress
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from mckibben.resources import frontend_folder, presets_folder, user_folder
+
+LOOPBACK_NAMES = frozenset({"localhost", "127.0.0.1", "::1"})
+
+
+def is_loopback(host: str) -> bool:
+    """Whether an address is reachable from this machine only."""
+    name = host.strip("[]").lower()
+    try:
+        return ipaddress.ip_address(name).is_loopback
+    except ValueError:
+        return name in LOOPBACK_NAMES
+
+
+def is_every_interface(host: str) -> bool:
+    """Whether binding to this address listens on every network of the machine (``0.0.0.0``, ``::``)."""
+    try:
+        return ipaddress.ip_address(host.strip("[]")).is_unspecified
+    except ValueError:
+        return host == ""
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """Where the server listens, who may talk to it, and which folders it uses.
+
+    Attributes:
+        host, port: the address it listens on.
+        token: secret that every request must show; required when ``host`` is not loopback.
+        presets: folder of the built-in presets.
+        user_presets: folder of the user's presets, where new ones are saved; None = saving is refused.
+        effects: folders with further effect files.
+        data: folder in which uploaded measurements are kept.
+        frontend: the folder served at ``/``.
+    """
+
+    host: str = "127.0.0.1"
+    port: int = 8000
+    token: str | None = None
+    presets: Path = field(default_factory=presets_folder)
+    user_presets: Path | None = None
+    effects: tuple[Path, ...] = ()
+    data: Path = field(default_factory=user_folder)
+    frontend: Path = field(default_factory=frontend_folder)
+
+    def __post_init__(self) -> None:
+        if not is_loopback(self.host) and not self.token:
+            raise ValueError(f"a server on {self.host} is reachable from outside and needs a token")

@@ -1,0 +1,42 @@
+"""The outermost layer of ``/api``: how long an answer took, and what happens when something unexpected fails."""
+
+from __future__ import annotations
+
+from time import perf_counter
+
+from starlette.datastructures import MutableHeaders
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from mckibben.api.errors import unexpected_answer
+
+
+class TimingMiddleware:
+    """``Server-Timing: app;dur=<ms>`` on API answers, no caching unless a route asks for it, errors as 500."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self.app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Time one request from its arrival to the first byte of its answer."""
+        if scope["type"] != "http":
+            await self.app(scope, receive, send)
+            return
+        start, is_api, started = perf_counter(), scope["path"].startswith("/api/"), False
+
+        async def timed(message: Message) -> None:
+            nonlocal started
+            if message["type"] == "http.response.start":
+                started = True
+                if is_api:
+                    headers = MutableHeaders(raw=message["headers"])
+                    headers.setdefault("cache-control", "no-store")
+                    headers["server-timing"] = f"app;dur={(perf_counter() - start) * 1e3:.3f}"
+            await send(message)
+
+        try:
+            await self.app(scope, receive, timed)
+        except Exception as error:
+            # Inside Starlette's own error layer, which would send a plain text and log a second time.
+            if started:
+                raise
+            await unexpected_answer(error)(scope, receive, timed)

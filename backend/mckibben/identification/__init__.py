@@ -1,0 +1,1 @@
+"""Measurements against the model: reading, predicting, fitting, comparing."""

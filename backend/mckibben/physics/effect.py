@@ -1,0 +1,174 @@
+"""The contract of an effect: what one file in ``effects/`` declares.
+
+A file holds plain functions and one module-level ``EFFECT = Effect(...)``. Everything declared here is
+checked: the form when the file is loaded, the physics by ``tests/physics/test_effect_contract.py``.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+from mckibben.physics.slots import SLOTS
+
+Kind = Literal["isobaric", "isometric", "isotonic", "diameter", "transient", "static"]
+KINDS: tuple[Kind, ...] = ("isobaric", "isometric", "isotonic", "diameter", "transient", "static")
+TYPES = ("static", "rate", "hysteretic", "dynamic", "measurement")
+FAMILIES = ("geometry", "elastomer", "friction", "gas", "valve", "tube", "supply", "load", "sensor")
+# Named states at which an effect may claim to contribute nothing; test_effect_contract.py evaluates them.
+ZERO_STATES = (
+    "nominal_length",
+    "zero_force_length",
+    "zero_pressure",
+    "shorter_than_nominal",
+    "longer_than_nominal",
+    "no_motion",
+    "zero_force",
+    "reference_temperature",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Signature:
+    """How the effect shows in the residual (measured minus ideal force), in words and as checkable claims.
+
+    Attributes:
+        text: the signature in words, one sentence.
+        direction: parity of the contribution when the motion reverses: "even", "odd" or None (neither).
+        pressure_power: n when the contribution to the force goes with P^n at constant length, else None.
+        zero_at: states (of `ZERO_STATES`) where the contribution to the force is exactly zero.
+        energy: "conservative" (a closed loop returns its work), "dissipative" (a loop never gains work),
+            "lumped" (a correction without an energy) or "reading" (changes what is read, not the muscle).
+    """
+
+    text: str
+    direction: Literal["even", "odd"] | None
+    pressure_power: float | None
+    zero_at: tuple[str, ...]
+    energy: Literal["conservative", "dissipative", "lumped", "reading"]
+
+
+@dataclass(frozen=True, slots=True)
+class Twin:
+    """Another effect that looks alike, and the experiment that separates the two."""
+
+    effect: str
+    separated_by: str
+
+
+@dataclass(frozen=True, slots=True)
+class Example:
+    """A worked example: ``quantity`` of the ideal muscle with only this effect equals ``expected``.
+
+    ``quantity`` is an output of `mckibben.physics.model.State` ("force", "volume", "diameter", "area") or one
+    of these with the suffix "_change": with the effect minus without. The muscle and the state are in SI.
+    """
+
+    quantity: str
+    expected: float
+    tolerance: float
+    source: Source
+    parameters: Mapping[str, float]
+    muscle: Mapping[str, float]
+    state: Mapping[str, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Effect:
+    """One physical effect, as declared by its file.
+
+    Attributes:
+        title: name in the field's own words.
+        family: group on screen (one of `FAMILIES`).
+        type: static, rate, hysteretic, dynamic or measurement.
+        cause: why it exists, two sentences.
+        equation: LaTeX of what it adds or changes.
+        parameters: its numbers.
+        slots: slot name -> function (see `mckibben.physics.slots`).
+        kinds: measurement kinds that reveal it.
+        signature: how it shows.
+        confused_with: twins and what separates them.
+        references: literature.
+        examples: worked examples, at least one.
+        order: position in chained slots; lower acts first.
+        id: the file name, set by the catalogue.
+    """
+
+    title: str
+    family: str
+    type: str
+    cause: str
+    equation: str
+    parameters: tuple[Parameter, ...]
+    slots: Mapping[str, Callable[..., Value]]
+    kinds: frozenset[Kind]
+    signature: Signature
+    confused_with: tuple[Twin, ...]
+    references: tuple[Source, ...]
+    examples: tuple[Example, ...]
+    order: int = 0
+    id: str = ""
+    _wanted: Mapping[str, tuple[str, ...]] = field(default_factory=dict, repr=False)
+
+    def __post_init__(self) -> None:
+        for name, value, known in (("family", self.family, FAMILIES), ("type", self.type, TYPES)):
+            if value not in known:
+                raise ValueError(f"{name} '{value}' is not one of {', '.join(known)}")
+        if unknown := self.kinds - set(KINDS):
+            raise ValueError(f"unknown measurement kinds {sorted(unknown)}; known: {', '.join(KINDS)}")
+        if unknown := set(self.signature.zero_at) - set(ZERO_STATES):
+            raise ValueError(f"unknown zero_at {sorted(unknown)}; known: {', '.join(ZERO_STATES)}")
+        if not (self.parameters and self.slots and self.kinds and self.references and self.examples):
+            raise ValueError("parameters, slots, kinds, references and examples must not be empty")
+        names = [parameter.name for parameter in self.parameters]
+        if len(set(names)) != len(names):
+            raise ValueError(f"a parameter name occurs twice: {names}")
+        wanted = {slot: _wanted_arguments(slot, function, names) for slot, function in self.slots.items()}
+        if unused := set(names) - {argument for arguments in wanted.values() for argument in arguments}:
+            raise ValueError(f"no slot function takes the parameter(s) {sorted(unused)}")
+        object.__setattr__(self, "_wanted", wanted)
+
+    def named(self, effect_id: str) -> Effect:
+        """This effect under the id of its file."""
+        return replace(self, id=effect_id)
+
+    def call(self, slot: str, context: Mapping[str, Value], values: Mapping[str, Value]) -> Value:
+        """The slot's function, given what it asks for out of the context and this effect's values."""
+        arguments = {name: values[name] if name in values else context[name] for name in self._wanted[slot]}
+        return self.slots[slot](**arguments)
+
+    @property
+    def defaults(self) -> dict[str, float]:
+        """Parameter name -> default, SI."""
+        return {parameter.name: parameter.default for parameter in self.parameters}
+
+    @property
+    def off(self) -> dict[str, float]:
+        """Values at which the effect vanishes (parameters without an off value keep their default)."""
+        return {p.name: p.default if p.off is None else p.off for p in self.parameters}
+
+    def parameter(self, name: str) -> Parameter:
+        """The parameter of that name; KeyError when there is none."""
+        return {parameter.name: parameter for parameter in self.parameters}[name]
+
+
+def _wanted_arguments(slot: str, function: Callable[..., Value], parameters: list[str]) -> tuple[str, ...]:
+    if slot not in SLOTS:
+        raise ValueError(f"unknown slot '{slot}'; known: {', '.join(SLOTS)}")
+    context = SLOTS[slot].context
+    if clash := set(context) & set(parameters):
+        raise ValueError(f"parameter(s) {sorted(clash)} hide what slot '{slot}' offers under that name")
+    arguments = inspect.signature(function).parameters.values()
+    for argument in arguments:
+        if argument.kind is not argument.KEYWORD_ONLY:
+            raise ValueError(f"argument '{argument.name}' of slot '{slot}' must be keyword-only")
+        if argument.name not in context and argument.name not in parameters:
+            raise ValueError(
+                f"slot '{slot}' asks for '{argument.name}', which is neither a parameter of the effect nor "
+                f"offered there ({', '.join(context) or 'nothing is'})"
+            )
+    return tuple(argument.name for argument in arguments)

@@ -1,0 +1,104 @@
+r"""Bladder elasticity: a hyperelastic wall that the braid forces to grow in diameter as the muscle shortens.
+
+With :math:`\lambda_z = L/L_0`, the braid ties the hoop stretch to the axial one,
+:math:`\lambda_\theta^2 = 1 + \cot^2\theta_0\,(1-\lambda_z^2)`, and incompressibility gives
+:math:`\lambda_r = 1/(\lambda_z\lambda_\theta)`. The Mooney-Rivlin energy of the wall volume
+:math:`\pi D_b H L_0` is neo-Hookean for :math:`C_{01}=0`. Because the hoop stretch dominates, the tension
+falls steeply over the first 5 % of contraction and then saturates, whatever the pressure.
+"""
+
+from mckibben.physics import ops
+from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.muscle import Muscle
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+
+
+def energy(*, length: Value, muscle: Muscle, shear_modulus: Value, mooney_constant: Value) -> Value:
+    """Stored energy V_b [C10 (I1 - 3) + C01 (I2 - 3)] of the wall [J]; 0 at the nominal length."""
+    axial = (length / muscle.nominal_length) ** 2
+    hoop = 1.0 + (1.0 - axial) / ops.tan(muscle.braid_angle) ** 2
+    radial = 1.0 / (axial * hoop)
+    wall_volume = ops.pi * muscle.braid_diameter * muscle.wall_thickness * muscle.nominal_length
+    first = axial + hoop + radial - 3.0
+    second = 1.0 / axial + 1.0 / hoop + 1.0 / radial - 3.0
+    return wall_volume * (shear_modulus * first + mooney_constant * second)
+
+
+def elastomer(*, length: Value, muscle: Muscle, shear_modulus: Value, mooney_constant: Value) -> Value:
+    """Tension dW/dL of the wall [N]; negative (it resists shortening) below the nominal length."""
+    return ops.derivative(
+        lambda x: energy(
+            length=x, muscle=muscle, shear_modulus=shear_modulus, mooney_constant=mooney_constant
+        ),
+        length,
+    )
+
+
+_MAPS = Source("fit of the force maps of Martens & Boblan 2017, doi 10.3390/act6040033", "D")
+_DERIVED = Source("strain energy differentiated by hand, latex constants", "D")
+_LATEX = {"shear_modulus": 118.4e3, "mooney_constant": 105.7e3}  # Klute & Hannaford 2000
+_SIZE = {
+    "nominal_length": 0.3,
+    "braid_diameter": 0.0218,
+    "braid_angle": 0.46251225177849735,
+    "wall_thickness": 0.0018,
+}
+
+EFFECT = Effect(
+    title="Bladder elasticity (hyperelastic)",
+    family="elastomer",
+    type="static",
+    cause="The elastomer wall is stretched around the muscle when the braid makes it thicker. Its energy has "
+    "to be paid by the gas, so the muscle pulls less the more it is contracted.",
+    equation=r"F_{bl} = \frac{\pi D_b H L_0}{L_0}\,\frac{d}{d\lambda_z}"
+    r"\left[C_{10}(I_1-3) + C_{01}(I_2-3)\right],\quad \lambda_\theta^2 = 1+\cot^2\theta_0\,(1-\lambda_z^2)",
+    parameters=(
+        Parameter(
+            "shear_modulus",
+            "C_{10}",
+            "Pa",
+            0.468e6,
+            0.0,
+            3.0e6,
+            _MAPS,
+            "First Mooney-Rivlin constant C10; the shear modulus of a neo-Hookean wall is twice this value.",
+            off=0.0,
+        ),
+        Parameter(
+            "mooney_constant",
+            "C_{01}",
+            "Pa",
+            0.0,
+            -0.5e6,
+            2.0e6,
+            Source("Klute & Hannaford 2000, latex 0.106 MPa", "M"),
+            "Second Mooney-Rivlin constant C01; 0 is a neo-Hookean wall. Nearly collinear with C10.",
+            off=0.0,
+            fitted=False,
+        ),
+    ),
+    slots={"elastomer": elastomer},
+    kinds=frozenset({"isobaric", "isometric", "isotonic", "static", "transient"}),
+    signature=Signature(
+        text="constant in pressure, rising steeply over the first 5 % of contraction and then saturating",
+        direction="even",
+        pressure_power=0.0,
+        zero_at=("nominal_length",),
+        energy="conservative",
+    ),
+    confused_with=(
+        Twin("prestress", "lengths near the nominal one: the prestress is there already, the bladder is not"),
+        Twin("linear_elasticity", "contractions beyond 10 %: linear goes on rising, the bladder saturates"),
+        Twin("threshold_pressure", "force over pressure at several lengths: the intercept grows"),
+        Twin("contraction_factor", "several pressures: the factor's share grows with pressure"),
+    ),
+    references=(
+        Source("Klute & Hannaford, J. Dyn. Syst. Meas. Control 122 (2000) 386", "M"),
+        Source("Martens & Boblan, Actuators 6(4):33 (2017), doi 10.3390/act6040033", "S2"),
+    ),
+    examples=tuple(
+        Example("force_change", tension, 1e-5, _DERIVED, _LATEX, _SIZE, {"length": length, "pressure": 3e5})
+        for length, tension in ((0.285, -78.939), (0.270, -100.678), (0.240, -108.932))
+    ),
+)

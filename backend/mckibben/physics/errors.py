@@ -1,0 +1,36 @@
+"""The one exception for input that cannot be used: what is wrong, where, and what would be right."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+
+class InputError(ValueError):
+    """Input of the caller that cannot be used.
+
+    Args:
+        message: what is wrong, in the words of the field ("braid angle 95° is not between 0° and 90°").
+        field: where, as a path of the request or file ("muscle.braid_angle", "row 7, column force").
+        hint: what would be right ("e.g. '25 deg'").
+        code: machine-readable kind; ``not_found`` becomes HTTP 404, ``conflict`` 409, everything else 422.
+    """
+
+    def __init__(
+        self, message: str, *, field: str | None = None, hint: str | None = None, code: str = "bad_input"
+    ) -> None:
+        super().__init__(message)
+        self.message = message
+        self.field = field
+        self.hint = hint
+        self.code = code
+
+
+def did_you_mean(word: str, options: Iterable[str]) -> str | None:
+    """The nearest known word as a sentence, or the list of known words when none is near."""
+    known = sorted(options)
+    by_lower = {option.lower(): option for option in known}
+    near = get_close_matches(word.lower(), by_lower, n=1, cutoff=0.6)
+    if near:
+        return f"Did you mean '{by_lower[near[0]]}'?"
+    return f"Known: {', '.join(known)}." if 0 < len(known) <= 40 else None

@@ -1,0 +1,168 @@
+r"""Composition: one muscle and any choice of effects give one model, on numbers, arrays or symbols.
+
+.. math:: F = f\,P_\mathrm{eff}\Bigl(-\frac{\partial V}{\partial L}\Bigr)
+   + e\sum F_\mathrm{elastomer} + \sum F_\mathrm{tension} + \sum F_\mathrm{friction}
+
+with the product f of all force factors, e of all elastomer factors. The volume V is the one the gas balance
+takes, so force and dV/dL can never disagree. What is read by sensors is turned into what is true first, and
+the true force into what its sensor reads last.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, NamedTuple
+
+from mckibben.physics import braid as braid_geometry
+from mckibben.physics import ops
+from mckibben.physics.effect import Effect
+from mckibben.physics.muscle import Muscle
+from mckibben.physics.ops import Value
+from mckibben.physics.slots import Reading, Shape
+
+ROOM_TEMPERATURE = 293.15  # K
+
+Values = Mapping[str, Mapping[str, Value]]
+
+
+class State(NamedTuple):
+    """What the model says of one state; every field has the broadcast shape of the inputs.
+
+    Attributes:
+        force: tension as the force sensor reads it, unclipped: negative means it would push [N].
+        tension: true tension of the muscle, unclipped [N].
+        area: force per driving pressure -dV/dL [m^2].
+        volume: enclosed gas volume [m^3].
+        diameter: braid diameter at mid-span [m].
+        braid_angle: braid angle [rad].
+        outer_diameter: outer diameter of the wall at mid-span [m], the wall keeping its volume.
+        compliance: extension in series per force [m/N].
+    """
+
+    force: Value
+    tension: Value
+    area: Value
+    volume: Value
+    diameter: Value
+    braid_angle: Value
+    outer_diameter: Value
+    compliance: Value
+
+
+class Model:
+    """The composition of some effects; holds structure only, no values.
+
+    Args:
+        effects: effects in any order; chained slots run in their declared order, then by id.
+    """
+
+    def __init__(self, effects: Iterable[Effect] = ()) -> None:
+        self.effects = tuple(sorted(effects, key=lambda effect: (effect.order, effect.id)))
+
+    @property
+    def key(self) -> tuple[Effect, ...]:
+        """What tells two structures apart (for caches of compiled models)."""
+        return self.effects
+
+    def evaluate(
+        self,
+        *,
+        muscle: Muscle,
+        values: Values,
+        length: Value,
+        pressure: Value,
+        velocity: Value = 0.0,
+        direction: Value = 0.0,
+        temperature: Value = ROOM_TEMPERATURE,
+    ) -> State:
+        """The state at a measured length [m] and measured gauge pressure [Pa].
+
+        The length is taken at the muscle; a series compliance is only reported, because it needs the force
+        (`mckibben.simulation.static` solves for both). Direction is the sign of the velocity dL/dt: -1
+        shortening (filling), +1 lengthening (venting), 0 at rest.
+        """
+        true_length = _inverse(self._reading("length_sensor", values, {"muscle": muscle}), length)
+        true_pressure = _inverse(self._reading("pressure_sensor", values, {}), pressure)
+        context: dict[str, Any] = {
+            "muscle": muscle,
+            "length": true_length,
+            "pressure": true_pressure,
+            "velocity": velocity,
+            "direction": direction,
+            "temperature": temperature,
+        }
+        shape, braid = self._shape(values, context)
+        here = shape(true_length)
+        area = -ops.derivative(lambda x: shape(x).volume, true_length)
+        driving = true_pressure
+        for effect in self._with("pressure"):
+            driving = effect.call("pressure", {**context, "pressure": driving}, values[effect.id])
+        tension = (
+            self._product("force_factor", values, context) * driving * area
+            + self._product("elastomer_factor", values, context) * self._sum("elastomer", values, context)
+            + self._sum("tension", values, context)
+            + self._sum("friction", values, context)
+        )
+        sensor = self._reading("force_sensor", values, {})
+        return State(
+            force=sensor.scale * tension + sensor.offset,
+            tension=tension,
+            area=area,
+            volume=here.volume,
+            diameter=here.diameter,
+            braid_angle=braid_geometry.angle(braid=braid, length=true_length),
+            outer_diameter=here.diameter + _wall(muscle, here.diameter, true_length),
+            compliance=self._sum("compliance", values, {}),
+        )
+
+    def _with(self, slot: str) -> list[Effect]:
+        return [effect for effect in self.effects if slot in effect.slots]
+
+    def _sum(self, slot: str, values: Values, context: Mapping[str, Value]) -> Value:
+        return sum((e.call(slot, context, values[e.id]) for e in self._with(slot)), 0.0)
+
+    def _product(self, slot: str, values: Values, context: Mapping[str, Value]) -> Value:
+        result: Value = 1.0
+        for effect in self._with(slot):
+            result = result * effect.call(slot, context, values[effect.id])
+        return result
+
+    def _reading(self, slot: str, values: Values, context: Mapping[str, Value]) -> Reading:
+        chain = Reading(1.0, 0.0)
+        for effect in self._with(slot):
+            scale, offset = effect.call(slot, context, values[effect.id])
+            chain = Reading(chain.scale * scale, chain.offset * scale + offset)
+        return chain
+
+    def _shape(
+        self, values: Values, context: Mapping[str, Value]
+    ) -> tuple[Callable[[Value], Shape], braid_geometry.Braid]:
+        braid = context["muscle"].braid
+        for effect in self._with("braid"):
+            braid = effect.call("braid", {**context, "braid": braid}, values[effect.id])
+
+        def ideal(length: Value) -> Shape:
+            return Shape(
+                braid_geometry.volume(braid=braid, length=length),
+                braid_geometry.diameter(braid=braid, length=length),
+            )
+
+        shape: Callable[[Value], Shape] = ideal
+        for effect in self._with("shape"):
+            shape = _wrapped(effect, values[effect.id], context, shape)
+        return shape, braid
+
+
+def _wrapped(
+    effect: Effect, values: Mapping[str, Value], context: Mapping[str, Value], inner: Callable[[Value], Shape]
+) -> Callable[[Value], Shape]:
+    return lambda length: effect.call("shape", {**context, "inner": inner, "length": length}, values)
+
+
+def _inverse(reading: Reading, measured: Value) -> Value:
+    return (measured - reading.offset) / reading.scale
+
+
+def _wall(muscle: Muscle, diameter: Value, length: Value) -> Value:
+    # Rubber keeps its volume: H D L = H0 D0 L0 for a thin wall.
+    return muscle.wall_thickness * muscle.braid_diameter * muscle.nominal_length / (diameter * length)

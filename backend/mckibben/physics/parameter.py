@@ -1,0 +1,79 @@
+"""A parameter of an effect, and the source of a figure."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+GRADES = {
+    "S": "read in the cited source",
+    "S2": "read second-hand",
+    "C": "computed from cited data",
+    "D": "derived or fitted for this project",
+    "M": "general knowledge, not verified",
+    "E": "engineering estimate, not verified",
+    "user": "given by the user",
+}
+UNVERIFIED_GRADES = frozenset({"M", "E"})
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """Where a figure comes from, and how sure it is (a key of `GRADES`)."""
+
+    text: str
+    grade: str
+
+    def __post_init__(self) -> None:
+        if self.grade not in GRADES:
+            raise ValueError(
+                f"grade '{self.grade}' of source '{self.text}' is not one of {', '.join(GRADES)}"
+            )
+
+    @property
+    def verified(self) -> bool:
+        """Whether the figure was read or computed from something read."""
+        return self.grade not in UNVERIFIED_GRADES
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One number of an effect, in SI.
+
+    Attributes:
+        name: keyword of the physics functions, snake case.
+        symbol: LaTeX symbol.
+        unit: SI unit as text ("Pa", "1", "N*s/m").
+        default: a typical value of a real muscle, at which the effect shows.
+        lower, upper: bounds of what is physically plausible; a fit never leaves them.
+        source: where default and bounds come from.
+        description: what it is, one sentence.
+        off: the value at which the effect vanishes, or None when this parameter alone cannot switch it off.
+        fitted: whether a fit frees it by default (a second constant of the same law usually is not).
+    """
+
+    name: str
+    symbol: str
+    unit: str
+    default: float
+    lower: float
+    upper: float
+    source: Source
+    description: str
+    off: float | None = None
+    fitted: bool = True
+
+    def __post_init__(self) -> None:
+        if not self.name.isidentifier():
+            raise ValueError(f"parameter name '{self.name}' is not an identifier")
+        numbers = (self.default, self.lower, self.upper, *([] if self.off is None else [self.off]))
+        if not all(math.isfinite(number) for number in numbers):
+            raise ValueError(f"parameter '{self.name}': default, bounds and off value must be finite")
+        if not self.lower < self.upper:
+            raise ValueError(f"parameter '{self.name}': lower bound {self.lower} is not below {self.upper}")
+        if not self.lower <= self.default <= self.upper:
+            raise ValueError(
+                f"parameter '{self.name}': default {self.default} is outside [{self.lower}, {self.upper}]"
+            )
+        if self.off is not None and not self.lower <= self.off <= self.upper:
+            raise ValueError(f"parameter '{self.name}': off value {self.off} is outside its bounds")

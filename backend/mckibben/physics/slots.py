@@ -1,0 +1,73 @@
+"""The places where an effect may act, what each may read, and how several effects in one place combine.
+
+A slot function is plain, keyword-only, and asks by argument name for what it needs: names of its slot's
+context below, and its own effect's parameters. Anything else is refused when the catalogue loads the file.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from mckibben.physics.ops import Value
+
+# What most slots may read: the muscle at rest, true length [m] and gauge pressure [Pa] at the muscle,
+# dL/dt [m/s] (> 0 lengthening), its sign, and the temperature of the elastomer [K].
+_STATE = ("muscle", "length", "pressure", "velocity", "direction", "temperature")
+
+
+class Shape(NamedTuple):
+    """Enclosed gas volume [m^3] and braid diameter at mid-span [m]."""
+
+    volume: Value
+    diameter: Value
+
+
+class Reading(NamedTuple):
+    """A sensor: reading = scale * true + offset."""
+
+    scale: Value
+    offset: Value
+
+
+@dataclass(frozen=True, slots=True)
+class Slot:
+    """What a slot does, the names its functions may ask for, and the rule of combination."""
+
+    meaning: str
+    context: tuple[str, ...]
+    combined_by: str
+
+
+SLOTS: dict[str, Slot] = {
+    "pressure": Slot(
+        "gauge pressure at the muscle to the pressure that drives the braid [Pa]",
+        ("muscle", "pressure"),
+        "chain",
+    ),
+    "braid": Slot(
+        "the thread: inextensible braid to the braid under load (a Braid); held fixed in -dV/dL, because the "
+        "work of stretching it is its own",
+        ("muscle", "braid", "pressure", "length"),
+        "chain",
+    ),
+    "shape": Slot(
+        "the enclosed volume: wraps inner(length) -> Shape; the force follows as -P dV/dL, the gas balance "
+        "takes the same volume",
+        ("muscle", "inner", "length", "pressure"),
+        "chain",
+    ),
+    "force_factor": Slot("multiplies the force of the gas [-]", _STATE, "product"),
+    "elastomer": Slot(
+        "tension of the elastomer, from a stored energy of length [N]", ("muscle", "length"), "sum"
+    ),
+    "elastomer_factor": Slot("multiplies the tension of the elastomer [-]", _STATE, "product"),
+    "tension": Slot(
+        "any other additive tension without dissipation [N]", ("muscle", "length", "pressure"), "sum"
+    ),
+    "friction": Slot("additive tension with the sign of the motion [N]", _STATE, "sum"),
+    "compliance": Slot("extension of what is in series with the muscle, per force [m/N]", (), "sum"),
+    "pressure_sensor": Slot("true to measured gauge pressure (a Reading)", (), "chain"),
+    "length_sensor": Slot("true to measured length (a Reading)", ("muscle",), "chain"),
+    "force_sensor": Slot("true to measured force (a Reading)", (), "chain"),
+}

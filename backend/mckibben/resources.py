@@ -1,0 +1,60 @@
+"""Where the files that come with the package are, installed or in a checkout, and where the user's are kept."""
+
+from __future__ import annotations
+
+import os
+import sys
+from importlib.metadata import version
+from importlib.util import find_spec
+from pathlib import Path
+
+_PACKAGE = Path(__file__).resolve().parent
+_CHECKOUT = _PACKAGE.parents[1]
+
+
+def _packaged_or_checkout(packaged: str, checkout: str) -> Path:
+    """``_data/…`` inside an installed wheel, else the folder of the checkout."""
+    inside_wheel = _PACKAGE / "_data" / packaged
+    return inside_wheel if inside_wheel.is_dir() else _CHECKOUT / checkout
+
+
+def frontend_folder() -> Path:
+    """The only folder that is served to the browser."""
+    return _packaged_or_checkout("frontend", "frontend/app")
+
+
+def presets_folder() -> Path:
+    """The presets that come with the package."""
+    return _packaged_or_checkout("presets", "presets")
+
+
+def plotly_javascript() -> tuple[Path, str]:
+    """The plotly.js bundle inside the installed plotly wheel, and the wheel's version.
+
+    Found without importing plotly, which would cost a third of the server's start.
+
+    Raises:
+        FileNotFoundError: plotly is not installed, or its wheel no longer brings the bundle.
+    """
+    spec = find_spec("plotly")
+    if spec is None or not spec.submodule_search_locations:
+        raise FileNotFoundError("plotly is not installed; reinstall mckibben with pip")
+    path = Path(spec.submodule_search_locations[0]) / "package_data" / "plotly.min.js"
+    if not path.is_file():
+        raise FileNotFoundError(f"{path} does not exist; install 'plotly>=6.5,<8'")
+    return path, version("plotly")
+
+
+def user_folder() -> Path:
+    """Where measurements and saved presets are kept when no folder is named.
+
+    ``MCKIBBEN_DATA`` wins; else the platform's place for application data.
+    """
+    if chosen := os.environ.get("MCKIBBEN_DATA"):
+        return Path(chosen).expanduser()
+    home = Path.home()
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA", home / "AppData" / "Local")) / "mckibben"
+    if sys.platform == "darwin":
+        return home / "Library" / "Application Support" / "mckibben"
+    return Path(os.environ.get("XDG_DATA_HOME", home / ".local" / "share")) / "mckibben"

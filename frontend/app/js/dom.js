@@ -1,0 +1,109 @@
+// @ts-check
+// Elements out of function calls: a function given as an attribute or a child follows the signals it reads.
+import { effect } from "./reactive.js";
+
+/** @typedef {Node | string | number | null | undefined | false} Leaf */
+/** @typedef {Leaf | Leaf[] | (() => Leaf | Leaf[])} Child */
+
+/** Set as properties, because the attribute of the same name is only the start value. */
+const PROPERTIES = new Set(["value", "checked", "disabled", "hidden", "open", "textContent", "indeterminate"]);
+
+/** @template {keyof HTMLElementTagNameMap} K
+ * @param {K} tag @param {Record<string, unknown> | null} [props] on… = listener, ref = called with the element
+ * @param {Child[]} kids @returns {HTMLElementTagNameMap[K]} */
+export function h(tag, props, ...kids) {
+  const el = document.createElement(tag);
+  kids.forEach((kid) => append(el, kid));
+  for (const [key, value] of Object.entries(props ?? {})) {
+    if (key.startsWith("on")) el.addEventListener(key.slice(2), /** @type {EventListener} */ (value));
+    else if (key === "ref") /** @type {(el: HTMLElement) => void} */ (value)(el);
+    else if (typeof value === "function") effect(() => setProp(el, key, value()));
+    else setProp(el, key, value);
+  }
+  return el;
+}
+
+/** @param {HTMLElement} el @param {string} key @param {unknown} value */
+function setProp(el, key, value) {
+  if (PROPERTIES.has(key)) /** @type {Record<string, unknown>} */ (/** @type {unknown} */ (el))[key] = value;
+  else if (value === false || value == null) el.removeAttribute(key);
+  else {
+    const text = value === true ? "" : String(value);
+    if (el.getAttribute(key) !== text) el.setAttribute(key, text);
+  }
+}
+
+/** @param {Node} el @param {Child} kid */
+export function append(el, kid) {
+  if (typeof kid === "function") {
+    const end = document.createComment("");
+    el.appendChild(end);
+    /** @type {ChildNode[]} */
+    let shown = [];
+    effect(() => {
+      const part = document.createDocumentFragment();
+      append(part, kid());
+      const only = part.childNodes.length === 1 ? part.firstChild : null;
+      if (only instanceof Text && shown.length === 1 && shown[0] instanceof Text) {
+        if (shown[0].data !== only.data) shown[0].data = only.data;
+        return;
+      }
+      shown.forEach((node) => node.remove());
+      shown = [...part.childNodes];
+      end.before(part);
+    });
+  } else if (Array.isArray(kid)) kid.forEach((one) => append(el, one));
+  else if (kid != null && kid !== false) {
+    el.appendChild(kid instanceof Node ? kid : document.createTextNode(String(kid)));
+  }
+}
+
+const SVG = "http://www.w3.org/2000/svg";
+
+/** Line icons on a 20 × 20 grid, drawn with the text's colour. */
+const ICONS = {
+  undo: "M8 5 4 9l4 4M4.5 9H12a4 4 0 0 1 0 8H9",
+  redo: "m12 5 4 4-4 4M15.5 9H8a4 4 0 0 0 0 8h3",
+  export: "M10 3v9m-3.5-3.5L10 12l3.5-3.5M4 13v3.5h12V13",
+  share: "M8.5 11.5 12 8m-4.5.5-2 2a2.8 2.8 0 0 0 4 4l2-2m-3-5 2-2a2.8 2.8 0 0 1 4 4l-2 2",
+  help: "M7.5 7.7a2.5 2.5 0 1 1 3.6 2.2c-.8.4-1.1.9-1.1 1.8M10 14.5v.1",
+  sun: "M10 6.5a3.5 3.5 0 1 1 0 7 3.5 3.5 0 0 1 0-7M10 2v1.5M10 16.5V18M2 10h1.5M16.5 10H18" +
+    "M4.3 4.3l1.1 1.1M14.6 14.6l1.1 1.1M15.7 4.3l-1.1 1.1M5.4 14.6l-1.1 1.1",
+  moon: "M16 11.5A6.5 6.5 0 0 1 8.5 4a6.5 6.5 0 1 0 7.5 7.5Z",
+  system: "M3.5 4.5h13v9h-13zM8 16.5h4M10 13.5v3",
+  info: "M10 3a7 7 0 1 1 0 14 7 7 0 0 1 0-14M10 9.2V13.5M10 6.6v.1",
+  reset: "M5 7.5A5.8 5.8 0 1 1 4.3 11M5 3.8v3.7h3.7",
+  more: "M4.5 10h.1M10 10h.1M15.5 10h.1",
+  close: "m5.5 5.5 9 9m0-9-9 9",
+  plus: "M10 5v10M5 10h10",
+  minus: "M5 10h10",
+  check: "m4.5 10.5 3.5 3.5 7.5-8",
+  warn: "M10 3.5 17.5 16.5h-15ZM10 8.5v3.5M10 14.2v.1",
+  search: "M9 4a5 5 0 1 1 0 10A5 5 0 0 1 9 4m3.6 8.6L16.5 16.5",
+  down: "m6 8 4 4 4-4",
+};
+
+/** @param {keyof typeof ICONS} name */
+export function icon(name) {
+  const svg = document.createElementNS(SVG, "svg");
+  svg.setAttribute("viewBox", "0 0 20 20");
+  svg.setAttribute("class", "icon");
+  svg.setAttribute("aria-hidden", "true");
+  const path = document.createElementNS(SVG, "path");
+  path.setAttribute("d", ICONS[name]);
+  svg.append(path);
+  return svg;
+}
+
+/** Server text in MathML as nodes; only elements of MathML are taken over.
+ * @param {string} markup @returns {Node} */
+export function mathml(markup) {
+  const parsed = new DOMParser().parseFromString(markup, "application/xml").documentElement;
+  if (parsed.localName !== "math") return document.createTextNode("");
+  const node = /** @type {Element} */ (document.importNode(parsed, true));
+  for (const el of [node, ...node.querySelectorAll("*")]) {
+    if (el.namespaceURI !== "http://www.w3.org/1998/Math/MathML") el.remove();
+    for (const { name } of [...el.attributes]) if (/^on|href/i.test(name)) el.removeAttribute(name);
+  }
+  return node;
+}

@@ -1,0 +1,100 @@
+// @ts-check
+// Signals and DOM building on one page: no dependency, no build.
+
+/** @typedef {{fn: () => void, deps: Set<Set<Effect>>, kids: Effect[], live: boolean}} Effect */
+/** @type {Effect | null} */
+let running = null;
+/** @type {Set<Effect>} */
+const queue = new Set();
+let depth = 0;
+
+/** A value that effects follow: read `s.value`, write `s.value = x`, look without following with `s.peek()`.
+ * @template T */
+export class Signal {
+  /** @param {T} start */
+  constructor(start) {
+    this.v = start;
+    /** @type {Set<Effect>} */
+    this.subs = new Set();
+  }
+  get value() {
+    if (running) {
+      this.subs.add(running);
+      running.deps.add(this.subs);
+    }
+    return this.v;
+  }
+  set value(next) {
+    if (Object.is(next, this.v)) return;
+    this.v = next;
+    batch(() => this.subs.forEach((e) => queue.add(e)));
+  }
+  peek() {
+    return this.v;
+  }
+}
+
+/** @template T @param {T} start @returns {Signal<T>} */
+export const signal = (start) => new Signal(start);
+
+/** @param {Effect} e */
+function clear(e) {
+  e.deps.forEach((subs) => subs.delete(e));
+  e.deps.clear();
+  e.kids.forEach(stop);
+  e.kids = [];
+  queue.delete(e);
+}
+
+/** @param {Effect} e */
+function stop(e) {
+  e.live = false;
+  clear(e);
+}
+
+/** @param {Effect} e */
+function run(e) {
+  clear(e);
+  const outer = running;
+  running = e;
+  try {
+    e.fn();
+  } finally {
+    running = outer;
+  }
+}
+
+/** Runs fn now and whenever a signal it read changes; effects made inside stop before each re-run.
+ * @param {() => void} fn @returns {() => void} stops it */
+export function effect(fn) {
+  /** @type {Effect} */
+  const e = { fn, deps: new Set(), kids: [], live: true };
+  running?.kids.push(e);
+  run(e);
+  return () => stop(e);
+}
+
+/** A signal that follows others. @template T @param {() => T} fn @returns {Signal<T>} */
+export function computed(fn) {
+  const s = /** @type {Signal<T>} */ (signal(/** @type {unknown} */ (undefined)));
+  effect(() => {
+    s.value = fn();
+  });
+  return s;
+}
+
+/** Runs fn, then once each effect it touched. @param {() => void} fn */
+export function batch(fn) {
+  depth++;
+  try {
+    fn();
+    if (depth === 1) {
+      for (const e of queue) {
+        queue.delete(e);
+        if (e.live) run(e);
+      }
+    }
+  } finally {
+    depth--;
+  }
+}

@@ -1,0 +1,60 @@
+"""What every test gets: a working directory of its own, nothing written into the checkout, the real server."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+
+import hypothesis
+import hypothesis.configuration
+import pytest
+
+from tests.server import RunningServer
+
+# Deadlines measure the machine, not the code; examples that failed before are kept by the person who fixes
+# them as an explicit @example, not in a database that only one checkout has.
+hypothesis.settings.register_profile("mckibben", hypothesis.settings(), deadline=None, database=None)
+hypothesis.settings.load_profile("mckibben")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _own_working_directory(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Tests find their files by absolute path; what they write without one lands in a temporary folder.
+
+    So it does not matter where pytest was started, and two runs at once do not meet.
+    """
+    started_in = os.getcwd()
+    folder = tmp_path_factory.mktemp("working-directory")
+    os.chdir(folder)
+    hypothesis.configuration.set_hypothesis_home_dir(folder / "hypothesis")
+    yield
+    os.chdir(started_in)
+
+
+@pytest.fixture(scope="session")
+def announce(pytestconfig: pytest.Config) -> Callable[[str], None]:
+    """Print a line at once, past pytest's capture: for what makes the run wait."""
+    terminal = pytestconfig.pluginmanager.get_plugin("terminalreporter")
+    capture = pytestconfig.pluginmanager.get_plugin("capturemanager")
+
+    def say(line: str) -> None:
+        if terminal is None or capture is None:
+            return
+        with capture.global_and_fixture_disabled():
+            terminal.ensure_newline()
+            terminal.write_line(line, flush=True)
+
+    return say
+
+
+@pytest.fixture(scope="session")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
+    """The real server with empty data and preset folders, one for the whole run."""
+    with RunningServer(tmp_path_factory.mktemp("server")) as running:
+        yield running
+
+
+@pytest.fixture(scope="session")
+def server_url(server: RunningServer) -> str:
+    """``http://127.0.0.1:<port>`` of the real server."""
+    return server.url

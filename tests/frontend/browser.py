@@ -1,0 +1,201 @@
+"""Find a Chromium for the browser tests; where there is none, get one.
+
+Looked for in this order: the environment (``MCKIBBEN_BROWSER``, then ``CHROME_PATH`` and
+``PLAYWRIGHT_CHROMIUM_EXECUTABLE_PATH``), the PATH, the one Playwright downloaded earlier. A candidate counts
+when it starts: a stub that only says "install the snap", or a browser whose libraries are missing, is passed over.
+
+Got in this order: as root on Debian from apt, because that brings the shared libraries which a bare machine
+lacks and Playwright's download does not; otherwise, and when apt fails, Playwright's download. On Ubuntu apt's
+package is a stub for a snap, so there Playwright comes first.
+"""
+
+from __future__ import annotations
+
+import os
+import platform
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+OWN_VARIABLE = "MCKIBBEN_BROWSER"
+OTHER_VARIABLES = ("CHROME_PATH", "PLAYWRIGHT_CHROMIUM_EXECUTABLE_PATH")
+NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+
+# No --no-sandbox: Playwright itself adds it, which root and most containers need, and the only pages opened
+# are those of our own server. The rest keeps the browser from doing anything of its own while we measure.
+ARGUMENTS = (
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+)
+
+# Limits in seconds. Playwright's host is out of reach on some machines and then hangs instead of refusing.
+CHECK_LIMIT = 30
+APT_LIMIT = 600
+DOWNLOAD_LIMIT = 300
+DOWNLOAD_CONNECT_LIMIT = 10
+
+_LAUNCH = """
+from playwright.sync_api import sync_playwright
+with sync_playwright() as playwright:
+    playwright.chromium.launch().close()
+"""
+
+Say = Callable[[str], None]
+
+
+class NoBrowser(Exception):
+    """No Chromium here and none to be had; the message says what to install."""
+
+
+@dataclass(frozen=True)
+class Browser:
+    """A Chromium that starts; ``executable`` is None for Playwright's own, which Playwright finds itself."""
+
+    executable: str | None
+    found: str
+
+
+def find_or_get(say: Say) -> Browser:
+    """A Chromium that starts, installed first if need be; `say` is told what makes the tests wait.
+
+    Raises:
+        NoBrowser: there is none and none could be had, or ``MCKIBBEN_BROWSER`` names one that does not start.
+    """
+    if found := find():
+        return found
+    with _one_at_a_time(say):
+        if found := find():  # a run beside this one has just installed it
+            return found
+        failures = []
+        for name, command, limit, environment in ways():
+            say(f"No Chromium for the browser tests: trying {name} (at most {limit // 60} minutes) ...")
+            failure = run(command, limit=limit, environment=environment)
+            if found := find():
+                say(f"... the browser tests use {found.found}.")
+                return found
+            failures.append(f"{name}: {failure or 'ran, but left no Chromium that starts'}")
+            say(f"... failed: {failures[-1]}")
+    raise NoBrowser(
+        "The browser tests need Chromium: install it (Debian: `apt-get install chromium`; elsewhere: "
+        f"`{Path(sys.executable).name} -m playwright install --with-deps chromium`) "
+        f"or name one in {OWN_VARIABLE}. Tried: {'; '.join(failures)}."
+    )
+
+
+def find() -> Browser | None:
+    """The first Chromium that is here and starts, or None.
+
+    Raises:
+        NoBrowser: ``MCKIBBEN_BROWSER`` names one that does not start.
+    """
+    if named := os.environ.get(OWN_VARIABLE):
+        if failure := run([named, "--version"], limit=CHECK_LIMIT):
+            raise NoBrowser(f"{OWN_VARIABLE}={named} is not a browser that starts ({failure}): correct or unset it.")
+        return Browser(named, f"{named} ({OWN_VARIABLE})")
+    for executable, found in _candidates():
+        if run([executable, "--version"], limit=CHECK_LIMIT) is None:
+            return Browser(executable, found)
+    if run([sys.executable, "-c", _LAUNCH], limit=CHECK_LIMIT) is None:
+        return Browser(None, "Playwright's own Chromium")
+    return None
+
+
+def ways() -> list[tuple[str, Sequence[str], int, Mapping[str, str]]]:
+    """How a Chromium can be had on this machine, best first: name, command, limit in seconds, environment."""
+    root = hasattr(os, "geteuid") and os.geteuid() == 0
+    playwright = [sys.executable, "-m", "playwright", "install", "--only-shell"]
+    if root:
+        playwright.append("--with-deps")  # the shared libraries, through apt-get
+    download = (
+        "Playwright's download",
+        [*playwright, "chromium"],
+        DOWNLOAD_LIMIT,
+        {"PLAYWRIGHT_DOWNLOAD_CONNECTION_TIMEOUT": str(DOWNLOAD_CONNECT_LIMIT * 1000)},
+    )
+    if not (root and shutil.which("apt-get")):
+        return [download]
+    install = "apt-get -q update && apt-get -q install --yes --no-install-recommends chromium"
+    apt = ("apt-get install chromium", ["sh", "-c", install], APT_LIMIT, {"DEBIAN_FRONTEND": "noninteractive"})
+    return [download, apt] if _distribution() == "ubuntu" else [apt, download]
+
+
+def run(command: Sequence[str], *, limit: float, environment: Mapping[str, str] | None = None) -> str | None:
+    """Run a command quietly; None when it succeeded, else why not, in one line.
+
+    It is ended with all its children after `limit` seconds.
+    """
+    try:
+        process = subprocess.Popen(
+            command,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+            env={**os.environ, **(environment or {})},
+            start_new_session=True,
+        )
+    except OSError as error:
+        return error.strerror or str(error)
+    with process:
+        try:
+            output, _ = process.communicate(timeout=limit)
+        except subprocess.TimeoutExpired:
+            _end(process)
+            return f"no result within {limit:g} s"
+    if process.returncode == 0:
+        return None
+    lines = [line.strip() for line in output.splitlines() if line.strip()]
+    telling = [line for line in lines if line.startswith(("E:", "Error:"))]
+    return (telling or lines or [f"exit code {process.returncode}"])[-1]
+
+
+def _candidates() -> Iterator[tuple[str, str]]:
+    for variable in OTHER_VARIABLES:
+        if named := os.environ.get(variable):
+            yield named, f"{named} ({variable})"
+    for name in NAMES:
+        if path := shutil.which(name):
+            yield path, path
+
+
+def _distribution() -> str:
+    try:
+        return platform.freedesktop_os_release()["ID"]
+    except OSError:
+        return ""
+
+
+def _end(process: subprocess.Popen[str]) -> None:
+    if hasattr(os, "killpg"):
+        os.killpg(process.pid, signal.SIGKILL)
+    else:
+        process.kill()
+
+
+@contextmanager
+def _one_at_a_time(say: Say) -> Iterator[None]:
+    """Hold back every other test run of this machine and user while this one installs."""
+    try:
+        import fcntl
+    except ImportError:  # Windows: Playwright's installer locks by itself, and there is no apt
+        yield
+        return
+    user = os.getuid()
+    with (Path(tempfile.gettempdir()) / f"mckibben-browser-{user}.lock").open("w") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            say("Another test run is installing a browser: waiting for it ...")
+            fcntl.flock(lock, fcntl.LOCK_EX)
+        yield

@@ -1,0 +1,117 @@
+"""The real server as a subprocess, for tests that speak HTTP to it or open it in a browser."""
+
+from __future__ import annotations
+
+import os
+import socket
+import subprocess
+import sys
+import time
+import urllib.request
+from collections.abc import Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+READY_WITHIN = 60.0  # s; the first start on a cold machine compiles bytecode of every dependency
+STOPS_WITHIN = 10.0  # s
+MAIN = (sys.executable, "-m", "mckibben")
+
+
+class ServerFailed(AssertionError):
+    """The server did not become ready, or died; the message holds what it printed."""
+
+
+class RunningServer:
+    """``mckibben serve`` on a free loopback port, with folders of its own; a context manager.
+
+    Args:
+        folder: where it keeps measurements, presets and its log; also its working directory, so that nothing
+            can depend on the one of the tests.
+        command: what to start, without the arguments of ``serve``.
+        arguments: further arguments of ``serve``.
+
+    Attributes:
+        url: ``http://127.0.0.1:<port>``.
+        data, presets: the folders given to it as ``--data`` and ``--presets``.
+        seconds_to_ready: from process start to the first answer of ``/api/health``.
+    """
+
+    def __init__(self, folder: Path, *, command: Sequence[str] = MAIN, arguments: Sequence[str] = ()) -> None:
+        self.data = folder / "data"
+        self.presets = folder / "presets"
+        self._folder = folder
+        self._log = folder / "server.log"
+        self._command = command
+        self._arguments = arguments
+        self.url = ""
+        self.seconds_to_ready = 0.0
+
+    def __enter__(self) -> Self:
+        self.data.mkdir(parents=True, exist_ok=True)
+        self.presets.mkdir(exist_ok=True)
+        port = free_port()
+        self.url = f"http://127.0.0.1:{port}"
+        serve = ["serve", "--port", str(port), "--no-open", "--data", self.data, "--presets", self.presets]
+        with self._log.open("wb") as log:  # a file: a pipe nobody reads would stop the server when it is full
+            self._process = subprocess.Popen(
+                [*self._command, *map(str, serve), *self._arguments],
+                cwd=self._folder,
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                env={**os.environ, "PYTHONUNBUFFERED": "1"},
+            )
+        try:
+            self._wait_until_ready()
+        except BaseException:
+            self._stop()
+            raise
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._stop()
+
+    @property
+    def output(self) -> str:
+        """Everything the server has printed so far."""
+        return self._log.read_text(encoding="utf-8", errors="replace")
+
+    def check_alive(self) -> None:
+        """Raise `ServerFailed` with the server's output when its process has ended."""
+        code = self._process.poll()
+        if code is not None:
+            raise ServerFailed(f"the server ended with exit code {code}; it printed:\n{self.output or '(nothing)'}")
+
+    def _wait_until_ready(self) -> None:
+        start = time.perf_counter()
+        # Without proxies: some machines send every address through one, loopback included.
+        opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+        while (waited := time.perf_counter() - start) < READY_WITHIN:
+            self.check_alive()
+            try:
+                with opener.open(f"{self.url}/api/health", timeout=5):
+                    self.seconds_to_ready = time.perf_counter() - start
+            except OSError:
+                time.sleep(0.02)
+            else:
+                self.check_alive()  # else something other than our process answers on this port
+                return
+        raise ServerFailed(f"the server was not ready after {waited:.0f} s; it printed:\n{self.output or '(nothing)'}")
+
+    def _stop(self) -> None:
+        self._process.terminate()
+        try:
+            self._process.wait(STOPS_WITHIN)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+
+
+def free_port() -> int:
+    """A TCP port of the loopback interface that nothing listens on at the moment."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
