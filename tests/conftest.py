@@ -1,4 +1,4 @@
-"""What every test gets: a working directory of its own, nothing written into the checkout, the real server."""
+"""What every test gets: a working directory of its own, nothing written to the checkout, the real server."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ STOPS_WITHIN = 10.0  # s
 MAIN = (sys.executable, "-m", "mckibben")
 
 
-class ServerFailed(AssertionError):
+class ServerError(AssertionError):
     """The server did not become ready, or died; the message holds what it printed."""
 
 
@@ -80,10 +80,12 @@ class RunningServer:
         return self._log.read_text(encoding="utf-8", errors="replace")
 
     def check_alive(self) -> None:
-        """Raise `ServerFailed` with the server's output when its process has ended."""
+        """Raise `ServerError` with the server's output when its process has ended."""
         code = self._process.poll()
         if code is not None:
-            raise ServerFailed(f"the server ended with exit code {code}; it printed:\n{self.output or '(nothing)'}")
+            raise ServerError(
+                f"the server ended with exit code {code}; it printed:\n{self.output or '(nothing)'}"
+            )
 
     def _wait_until_ready(self) -> None:
         start = time.perf_counter()
@@ -99,7 +101,9 @@ class RunningServer:
             else:
                 self.check_alive()  # else something other than our process answers on this port
                 return
-        raise ServerFailed(f"the server was not ready after {waited:.0f} s; it printed:\n{self.output or '(nothing)'}")
+        raise ServerError(
+            f"the server was not ready after {waited:.0f} s; it printed:\n{self.output or '(nothing)'}"
+        )
 
     def _stop(self) -> None:
         self._process.terminate()

@@ -2,11 +2,11 @@
 
 Looked for in this order: the environment (``MCKIBBEN_BROWSER``, then ``CHROME_PATH`` and
 ``PLAYWRIGHT_CHROMIUM_EXECUTABLE_PATH``), the PATH, the one Playwright downloaded earlier. A candidate counts
-when it starts: a stub that only says "install the snap", or a browser whose libraries are missing, is passed over.
+when it starts: a stub that only says "install the snap", or a browser whose libraries are missing, does not.
 
-Got in this order: as root on Debian from apt, because that brings the shared libraries which a bare machine
-lacks and Playwright's download does not; otherwise, and when apt fails, Playwright's download. On Ubuntu apt's
-package is a stub for a snap, so there Playwright comes first.
+Got in this order: as root on Debian from apt, because that comes from where the machine gets its packages
+anyway and brings the shared libraries which a bare machine lacks; otherwise, and when apt fails, Playwright's
+download. On Ubuntu apt's package is a stub for a snap, so there Playwright comes first.
 """
 
 from __future__ import annotations
@@ -44,6 +44,9 @@ APT_LIMIT = 600
 DOWNLOAD_LIMIT = 300
 DOWNLOAD_CONNECT_LIMIT = 10
 
+APT_ENVIRONMENT = {"DEBIAN_FRONTEND": "noninteractive"}
+DRIVER_LIBRARY = "libatomic1"
+
 _LAUNCH = """
 from playwright.sync_api import sync_playwright
 with sync_playwright() as playwright:
@@ -53,7 +56,7 @@ with sync_playwright() as playwright:
 Say = Callable[[str], None]
 
 
-class NoBrowser(Exception):
+class NoBrowserError(Exception):
     """No Chromium here and none to be had; the message says what to install."""
 
 
@@ -69,12 +72,11 @@ def find_or_get(say: Say) -> Browser:
     """A Chromium that starts, installed first if need be; `say` is told what makes the tests wait.
 
     Raises:
-        NoBrowser: there is none and none could be had, or ``MCKIBBEN_BROWSER`` names one that does not start.
+        NoBrowserError: there is none and none could be had; or Playwright itself does not start.
     """
-    if found := find():
-        return found
     with _one_at_a_time(say):
-        if found := find():  # a run beside this one has just installed it
+        _need_driver(say)
+        if found := find():
             return found
         failures = []
         for name, command, limit, environment in ways():
@@ -85,7 +87,7 @@ def find_or_get(say: Say) -> Browser:
                 return found
             failures.append(f"{name}: {failure or 'ran, but left no Chromium that starts'}")
             say(f"... failed: {failures[-1]}")
-    raise NoBrowser(
+    raise NoBrowserError(
         "The browser tests need Chromium: install it (Debian: `apt-get install chromium`; elsewhere: "
         f"`{Path(sys.executable).name} -m playwright install --with-deps chromium`) "
         f"or name one in {OWN_VARIABLE}. Tried: {'; '.join(failures)}."
@@ -96,11 +98,13 @@ def find() -> Browser | None:
     """The first Chromium that is here and starts, or None.
 
     Raises:
-        NoBrowser: ``MCKIBBEN_BROWSER`` names one that does not start.
+        NoBrowserError: ``MCKIBBEN_BROWSER`` names one that does not start.
     """
     if named := os.environ.get(OWN_VARIABLE):
         if failure := run([named, "--version"], limit=CHECK_LIMIT):
-            raise NoBrowser(f"{OWN_VARIABLE}={named} is not a browser that starts ({failure}): correct or unset it.")
+            raise NoBrowserError(
+                f"{OWN_VARIABLE}={named} is not a browser that starts ({failure}): correct or unset it."
+            )
         return Browser(named, f"{named} ({OWN_VARIABLE})")
     for executable, found in _candidates():
         if run([executable, "--version"], limit=CHECK_LIMIT) is None:
@@ -112,9 +116,8 @@ def find() -> Browser | None:
 
 def ways() -> list[tuple[str, Sequence[str], int, Mapping[str, str]]]:
     """How a Chromium can be had on this machine, best first: name, command, limit in seconds, environment."""
-    root = hasattr(os, "geteuid") and os.geteuid() == 0
     playwright = [sys.executable, "-m", "playwright", "install", "--only-shell"]
-    if root:
+    if _is_root():
         playwright.append("--with-deps")  # the shared libraries, through apt-get
     download = (
         "Playwright's download",
@@ -122,10 +125,9 @@ def ways() -> list[tuple[str, Sequence[str], int, Mapping[str, str]]]:
         DOWNLOAD_LIMIT,
         {"PLAYWRIGHT_DOWNLOAD_CONNECTION_TIMEOUT": str(DOWNLOAD_CONNECT_LIMIT * 1000)},
     )
-    if not (root and shutil.which("apt-get")):
+    if not _has_apt():
         return [download]
-    install = "apt-get -q update && apt-get -q install --yes --no-install-recommends chromium"
-    apt = ("apt-get install chromium", ["sh", "-c", install], APT_LIMIT, {"DEBIAN_FRONTEND": "noninteractive"})
+    apt = ("apt-get install chromium", _apt_install("chromium"), APT_LIMIT, APT_ENVIRONMENT)
     return [download, apt] if _distribution() == "ubuntu" else [apt, download]
 
 
@@ -167,6 +169,33 @@ def _candidates() -> Iterator[tuple[str, str]]:
     for name in NAMES:
         if path := shutil.which(name):
             yield path, path
+
+
+def _need_driver(say: Say) -> None:
+    """Playwright drives the browser from a Node of its own, which needs a library a bare Debian lacks."""
+    version = [sys.executable, "-m", "playwright", "--version"]
+    failure = run(version, limit=CHECK_LIMIT)
+    if failure and _has_apt():
+        say(f"Playwright does not start: trying apt-get install {DRIVER_LIBRARY} ...")
+        run(_apt_install(DRIVER_LIBRARY), limit=APT_LIMIT, environment=APT_ENVIRONMENT)
+        failure = run(version, limit=CHECK_LIMIT)
+    if failure:
+        raise NoBrowserError(
+            f"The browser tests need Playwright, which does not start ({failure}): "
+            f"install the missing library (Debian and Ubuntu: `apt-get install {DRIVER_LIBRARY}`)."
+        )
+
+
+def _is_root() -> bool:
+    return hasattr(os, "geteuid") and os.geteuid() == 0
+
+
+def _has_apt() -> bool:
+    return _is_root() and shutil.which("apt-get") is not None
+
+
+def _apt_install(package: str) -> list[str]:
+    return ["sh", "-c", f"apt-get -q update && apt-get -q install --yes --no-install-recommends {package}"]
 
 
 def _distribution() -> str:

@@ -95,6 +95,7 @@ class Effect:
         references: literature.
         examples: worked examples, at least one.
         order: position in chained slots; lower acts first.
+        needs: fields of the muscle that must be known (not zero) for the effect to mean anything.
         id: the file name, set by the catalogue.
     """
 
@@ -111,6 +112,7 @@ class Effect:
     references: tuple[Source, ...]
     examples: tuple[Example, ...]
     order: int = 0
+    needs: tuple[str, ...] = ()
     id: str = ""
     _wanted: Mapping[str, tuple[str, ...]] = field(default_factory=dict, repr=False)
 

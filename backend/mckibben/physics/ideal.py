@@ -3,7 +3,7 @@ r"""Closed forms of the ideal muscle: inextensible thread, thin wall, cylindrica
 All follow from virtual work, :math:`F = -P\,dV/dL`, and are written in (b, n). With
 :math:`a = 3/\tan^2\theta_0`, :math:`c_b = 1/\sin^2\theta_0`, :math:`\lambda = L/L_0` the same force reads
 :math:`F = P A_0 (a\lambda^2 - c_b)`, :math:`A_0 = \pi D_0^2/4`. The printed formulas of the source paper that
-differ from these are listed in ``docs/paper-equations.md``.
+differ from these are listed in ``PAPER.md`` beside this file.
 
 P is gauge pressure; only the gas term of the closed-valve stiffness takes the absolute one.
 """

@@ -31,6 +31,8 @@ class State(NamedTuple):
     Attributes:
         force: tension as the force sensor reads it, unclipped: negative means it would push [N].
         tension: true tension of the muscle, unclipped [N].
+        slack_force: what the force sensor reads when the muscle is slack [N].
+        length: true length of the muscle [m].
         area: force per driving pressure -dV/dL [m^2].
         volume: enclosed gas volume [m^3].
         diameter: braid diameter at mid-span [m].
@@ -41,6 +43,8 @@ class State(NamedTuple):
 
     force: Value
     tension: Value
+    slack_force: Value
+    length: Value
     area: Value
     volume: Value
     diameter: Value
@@ -58,11 +62,6 @@ class Model:
 
     def __init__(self, effects: Iterable[Effect] = ()) -> None:
         self.effects = tuple(sorted(effects, key=lambda effect: (effect.order, effect.id)))
-
-    @property
-    def key(self) -> tuple[Effect, ...]:
-        """What tells two structures apart (for caches of compiled models)."""
-        return self.effects
 
     def evaluate(
         self,
@@ -107,6 +106,8 @@ class Model:
         return State(
             force=sensor.scale * tension + sensor.offset,
             tension=tension,
+            slack_force=sensor.offset,
+            length=true_length,
             area=area,
             volume=here.volume,
             diameter=here.diameter,

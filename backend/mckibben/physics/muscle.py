@@ -2,13 +2,25 @@
 
 from __future__ import annotations
 
+from math import acos, degrees, isfinite
 from typing import NamedTuple
 
 from mckibben.physics.braid import Braid, braid_from_diameter
+from mckibben.physics.errors import InputError
 from mckibben.physics.ops import Value
 
 # Fields that a fit may free, and that are symbols of the compiled model.
 GEOMETRY = ("nominal_length", "braid_diameter", "braid_angle", "wall_thickness", "inside_diameter")
+
+NEUTRAL_ANGLE = acos(3.0**-0.5)  # 54.7356 degrees: no force at any pressure
+
+# Field -> (smallest, largest) accepted [m].
+_RANGES = {
+    "nominal_length": (1e-3, 50.0),
+    "braid_diameter": (1e-4, 1.0),
+    "wall_thickness": (0.0, 0.1),
+    "inside_diameter": (0.0, 1.0),
+}
 
 
 class Muscle(NamedTuple):
@@ -38,3 +50,39 @@ class Muscle(NamedTuple):
     def contraction(self, length: Value) -> Value:
         """Contraction ratio 1 - L/L0 of a length (positive = shorter)."""
         return 1.0 - length / self.nominal_length
+
+    def checked(self) -> Muscle:
+        """This muscle, when its numbers describe one that can pull.
+
+        Raises:
+            InputError: a length or the braid angle is out of range; names the field.
+        """
+        for name, (smallest, largest) in _RANGES.items():
+            value = getattr(self, name)
+            if not isfinite(value) or not smallest <= value <= largest:
+                raise InputError(
+                    f"{name.replace('_', ' ')} {value * 1e3:.6g} mm is not between "
+                    f"{smallest * 1e3:g} mm and {largest * 1e3:g} mm",
+                    field=f"muscle.{name}",
+                )
+        angle = self.braid_angle
+        if not isfinite(angle) or angle <= 0.0:
+            raise InputError(
+                f"braid angle {degrees(angle):.6g}° must be above 0°",
+                field="muscle.braid_angle",
+                hint="e.g. '25 deg', the angle between thread and muscle axis at rest",
+            )
+        if angle >= NEUTRAL_ANGLE:
+            raise InputError(
+                f"braid angle {degrees(angle):.6g}° is not below the neutral angle 54.7356°: "
+                "the muscle would lengthen instead of contract",
+                field="muscle.braid_angle",
+                hint="real muscles have 20° to 35° at rest",
+            )
+        if 2.0 * self.wall_thickness >= self.braid_diameter + self.wall_thickness:
+            raise InputError(
+                f"a wall of {self.wall_thickness * 1e3:.6g} mm leaves no bore in a braid of "
+                f"{self.braid_diameter * 1e3:.6g} mm",
+                field="muscle.wall_thickness",
+            )
+        return self

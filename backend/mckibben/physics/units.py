@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import re
 from functools import cache, lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -35,8 +35,8 @@ _SUPERSCRIPT = str.maketrans("⁺⁻¹²³⁴⁵⁶⁷⁸⁹", "+-123456789")
 # Spellings pint lacks or reads otherwise: to pint "pct" is a picocarat and "Nm" a textile count.
 _ALIASES = {
     "%": "percent", "pct": "percent", "°": "degree", "Nm": "N*m", "Nmm": "N*mm", "Bar": "bar", "BAR": "bar",
-    "PSI": "psi", "Psi": "psi", "kpa": "kPa", "KPa": "kPa", "KPA": "kPa", "MPA": "MPa", "pa": "Pa", "MM": "mm",
-    "CM": "cm", "sec": "s", "Sec": "s",
+    "PSI": "psi", "Psi": "psi", "kpa": "kPa", "KPa": "kPa", "KPA": "kPa", "MPA": "MPa", "pa": "Pa",
+    "MM": "mm", "CM": "cm", "sec": "s", "Sec": "s",
 }  # fmt: skip
 
 #: SI unit text -> (what it measures, an example of a right value).
@@ -130,8 +130,8 @@ def _base(text: str) -> tuple[Any, float, str]:
     if not name:
         return registry.Unit(""), 1.0, ""
     try:
-        factor, base = registry.get_base_units(registry.parse_units(name))
-        return base, float(factor), name
+        scale, base = registry.get_base_units(registry.parse_units(name))
+        return base, float(cast(float, scale)), name
     except (
         Exception
     ) as error:  # pint raises AssertionError, KeyError, tokenizer and other errors for bad text
@@ -154,7 +154,7 @@ def _expected(si_unit: str) -> tuple[str, str]:
 
 @lru_cache(maxsize=2048)
 def factor(unit_text: str, si_unit: str) -> Factor:
-    """Conversion from ``unit_text`` to ``si_unit``; raises a ValueError (with no field) when there is none."""
+    """Conversion from ``unit_text`` to ``si_unit``; a ValueError (without field) when there is none."""
     base, scale, name = _base(unit_text)
     target, target_scale, _ = _base(si_unit)
     if base != target:
@@ -200,7 +200,7 @@ def si(value: object, unit: str, *, field: str | None = None) -> float:
 
     Args:
         value: a number (already SI) or a text of number and unit, ``"300 mm"``, ``"25 %"``, ``"20 degC"``.
-        unit: the SI unit the value must be compatible with (``"m"``, ``"Pa"``, ``"rad"``, ``"1"``, ``"m3/(s*Pa)"``).
+        unit: the SI unit the value must be compatible with (``"m"``, ``"rad"``, ``"1"``, ``"m3/(s*Pa)"`` …).
         field: where the value stands, for the message ("muscle.nominal_length").
 
     Raises:

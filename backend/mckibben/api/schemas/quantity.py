@@ -10,7 +10,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
 from mckibben.physics.errors import InputError
-from mckibben.physics.units import si
+from mckibben.physics.units import MAX_TEXT_LENGTH, si
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +36,6 @@ class Quantity:
         Raises:
             InputError: not a finite number, an unknown or wrong unit, or out of bounds.
         """
-        if isinstance(value, bool) or not isinstance(value, int | float | str):
-            raise InputError("must be a number in SI units or a text with a unit", hint=self._hint)
         number = si(value, self.unit)
         wrong = (
             (self.above is not None and number <= self.above and f"above {self.above:g}")
@@ -52,7 +50,7 @@ class Quantity:
 
     @property
     def _hint(self) -> str:
-        return f"E.g. '{self.example}'; a bare number is in {self.unit if self.unit != '1' else 'parts of one'}."
+        return f"e.g. '{self.example}'; a bare number is in {self.unit if self.unit != '1' else 'parts of one'}."
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         """Validation by `__call__`; nothing of the annotated float's own."""
@@ -70,7 +68,7 @@ class Quantity:
         }
         number = {"type": "number"} | {name: bound for name, bound in bounds.items() if bound is not None}
         return {
-            "anyOf": [number, {"type": "string", "minLength": 1, "maxLength": 64}],
+            "anyOf": [number, {"type": "string", "minLength": 1, "maxLength": MAX_TEXT_LENGTH}],
             "unit": self.unit,
             "examples": [self.example],
         }
@@ -80,7 +78,8 @@ class Quantity:
 Length = Annotated[float, Quantity("m", "300 mm", above=0.0, at_most=1e3)]
 Diameter = Annotated[float, Quantity("m", "20 mm", above=0.0, at_most=10.0)]
 Thickness = Annotated[float, Quantity("m", "1.8 mm", at_least=0.0, at_most=1.0)]
-Angle = Annotated[float, Quantity("rad", "25 deg", above=0.0, below=1.5707)]
+# Angles and sizes of a muscle are judged by the physics, in its own words ("… would lengthen instead of contract").
+Angle = Annotated[float, Quantity("rad", "25 deg")]
 Turns = Annotated[float, Quantity("1", "1.48", above=0.0, at_most=1e6)]
 Pressure = Annotated[float, Quantity("Pa", "6 bar", at_least=0.0, at_most=1e8)]
 PositivePressure = Annotated[float, Quantity("Pa", "6 bar", above=0.0, at_most=1e8)]

@@ -49,8 +49,8 @@ EFFECT = Effect(
     title="Bladder elasticity (hyperelastic)",
     family="elastomer",
     type="static",
-    cause="The elastomer wall is stretched around the muscle when the braid makes it thicker. Its energy has "
-    "to be paid by the gas, so the muscle pulls less the more it is contracted.",
+    cause="The elastomer wall is stretched around the muscle when the braid makes it thicker. Its energy "
+    "has to be paid by the gas, so the muscle pulls less the more it is contracted.",
     equation=r"F_{bl} = \frac{\pi D_b H L_0}{L_0}\,\frac{d}{d\lambda_z}"
     r"\left[C_{10}(I_1-3) + C_{01}(I_2-3)\right],\quad \lambda_\theta^2 = 1+\cot^2\theta_0\,(1-\lambda_z^2)",
     parameters=(
@@ -79,6 +79,7 @@ EFFECT = Effect(
         ),
     ),
     slots={"elastomer": elastomer},
+    needs=("wall_thickness",),
     kinds=frozenset({"isobaric", "isometric", "isotonic", "static", "transient"}),
     signature=Signature(
         text="constant in pressure, rising steeply over the first 5 % of contraction and then saturating",

@@ -1,0 +1,83 @@
+"""Assembly of the server: settings in, application out."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+
+from fastapi import FastAPI
+from fastapi.routing import APIRoute
+from starlette.middleware.gzip import GZipMiddleware
+
+from mckibben import __version__
+from mckibben.api import errors, static
+from mckibben.api.routes import comparisons, curves, effects, health, inverse, measurements, presets
+from mckibben.api.security import BodyLimitMiddleware, SecurityMiddleware
+from mckibben.api.settings import Settings
+from mckibben.api.store import MeasurementStore
+from mckibben.api.timing import TimingMiddleware
+from mckibben.studio import Studio
+
+# The answer to the usual curves request stays below: compressing it takes longer than computing it.
+_GZIP_FROM = 256 * 1024
+
+_TAGS = [
+    {"name": "health", "description": "Is the server up?"},
+    {"name": "effects", "description": "The catalogue of physical effects."},
+    {"name": "presets", "description": "Real parts, reference curves, measurements and example designs."},
+    {"name": "curves", "description": "Static characteristics of a muscle."},
+    {"name": "inverse", "description": "Which pressure, which contraction, which range?"},
+    {"name": "measurements", "description": "Measurement files."},
+    {"name": "comparisons", "description": "A model beside a measurement."},
+]
+
+
+def create_app(settings: Settings | None = None) -> FastAPI:
+    """The application with everything it serves.
+
+    Raises:
+        InputError: an effects folder does not exist.
+    """
+    settings = settings or Settings()
+
+    @asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        # Ready when the first page asks for it, without delaying the start.
+        threading.Thread(target=app.state.plotly.compressed, daemon=True).start()
+        yield
+
+    app = FastAPI(
+        title="mckibben",
+        version=__version__,
+        description="Design studio for pneumatic-muscle drives. Physical values of requests are numbers in SI "
+        "units or texts with a unit; answers are in SI.",
+        docs_url=None,  # Swagger's page loads scripts from elsewhere, which the content security policy forbids
+        redoc_url=None,
+        openapi_tags=_TAGS,
+        generate_unique_id_function=_operation_name,
+        lifespan=lifespan,
+    )
+    app.state.settings = settings
+    app.state.studio = Studio(
+        presets=settings.presets, user_presets=settings.user_presets, effects=settings.effects
+    )
+    app.state.store = MeasurementStore(settings.data)
+    app.state.effects = effects.EffectsDocument(app.state.studio.catalogue)
+    app.state.plotly = static.PlotlyBundle()
+    for noun in (health, effects, presets, curves, inverse, measurements, comparisons, static):
+        app.include_router(noun.router)
+    app.router.redirect_slashes = False
+    app.router.default = static.frontend(settings.frontend)
+    errors.install(app)
+    # Added last = outermost.
+    app.add_middleware(GZipMiddleware, minimum_size=_GZIP_FROM, compresslevel=1)
+    app.add_middleware(BodyLimitMiddleware)
+    app.add_middleware(SecurityMiddleware, settings=settings)
+    app.add_middleware(TimingMiddleware)
+    return app
+
+
+def _operation_name(route: APIRoute) -> str:
+    """``list_presets`` and the like: the function's own name, unique within the application."""
+    return route.name

@@ -1,0 +1,1 @@
+"""One module per noun; every function converts, calls, converts."""

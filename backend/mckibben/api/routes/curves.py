@@ -1,0 +1,20 @@
+"""The static characteristics of one muscle."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter
+
+from mckibben.api.answer import JsonAnswer, StrictRoute
+from mckibben.api.answers.curves import curves_answer
+from mckibben.api.context import StudioDep
+from mckibben.api.schemas.common import errors
+from mckibben.api.schemas.curves import CurvesAnswer, CurvesRequest
+
+router = APIRouter(prefix="/api/curves", tags=["curves"], route_class=StrictRoute)
+
+
+# On the event loop, not in a worker thread: an answer takes less than the change of thread would.
+@router.post("", response_model=CurvesAnswer, responses=errors(400, 413, 415, 422))
+async def compute_curves(body: CurvesRequest, studio: StudioDep) -> JsonAnswer:
+    """Force, stiffness, volume and diameter over the length for each pressure, and what bounds them."""
+    return JsonAnswer(curves_answer(body, studio))

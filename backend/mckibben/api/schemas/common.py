@@ -1,0 +1,82 @@
+"""What several nouns share: strict models, fields with units, errors, flags."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field, StringConstraints
+
+
+class Strict(BaseModel):
+    """A request or answer in which every field is known."""
+
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False, strict=True)
+
+
+def si_field(unit: str, description: str, **further: Any) -> Any:
+    """A field of an answer whose numbers are in this SI unit."""
+    return Field(description=description, json_schema_extra={"unit": unit}, **further)
+
+
+Id = Annotated[
+    str,
+    StringConstraints(max_length=64, pattern=r"^[A-Za-z0-9][A-Za-z0-9./-]{0,63}$"),
+    Field(description="Id of a preset.", examples=["DMSP-20"]),
+]
+Name = Annotated[str, StringConstraints(min_length=1, max_length=64, pattern=r"^[A-Za-z_][A-Za-z0-9_]*$")]
+Series = list[float | None]
+
+
+class ErrorDetail(Strict):
+    """What is wrong, where, and what would be right."""
+
+    code: str = Field(description="Machine-readable kind.", examples=["bad_input"])
+    message: str = Field(description="What is wrong, for people.")
+    field: str | None = Field(
+        description="Path of the field in the request.", examples=["muscle.braid_angle"]
+    )
+    hint: str | None = Field(description="What would be right.", examples=["e.g. '25 deg'"])
+
+
+class ErrorBody(Strict):
+    """The one shape of every error."""
+
+    error: ErrorDetail
+
+
+class Flag(Strict):
+    """Something the user should know about an answer: a limit, a value out of reach, an unverified figure."""
+
+    code: str = Field(examples=["over_force_limit"])
+    message: str = Field(description="In physical words.")
+    field: str | None = Field(default=None, description="The input it belongs to.")
+
+
+class SourceText(Strict):
+    """Where a figure comes from, and how sure it is."""
+
+    text: str = Field(description="Short source.")
+    grade: str = Field(
+        description="S read in the source, S2 second-hand, C computed, D derived here, "
+        "M general knowledge and E estimate (both unverified), user.",
+        examples=["S"],
+    )
+
+
+ERRORS: dict[int | str, dict[str, Any]] = {
+    status: {"model": ErrorBody, "description": text}
+    for status, text in {
+        400: "The body or a header is malformed.",
+        403: "Host, origin or token refused.",
+        404: "There is no such thing.",
+        413: "The body is too large.",
+        415: "The body is of another content type.",
+        422: "The input cannot be used.",
+        500: "The server failed; the log says more.",
+    }.items()
+}
+
+
+def errors(*statuses: int) -> dict[int | str, dict[str, Any]]:
+    """The documented errors of a route; 403 and 500 belong to all."""
+    return {status: ERRORS[status] for status in sorted({403, 500, *statuses})}

@@ -1,0 +1,151 @@
+"""What kind of measurement a table is, and which of its rows belong together, from the numbers alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.physics.errors import InputError
+
+Array = NDArray[np.float64]
+
+KINDS = ("isobaric", "isometric", "isotonic", "diameter", "transient", "static")
+FORCE_KINDS = ("isobaric", "isometric", "static")
+#: The channels that say how short the muscle is, most direct first.
+STROKES = ("length", "contraction", "displacement")
+
+_GRAIN = 0.01  # of the range: two readings nearer than this are the same level
+_MANY = 25  # levels from which the finer axis of a grid is a sweep rather than a map
+
+
+def detect_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float | str]) -> str:
+    """The kind of a measurement that does not say it.
+
+    In this order, "stroke" being length, contraction or displacement:
+
+    1. time with a valve command: ``transient``.
+    2. force, pressure and stroke: ``transient`` with time and a stated load mass; ``isotonic`` when the force
+       is held and both others vary; ``isobaric``/``isometric`` when pressure/stroke is held throughout.
+       Otherwise the occupied 1 % steps of both ranges are counted: a filled grid without time and direction
+       is ``static`` (unless one axis is fine, >= 25 levels and 4 times the other); an axis with at most half
+       the steps of the other is the held one; neither: ``static``.
+    3. diameter with pressure or stroke: ``diameter``.
+    4. pressure and stroke: ``transient`` with time, else ``isotonic``.
+    5. time with pressure or stroke: ``transient``.
+
+    Raises:
+        InputError: none of these.
+    """
+    stroke = next((columns[c] for c in STROKES if c in columns), None)
+    pressure, force = columns.get("pressure"), columns.get("force")
+    timed = "time" in columns
+    if timed and "command" in columns and (pressure is not None or stroke is not None):
+        return "transient"
+    if force is not None and pressure is not None and stroke is not None:
+        if timed and "load_mass" in conditions:
+            return "transient"
+        return _force_kind(pressure, stroke, force, swept=timed or "direction" in columns)
+    if "diameter" in columns and (pressure is not None or stroke is not None):
+        return "diameter"
+    if pressure is not None and stroke is not None:
+        return "transient" if timed else "isotonic"
+    if timed and (pressure is not None or stroke is not None):
+        return "transient"
+    raise InputError(
+        f"no kind of measurement can be made of the columns {', '.join(columns)}",
+        field="columns",
+        hint="force measurements need pressure, length and force; strokes need pressure and length, or time",
+    )
+
+
+def _force_kind(pressure: Array, stroke: Array, force: Array, *, swept: bool) -> str:
+    if np.any(force) and _held(force) and not _held(pressure) and not _held_stroke(stroke):
+        return "isotonic"
+    if _held(pressure) != _held_stroke(stroke):
+        return "isobaric" if _held(pressure) else "isometric"
+    all_pressures, held_pressures = _steps(pressure)
+    all_strokes, held_strokes = _steps(stroke)
+    if not swept and all_pressures * all_strokes <= 1.5 * len(force):
+        few, many = sorted((all_pressures, all_strokes))
+        if many < max(_MANY, 4 * few):
+            return "static"
+    if 2 * held_pressures <= held_strokes:
+        return "isobaric"
+    return "isometric" if 2 * held_strokes <= held_pressures else "static"
+
+
+def _held(values: Array) -> bool:
+    """Whether a pressure or force stays the same: within 2 % of its magnitude."""
+    return bool(np.ptp(values) <= 0.02 * np.max(np.abs(values)))
+
+
+def _held_stroke(values: Array) -> bool:
+    """Whether the muscle stays as long as it is: 0.5 % of a length, 0.5 mm, 0.0005 of contraction."""
+    return bool(np.ptp(values) <= max(0.005 * np.median(values), 0.0005))
+
+
+def _steps(values: Array) -> tuple[int, int]:
+    """Occupied 1 % steps of the range: all of them, and those that hold 95 % of the rows."""
+    span = np.ptp(values)
+    if span == 0.0:
+        return 1, 1
+    counts = np.bincount(np.rint((values - np.min(values)) / (_GRAIN * span)).astype(np.intp))
+    counts = np.sort(counts[counts > 0])[::-1]
+    return len(counts), int(np.searchsorted(np.cumsum(counts), 0.95 * len(values)) + 1)
+
+
+def group_rows(columns: Mapping[str, NDArray], kind: str) -> tuple[NDArray[np.int64], str]:
+    """Group label of each row, shape (rows,), and the rule in words.
+
+    A group column of the file decides. Else ``static``, ``isobaric`` are grouped by pressure, ``isometric``
+    by stroke: sorted readings are one level until a gap of more than 1 % of the range; labels ascend with the
+    level. Else, and where that leaves one level or more levels than half the rows, every sweep is a group: a
+    change of the direction channel, or a turn by more than 10 % of its range of the quantity that is swept
+    (stroke of ``static``/``isobaric``; else pressure, stroke or command, the first there is).
+    """
+    if "group" in columns:
+        return np.array(columns["group"], dtype=np.int64), "by the group column"
+    stroke = next((columns[c] for c in STROKES if c in columns), None)
+    pressure = columns.get("pressure")
+    signal = next(v for v in (pressure, stroke, columns.get("command")) if v is not None)
+    if kind in FORCE_KINDS and pressure is not None and stroke is not None:
+        by_stroke = kind == "isometric"
+        held, signal = (stroke, pressure) if by_stroke else (pressure, stroke)
+        labels = _levels(held)
+        one_level = _held_stroke(stroke) if by_stroke else _held(pressure)
+        if not one_level and 0 < labels.max() < max(1, len(labels) // 2):
+            return labels, f"by {'stroke' if by_stroke else 'pressure'}"
+    direction = columns.get("direction")
+    turns = _turns(signal) if direction is None or np.ptp(direction) == 0.0 else np.diff(direction) != 0.0
+    return np.concatenate([[0], np.cumsum(turns)]).astype(np.int64), "by sweep (reversals)"
+
+
+def _levels(values: Array) -> NDArray[np.int64]:
+    order = np.argsort(values, kind="stable")
+    labels = np.empty(len(values), np.int64)
+    gaps = np.diff(values[order]) > _GRAIN * np.ptp(values)
+    labels[order] = np.concatenate([[0], np.cumsum(gaps)])
+    return labels
+
+
+def _turns(values: Array) -> NDArray[np.bool_]:
+    """Whether a new sweep begins after each row but the last: at an extreme left by 10 % of the range."""
+    threshold = 0.1 * np.ptp(values)
+    turns = np.zeros(len(values) - 1, bool)
+    extremes = np.flatnonzero(np.diff(np.sign(np.diff(values)))) + 1
+    low = high = (float(values[0]), 0)
+    rising: bool | None = None
+    for index in (*extremes.tolist(), len(values) - 1):
+        point = (float(values[index]), index)
+        low, high = min(low, point), max(high, point)
+        if rising is not False and high[0] - point[0] > threshold:
+            if rising:
+                turns[high[1]] = True
+            rising, low = False, point
+        elif rising is not True and point[0] - low[0] > threshold:
+            if rising is False:
+                turns[low[1]] = True
+            rising, high = True, point
+    return turns

@@ -1,0 +1,90 @@
+r"""Braid lock: neighbouring strands touch at a largest braid angle and stop the contraction.
+
+Strands of width w on rhombi of side :math:`\ell` touch at :math:`\ell\sin 2\theta = w`, so
+:math:`\theta_{max} = 90^\circ - \tfrac12\arcsin(w/\ell)`. Only when this is below 54.7 degrees does it end
+the contraction before the ideal model does; the jammed braid is a stiff one-sided spring.
+"""
+
+from mckibben.physics import ops
+from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.muscle import Muscle
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+
+
+def tension(*, length: Value, muscle: Muscle, stiffness: Value, lock_angle: Value) -> Value:
+    """-k_l max(b cos(theta_max) - L, 0) [N]; never positive."""
+    lock_length = muscle.braid.thread_length * ops.cos(lock_angle)
+    return -stiffness * ops.positive_part(lock_length - length)
+
+
+_DAVIS = Source("Davis & Caldwell, Int. J. Robotics Res. 25 (2006) 359", "M")
+_DEFINITION = Source("stiffness times the way beyond b cos(theta_max), by hand", "D")
+_SIZE_10 = {"nominal_length": 0.1, "braid_diameter": 0.01, "braid_angle": 0.4363323129985824}
+
+EFFECT = Effect(
+    title="Braid lock (strands touching)",
+    family="geometry",
+    type="static",
+    cause="The strands have a width, so the braid cannot close beyond the angle at which neighbours touch. "
+    "From there on the muscle hardly contracts any further, whatever the pressure.",
+    equation=r"F_{l} = -k_l\,\max(b\cos\theta_{max}-L,\,0)",
+    parameters=(
+        Parameter(
+            "stiffness",
+            "k_l",
+            "N/m",
+            1.0e5,
+            0.0,
+            5.0e6,
+            Source("2-20 times the muscle's own stiffness at high pressure", "E"),
+            "Stiffness of the jammed braid.",
+            off=0.0,
+        ),
+        Parameter(
+            "lock_angle",
+            r"\theta_{max}",
+            "rad",
+            0.7853981633974483,
+            0.6,
+            1.2,
+            Source("45 degrees: strands as wide as the rhombus' side; 34-69 degrees", "E"),
+            "Braid angle at which neighbouring strands touch.",
+        ),
+    ),
+    slots={"tension": tension},
+    kinds=frozenset({"isobaric", "isometric", "isotonic", "static", "transient"}),
+    signature=Signature(
+        text="nothing up to one contraction, then a steep loss of force, the same at every pressure",
+        direction="even",
+        pressure_power=0.0,
+        zero_at=("nominal_length", "longer_than_nominal"),
+        energy="conservative",
+    ),
+    confused_with=(
+        Twin("bladder_elasticity", "large contractions: the lock has a kink, the bladder saturates"),
+        Twin("contraction_factor", "free contraction against pressure: the lock ends it at one length"),
+    ),
+    references=(_DAVIS,),
+    examples=(
+        Example(
+            "force_change",
+            # b cos 45 deg = 110.33779 * 0.70710678 = 78.020601 mm: -1e5 * 3.020601e-3
+            -302.06009,
+            1e-7,
+            _DEFINITION,
+            {"stiffness": 1e5, "lock_angle": 0.7853981633974483},
+            _SIZE_10,
+            {"length": 0.075, "pressure": 6e5},
+        ),
+        Example(
+            "force_change",
+            0.0,
+            1e-9,
+            _DEFINITION,
+            {"stiffness": 1e5, "lock_angle": 0.7853981633974483},
+            _SIZE_10,
+            {"length": 0.079, "pressure": 6e5},
+        ),
+    ),
+)

@@ -1,0 +1,89 @@
+r"""Braid stiffening: beyond its largest length the threads are taut along the axis and act as a stiff spring.
+
+The source paper prints this as eq. (23) with the condition :math:`L > L_{min}`, which would make the braid
+push over the whole working range; the spring is meant beyond :math:`L_{max}`.
+"""
+
+from mckibben.physics import ops
+from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.muscle import Muscle
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+
+
+def tension(*, length: Value, muscle: Muscle, stiffness: Value, onset: Value) -> Value:
+    """k_br max(L - L_max, 0) with L_max = L0 (1 - onset) [N]; never negative."""
+    return stiffness * ops.positive_part(length - muscle.nominal_length * (1.0 - onset))
+
+
+_COLBRUNN = Source("Colbrunn, Nelson & Quinn, IEEE/RSJ IROS (2001)", "M")
+_DEFINITION = Source("1000 N at 20 mm beyond L0 = 247 mm and 6 bar take 504 N beyond the ideal 496 N", "D")
+_PAPER = {"nominal_length": 0.247, "braid_diameter": 0.01, "braid_angle": 0.4363323129985824}
+
+EFFECT = Effect(
+    title="Braid stiffening when stretched",
+    family="geometry",
+    type="static",
+    cause="Stretched beyond its rest length the braid aligns with the axis and its strands jam. The threads "
+    "themselves then carry the pull, like a stiff spring that only acts on one side.",
+    equation=r"F_{br} = k_{br}\,\max(L-L_{max},\,0),\quad L_{max} = L_0(1-\varepsilon_0)",
+    parameters=(
+        Parameter(
+            "stiffness",
+            "k_{br}",
+            "N/m",
+            1.0e5,
+            0.0,
+            2.0e6,
+            Source("share of N E_t A_t/L0; 20-1500 kN/m over the sizes at 0.3 m", "E"),
+            "Stiffness of the braid beyond the onset.",
+            off=0.0,
+        ),
+        Parameter(
+            "onset",
+            r"\varepsilon_0",
+            "1",
+            0.0,
+            -0.1,
+            0.0,
+            Source("the catalogue's permitted pretension is 3-5 % of L0", "E"),
+            "Contraction at which the spring begins; 0 is the nominal length, -0.02 is 2 % stretch.",
+            fitted=False,
+        ),
+    ),
+    slots={"tension": tension},
+    kinds=frozenset({"isobaric", "isometric", "isotonic", "static", "transient"}),
+    signature=Signature(
+        text="nothing up to the nominal length, then a straight line, the same at every pressure",
+        direction="even",
+        pressure_power=0.0,
+        zero_at=("nominal_length", "shorter_than_nominal"),
+        energy="conservative",
+    ),
+    confused_with=(
+        Twin("bladder_elasticity", "pull without pressure: only the braid has a kink, at one fixed length"),
+        Twin("rig_compliance", "replace the muscle by a rigid rod"),
+        Twin("length_offset", "several pressures: the braid's share does not grow with pressure"),
+    ),
+    references=(_COLBRUNN,),
+    examples=(
+        Example(
+            "force_change",
+            504.0,
+            1e-9,
+            _DEFINITION,
+            {"stiffness": 25.2e3, "onset": 0.0},
+            _PAPER,
+            {"length": 0.267, "pressure": 6e5},
+        ),
+        Example(
+            "force_change",
+            0.0,
+            1e-9,
+            _DEFINITION,
+            {"stiffness": 25.2e3, "onset": -0.1},
+            _PAPER,
+            {"length": 0.267, "pressure": 6e5},
+        ),
+    ),
+)

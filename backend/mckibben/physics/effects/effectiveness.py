@@ -1,0 +1,104 @@
+r"""Effectiveness: all losses lumped into one factor, optionally with a pressure to overcome first.
+
+:math:`F = E\,(1 - P_0/P)_+\,F_\text{ideal}`: a constant factor when :math:`P_0 = 0`, the threshold form
+otherwise. It scales the force without touching the volume, so it stores no energy and dissipates none: it
+is a correction, not a mechanism. A constant factor leaves the largest contraction where the ideal model has
+it.
+"""
+
+from mckibben.physics import ops
+from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+
+# Below this gauge pressure [Pa] P0/P is held: it stays finite at P = 0, where the force is 0 anyway.
+_LEAST_PRESSURE = 1.0
+
+
+def force_factor(*, pressure: Value, factor: Value, threshold: Value) -> Value:
+    """E max(1 - P0/P, 0) [-]."""
+    return factor * ops.positive_part(1.0 - threshold / ops.maximum(pressure, _LEAST_PRESSURE))
+
+
+_COLBRUNN = Source("Colbrunn, Nelson & Quinn, IEEE/RSJ IROS (2001)", "M")
+_RANGE = Source("0.94-1.05 for moulded, 0.6-1.0 for hand-made muscles", "E")
+_CLOSED_FORM = Source("factor times the blocked force P A0 (2/sin^2 theta0 - 3) = 386.31316 N", "D")
+_SIZE_10 = {"nominal_length": 0.1, "braid_diameter": 0.01, "braid_angle": 0.4363323129985824}
+_BLOCKED = {"length": 0.1, "pressure": 6e5}
+
+EFFECT = Effect(
+    title="Effectiveness",
+    family="geometry",
+    type="static",
+    cause="Ends, bladder and braid take a share of the work of the gas. As long as the causes are not known "
+    "one by one, their sum is written as a ratio of real to ideal force.",
+    equation=r"F = E\,\max\left(1-\frac{P_0}{P},\,0\right) F_{ideal}",
+    parameters=(
+        Parameter(
+            "factor",
+            "E",
+            "1",
+            0.9,
+            0.3,
+            1.3,
+            _RANGE,
+            "Real over ideal force at high pressure.",
+            off=1.0,
+        ),
+        Parameter(
+            "threshold",
+            "P_0",
+            "Pa",
+            0.0,
+            0.0,
+            1.5e5,
+            Source("5-120 kPa over all sizes", "E"),
+            "Gauge pressure below which the muscle does not pull; 0 is a constant factor.",
+            off=0.0,
+            fitted=False,
+        ),
+    ),
+    slots={"force_factor": force_factor},
+    kinds=frozenset({"isobaric", "isometric", "isotonic", "static", "transient"}),
+    signature=Signature(
+        text="a constant share of the ideal force: proportional to pressure, the same shape over contraction",
+        direction="even",
+        pressure_power=1.0,
+        zero_at=("zero_pressure", "zero_force_length"),
+        energy="lumped",
+    ),
+    confused_with=(
+        Twin("pressure_scale", "a pressure calibrator; no muscle test can tell them apart"),
+        Twin("force_scale", "dead weights on the force sensor"),
+        Twin("threshold_pressure", "force against pressure: the slope changes, or the intercept does"),
+        Twin(
+            "wall_thickness", "measure wall and braid diameter; the wall's share shrinks towards 45 degrees"
+        ),
+        Twin(
+            "bladder_elasticity",
+            "force against pressure at four lengths: the slope changes, or the intercept",
+        ),
+    ),
+    references=(_COLBRUNN,),
+    examples=(
+        Example(
+            "force",
+            347.68184,
+            1e-7,
+            _CLOSED_FORM,
+            {"factor": 0.9, "threshold": 0.0},
+            _SIZE_10,
+            _BLOCKED,
+        ),
+        Example(
+            "force",
+            # 0.9 (1 - 1/6) 386.31316
+            289.73487,
+            1e-7,
+            _CLOSED_FORM,
+            {"factor": 0.9, "threshold": 1e5},
+            _SIZE_10,
+            _BLOCKED,
+        ),
+    ),
+)

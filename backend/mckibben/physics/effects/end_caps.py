@@ -1,0 +1,101 @@
+r"""End caps: towards each fitting the muscle narrows to a cone that encloses less than a cylinder.
+
+A cone of length :math:`\ell = \chi (D - D_f)_+/2` at each end leaves an active length :math:`L - 2\ell`:
+
+.. math:: V = \frac{\pi D^2}{4}(L - 2\ell) + 2\,\frac{\pi\ell}{12}(D^2 + D D_f + D_f^2)
+          = V_i - \frac{\pi\chi}{12}(2D + D_f)(D - D_f)_+^2
+
+so that on the ideal braid :math:`\Delta F = -\chi P L (D - D_f)_+/(2\pi n^2)`. With :math:`D_f = D_0` and small
+contraction this is Tondu's factor with :math:`k - 1 = \chi\cot^2\theta_0\,D_0/(3 L_0)`.
+"""
+
+from collections.abc import Callable
+
+from mckibben.physics import ops
+from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.muscle import Muscle
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+from mckibben.physics.slots import Shape
+
+
+def shape(*, inner: Callable[[Value], Shape], length: Value, muscle: Muscle, cone_factor: Value) -> Shape:
+    """The shape without what the two cones do not enclose; the diameter is that at mid-span."""
+    whole = inner(length)
+    fitting = ops.where(
+        ops.greater(muscle.inside_diameter, 0.0), muscle.inside_diameter, muscle.braid_diameter
+    )
+    # One-sided: a muscle stretched to less than the fitting's diameter has no cones.
+    step = ops.positive_part(whole.diameter - fitting)
+    lost = ops.pi / 12.0 * cone_factor * (2.0 * whole.diameter + fitting) * step**2
+    return Shape(whole.volume - lost, whole.diameter)
+
+
+_CONE = Source("half angle of the cone 35-55 degrees", "E")
+_CLOSED_FORM = Source("dF = -chi P L (D - D_f)/(2 pi n^2) evaluated by hand", "D")
+_SIZE_10 = {"nominal_length": 0.1, "braid_diameter": 0.01, "braid_angle": 0.4363323129985824}
+_CONTRACTED = {"length": 0.09, "pressure": 6e5}
+
+EFFECT = Effect(
+    title="Conical ends (lost active length)",
+    family="geometry",
+    type="static",
+    cause="The braid is clamped at the fittings and cannot widen there, so the muscle ends in two cones "
+    "that grow as it contracts. They enclose less gas than a cylinder, and the muscle pulls less.",
+    equation=r"V = V_i - \frac{\pi\chi}{12}(2D+D_f)(D-D_f)^2,\quad "
+    r"\Delta F = -\chi P\,\frac{L\,(D-D_f)}{2\pi n^2}",
+    parameters=(
+        Parameter(
+            "cone_factor",
+            r"\chi",
+            "1",
+            1.0,
+            0.0,
+            2.0,
+            _CONE,
+            "Length of a cone over its step in radius; 1 is a cone of 45 degrees. The fitting has the inside "
+            "diameter of the muscle, or its braid diameter when that is not given.",
+            off=0.0,
+        ),
+    ),
+    slots={"shape": shape},
+    kinds=frozenset({"isobaric", "isometric", "isotonic", "static", "transient"}),
+    signature=Signature(
+        text="proportional to pressure, growing in proportion to contraction and to diameter over length",
+        direction="even",
+        pressure_power=1.0,
+        zero_at=("zero_pressure",),
+        energy="conservative",
+    ),
+    confused_with=(
+        Twin("contraction_factor", "two muscle lengths: with end caps k - 1 falls as 1/L0"),
+        Twin("length_offset", "gauge blocks, or two muscle lengths"),
+        Twin("bladder_elasticity", "several pressures: the bladder's share does not grow with pressure"),
+    ),
+    references=(
+        Source("Tsagarakis & Caldwell, IEEE ICRA (2000)", "M"),
+        Source("Doumit, Fahim & Munro, IEEE Trans. Robotics 25 (2009) 1282", "M"),
+    ),
+    examples=(
+        Example(
+            "force_change",
+            # D = 13.688655 mm, b = 110.337792 mm, n = 1.4843034: -6e5 * 0.09 * 3.688655e-3 / (2 pi n^2)
+            -14.389200,
+            1e-6,
+            _CLOSED_FORM,
+            {"cone_factor": 1.0},
+            _SIZE_10,
+            _CONTRACTED,
+        ),
+        Example(
+            "volume_change",
+            # -pi/12 (2 * 13.688655 + 10) * 3.688655^2 mm^3
+            -133.14132e-9,
+            1e-6,
+            _CLOSED_FORM,
+            {"cone_factor": 1.0},
+            _SIZE_10,
+            _CONTRACTED,
+        ),
+    ),
+)

@@ -1,0 +1,66 @@
+r"""Zero error of the force sensor, :math:`F_{read} = F + o_F`; the weight of what hangs on it is one."""
+
+from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+from mckibben.physics.slots import Reading
+
+
+def force_sensor(*, offset: Value) -> Reading:
+    """What the sensor reads: the true force plus the offset."""
+    return Reading(1.0, offset)
+
+
+_RANGE = Source("0.1-1 % of a 1 kN cell, weight of muscle and fixtures 0.5-50 N", "E")
+_DEFINITION = Source("blocked force 386.31316 N plus the offset", "D")
+_SIZE_10 = {"nominal_length": 0.1, "braid_diameter": 0.01, "braid_angle": 0.4363323129985824}
+
+EFFECT = Effect(
+    title="Force sensor: zero error",
+    family="sensor",
+    type="measurement",
+    cause="The force sensor does not read zero without the muscle, or carries the weight of what hangs on "
+    "it. Every force is then too high or too low by the same amount.",
+    equation=r"F_{read} = F + o_F",
+    parameters=(
+        Parameter(
+            "offset",
+            "o_F",
+            "N",
+            5.0,
+            -200.0,
+            200.0,
+            _RANGE,
+            "What the sensor reads without the muscle.",
+            off=0.0,
+        ),
+    ),
+    slots={"force_sensor": force_sensor},
+    kinds=frozenset({"isobaric", "isometric", "isotonic", "static", "transient"}),
+    signature=Signature(
+        text="one constant force at every pressure and contraction",
+        direction="even",
+        pressure_power=0.0,
+        zero_at=(),
+        energy="reading",
+    ),
+    confused_with=(
+        Twin(
+            "prestress", "read the force sensor with the muscle removed; no muscle test can tell them apart"
+        ),
+        Twin("coulomb_friction", "both directions: friction changes sign, an offset does not"),
+        Twin("pressure_offset", "lengths near the one without force: there a pressure offset vanishes"),
+    ),
+    references=(Source("definition of a zero error", "D"),),
+    examples=(
+        Example(
+            "force",
+            391.31316,
+            1e-7,
+            _DEFINITION,
+            {"offset": 5.0},
+            _SIZE_10,
+            {"length": 0.1, "pressure": 6e5},
+        ),
+    ),
+)

@@ -1,0 +1,69 @@
+r"""Zero error of the length, :math:`L_{read} = L + o_L`.
+
+A rest length that is not what the name plate says, or a pretension that was not noted, reads the same way.
+"""
+
+from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+from mckibben.physics.slots import Reading
+
+
+def length_sensor(*, offset: Value) -> Reading:
+    """What the sensor reads: the true length plus the offset."""
+    return Reading(1.0, offset)
+
+
+_RANGE = Source("mounting and rest length are known to 1-2 % of 300 mm", "E")
+_SHIFT = Source("ideal muscle at the length without the offset, P A0 (a 0.9^2 - c_b)", "D")
+_SIZE_10 = {"nominal_length": 0.1, "braid_diameter": 0.01, "braid_angle": 0.4363323129985824}
+
+EFFECT = Effect(
+    title="Length sensor: zero error",
+    family="sensor",
+    type="measurement",
+    cause="The length is not counted from where the muscle is at rest: mounting, pretension, or a nominal "
+    "length that is not the true one. The whole working range is shifted.",
+    equation=r"L_{read} = L + o_L",
+    parameters=(
+        Parameter(
+            "offset",
+            "o_L",
+            "m",
+            1.0e-3,
+            -0.01,
+            0.01,
+            _RANGE,
+            "Length read minus true length.",
+            off=0.0,
+        ),
+    ),
+    slots={"length_sensor": length_sensor},
+    kinds=frozenset({"isobaric", "isometric", "isotonic", "diameter", "static", "transient"}),
+    signature=Signature(
+        text="proportional to pressure like the stiffness, nearly the same at every contraction",
+        direction="even",
+        pressure_power=1.0,
+        zero_at=("zero_pressure",),
+        energy="reading",
+    ),
+    confused_with=(
+        Twin("end_caps", "gauge blocks, or two muscle lengths"),
+        Twin("contraction_factor", "the nominal length: the factor does nothing there"),
+        Twin("rig_compliance", "replace the muscle by a rigid rod"),
+        Twin("braid_stiffening", "several pressures: the braid's share does not grow with pressure"),
+    ),
+    references=(Source("definition of a zero error", "D"),),
+    examples=(
+        Example(
+            "force",
+            # 6e5 * 78.539816e-6 (13.796730 * 0.81 - 5.598910)
+            262.78360,
+            1e-7,
+            _SHIFT,
+            {"offset": 0.005},
+            _SIZE_10,
+            {"length": 0.095, "pressure": 6e5},
+        ),
+    ),
+)

@@ -1,0 +1,80 @@
+r"""Coulomb friction in proportion to pressure: the gas presses the threads together."""
+
+from mckibben.physics import ops
+from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+
+
+def friction(*, direction: Value, pressure: Value, area: Value) -> Value:
+    """mu_P P sgn(dL/dt) [N]; 0 at rest and at or below atmospheric pressure."""
+    return area * ops.positive_part(pressure) * direction
+
+
+_RANGE = Source("0.2-30 N/bar over the sizes, 2-6 N/bar for size 20", "E")
+_DEFINITION = Source("definition: 4 N/bar at 3 bar", "D")
+_SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
+
+EFFECT = Effect(
+    title="Friction growing with pressure",
+    family="friction",
+    type="static",
+    cause="The gas presses the threads onto each other and the bladder onto the threads. Their friction "
+    "therefore grows with pressure, and so does the width of the force loop.",
+    equation=r"F_{fr} = \mu_P\,P\,\operatorname{sgn}\dot L",
+    parameters=(
+        Parameter(
+            "area",
+            r"\mu_P",
+            "m2",
+            4.0e-5,
+            0.0,
+            5.0e-4,
+            _RANGE,
+            "Half the width of the force loop per pressure; 1 N/bar is 10 mm2.",
+            off=0.0,
+        ),
+    ),
+    slots={"friction": friction},
+    kinds=frozenset({"isobaric", "isotonic", "static", "transient"}),
+    signature=Signature(
+        text="a loop whose width grows in proportion to pressure and is the same at every contraction",
+        direction="odd",
+        pressure_power=1.0,
+        zero_at=("no_motion", "zero_pressure"),
+        energy="dissipative",
+    ),
+    confused_with=(
+        Twin("coulomb_friction", "loops at three pressures: width growing with pressure or constant"),
+        Twin("contact_friction", "two muscle lengths: contact friction grows with the length"),
+        Twin("viscous_damping", "three speeds at three pressures, crossed"),
+        Twin(
+            "pressure_hysteresis",
+            "force against pressure at constant length: only a pressure-driven loop shows",
+        ),
+    ),
+    references=(
+        Source("Chou & Hannaford, IEEE Trans. Robotics Autom. 12 (1996) 90", "M"),
+        Source("Tondu, J. Intell. Mater. Syst. Struct. 23 (2012) 225", "M"),
+    ),
+    examples=(
+        Example(
+            "force_change",
+            -12.0,
+            1e-9,
+            _DEFINITION,
+            {"area": 4e-5},
+            _SIZE_20,
+            {"length": 0.28, "pressure": 3e5, "direction": -1.0},
+        ),
+        Example(
+            "force_change",
+            12.0,
+            1e-9,
+            _DEFINITION,
+            {"area": 4e-5},
+            _SIZE_20,
+            {"length": 0.25, "pressure": 3e5, "direction": 1.0},
+        ),
+    ),
+)

@@ -1,0 +1,80 @@
+r"""Prestress: one tension at every length and pressure, because the bladder does not fit.
+
+It is shorter or longer than the braid at rest. The tension belongs to the elastomer, and changes with its
+temperature.
+"""
+
+from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+
+
+def elastomer(*, force: Value) -> Value:
+    """-F_0 [N], from the energy -F_0 L."""
+    return -force
+
+
+_MAPS = Source("fit of the force maps of Martens & Boblan 2017: 110 N (size 20), 40 N (size 10)", "D")
+_DEFINITION = Source("definition", "D")
+_SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.0218, "braid_angle": 0.46251225177849735}
+
+EFFECT = Effect(
+    title="Prestress of the bladder",
+    family="elastomer",
+    type="static",
+    cause="The bladder is not exactly as long as the braid when they are clamped together, so it pushes or "
+    "pulls from the start. The difference is the same at every length and pressure.",
+    equation=r"F_{pre} = -F_0",
+    parameters=(
+        Parameter(
+            "force",
+            "F_0",
+            "N",
+            110.0,
+            -200.0,
+            500.0,
+            _MAPS,
+            "Tension that is missing everywhere; negative when the bladder pulls.",
+            off=0.0,
+        ),
+    ),
+    slots={"elastomer": elastomer},
+    kinds=frozenset({"isobaric", "isometric", "isotonic", "static", "transient"}),
+    signature=Signature(
+        text="one constant force at every pressure and contraction",
+        direction="even",
+        pressure_power=0.0,
+        zero_at=(),
+        energy="conservative",
+    ),
+    confused_with=(
+        Twin(
+            "force_offset",
+            "read the force sensor with the muscle removed; no muscle test can tell them apart",
+        ),
+        Twin("coulomb_friction", "both directions: friction changes sign, the prestress does not"),
+        Twin("threshold_pressure", "lengths near the one without force: there the threshold vanishes"),
+        Twin("bladder_elasticity", "lengths near the nominal one: the prestress is there already"),
+    ),
+    references=(Source("Martens & Boblan, Actuators 6(4):33 (2017), doi 10.3390/act6040033", "S2"),),
+    examples=(
+        Example(
+            "force_change",
+            -110.0,
+            1e-9,
+            _DEFINITION,
+            {"force": 110.0},
+            _SIZE_20,
+            {"length": 0.27, "pressure": 3e5},
+        ),
+        Example(
+            "force_change",
+            40.0,
+            1e-9,
+            _DEFINITION,
+            {"force": -40.0},
+            _SIZE_20,
+            {"length": 0.3, "pressure": 0.0},
+        ),
+    ),
+)

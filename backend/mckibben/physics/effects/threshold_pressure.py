@@ -1,0 +1,86 @@
+r"""Threshold pressure: the gas first has to widen the bladder until it touches the braid.
+
+A thin tube of modulus E, wall H and inner radius :math:`r_i` reaches a braid of radius :math:`r_b` at
+:math:`P_{th} \approx E H (r_b-r_i)/r_i^2`. What the gas spends below contact is not in this law, so it is a
+lumped one: force and gas work balance only while the pressure stays above the threshold.
+"""
+
+from mckibben.physics import ops
+from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+
+
+def pressure(*, pressure: Value, threshold: Value) -> Value:
+    """max(P - P_th, 0) [Pa]; without a threshold P itself."""
+    # Written as P minus what is held back, so that a threshold of 0 leaves negative gauge pressures alone.
+    return pressure - ops.minimum(threshold, ops.positive_part(pressure))
+
+
+_TUBE = Source("E H (r_b - r_i)/r_i^2 of latex, 1 MPa, 1 mm, 5 to 6 mm", "D")
+_CLOSED_FORM = Source("(P - P_th) A0 (2/sin^2 theta0 - 3), A0 (...) = 643.85527 mm^2", "D")
+_SIZE_10 = {"nominal_length": 0.1, "braid_diameter": 0.01, "braid_angle": 0.4363323129985824}
+
+EFFECT = Effect(
+    title="Threshold pressure",
+    family="elastomer",
+    type="static",
+    cause="The bladder is narrower than the braid and has to be blown up before it touches it. Until then "
+    "the gas drives nothing, and later the same pressure is missing.",
+    equation=r"P_{eff} = \max(P-P_{th},\,0)",
+    parameters=(
+        Parameter(
+            "threshold",
+            "P_{th}",
+            "Pa",
+            4.0e4,
+            0.0,
+            2.0e5,
+            _TUBE,
+            "Gauge pressure at which the bladder touches the braid.",
+            off=0.0,
+        ),
+    ),
+    slots={"pressure": pressure},
+    kinds=frozenset({"isobaric", "isometric", "isotonic", "static", "transient"}),
+    signature=Signature(
+        text="a dead zone, then a force loss that is constant in pressure and shaped like the ideal force",
+        direction="even",
+        pressure_power=None,
+        zero_at=("zero_pressure", "zero_force_length"),
+        energy="lumped",
+    ),
+    confused_with=(
+        Twin("pressure_offset", "vent to the atmosphere and read the pressure sensor"),
+        Twin(
+            "bladder_elasticity", "force against pressure at several lengths: the bladder's intercept grows"
+        ),
+        Twin("effectiveness", "force against pressure: the intercept changes, or the slope"),
+        Twin("prestress", "lengths near the one without force: there the threshold vanishes"),
+    ),
+    references=(
+        Source("Colbrunn, Nelson & Quinn, IEEE/RSJ IROS (2001)", "M"),
+        Source("Tondu, J. Intell. Mater. Syst. Struct. 23 (2012) 225", "M"),
+    ),
+    examples=(
+        Example(
+            "force",
+            # 5.6e5 * 643.85527e-6
+            360.55895,
+            1e-7,
+            _CLOSED_FORM,
+            {"threshold": 4e4},
+            _SIZE_10,
+            {"length": 0.1, "pressure": 6e5},
+        ),
+        Example(
+            "force",
+            0.0,
+            1e-12,
+            _CLOSED_FORM,
+            {"threshold": 4e4},
+            _SIZE_10,
+            {"length": 0.1, "pressure": 3e4},
+        ),
+    ),
+)

@@ -1,0 +1,258 @@
+"""The preset library: scans folders, keeps what is valid, reports what is not, saves muscles of the user."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import tempfile
+import threading
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NamedTuple, cast
+
+from mckibben.physics.errors import InputError, did_you_mean
+from mckibben.presets.quantity import Finding
+from mckibben.presets.reading import KINDS, MAX_BYTES, BadDocumentError, parse, read_file, slug
+from mckibben.presets.schema import EffectTable, MusclePreset, Origin, Preset
+
+USER_ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9-]{0,63}")
+
+Signature = tuple[tuple[str, int, int, int], ...]
+
+
+class Problem(NamedTuple):
+    """A preset file that was not loaded: file, field inside it, what is wrong, what would be right."""
+
+    file: str
+    field: str | None
+    message: str
+    hint: str | None = None
+
+
+@dataclass
+class _Shelf:
+    """The valid presets of one folder, by lower-case slug, and the problems of the others."""
+
+    presets: dict[str, Preset] = field(default_factory=dict)
+    problems: list[Problem] = field(default_factory=list)
+
+
+class PresetLibrary:
+    """Presets of a folder (built in) and optionally of a second one that the user may write to.
+
+    Args:
+        folder: holds one folder per kind (``muscles/``, ``valves/``, …) of ``<id>.json`` files.
+        user_folder: same layout; made when the first preset is saved. None: saving is refused.
+        effects: effect id -> parameters, to check the default effects of muscles; None: not checked.
+
+    Raises:
+        FileNotFoundError: ``folder`` does not exist.
+    """
+
+    def __init__(
+        self,
+        folder: str | os.PathLike[str],
+        user_folder: str | os.PathLike[str] | None = None,
+        effects: EffectTable | None = None,
+    ) -> None:
+        self._folder = Path(folder)
+        if not self._folder.is_dir():
+            raise FileNotFoundError(f"there is no preset folder {self._folder}")
+        self._user_folder = None if user_folder is None else Path(user_folder)
+        self._effects = effects
+        self._lock = threading.RLock()
+        self._built_in = {kind: self._scan(kind, "built-in", {}) for kind in KINDS}
+        self._user = {kind: _Shelf() for kind in KINDS}
+        self._signatures: dict[str, Signature] = dict.fromkeys(KINDS, ())
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """Names of the kinds: muscles, valves, …"""
+        return tuple(KINDS)
+
+    def list(self, kind: str) -> list[Preset]:
+        """All valid presets of a kind, sorted by id with numbers in their natural order.
+
+        Raises:
+            InputError: code ``not_found``, there is no such kind.
+        """
+        return sorted(self._all(kind).values(), key=lambda preset: _natural(preset.id))
+
+    def get(self, kind: str, preset_id: str) -> Preset:
+        """One preset; letter case does not matter, and ``-`` may stand for ``/`` as in the file name.
+
+        Raises:
+            InputError: code ``not_found``, with the nearest known id as hint.
+        """
+        presets = self._all(kind)
+        found = presets.get(slug(preset_id).lower())
+        if found is None:
+            known = [preset.id for preset in presets.values()]
+            raise InputError(
+                f"there is no preset '{preset_id[:80]}' among the {kind}",
+                hint=did_you_mean(preset_id[:80], known),
+                code="not_found",
+            )
+        return found
+
+    def muscle(self, preset_id: str) -> MusclePreset:
+        """`get` for muscles, typed."""
+        preset = self.get("muscles", preset_id)
+        return cast(MusclePreset, preset)
+
+    def problems(self, kind: str | None = None) -> list[Problem]:
+        """Files that were not loaded, of one kind or of all."""
+        kinds = KINDS if kind is None else [kind]
+        for name in kinds:
+            self._refresh(name)
+        return [
+            problem
+            for name in kinds
+            for shelf in (self._built_in, self._user)
+            for problem in shelf[name].problems
+        ]
+
+    def save_muscle(self, document: dict[str, Any]) -> MusclePreset:
+        """Store a muscle of the user; an own preset of the same id is replaced, a built-in one never.
+
+        Raises:
+            InputError: the document is not a valid muscle preset (``field`` says where); code ``conflict``:
+                there is no user folder, or the id belongs to a built-in preset.
+        """
+        if self._user_folder is None:
+            raise InputError(
+                "muscles cannot be saved: no user folder is set",
+                hint="start the server with a user folder",
+                code="conflict",
+            )
+        try:
+            preset = parse(MusclePreset, document, self._effects)
+        except BadDocumentError as bad:
+            first = bad.findings[0]
+            raise InputError(first.message, field=first.field, hint=first.hint) from bad
+        if USER_ID.fullmatch(preset.id) is None:
+            raise InputError(
+                f"'{preset.id}' cannot be the id of an own preset",
+                field="id",
+                hint="letters, digits and '-', e.g. 'my-muscle-20'",
+            )
+        content = json.dumps(preset.to_document(), indent=2, ensure_ascii=False).encode() + b"\n"
+        if len(content) > MAX_BYTES:
+            raise InputError(f"the preset is larger than {MAX_BYTES // 1_000_000} MB")
+        with self._lock:
+            taken = self._all("muscles").get(preset.id.lower())
+            if taken is not None and (taken.origin == "built-in" or taken.id != preset.id):
+                raise InputError(
+                    f"the id '{taken.id}' is taken by a {taken.origin} preset",
+                    field="id",
+                    hint="choose another id",
+                    code="conflict",
+                )
+            _write(self._user_folder, "muscles", f"{preset.id}.json", content)
+            saved = self.muscle(preset.id)
+        return saved
+
+    def _all(self, kind: str) -> dict[str, Preset]:
+        self._refresh(kind)
+        return {**self._user[kind].presets, **self._built_in[kind].presets}
+
+    def _refresh(self, kind: str) -> None:
+        """Read the user's files of a kind again when one of them changed."""
+        if kind not in KINDS:
+            raise InputError(
+                f"there is no kind of preset '{kind[:80]}'",
+                hint=did_you_mean(kind[:80], KINDS),
+                code="not_found",
+            )
+        if self._user_folder is None:
+            return
+        with self._lock:
+            signature = _signature(self._user_folder / kind)
+            if signature != self._signatures[kind]:
+                self._user[kind] = self._scan(kind, "user", self._built_in[kind].presets)
+                self._signatures[kind] = signature
+
+    def _scan(self, kind: str, origin: Origin, taken: dict[str, Preset]) -> _Shelf:
+        root = self._folder if origin == "built-in" else self._user_folder
+        shelf = _Shelf()
+        if root is None:
+            return shelf
+        for path in _files(root / kind):
+            name = f"{kind}/{path.name}" if origin == "built-in" else f"user/{kind}/{path.name}"
+            try:
+                preset = self._load(kind, path, origin)
+                key = slug(preset.id).lower()
+                if key in taken or key in shelf.presets:
+                    raise BadDocumentError(
+                        [Finding("id", f"the id '{preset.id}' exists already", "another id")]
+                    )
+            except BadDocumentError as bad:
+                shelf.problems.extend(Problem(name, *finding) for finding in bad.findings)
+            else:
+                shelf.presets[key] = preset
+        return shelf
+
+    def _load(self, kind: str, path: Path, origin: Origin) -> Preset:
+        document = read_file(path, follow_links=origin == "built-in")
+        preset = parse(KINDS[kind], document, self._effects)
+        if slug(preset.id) != path.stem:
+            raise BadDocumentError(
+                [Finding("id", f"'{preset.id}' does not match the file name", f"{slug(preset.id)}.json")]
+            )
+        preset.adopt(origin, self._effects)
+        return preset
+
+
+def _natural(text: str) -> tuple[tuple[int, int, str], ...]:
+    """Sort key: digits compare as numbers, so DMSP-5 stands before DMSP-10."""
+    parts = re.findall(r"[0-9]+|[^0-9]+", text.lower())
+    return tuple((0, int(part), "") if part.isdigit() else (1, 0, part) for part in parts)
+
+
+def _files(folder: Path) -> list[Path]:
+    """JSON files of a folder by name; hidden ones (half-written) are left out, a missing folder is empty."""
+    try:
+        return sorted(
+            path for path in folder.iterdir() if path.suffix == ".json" and not path.name.startswith(".")
+        )
+    except OSError:
+        return []
+
+
+def _signature(folder: Path) -> Signature:
+    """Name, time, size and inode of each file: differs as soon as one was written."""
+    result = []
+    for path in _files(folder):
+        try:
+            info = path.lstat()
+        except OSError:
+            continue
+        result.append((path.name, info.st_mtime_ns, info.st_size, info.st_ino))
+    return tuple(result)
+
+
+def _write(root: Path, kind: str, name: str, content: bytes) -> None:
+    """Write a file of the user folder in one step: readers see the old or the new one, never a half."""
+    folder = root / kind
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        if folder.resolve() != root.resolve() / kind:
+            raise InputError(
+                "the user folder leads elsewhere by a link", hint="a plain folder", code="conflict"
+            )
+        handle, temporary = tempfile.mkstemp(dir=folder, prefix=".", suffix=".tmp")
+        try:
+            with os.fdopen(handle, "wb") as stream:
+                stream.write(content)
+                stream.flush()
+                os.fsync(stream.fileno())
+            # Replaces a link of that name itself, not the file it points to.
+            Path(temporary).replace(folder / name)
+        except BaseException:
+            Path(temporary).unlink(missing_ok=True)
+            raise
+    except OSError as error:
+        raise InputError(
+            f"the preset cannot be written: {error.strerror or error}", code="conflict"
+        ) from error

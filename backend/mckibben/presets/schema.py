@@ -1,0 +1,202 @@
+"""The kinds of presets as pydantic models, one class a kind."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, PrivateAttr
+
+from mckibben.physics.errors import InputError, did_you_mean
+from mckibben.physics.parameter import Parameter
+from mckibben.presets.quantity import (
+    Expected,
+    Finding,
+    Quantity,
+    Strict,
+    Text,
+    quantities,
+    quantity_findings,
+    range_findings,
+    si_unit,
+)
+
+#: Effect id -> its parameters: their names, or each one's `Parameter` (then unit and bounds are checked).
+EffectTable = Mapping[str, Collection[str] | Mapping[str, Parameter]]
+
+Origin = Literal["built-in", "user"]
+PresetId = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9./-]{0,63}$")]
+Key = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]{0,63}$")]
+
+
+class Preset(Strict):
+    """What all presets share."""
+
+    schema_version: Literal[1] = Field(alias="schema")
+    kind: str
+    id: PresetId
+    title: Annotated[str, Field(min_length=1, max_length=120, pattern=r"\S")]
+    maker: Annotated[str, Field(max_length=120)] = ""
+    description: Annotated[str, Field(max_length=2000)] = ""
+    references: list[Text] = Field(default_factory=list)
+
+    _origin: Origin = PrivateAttr(default="built-in")
+
+    @property
+    def origin(self) -> Origin:
+        """Whether the preset came with the program or was saved by the user."""
+        return self._origin
+
+    def adopt(self, origin: Origin, effects: EffectTable | None) -> None:
+        """Called once by the library that loaded the preset: where it came from."""
+        self._origin = origin
+
+    @property
+    def verified(self) -> bool:
+        """Whether no value of the preset is general knowledge (M) or an estimate (E)."""
+        return all(quantity.verified for _, quantity in quantities(self))
+
+    def to_document(self) -> dict[str, Any]:
+        """The preset as the JSON document of its file; absent optional values are left out."""
+        return self.model_dump(mode="json", by_alias=True, exclude_none=True)
+
+    def public(self) -> dict[str, Any]:
+        """The document plus ``verified`` and ``origin``, as the API shows it."""
+        return {**self.to_document(), "verified": self.verified, "origin": self.origin}
+
+    def findings(self, effects: EffectTable | None = None) -> Iterator[Finding]:
+        """What the types alone cannot tell: units, ranges, column lengths, effects."""
+        for path, quantity in quantities(self):
+            if not path.startswith("effects."):
+                yield from quantity_findings(path, quantity)
+
+
+class Geometry(Strict):
+    """The muscle at rest; a wall thickness that is not known is left out."""
+
+    inside_diameter: Quantity
+    braid_diameter: Quantity
+    braid_angle: Quantity
+    nominal_length: Quantity
+    wall_thickness: Quantity | None = None
+
+
+class Tolerance(Strict):
+    """How far (+-) a fit may free a geometry value."""
+
+    braid_angle: Quantity | None = None
+    braid_diameter: Quantity | None = None
+    nominal_length: Quantity | None = None
+    wall_thickness: Quantity | None = None
+
+
+class Limits(Strict):
+    """What the maker allows; a limit that is not known is left out."""
+
+    max_pressure: Quantity | None = None
+    max_force: Quantity | None = None
+    max_contraction: Quantity | None = None
+    max_pretension: Quantity | None = None
+    min_nominal_length: Quantity | None = None
+    max_nominal_length: Quantity | None = None
+
+
+class MusclePreset(Preset):
+    """A muscle: geometry, limits, catalogue data and the effects its model has by default."""
+
+    kind: Literal["muscle"]
+    series: Annotated[str, Field(max_length=60)] = ""
+    geometry: Geometry
+    tolerance: Tolerance = Tolerance()
+    limits: Limits = Limits()
+    data: dict[Key, Quantity] = Field(default_factory=dict)
+    effects: dict[Key, dict[Key, Quantity]] = Field(default_factory=dict)
+    reference_curve: PresetId | None = None
+    measurement: PresetId | None = None
+
+    _parameter_units: dict[str, dict[str, str]] = PrivateAttr(default_factory=dict)
+
+    def adopt(self, origin: Origin, effects: EffectTable | None) -> None:
+        """Adds: the SI units that the effects declare for their parameters."""
+        super().adopt(origin, effects)
+        self._parameter_units = {
+            name: {key: item.unit for key, item in table.items()}
+            for name, table in (effects or {}).items()
+            if isinstance(table, Mapping)
+        }
+
+    def effect_values(self) -> dict[str, dict[str, float]]:
+        """Default effects as {effect id: {parameter: value in SI}}."""
+        return {
+            name: {
+                key: quantity.si(self._effect_unit(name, key, quantity)) for key, quantity in table.items()
+            }
+            for name, table in self.effects.items()
+        }
+
+    def _effect_unit(self, effect: str, parameter: str, quantity: Quantity) -> str:
+        unit = self._parameter_units.get(effect, {}).get(parameter) or si_unit(quantity.unit)
+        if unit is None:
+            raise InputError(
+                f"'{quantity.unit}' is not a known unit", field=f"effects.{effect}.{parameter}.unit"
+            )
+        return unit
+
+    def findings(self, effects: EffectTable | None = None) -> Iterator[Finding]:
+        """Adds: effects and their parameters exist, with the right unit and inside their bounds."""
+        base = list(super().findings(effects))
+        yield from base
+        geometry = self.geometry
+        if not base and geometry.braid_diameter.si("m") < geometry.inside_diameter.si("m"):
+            yield Finding(
+                "geometry.braid_diameter.value", "the braid is narrower than the bore", "bore + wall"
+            )
+        for name, table in self.effects.items():
+            if effects is not None and name not in effects:
+                yield Finding(f"effects.{name}", f"there is no effect '{name}'", did_you_mean(name, effects))
+                continue
+            for key, quantity in table.items():
+                known = None if effects is None else effects[name]
+                yield from _parameter_findings(f"effects.{name}.{key}", key, quantity, known)
+
+
+def _parameter_findings(
+    path: str, key: str, quantity: Quantity, known: Collection[str] | Mapping[str, Parameter] | None
+) -> Iterator[Finding]:
+    if known is not None and key not in known:
+        yield Finding(path, f"the effect has no parameter '{key}'", did_you_mean(key, known))
+    elif isinstance(known, Mapping):
+        declared = known[key]
+        yield from range_findings(path, quantity, Expected(declared.unit, declared.lower, declared.upper))
+    elif si_unit(quantity.unit) is None:
+        yield Finding(f"{path}.unit", f"'{quantity.unit}' is not a known unit", "e.g. 'MPa'")
+
+
+class _Part(Preset):
+    data: dict[Key, Quantity] = Field(default_factory=dict)
+
+
+class ValvePreset(_Part):
+    """A valve; without ``sonic_conductance`` it cannot be simulated."""
+
+    kind: Literal["valve"]
+    function: Annotated[str, Field(min_length=1, max_length=120)]
+
+
+class TubePreset(_Part):
+    """A tube; its conductance is given for ``reference_length``."""
+
+    kind: Literal["tube"]
+
+
+class FittingPreset(_Part):
+    """A fitting or silencer: what its port adds to the dead volume."""
+
+    kind: Literal["fitting"]
+
+
+class DesignPreset(Preset):
+    """An example document of the Design view; its content is checked by the API that runs it."""
+
+    kind: Literal["design"]
+    document: dict[str, Any]

@@ -1,0 +1,189 @@
+// @ts-check
+// Quantities: SI inside, the user's units at the edge. Reading typed units, writing numbers with sensible digits.
+
+/** @typedef {"si" | "bar" | "us"} System */
+/** @typedef {{unit: string, factor: number, offset?: number, digits: number}} Scale  SI = shown × factor + offset */
+/** @typedef {keyof typeof SCALES} Quantity */
+
+const DEG = Math.PI / 180;
+const INCH = 0.0254, LBF = 4.4482216152605, PSI = 6894.757293168;
+
+/** @param {string} unit @param {number} factor @param {number} digits @param {number} [offset] @returns {Scale} */
+const scale = (unit, factor, digits, offset = 0) => ({ unit, factor, digits, offset });
+/** @param {Scale} one */
+const same = (one) => ({ si: one, bar: one, us: one });
+
+/** How each kind of quantity is shown in each unit system. */
+export const SCALES = {
+  length: { si: scale("mm", 1e-3, 1), bar: scale("mm", 1e-3, 1), us: scale("in", INCH, 3) },
+  pressure: { si: scale("kPa", 1e3, 1), bar: scale("bar", 1e5, 3), us: scale("psi", PSI, 2) },
+  modulus: { si: scale("MPa", 1e6, 4), bar: scale("N/mm²", 1e6, 4), us: scale("psi", PSI, 1) },
+  force: { si: scale("N", 1, 1), bar: scale("N", 1, 1), us: scale("lbf", LBF, 2) },
+  stiffness: { si: scale("kN/m", 1e3, 2), bar: scale("N/mm", 1e3, 2), us: scale("lbf/in", LBF / INCH, 1) },
+  volume: { si: scale("cm³", 1e-6, 2), bar: scale("cm³", 1e-6, 2), us: scale("in³", INCH ** 3, 3) },
+  temperature: {
+    si: scale("K", 1, 1),
+    bar: scale("°C", 1, 1, 273.15),
+    us: scale("°F", 5 / 9, 1, 273.15 - (32 * 5) / 9),
+  },
+  energy: { si: scale("J", 1, 2), bar: scale("J", 1, 2), us: scale("ft·lbf", LBF * 12 * INCH, 2) },
+  angle: same(scale("°", DEG, 2)),
+  ratio: same(scale("%", 0.01, 2)),
+  number: same(scale("", 1, 4)),
+};
+
+/** Units a user may type, by the quantity they belong to. @type {Record<string, [Quantity, number, number?]>} */
+const TYPED = {
+  m: ["length", 1],
+  cm: ["length", 1e-2],
+  mm: ["length", 1e-3],
+  um: ["length", 1e-6],
+  µm: ["length", 1e-6],
+  in: ["length", INCH],
+  inch: ["length", INCH],
+  '"': ["length", INCH],
+  ft: ["length", 12 * INCH],
+  pa: ["pressure", 1],
+  hpa: ["pressure", 100],
+  kpa: ["pressure", 1e3],
+  mpa: ["pressure", 1e6],
+  bar: ["pressure", 1e5],
+  mbar: ["pressure", 100],
+  psi: ["pressure", PSI],
+  atm: ["pressure", 101325],
+  "n/mm²": ["pressure", 1e6],
+  "n/mm2": ["pressure", 1e6],
+  "n/mm^2": ["pressure", 1e6],
+  n: ["force", 1],
+  kn: ["force", 1e3],
+  lbf: ["force", LBF],
+  lb: ["force", LBF],
+  kgf: ["force", 9.80665],
+  "n/m": ["stiffness", 1],
+  "kn/m": ["stiffness", 1e3],
+  "n/mm": ["stiffness", 1e3],
+  "lbf/in": ["stiffness", LBF / INCH],
+  m3: ["volume", 1],
+  "m³": ["volume", 1],
+  l: ["volume", 1e-3],
+  ml: ["volume", 1e-6],
+  "cm³": ["volume", 1e-6],
+  cm3: ["volume", 1e-6],
+  "mm³": ["volume", 1e-9],
+  mm3: ["volume", 1e-9],
+  "in³": ["volume", INCH ** 3],
+  in3: ["volume", INCH ** 3],
+  k: ["temperature", 1],
+  "°c": ["temperature", 1, 273.15],
+  degc: ["temperature", 1, 273.15],
+  c: ["temperature", 1, 273.15],
+  "°f": ["temperature", 5 / 9, 273.15 - (32 * 5) / 9],
+  degf: ["temperature", 5 / 9, 273.15 - (32 * 5) / 9],
+  f: ["temperature", 5 / 9, 273.15 - (32 * 5) / 9],
+  j: ["energy", 1],
+  "ft·lbf": ["energy", LBF * 12 * INCH],
+  "°": ["angle", DEG],
+  deg: ["angle", DEG],
+  rad: ["angle", 1],
+  "%": ["ratio", 0.01],
+};
+
+/** What the server's SI unit of a value means on screen. @type {Record<string, Quantity>} */
+const OF_SI = {
+  m: "length",
+  Pa: "pressure",
+  N: "force",
+  "N/m": "stiffness",
+  m3: "volume",
+  K: "temperature",
+  rad: "angle",
+  J: "energy",
+};
+
+/** The quantity of a parameter: its SI unit decides; a modulus of rubber is not shown in bar.
+ * @param {string} unit @param {string} [name] @returns {Quantity | null} null = unit without a scale of its own */
+export function quantityOf(unit, name = "") {
+  if (unit === "Pa" && /modulus/.test(name)) return "modulus";
+  if (unit === "1" || unit === "") return "number";
+  return OF_SI[unit] ?? null;
+}
+
+/** A scale for a unit the table does not know: shown as it is. @param {string} unit */
+export const plainScale = (unit) => scale(tidyUnit(unit), 1, 6);
+
+/** "N*s/m" → "N·s/m", "m3" → "m³". @param {string} unit */
+export const tidyUnit = (unit) =>
+  unit === "1" ? "" : unit.replaceAll("**", "^").replaceAll("*", "·").replace(/\^?2\b/g, "²").replace(
+    /\^?3\b/g,
+    "³",
+  ).replace(/^deg$/, "°").replace(/^degC$/, "°C");
+
+/** @param {Quantity} quantity @param {System} system @returns {Scale} */
+export const scaleOf = (quantity, system) => SCALES[quantity][system];
+
+/** @param {number} si @param {Scale} s */
+export const toShown = (si, s) => (si - (s.offset ?? 0)) / s.factor;
+/** @param {number} shown @param {Scale} s */
+export const toSi = (shown, s) => shown * s.factor + (s.offset ?? 0);
+
+/** A number with at most `digits` decimals and about five significant figures, no trailing zeros.
+ * @param {number} value @param {number} digits */
+export function number(value, digits) {
+  if (!Number.isFinite(value)) return "–";
+  const size = value === 0 ? 0 : Math.floor(Math.log10(Math.abs(value)));
+  const places = Math.max(0, Math.min(digits, size < -digits ? 3 - size : 4 - size));
+  if (places > 12) return value.toExponential(2);
+  const text = value.toFixed(places);
+  const short = text.includes(".") ? text.replace(/\.?0+$/, "") : text;
+  return short === "-0" ? "0" : short.replace("-", "−");
+}
+
+/** A number with three significant figures, for tables and readouts. @param {number} value */
+export function brief(value) {
+  if (!Number.isFinite(value)) return "–";
+  const size = Math.abs(value);
+  const places = size === 0 ? 0 : size >= 100 ? 0 : size >= 10 ? 1 : size >= 1 ? 2 : 3;
+  return value.toFixed(places).replace(/^-/, "−").replace(/^−0(\.0+)?$/, "0");
+}
+
+/** @param {number | null | undefined} si @param {Quantity} quantity @param {System} system */
+export function withUnit(si, quantity, system) {
+  if (si == null) return "–";
+  const s = scaleOf(quantity, system);
+  const text = brief(toShown(si, s));
+  return s.unit ? `${text}${s.unit === "°" ? "" : "\u202f"}${s.unit}` : text;
+}
+
+/** Reads "30 cm", "6 bar", "25°", "1,5"; a bare number is in the shown unit.
+ * @param {string} text @param {Scale} s @param {Quantity | null} quantity
+ * @returns {{value: number} | {error: string}} SI */
+export function parse(text, s, quantity) {
+  const tidy = text.trim().replace("−", "-").replace(/^([+-]?\d+),(\d+)(?=\D|$)/, "$1.$2");
+  const example = s.unit ? `${s.unit === "°" ? "25" : "1.5"} ${s.unit}` : "1.5";
+  if (tidy === "") return { error: `Enter a number, for example ${example}.` };
+  const match = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i.exec(tidy);
+  if (!match) return { error: `“${text.trim()}” is not a number. Write for example ${example}.` };
+  const value = Number(match[1]);
+  const unit = match[2].trim();
+  if (!unit || unit === s.unit) return { value: toSi(value, s) };
+  const known = TYPED[unit.toLowerCase()];
+  if (!known) return { error: `The unit “${unit}” is not known here. Write for example ${example}.` };
+  const [kind, factor, offset = 0] = known;
+  const wanted = quantity === "modulus" ? "pressure" : quantity;
+  if (kind === "ratio" && wanted === "number") return { value: value * factor };
+  if (kind !== wanted) return { error: `“${unit}” measures ${noun(kind)}, this is ${noun(wanted)}.` };
+  return { value: value * factor + offset };
+}
+
+/** @param {Quantity | null} quantity */
+function noun(quantity) {
+  if (quantity === null || quantity === "number") return "a plain number";
+  if (quantity === "ratio") return "a share";
+  return (/^[aeiou]/.test(quantity) ? "an " : "a ") + quantity;
+}
+
+/** A preset's {value, unit} in SI. @param {{value: number, unit: string}} q */
+export function siOf(q) {
+  const known = TYPED[q.unit.toLowerCase()];
+  return known ? q.value * known[1] + (known[2] ?? 0) : q.value;
+}

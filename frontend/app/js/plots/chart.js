@@ -1,0 +1,153 @@
+// @ts-check
+// One plot: a specification drawn by Plotly; when only the data changed, its lines are moved in place (patch.js).
+import { palette } from "./theme.js";
+import { canPatch, patch } from "./patch.js";
+
+/** @typedef {import("./theme.js").Palette} Palette */
+/** @typedef {{title: string, range: [number, number], right?: boolean}} Axis */
+/** A line or a set of points. `axis: 2` draws against the right axis; `column` names it in the table of the plot.
+ * @typedef {{id: string, x: (number | null)[], y: (number | null)[], line?: {color: string, width?: number,
+ *   dash?: string}, marker?: {size: number, symbol: string | string[], color: string | string[],
+ *   edge?: string}, axis?: 2, column?: string}} Trace */
+/** @typedef {{x: [number, number] | null, y: [number, number] | null, text: string}} Zone */
+/** @typedef {{text: string, x: number, y: number, color: string}} Label */
+/** @typedef {{x: Axis, y: Axis, y2?: Axis, traces: Trace[], zones: Zone[], labels?: Label[], revision: string}} Spec */
+
+const SETTLE_MS = 300;
+
+/** The Plotly global once its script has arrived. @returns {any} */
+export const plotly = () => /** @type {any} */ (globalThis).Plotly;
+
+/** @param {Axis} axis @param {Palette} p */
+const axisLayout = (axis, p) => ({
+  title: { text: axis.title, font: { size: 12, color: p.soft }, standoff: 8 },
+  range: axis.range,
+  gridcolor: p.grid,
+  linecolor: p.line,
+  tickcolor: p.line,
+  ticks: "outside",
+  ticklen: 4,
+  showline: true,
+  zeroline: axis.range[0] < 0 && !axis.right,
+  zerolinecolor: p.line,
+  nticks: 7,
+  tickfont: { color: p.soft },
+  automargin: false,
+  showgrid: !axis.right,
+});
+
+/** Plotly's data and layout of a specification.
+ * @param {Spec} spec @param {Palette} p @param {{width: number, height: number, font: string}} box */
+export function figure(spec, p, box) {
+  const data = spec.traces.map((t) => ({
+    uid: t.id,
+    x: t.x,
+    y: t.y,
+    yaxis: t.axis === 2 ? "y2" : "y",
+    type: "scatter",
+    mode: t.marker ? "markers" : "lines",
+    line: t.line && { simplify: false, width: 2, dash: "solid", ...t.line },
+    marker: t.marker && {
+      size: t.marker.size,
+      symbol: t.marker.symbol,
+      color: t.marker.color,
+      line: { width: 1.4, color: t.marker.edge ?? t.marker.color },
+    },
+    hoverinfo: "skip",
+    cliponaxis: true,
+    name: t.column ?? t.id,
+  }));
+  const layout = {
+    width: box.width,
+    height: box.height,
+    margin: { l: 58, r: spec.y2 ? 54 : 14, t: 10, b: 44 },
+    paper_bgcolor: "rgba(0,0,0,0)",
+    plot_bgcolor: "rgba(0,0,0,0)",
+    font: { family: box.font, size: 12, color: p.ink },
+    showlegend: false,
+    hovermode: false,
+    dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom",
+    uirevision: spec.revision,
+    xaxis: axisLayout(spec.x, p),
+    yaxis: axisLayout(spec.y, p),
+    ...(spec.y2 ? { yaxis2: { ...axisLayout(spec.y2, p), overlaying: "y", side: "right" } } : {}),
+    shapes: spec.zones.map((z) => ({
+      type: "rect",
+      layer: "below",
+      xref: z.x ? "x" : "paper",
+      yref: z.y ? "y" : "paper",
+      x0: z.x?.[0] ?? 0,
+      x1: z.x?.[1] ?? 1,
+      y0: z.y?.[0] ?? 0,
+      y1: z.y?.[1] ?? 1,
+      fillcolor: p.zone,
+      line: { width: 0 },
+    })),
+  };
+  return { data, layout };
+}
+
+/** Everything of a figure but the numbers of its lines: if this stays, the picture can be patched.
+ * @param {{data: any[], layout: any}} fig */
+const signature = ({ data, layout }) =>
+  JSON.stringify([layout, data.map(({ x, y, ...style }) => [style, count(x, y)])]);
+/** @param {(number | null)[]} x @param {(number | null)[]} y */
+const count = (x, y) => x.filter((v, i) => v != null && y[i] != null).length;
+
+export class Chart {
+  /** @param {HTMLElement} host the element that becomes the plot @param {string} name used in file names */
+  constructor(host, name) {
+    this.host = host;
+    this.name = name;
+    /** @type {((p: Palette) => Spec) | null} */
+    this.build = null;
+    /** @type {Spec | null} */
+    this.spec = null;
+    /** @type {Set<() => void>} called after every drawing, for overlays */
+    this.after = new Set();
+    this.drawnAs = "";
+    this.settle = 0;
+    this.canvas = document.createElement("div");
+    this.canvas.className = "canvas";
+    this.canvas.setAttribute("aria-hidden", "true");
+    this.over = document.createElement("div");
+    this.over.className = "over";
+    host.append(this.canvas, this.over);
+    new ResizeObserver(() => this.draw()).observe(host);
+  }
+
+  /** @param {(p: Palette) => Spec} build */
+  show(build) {
+    this.build = build;
+    this.draw();
+  }
+
+  draw() {
+    const width = this.host.clientWidth, height = this.host.clientHeight;
+    if (!this.build || !plotly() || width < 60 || height < 60) return;
+    this.spec = this.build(palette.peek());
+    const font = "Inter, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif";
+    const fig = figure(this.spec, palette.peek(), { width, height, font });
+    const now = signature(fig);
+    clearTimeout(this.settle);
+    if (now === this.drawnAs && canPatch(this.canvas, fig.data)) {
+      patch(this.canvas, fig.data);
+      this.settle = setTimeout(() => this.full(fig, now), SETTLE_MS);
+    } else this.full(fig, now);
+    this.after.forEach((fn) => fn());
+  }
+
+  /** @param {{data: any[], layout: any}} fig @param {string} now */
+  full(fig, now) {
+    const first = !this.drawnAs;
+    this.drawnAs = now;
+    plotly().react(this.canvas, fig.data, fig.layout, { displayModeBar: false, doubleClick: "reset" });
+    if (first) /** @type {any} */ (this.canvas).on("plotly_relayout", () => this.after.forEach((fn) => fn()));
+  }
+
+  /** Pixel geometry of the axes as they are now, zoomed or not. @returns {any | null} */
+  get axes() {
+    const layout = /** @type {any} */ (this.canvas)._fullLayout;
+    return layout?.xaxis?._length ? layout : null;
+  }
+}

@@ -1,0 +1,187 @@
+// @ts-check
+// A quantity one can type (with a unit), step, slide and reset.
+import { computed, effect, signal } from "../reactive.js";
+import { h, icon } from "../dom.js";
+import { number, parse, toShown, toSi } from "../format.js";
+
+/** @typedef {import("../format.js").Scale} Scale */
+/** @typedef {{
+ *   key: string, label: string, symbol?: import("../dom.js").Child, quantity: import("../format.js").Quantity | null,
+ *   scale: () => Scale, get: () => number | null, put: (si: number, done: boolean) => void,
+ *   bounds?: () => [number, number], strict?: boolean, log?: boolean, slider?: boolean,
+ *   changed?: () => boolean, reset?: () => void, message?: () => string | null, hint?: string,
+ *   clear?: () => void, empty?: string}} FieldOptions  `bounds` in SI: the slider's range, and with `strict` the
+ *   values the model accepts; `clear` allows an empty field, which then reads `empty` */
+
+let count = 0;
+const STEPS = 200;
+
+/** 1, 2 or 5 times a power of ten, at most x. @param {number} x */
+export function niceStep(x) {
+  const power = 10 ** Math.floor(Math.log10(x));
+  const lead = x / power;
+  return (lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * power;
+}
+
+/** @param {number} x @param {number} digits */
+const significant = (x, digits) => Number(x.toPrecision(digits));
+
+/** The slider's positions 0…n as SI values, in steps that are round in the shown unit.
+ * @param {[number, number]} bounds @param {Scale} scale @param {boolean} log */
+export function track([low, high], scale, log) {
+  const lo = toShown(low, scale), hi = toShown(high, scale);
+  const clamp = (/** @type {number} */ si) => Math.min(high, Math.max(low, si));
+  if (log) {
+    const ratio = Math.log(hi / lo) / STEPS;
+    return {
+      n: STEPS,
+      at: (/** @type {number} */ si) => Math.log(Math.max(toShown(si, scale), lo) / lo) / ratio,
+      value: (/** @type {number} */ i) => clamp(toSi(significant(lo * Math.exp(i * ratio), 3), scale)),
+    };
+  }
+  const grain = niceStep((hi - lo) / STEPS);
+  return {
+    n: Math.round((hi - lo) / grain),
+    at: (/** @type {number} */ si) => (toShown(si, scale) - lo) / grain,
+    value: (/** @type {number} */ i) => clamp(toSi(significant(lo + i * grain, 10), scale)),
+  };
+}
+
+/** @param {FieldOptions} o */
+export function quantityField(o) {
+  const id = `f${++count}-${o.key.replace(/\W/g, "-")}`;
+  const typed = signal(/** @type {string | null} */ (null));
+  const message = computed(() => typed.value ?? o.message?.() ?? null);
+  const rail = computed(() => o.bounds ? track(o.bounds(), o.scale(), Boolean(o.log)) : null);
+  const shown = () => {
+    const si = o.get();
+    return si == null ? "" : number(toShown(si, o.scale()), o.scale().digits);
+  };
+
+  /** @param {string} text @returns {{value: number} | {error: string}} */
+  const read = (text) => {
+    const got = parse(text, o.scale(), o.quantity);
+    if ("error" in got || !o.strict || !o.bounds) return got;
+    const [low, high] = o.bounds(), slack = 1e-9 * Math.max(Math.abs(low), Math.abs(high));
+    if (got.value >= low - slack && got.value <= high + slack) return got;
+    const say = (/** @type {number} */ si) => number(toShown(si, o.scale()), 6);
+    const wanted = `${say(low)} to ${say(high)} ${o.scale().unit}`.trim();
+    return { error: `${o.label} must be ${wanted}.` };
+  };
+  const take = () => {
+    if (input.value.trim() === "" && o.clear) {
+      typed.value = null;
+      return o.clear();
+    }
+    if (input.value === shown()) return void (typed.value = null);
+    const got = read(input.value);
+    typed.value = "error" in got ? got.error : null;
+    if ("value" in got) {
+      o.put(got.value, true);
+      input.value = shown();
+    }
+  };
+  /** @param {number} by */
+  const step = (by) => {
+    const si = o.get() ?? o.bounds?.()[0] ?? 0;
+    const r = rail.value;
+    typed.value = null;
+    if (!r) return;
+    const at = r.at(si);
+    const next = by > 0 ? Math.floor(at + 1e-6) + by : Math.ceil(at - 1e-6) + by;
+    o.put(r.value(Math.min(r.n, Math.max(0, next))), true);
+    input.value = shown();
+  };
+
+  const input = h("input", {
+    id,
+    type: "text",
+    inputmode: "decimal",
+    autocomplete: "off",
+    spellcheck: "false",
+    placeholder: o.empty,
+    "aria-invalid": () => message.value ? "true" : null,
+    "aria-describedby": () => message.value ? `${id}-m` : null,
+    title: "A number, or a number with a unit",
+    onchange: take,
+    onkeydown: (/** @type {KeyboardEvent} */ e) => {
+      if (e.key === "Escape") {
+        typed.value = null;
+        input.value = shown();
+      }
+      if (e.key === "Enter") take();
+      if (e.key !== "ArrowUp" && e.key !== "ArrowDown") return;
+      e.preventDefault();
+      step((e.key === "ArrowUp" ? 1 : -1) * (e.shiftKey ? 10 : 1));
+    },
+  });
+  effect(() => {
+    const text = shown();
+    if (document.activeElement !== input || typed.peek() === null) input.value = text;
+  });
+
+  const changed = () => Boolean(o.changed?.());
+  return h(
+    "div",
+    { class: () => `field${changed() ? " changed" : ""}${message.value ? " wrong" : ""}`, "data-field": o.key },
+    h(
+      "div",
+      { class: "field-head" },
+      h("label", { for: id }, o.label, o.symbol ? h("span", { class: "symbol" }, o.symbol) : null),
+      () =>
+        changed() && o.reset
+          ? h("button", {
+            type: "button",
+            class: "mini",
+            title: "Back to the preset’s value",
+            "aria-label": `Reset ${o.label}`,
+            onclick: o.reset,
+          }, icon("reset"))
+          : null,
+      h("span", { class: "entry" }, input, h("span", { class: "unit" }, () => o.scale().unit)),
+    ),
+    o.slider === false ? null : slider(o, rail, step),
+    o.hint ? h("p", { class: "hint" }, o.hint) : null,
+    () => message.value ? h("p", { class: "error", id: `${id}-m` }, message.value) : null,
+  );
+}
+
+/** @param {FieldOptions} o @param {import("../reactive.js").Signal<ReturnType<typeof track> | null>} rail
+ * @param {(by: number) => void} step */
+function slider(o, rail, step) {
+  const place = (/** @type {number} */ i) => rail.peek()?.value(i) ?? 0;
+  const range = h("input", {
+    type: "range",
+    min: 0,
+    step: "any",
+    "aria-label": `${o.label} slider`,
+    oninput: () => o.put(place(Math.round(Number(range.value))), false),
+    onchange: () => o.put(place(Math.round(Number(range.value))), true),
+    ondblclick: () => o.reset?.(),
+    onkeydown: (/** @type {KeyboardEvent} */ e) => {
+      /** @type {Record<string, number>} */
+      const by = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageUp: 10, PageDown: -10 };
+      if (!by[e.key]) return;
+      e.preventDefault();
+      step(by[e.key] * (e.shiftKey ? 10 : 1));
+    },
+  });
+  effect(() => {
+    const r = rail.value, si = o.get(), s = o.scale();
+    if (!r) return;
+    const at = si == null ? 0 : Math.min(r.n, Math.max(0, r.at(si)));
+    range.max = String(r.n);
+    range.value = String(at);
+    range.style.setProperty("--at", `${(100 * at) / r.n}%`);
+    range.setAttribute("aria-valuetext", si == null ? "not set" : `${number(toShown(si, s), s.digits)} ${s.unit}`);
+  });
+  /** @param {-1 | 1} by */
+  const button = (by) =>
+    h("button", {
+      type: "button",
+      class: "mini",
+      "aria-label": `${o.label} ${by < 0 ? "less" : "more"}`,
+      onclick: () => step(by),
+    }, icon(by < 0 ? "minus" : "plus"));
+  return h("div", { class: "slide" }, button(-1), range, button(1));
+}

@@ -1,0 +1,49 @@
+// @ts-check
+// How sure a figure is: grades in words, and the list of values of a preset that nobody has verified.
+import { h } from "../dom.js";
+import { tidyUnit } from "../format.js";
+
+/** @type {Record<string, string>} */
+export const GRADES = {
+  S: "read in the source",
+  S2: "second-hand: from a public transcript of the source",
+  C: "computed from sourced data",
+  D: "derived or fitted for this program",
+  M: "general knowledge, not verified",
+  E: "estimate, not verified",
+  user: "given by you",
+};
+
+/** @param {string} grade */
+export const isUnverified = (grade) => grade === "M" || grade === "E";
+
+/** @param {string} grade */
+export const gradeTag = (grade) =>
+  h("abbr", { class: `grade${isUnverified(grade) ? " warn" : ""}`, title: GRADES[grade] ?? grade }, grade);
+
+/** "max_contraction" → "max contraction". @param {string} key */
+export const spoken = (key) => key.replaceAll("_", " ");
+
+/** @param {import("../types.js").Preset} preset */
+export function unverifiedNote(preset) {
+  /** @type {[string, import("../types.js").PresetValue][]} */
+  const doubtful = [preset.geometry, preset.limits, preset.data, ...Object.values(preset.effects ?? {})]
+    .flatMap((part) => Object.entries(part ?? {})).filter(([, q]) => isUnverified(q.grade));
+  return h(
+    "div",
+    null,
+    h("h3", null, "Unverified values"),
+    h(
+      "p",
+      null,
+      "These values are general knowledge or estimates, not read from a data sheet. Check them before you rely on them.",
+    ),
+    h(
+      "ul",
+      { class: "plain" },
+      ...doubtful.map(([key, q]) =>
+        h("li", null, h("b", null, spoken(key)), ` ${q.value} ${tidyUnit(q.unit)} `, h("small", null, q.source))
+      ),
+    ),
+  );
+}

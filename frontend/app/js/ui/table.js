@@ -1,0 +1,68 @@
+// @ts-check
+// Tables of numbers, for the eye and for the clipboard.
+import { h } from "../dom.js";
+
+/** @typedef {{title: string, unit?: string, text?: boolean}} Column */
+/** @typedef {{columns: Column[], rows: (string | number | null)[][]}} Table  null = there is no value */
+
+/** @param {Table} table @param {(value: number) => string} write @param {string} caption */
+export function dataTable(table, write, caption) {
+  return h(
+    "div",
+    { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
+    h(
+      "table",
+      { class: "data" },
+      h("caption", { class: "unseen" }, caption),
+      h(
+        "thead",
+        null,
+        h(
+          "tr",
+          null,
+          table.columns.map((c) =>
+            h("th", { scope: "col", class: c.text ? "text" : "" }, c.title, c.unit ? h("small", null, c.unit) : null)
+          ),
+        ),
+      ),
+      h(
+        "tbody",
+        null,
+        table.rows.map((row) =>
+          h(
+            "tr",
+            null,
+            row.map((v, i) =>
+              h(
+                "td",
+                { class: table.columns[i].text ? "text" : "" },
+                v == null ? "–" : typeof v === "number" ? write(v) : v,
+              )
+            ),
+          )
+        ),
+      ),
+    ),
+  );
+}
+
+/** Comma-separated, "name [unit]" in the header: the form measurement files are read in. @param {Table} table */
+export function toCsv({ columns, rows }) {
+  const quote = (/** @type {string} */ text) => /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+  const head = columns.map((c) => quote(c.unit ? `${c.title} [${c.unit}]` : c.title));
+  const write = (/** @type {string | number | null} */ v) =>
+    v == null ? "" : typeof v === "number" ? String(Number(v.toPrecision(7))) : quote(v);
+  return [head.join(","), ...rows.map((row) => row.map(write).join(","))].join("\n") + "\n";
+}
+
+/** @param {string} name @param {Blob} blob */
+export function download(name, blob) {
+  const url = URL.createObjectURL(blob);
+  const link = h("a", { href: url, download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(url), 10000);
+}
+/** @param {string} name @param {string} text @param {string} type */
+export const downloadText = (name, text, type) => download(name, new Blob([text], { type }));

@@ -1,0 +1,206 @@
+// @ts-check
+// From the document to the server's answers: curves, errors against points, and which message belongs to which field.
+import { batch, computed, effect, signal } from "../../reactive.js";
+import { design } from "../../state.js";
+import { ApiError, latest, post } from "../../api.js";
+import { musclesById, references } from "../../store.js";
+import { siOf } from "../../format.js";
+
+/** @typedef {import("../../types.js").Curves} Curves */
+/** @typedef {import("../../types.js").Design} Design */
+/** @typedef {import("../../types.js").Muscle} Muscle */
+/** @typedef {import("../../types.js").Comparison} Comparison */
+/** @typedef {import("../../types.js").Form} Form */
+
+const POINTS = 120;
+const COMPARE_AFTER_MS = 40;
+
+/** Fields of each form of the geometry besides the length. @type {Record<Form, string[]>} */
+export const FORM_KEYS = {
+  braid: ["braid_diameter", "braid_angle"],
+  thread: ["thread_length", "turns"],
+  rhombus: ["side", "along", "around"],
+};
+
+export const muscle = computed(() => design.value.muscle);
+export const preset = computed(() => musclesById.value.get(muscle.value.preset ?? "") ?? null);
+
+export const curves = signal(/** @type {Curves | null} */ (null));
+/** Why there are no new curves: the plots keep the last ones, dimmed. */
+export const fault = signal(/** @type {ApiError | null} */ (null));
+/** The moment of the key press or drag that the next drawing answers, for the record of its latency. */
+export const timing = { asked: 0 };
+
+/** The muscle as a request gives it. @param {Muscle} m */
+export function muscleInput({ preset: id, form, values }) {
+  const { side, along, around, ...rest } = values;
+  /** @type {Record<string, unknown>} */
+  const input = { ...rest };
+  if (id) input.preset = id;
+  if (form === "rhombus" && side) input.rhombus = { side, along, around };
+  return input;
+}
+
+/** What every question about the model needs. @param {Design} d */
+export const modelInput = (d) => ({
+  muscle: muscleInput(d.muscle),
+  effects: d.effects,
+  direction: d.direction,
+  temperature: d.temperature,
+});
+
+/** @param {Design} d */
+export const curvesRequest = (d) => ({
+  ...modelInput(d),
+  pressures: d.pressures,
+  points: POINTS,
+  unclipped: !d.clipped,
+  dead_volume: d.dead_volume,
+  contraction_from: d.range?.[0] ?? null,
+  contraction_to: d.range?.[1] ?? null,
+  load: d.load,
+  fixed_length: d.fixed_length,
+});
+
+const request = computed(() => JSON.stringify(curvesRequest(design.value)));
+
+const askCurves = latest(
+  (/** @type {string} */ body, control) => post("/api/curves", JSON.parse(body), control),
+  (answer) =>
+    batch(() => {
+      fault.value = null;
+      curves.value = answer;
+    }),
+  (error) => {
+    fault.value = error;
+  },
+);
+
+/** Asks once more, after the server was away. */
+export const retry = () => askCurves(request.peek());
+
+/** The geometry value shown in a field: what the user set, else what the server made of preset and form.
+ * @param {string} key @returns {number | null} */
+export function geometryValue(key) {
+  const own = muscle.value.values[key];
+  if (own !== undefined) return own;
+  const given = preset.value?.geometry?.[key];
+  if (given) return siOf(given);
+  const answer = /** @type {any} */ (curves.value?.geometry);
+  return answer?.[key] ?? answer?.rhombus?.[key] ?? null;
+}
+
+/** What the preset says in each form, to mark and reset changed values. @param {string} key @returns {number | null} */
+export function presetValue(key) {
+  const g = preset.value?.geometry;
+  if (!g) return null;
+  if (g[key]) return siOf(g[key]);
+  const { values } = muscle.value;
+  const length = values.nominal_length ?? siOf(g.nominal_length);
+  const angle = siOf(g.braid_angle), thread = length / Math.cos(angle);
+  const turns = (length * Math.tan(angle)) / (Math.PI * siOf(g.braid_diameter));
+  /** @type {Record<string, number>} */
+  const derived = {
+    thread_length: thread,
+    turns,
+    side: values.side ?? SIDE,
+    along: thread / 2 / (values.side ?? SIDE),
+    around: thread / 2 / (values.side ?? SIDE) / turns,
+  };
+  return derived[key] ?? null;
+}
+
+/** Side of the rhombus that a conversion starts from: the lattice of one braid has any size of mesh. */
+const SIDE = 2e-3;
+
+/** The same muscle in another form; without an answer of the server yet it stays as it is.
+ * @param {Muscle} m @param {Form} form @returns {Muscle} */
+export function inForm(m, form) {
+  const g = curves.peek()?.geometry;
+  if (!g || m.form === form) return m;
+  const kept = Object.entries(m.values).filter(([key]) => !FORM_KEYS[m.form].includes(key));
+  const values = Object.fromEntries(kept);
+  if (form === "thread") Object.assign(values, { thread_length: g.thread_length, turns: g.turns });
+  if (form === "rhombus") {
+    const along = g.thread_length / 2 / SIDE;
+    Object.assign(values, { side: SIDE, along, around: along / g.turns });
+  }
+  if (form === "braid") {
+    const { braid_diameter, braid_angle } = g;
+    for (const [key, value] of Object.entries({ braid_diameter, braid_angle })) {
+      const own = m.preset && presetValue(key);
+      if (!own || Math.abs(value / own - 1) > 1e-6) values[key] = value;
+    }
+  }
+  return { ...m, form, values };
+}
+
+/** The effects of the model now: the user's choice, or the preset's own.
+ * @returns {Record<string, Record<string, number>>} */
+export const activeEffects = () => design.value.effects ?? presetEffects.value;
+
+export const presetEffects = computed(() => {
+  const own = preset.value?.effects ?? {};
+  return Object.fromEntries(
+    Object.entries(own).map(([id, values]) => [
+      id,
+      Object.fromEntries(Object.entries(values).map(([key, q]) => [key, siOf(q)])),
+    ]),
+  );
+});
+
+/** Message for a field; the server names it by its path in the request. @param {string} path */
+export function messageFor(path) {
+  const told = fault.value;
+  if (!told?.field) return null;
+  const field = told.field.replace(/^body\./, "");
+  return field === path || field.startsWith(`${path}.`) || field.startsWith(`${path}[`) ? told.words : null;
+}
+
+// ---- the model's error against points
+
+/** "auto" is what belongs to the muscle: its measurement, else its maker's curve. */
+export const referenceId = computed(() => {
+  const chosen = design.value.reference;
+  if (chosen !== "auto") return chosen;
+  return preset.value?.measurement ?? preset.value?.reference_curve ?? null;
+});
+export const reference = computed(() =>
+  references.value.find((r) => r.id === referenceId.value) ?? null
+);
+
+/** @typedef {{model: Comparison | null, ideal: Comparison | null, words: string | null}} Errors */
+export const errors = signal(/** @type {Errors} */ ({ model: null, ideal: null, words: null }));
+
+/** @param {unknown} body @param {AbortSignal} [control] */
+const compare = (body, control) => post("/api/comparisons", body, control);
+const askErrors = latest(
+  async (/** @type {any} */ body, control) => {
+    const [model, ideal] = await Promise.all([
+      compare(body, control),
+      compare({ ...body, effects: {} }, control),
+    ]);
+    return { model, ideal, words: null };
+  },
+  (answer) => {
+    errors.value = answer;
+  },
+  (error) => {
+    errors.value = { model: null, ideal: null, words: error.words };
+  },
+);
+
+/** Starts asking; called once, when the view is built. */
+export function startModel() {
+  effect(() => askCurves(request.value));
+  let timer = 0;
+  effect(() => {
+    const answer = curves.value, points = reference.value;
+    clearTimeout(timer);
+    if (!points) errors.value = { model: null, ideal: null, words: null };
+    if (!points || !answer) return;
+    const { muscle: m, effects: e } = design.peek();
+    const body = { muscle: muscleInput(m), effects: e, measurement: points.id };
+    timer = setTimeout(() => askErrors(body), COMPARE_AFTER_MS);
+  });
+}

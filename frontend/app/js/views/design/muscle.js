@@ -1,0 +1,191 @@
+// @ts-check
+// The muscle card: preset, three forms of geometry, each value with slider, typed units and reset.
+import { h, icon } from "../../dom.js";
+import { computed } from "../../reactive.js";
+import { design, editDesign, commit, patchDesign, preview, units } from "../../state.js";
+import { muscles } from "../../store.js";
+import { scaleOf, siOf } from "../../format.js";
+import { quantityField } from "../../ui/field.js";
+import { openPopover } from "../../ui/dialog.js";
+import { unverifiedNote } from "../../ui/sources.js";
+import { curves, FORM_KEYS, geometryValue, inForm, messageFor, muscle, preset, presetValue } from "./model.js";
+
+/** @typedef {import("../../types.js").Form} Form */
+/** @typedef {{label: string, symbol: string, quantity: import("../../format.js").Quantity,
+ *   bounds: [number, number], log?: boolean, hint?: string}} Spec */
+
+const DEG = Math.PI / 180;
+/** Slider ranges span what is built; the field beside takes any value the model takes. @type {Record<string, Spec>} */
+const SPECS = {
+  nominal_length: { label: "Length", symbol: "L₀", quantity: "length", bounds: [0.02, 10], log: true },
+  braid_diameter: { label: "Braid diameter", symbol: "D₀", quantity: "length", bounds: [3e-3, 0.1], log: true },
+  braid_angle: { label: "Braid angle", symbol: "θ₀", quantity: "angle", bounds: [10 * DEG, 54 * DEG] },
+  thread_length: { label: "Thread length", symbol: "b", quantity: "length", bounds: [0.02, 12], log: true },
+  turns: { label: "Turns", symbol: "n", quantity: "number", bounds: [0.1, 100], log: true },
+  side: { label: "Rhombus side", symbol: "ℓ", quantity: "length", bounds: [5e-4, 0.02], log: true },
+  along: { label: "Rhombi along", symbol: "n_L", quantity: "number", bounds: [2, 3000], log: true },
+  around: { label: "Rhombi around", symbol: "n_C", quantity: "number", bounds: [2, 200], log: true },
+  inside_diameter: { label: "Inside diameter", symbol: "D_i", quantity: "length", bounds: [2e-3, 0.1], log: true },
+  wall_thickness: { label: "Wall thickness", symbol: "H₀", quantity: "length", bounds: [0, 5e-3] },
+};
+
+/** @type {[Form, string, string][]} */
+const FORMS = [
+  ["braid", "Angle", "Diameter, braid angle and length"],
+  ["thread", "Thread", "Thread length, turns and length"],
+  ["rhombus", "Rhombus", "Rhombi of the lattice and length"],
+];
+
+const form = computed(() => muscle.value.form);
+const presetId = computed(() => muscle.value.preset);
+
+/** @param {string} key @param {number} si @param {boolean} done */
+function put(key, si, done) {
+  const { muscle: m } = design.peek();
+  preview(patchDesign({ muscle: { ...m, values: { ...m.values, [key]: si } } }));
+  if (done) commit(SPECS[key].label.toLowerCase());
+}
+
+/** @param {string} key */
+const isChanged = (key) => {
+  const own = muscle.value.values[key], usual = presetValue(key);
+  return own !== undefined && usual !== null && Math.abs(own - usual) > 1e-6 * Math.abs(usual);
+};
+
+/** @param {string} key */
+function reset(key) {
+  const { muscle: m } = design.peek();
+  const values = { ...m.values };
+  const usual = presetValue(key);
+  if (usual !== null && m.form !== "braid" && FORM_KEYS[m.form].includes(key)) values[key] = usual;
+  else delete values[key];
+  editDesign({ muscle: { ...m, values } }, `reset ${SPECS[key].label.toLowerCase()}`);
+}
+
+/** @param {string} key */
+function field(key) {
+  const spec = SPECS[key];
+  const path = FORM_KEYS.rhombus.includes(key) ? `muscle.rhombus.${key}` : `muscle.${key}`;
+  return quantityField({
+    key,
+    label: spec.label,
+    symbol: subscript(spec.symbol),
+    quantity: spec.quantity,
+    log: spec.log,
+    scale: () => scaleOf(spec.quantity, units.value),
+    bounds: () => sliderBounds(key, spec),
+    get: () => geometryValue(key),
+    put: (si, done) => put(key, si, done),
+    changed: () => isChanged(key),
+    reset: () => reset(key),
+    message: () => messageFor(path),
+  });
+}
+
+/** @param {string} symbol */
+const subscript = (symbol) => {
+  const [letter, below] = symbol.split("_");
+  return below ? h("span", null, letter, h("sub", null, below)) : symbol;
+};
+
+/** The maker's range of lengths where there is one. @param {string} key @param {Spec} spec @returns {[number, number]} */
+function sliderBounds(key, spec) {
+  const limits = preset.value?.limits ?? {};
+  if (key !== "nominal_length" || !limits.min_nominal_length || !limits.max_nominal_length) return spec.bounds;
+  return [siOf(limits.min_nominal_length), siOf(limits.max_nominal_length)];
+}
+
+/** @param {string} id */
+function choose(id) {
+  const { muscle: m, reference } = design.peek();
+  const g = curves.peek()?.geometry;
+  if (id) {
+    const length = m.values.nominal_length;
+    const values = length === undefined ? {} : { nominal_length: length };
+    editDesign({ muscle: { preset: id, form: "braid", values }, effects: null, reference: "auto" }, `preset ${id}`);
+  } else if (g) {
+    const { nominal_length, braid_diameter, braid_angle, inside_diameter, wall_thickness } = g;
+    const values = { nominal_length, braid_diameter, braid_angle };
+    if (inside_diameter) Object.assign(values, { inside_diameter });
+    if (wall_thickness) Object.assign(values, { wall_thickness });
+    const active = curves.peek()?.model.effects ?? {};
+    const own = reference === "auto" ? null : reference;
+    editDesign({ muscle: { preset: null, form: "braid", values }, effects: active, reference: own }, "own geometry");
+  }
+}
+
+function presetSelect() {
+  const options = () => {
+    /** @type {Map<string, import("../../types.js").Preset[]>} */
+    const groups = new Map();
+    for (const m of muscles.value) {
+      const name = [m.maker, m.series].filter((x, i, all) => x && all.indexOf(x) === i).join(" · ") || "Other";
+      groups.set(m.origin === "user" ? "My presets" : name, [...groups.get(name) ?? [], m]);
+    }
+    const chosen = presetId.value;
+    return [
+      h("option", { value: "", selected: chosen === null }, "Own geometry"),
+      ...[...groups].map(([name, list]) =>
+        h("optgroup", { label: name }, ...list.map((m) => h("option", { value: m.id, selected: m.id === chosen }, m.title)))
+      ),
+    ];
+  };
+  return h("select", {
+    id: "preset",
+    "aria-label": "Muscle preset",
+    onchange: (/** @type {Event} */ e) => choose(/** @type {HTMLSelectElement} */ (e.target).value),
+  }, options);
+}
+
+function badge() {
+  const p = preset.value;
+  if (!p || p.verified) return null;
+  const button = h("button", {
+    type: "button",
+    class: "badge warn",
+    onclick: () => openPopover(button, "Unverified values", () => unverifiedNote(p)),
+    "aria-expanded": "false",
+  }, icon("warn"), "unverified values");
+  return button;
+}
+
+/** @param {[Form, string, string]} one */
+const formButton = ([id, label, title]) =>
+  h("button", {
+    type: "button",
+    role: "radio",
+    title,
+    "aria-checked": () => String(form.value === id),
+    onclick: () => editDesign({ muscle: inForm(design.peek().muscle, id) }, `${label.toLowerCase()} form`),
+  }, label);
+
+function resetAll() {
+  const keys = Object.keys(SPECS).filter(isChanged);
+  if (keys.length < 2) return null;
+  const back = () => {
+    const { muscle: m } = design.peek();
+    editDesign({ muscle: { preset: m.preset, form: "braid", values: {} } }, "reset geometry");
+  };
+  return h("button", { type: "button", class: "link", onclick: back }, `Reset all ${keys.length} changes`);
+}
+
+export function muscleCard() {
+  return h(
+    "section",
+    { class: "card", "aria-label": "Muscle" },
+    h("div", { class: "card-head" }, h("h2", null, "Muscle"), badge),
+    presetSelect(),
+    h("p", { class: "error" }, () => messageFor("muscle.preset") ?? ""),
+    h("div", { class: "segments", role: "radiogroup", "aria-label": "Form of the geometry" }, ...FORMS.map(formButton)),
+    field("nominal_length"),
+    () => FORM_KEYS[form.value].map(field),
+    h(
+      "details",
+      { open: false },
+      h("summary", null, "Bladder"),
+      field("inside_diameter"),
+      field("wall_thickness"),
+    ),
+    resetAll,
+  );
+}

@@ -1,0 +1,239 @@
+// @ts-check
+// The operation card: pressures of the family, load, direction of motion, temperature and what else is held.
+import { h, icon } from "../../dom.js";
+import { computed, signal } from "../../reactive.js";
+import { BAR, commit, design, editDesign, patchDesign, preview, units } from "../../state.js";
+import { number, parse, scaleOf, toShown } from "../../format.js";
+import { quantityField } from "../../ui/field.js";
+import { openPopover } from "../../ui/dialog.js";
+import { curves, messageFor, preset } from "./model.js";
+import { siOf } from "../../format.js";
+
+/** @typedef {import("../../types.js").Design} Design */
+/** @typedef {import("../../format.js").Quantity} Quantity */
+
+const MOST = 12;
+const pressures = computed(() => design.value.pressures);
+const direction = computed(() => design.value.direction);
+const pressureScale = () => scaleOf("pressure", units.value);
+
+/** @param {number[]} list @param {string} label */
+const setPressures = (list, label) => {
+  const sorted = [...new Set(list.map((p) => Number(p.toPrecision(9))))].sort((a, b) => a - b);
+  editDesign({ pressures: sorted.slice(0, MOST) }, label);
+};
+
+/** @param {number} p */
+const shownPressure = (p) => number(toShown(p, pressureScale()), 2);
+
+/** @param {number} p */
+function chip(p) {
+  const over = () => {
+    const limit = curves.value?.limits.max_pressure;
+    return limit != null && p > limit * (1 + 1e-9);
+  };
+  const name = `${shownPressure(p)} ${pressureScale().unit}`;
+  return h(
+    "li",
+    { class: () => `chip${over() ? " over" : ""}`, title: () => over() ? "Above the highest pressure allowed" : null },
+    shownPressure(p),
+    h("button", {
+      type: "button",
+      "aria-label": `Remove ${name}`,
+      disabled: pressures.value.length < 2,
+      onclick: () => setPressures(pressures.peek().filter((q) => q !== p), "remove pressure"),
+    }, icon("close")),
+  );
+}
+
+function pressureEditor() {
+  const wrong = signal("");
+  const add = () => {
+    if (!input.value.trim()) return;
+    const parts = input.value.trim().split(/\s*[;\s]\s*(?=[-+\d.])/);
+    const read = parts.map((part) => parse(part, pressureScale(), "pressure"));
+    const bad = read.find((r) => "error" in r);
+    const values = read.flatMap((r) => ("value" in r ? [r.value] : []));
+    if (bad && "error" in bad) return void (wrong.value = bad.error);
+    if (values.some((p) => p < 0)) return void (wrong.value = "A gauge pressure below zero collapses the muscle.");
+    if (pressures.peek().length + values.length > MOST) {
+      return void (wrong.value = `At most ${MOST} pressures; remove one first.`);
+    }
+    wrong.value = "";
+    input.value = "";
+    setPressures([...pressures.peek(), ...values], "add pressure");
+  };
+  const input = h("input", {
+    type: "text",
+    inputmode: "decimal",
+    autocomplete: "off",
+    "aria-label": "Pressure to add",
+    "aria-invalid": () => wrong.value ? "true" : null,
+    placeholder: "add",
+    onkeydown: (/** @type {KeyboardEvent} */ e) => e.key === "Enter" && add(),
+    onchange: add,
+  });
+  return h(
+    "div",
+    { class: "field", "data-field": "pressures" },
+    h(
+      "div",
+      { class: "field-head" },
+      h("span", { class: "label" }, "Pressures", h("span", { class: "symbol" }, "P")),
+      spaced(),
+      h("span", { class: "unit" }, () => pressureScale().unit),
+    ),
+    h(
+      "div",
+      { class: "chips" },
+      h("ul", { "aria-label": "Pressures of the family" }, () => pressures.value.map(chip)),
+      h("span", { class: "chip add" }, input),
+    ),
+    () => {
+      const text = wrong.value || messageFor("pressures");
+      return text ? h("p", { class: "error" }, text) : null;
+    },
+  );
+}
+
+/** “Evenly spaced”: from, to, how many. */
+function spaced() {
+  const from = signal(BAR), to = signal(6 * BAR), count = signal(6);
+  /** @param {string} label @param {typeof from} value @param {Quantity} quantity @param {[number, number]} bounds */
+  const field = (label, value, quantity, bounds) =>
+    quantityField({
+      key: `spaced ${label}`,
+      label,
+      quantity,
+      slider: false,
+      strict: true,
+      bounds: () => bounds,
+      scale: () => scaleOf(quantity, units.value),
+      get: () => value.value,
+      put: (si) => (value.value = si),
+    });
+  const button = h("button", {
+    type: "button",
+    class: "link",
+    "aria-expanded": "false",
+    onclick: () => {
+      const highest = preset.peek()?.limits?.max_pressure;
+      to.value = highest ? siOf(highest) : pressures.peek().at(-1) ?? 6 * BAR;
+      openPopover(button, "Evenly spaced pressures", (close) => [
+        h("h3", null, "Evenly spaced pressures"),
+        field("From", from, "pressure", [0, 1e8]),
+        field("To", to, "pressure", [0, 1e8]),
+        field("How many", count, "number", [1, MOST]),
+        h("button", {
+          type: "button",
+          class: "primary",
+          onclick: () => {
+            const n = Math.round(count.peek());
+            const step = n > 1 ? (to.peek() - from.peek()) / (n - 1) : 0;
+            setPressures(Array.from({ length: n }, (_, i) => from.peek() + i * step), "evenly spaced pressures");
+            close();
+          },
+        }, "Use these"),
+      ]);
+    },
+  }, "space evenly");
+  return button;
+}
+
+/** @param {keyof Design & string} key @param {Partial<import("../../ui/field.js").FieldOptions> & {label: string,
+ *   quantity: Quantity, bounds: () => [number, number]}} o */
+const designField = (key, o) =>
+  quantityField({
+    key,
+    scale: () => scaleOf(/** @type {Quantity} */ (o.quantity), units.value),
+    get: () => /** @type {number | null} */ (design.value[key]),
+    put: (si, done) => {
+      preview(patchDesign({ [key]: si }));
+      if (done) commit(o.label.toLowerCase());
+    },
+    message: () => messageFor(key),
+    ...o,
+  });
+
+/** @type {[-1 | 0 | 1, string, string][]} */
+const DIRECTIONS = [
+  [-1, "Filling", "The muscle shortens: friction takes from the force"],
+  [0, "Static", "No motion, no friction"],
+  [1, "Venting", "The muscle lengthens: friction adds to the force"],
+];
+
+export function operationCard() {
+  return h(
+    "section",
+    { class: "card", "aria-label": "Operation" },
+    h("div", { class: "card-head" }, h("h2", null, "Operation")),
+    pressureEditor(),
+    designField("load", {
+      label: "Load",
+      symbol: "F",
+      quantity: "force",
+      bounds: () => [0, preset.value?.limits?.max_force ? siOf(preset.value.limits.max_force) : 1000],
+    }),
+    h(
+      "div",
+      { class: "field" },
+      h("span", { class: "label", id: "direction" }, "Direction of motion"),
+      h(
+        "div",
+        { class: "segments", role: "radiogroup", "aria-labelledby": "direction" },
+        ...DIRECTIONS.map(([value, label, title]) =>
+          h("button", {
+            type: "button",
+            role: "radio",
+            title,
+            "aria-checked": () => String(direction.value === value),
+            onclick: () => editDesign({ direction: value }, `${label.toLowerCase()} direction`),
+          }, label)
+        ),
+      ),
+    ),
+    h(
+      "details",
+      null,
+      h("summary", null, "Temperature, closed valve, fixed length"),
+      designField("temperature", {
+        label: "Temperature",
+        symbol: "T",
+        quantity: "temperature",
+        bounds: () => [253.15, 353.15],
+        changed: () => design.value.temperature !== 293.15,
+        reset: () => editDesign({ temperature: 293.15 }, "reset temperature"),
+      }),
+      designField("dead_volume", {
+        label: "Dead volume",
+        symbol: "V",
+        quantity: "volume",
+        bounds: () => [0, 2e-4],
+        hint: "Air in tube and fittings; it softens the muscle behind a closed valve.",
+      }),
+      designField("fixed_length", {
+        label: "Fixed length",
+        symbol: "L",
+        quantity: "length",
+        empty: "off",
+        clear: () => editDesign({ fixed_length: null }, "no fixed length"),
+        bounds: () => {
+          const all = curves.value?.length ?? [0.1, 0.3];
+          return [Math.min(...all), Math.max(...all)];
+        },
+        hint: "Both ends held: shows force over pressure. Empty = off.",
+      }),
+      h(
+        "label",
+        { class: "check" },
+        h("input", {
+          type: "checkbox",
+          checked: () => !design.value.clipped,
+          onchange: (/** @type {Event} */ e) =>
+            editDesign({ clipped: !(/** @type {HTMLInputElement} */ (e.target).checked) }, "negative forces"),
+        }),
+        "Show negative forces (a muscle goes slack instead)",
+      ),
+    ),
+  );
+}

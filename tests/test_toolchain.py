@@ -1,0 +1,72 @@
+"""The checks a person would run by hand before a commit, each one test with the tool's own report."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import sysconfig
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+from deno import find_deno_bin
+
+ROOT = Path(__file__).parents[1]
+FRONTEND = ROOT / "frontend"
+DENO_CONFIG = ("--config", str(FRONTEND / "deno.json"))
+PYTHON = ("backend", "tests")
+
+
+def check(command: Sequence[str], tmp_path: Path) -> None:
+    """Run a tool at the root of the checkout, offline and with caches of its own; fail with its report."""
+    environment = {
+        **os.environ,
+        "NO_COLOR": "1",
+        "DENO_DIR": str(tmp_path / "deno"),
+        "DENO_NO_UPDATE_CHECK": "1",
+        "PYRIGHT_PYTHON_IGNORE_WARNINGS": "1",  # else it asks the network for a newer version of itself
+    }
+    run = subprocess.run(
+        command,
+        cwd=ROOT,
+        env=environment,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        encoding="utf-8",
+        timeout=300,
+        check=False,
+    )
+    if run.returncode != 0:
+        pytest.fail(f"$ {' '.join(command)}\n{run.stdout}", pytrace=False)
+
+
+def test_ruff_lint(tmp_path: Path) -> None:
+    check([sys.executable, "-m", "ruff", "check", "--no-cache", *PYTHON], tmp_path)
+
+
+def test_ruff_format(tmp_path: Path) -> None:
+    check([sys.executable, "-m", "ruff", "format", "--check", "--no-cache", *PYTHON], tmp_path)
+
+
+def test_pyright(tmp_path: Path) -> None:
+    check([sys.executable, "-m", "pyright", "--pythonpath", sys.executable], tmp_path)
+
+
+def test_layers(tmp_path: Path) -> None:
+    lint_imports = Path(sysconfig.get_path("scripts")) / "lint-imports"
+    check([str(lint_imports), "--config", "pyproject.toml", "--no-cache"], tmp_path)
+
+
+def test_javascript_types(tmp_path: Path) -> None:
+    modules = sorted(str(file) for file in (FRONTEND / "app" / "js").rglob("*.js"))
+    check([find_deno_bin(), "check", "--no-remote", "--no-npm", *DENO_CONFIG, *modules], tmp_path)
+
+
+def test_javascript_lint(tmp_path: Path) -> None:
+    check([find_deno_bin(), "lint", *DENO_CONFIG, "frontend/app/js"], tmp_path)
+
+
+def test_javascript_format(tmp_path: Path) -> None:
+    check([find_deno_bin(), "fmt", "--check", *DENO_CONFIG, "frontend/app"], tmp_path)
