@@ -394,6 +394,16 @@ MUTATIONS: dict[str, tuple[Callable[[dict[str, Any]], None], str, str]] = {
     "text for a number": (edit("limits.max_force.value", "1500"), "limits.max_force.value", ""),
     "yes for a number": (edit("limits.max_force.value", True), "limits.max_force.value", ""),
     "huge number": (edit("limits.max_force.value", 10**400), "limits.max_force.value", ""),
+    "number that overflows in Pa": (
+        edit("limits.max_pressure.value", 1e308),
+        "limits.max_pressure.value",
+        "",
+    ),
+    "angle past the neutral one": (
+        edit("geometry.braid_angle.value", 60),
+        "geometry.braid_angle.value",
+        "between",
+    ),
     "no source": (edit("limits.max_force.source", "  "), "limits.max_force.source", ""),
     "unknown grade": (edit("limits.max_force.grade", "X"), "limits.max_force.grade", ""),
     "angle of 95 degrees": (edit("geometry.braid_angle.value", 95), "geometry.braid_angle.value", "between"),
@@ -488,6 +498,7 @@ def test_ids_that_differ_in_case_only_are_duplicates(folder: Path) -> None:
     [
         (edit("data_columns.force.values", [1.0]), "data_columns.force.values"),
         (edit("data_columns.pressure.unit", "mm"), "data_columns.pressure.unit"),
+        (edit("data_columns.force.unit", "K"), "data_columns.force.unit"),
         (edit("excluded", [{"index": 999, "why": "test"}]), "excluded.0.index"),
         (edit("excluded", [{"index": -1, "why": "test"}]), "excluded.0.index"),
         (drop("data_columns.contraction"), "data_columns.contraction"),

@@ -116,19 +116,19 @@ def find() -> Browser | None:
 
 def ways() -> list[tuple[str, Sequence[str], int, Mapping[str, str]]]:
     """How a Chromium can be had on this machine, best first: name, command, limit in seconds, environment."""
-    playwright = [sys.executable, "-m", "playwright", "install", "--only-shell"]
-    if _is_root():
-        playwright.append("--with-deps")  # the shared libraries, through apt-get
     download = (
         "Playwright's download",
-        [*playwright, "chromium"],
+        [sys.executable, "-m", "playwright", "install", "--only-shell", "chromium"],
         DOWNLOAD_LIMIT,
         {"PLAYWRIGHT_DOWNLOAD_CONNECTION_TIMEOUT": str(DOWNLOAD_CONNECT_LIMIT * 1000)},
     )
     if not _has_apt():
         return [download]
     apt = ("apt-get install chromium", _apt_install("chromium"), APT_LIMIT, APT_ENVIRONMENT)
-    return [download, apt] if _distribution() == "ubuntu" else [apt, download]
+    if _distribution() != "ubuntu":
+        return [apt, download]
+    libraries = [sys.executable, "-m", "playwright", "install-deps", "chromium"]
+    return [("the libraries of Playwright's Chromium", libraries, APT_LIMIT, APT_ENVIRONMENT), download, apt]
 
 
 def run(command: Sequence[str], *, limit: float, environment: Mapping[str, str] | None = None) -> str | None:
@@ -159,7 +159,8 @@ def run(command: Sequence[str], *, limit: float, environment: Mapping[str, str] 
         return None
     lines = [line.strip() for line in output.splitlines() if line.strip()]
     telling = [line for line in lines if line.startswith(("E:", "Error:"))]
-    return (telling or lines or [f"exit code {process.returncode}"])[-1]
+    # The first complaint is the cause, where there are complaints; else the last line tells most.
+    return (telling[:1] or lines or [f"exit code {process.returncode}"])[-1]
 
 
 def _candidates() -> Iterator[tuple[str, str]]:

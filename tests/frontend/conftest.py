@@ -27,7 +27,7 @@ def browser_type_launch_args(
     try:
         browser = find_or_get(announce)
     except NoBrowserError as error:
-        pytest.fail(str(error), pytrace=False)
+        raise pytest.fail.Exception(str(error), pytrace=False) from None
     arguments = {**browser_type_launch_args, "args": [*ARGUMENTS]}
     return arguments if browser.executable is None else {**arguments, "executable_path": browser.executable}
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 import re
@@ -47,10 +46,9 @@ class MeasurementStore:
         """
         name = clean_name(name)
         measurement = read_measurement(content, name)
-        identity = hashlib.sha256(content).hexdigest()
         try:
             self._folder.mkdir(parents=True, exist_ok=True)
-            data = self._folder / f"{identity}.data"
+            data = self._folder / f"{measurement.id}.data"
             if not data.exists():
                 _write(data, content)
             _write(data.with_suffix(".json"), json.dumps({"name": name}).encode())
@@ -60,7 +58,7 @@ class MeasurementStore:
                 hint="start the server with --data and a folder that can be written",
                 code="conflict",
             ) from error
-        self._remember(identity, measurement)
+        self._remember(measurement.id, measurement)
         return measurement
 
     def get(self, identity: str) -> Measurement:

@@ -16,6 +16,8 @@ from mckibben.physics.units import convert, is_unit
 
 Grade = Literal["S", "S2", "C", "D", "M", "E", "user"]
 Text = Annotated[str, Field(min_length=1, max_length=300, pattern=r"\S")]
+# No physical value is near this size; without the bound a unit factor could overflow to infinity.
+Number = Annotated[float, Field(ge=-1e30, le=1e30)]
 Note = Annotated[str, Field(min_length=1, max_length=2000, pattern=r"\S")]
 
 
@@ -38,7 +40,7 @@ class Strict(BaseModel):
 class Quantity(Strict):
     """A value with its unit (text), source (short) and grade (a key of `physics.parameter.GRADES`)."""
 
-    value: float
+    value: Number
     unit: Annotated[str, Field(min_length=1, max_length=40)]
     source: Text
     grade: Grade
@@ -62,7 +64,7 @@ class Column(Strict):
     """A column of numbers in one unit."""
 
     unit: Annotated[str, Field(min_length=1, max_length=40)]
-    values: Annotated[list[float], Field(min_length=1, max_length=20_000)]
+    values: Annotated[list[Number], Field(min_length=1, max_length=20_000)]
 
 
 class Expected(NamedTuple):

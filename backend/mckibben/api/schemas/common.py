@@ -69,6 +69,7 @@ ERRORS: dict[int | str, dict[str, Any]] = {
         400: "The body or a header is malformed.",
         403: "Host, origin or token refused.",
         404: "There is no such thing.",
+        409: "It collides with what is kept, or cannot be kept.",
         413: "The body is too large.",
         415: "The body is of another content type.",
         422: "The input cannot be used.",

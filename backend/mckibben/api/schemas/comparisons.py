@@ -15,7 +15,7 @@ MeasurementId = Annotated[
     StringConstraints(pattern=r"^[A-Za-z0-9][A-Za-z0-9./-]{0,63}$"),
     Field(description="SHA-256 id of an uploaded file, or id of a preset measurement or reference curve."),
 ]
-FreeGeometry = Literal["braid_angle", "braid_diameter", "nominal_length"]
+FreeGeometry = Literal["nominal_length", "braid_diameter", "braid_angle", "wall_thickness", "inside_diameter"]
 
 
 class ComparisonRequest(Strict):
@@ -26,7 +26,7 @@ class ComparisonRequest(Strict):
     measurement: MeasurementId
     fit: bool = Field(False, description="Fit the effects' parameters to the data.")
     free: list[FreeGeometry] = Field(
-        default=[], max_length=3, description="Geometry that is fitted too, within its tolerance."
+        default=[], max_length=5, description="Geometry that is fitted too, within its tolerance."
     )
 
 
@@ -37,6 +37,7 @@ class FittedParameter(Strict):
     stderr: float | None = Field(description="Standard error; null when not fitted or not determined.")
     unit: str = Field(description="SI unit.")
     at_bound: bool = Field(description="The fit stopped at a bound.")
+    fitted: bool = Field(description="The fit was free to change it.")
 
 
 class Correlation(Strict):

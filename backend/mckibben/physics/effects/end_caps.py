@@ -5,8 +5,8 @@ A cone of length :math:`\ell = \chi (D - D_f)_+/2` at each end leaves an active 
 .. math:: V = \frac{\pi D^2}{4}(L - 2\ell) + 2\,\frac{\pi\ell}{12}(D^2 + D D_f + D_f^2)
           = V_i - \frac{\pi\chi}{12}(2D + D_f)(D - D_f)_+^2
 
-so that on the ideal braid :math:`\Delta F = -\chi P L (D - D_f)_+/(2\pi n^2)`. With :math:`D_f = D_0` and small
-contraction this is Tondu's factor with :math:`k - 1 = \chi\cot^2\theta_0\,D_0/(3 L_0)`.
+so that on the ideal braid :math:`\Delta F = -\chi P L (D - D_f)_+/(2\pi n^2)`. With :math:`D_f = D_0` and
+small contraction this is Tondu's factor with :math:`k - 1 = \chi\cot^2\theta_0\,D_0/(3 L_0)`.
 """
 
 from collections.abc import Callable

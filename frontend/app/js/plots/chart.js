@@ -145,6 +145,13 @@ export class Chart {
     if (first) /** @type {any} */ (this.canvas).on("plotly_relayout", () => this.after.forEach((fn) => fn()));
   }
 
+  unzoom() {
+    const spec = this.spec;
+    if (!spec) return;
+    const y2 = spec.y2 ? { "yaxis2.range": spec.y2.range } : {};
+    plotly().relayout(this.canvas, { "xaxis.range": spec.x.range, "yaxis.range": spec.y.range, ...y2 });
+  }
+
   /** Pixel geometry of the axes as they are now, zoomed or not. @returns {any | null} */
   get axes() {
     const layout = /** @type {any} */ (this.canvas)._fullLayout;

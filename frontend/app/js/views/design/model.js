@@ -28,8 +28,6 @@ export const preset = computed(() => musclesById.value.get(muscle.value.preset ?
 export const curves = signal(/** @type {Curves | null} */ (null));
 /** Why there are no new curves: the plots keep the last ones, dimmed. */
 export const fault = signal(/** @type {ApiError | null} */ (null));
-/** The moment of the key press or drag that the next drawing answers, for the record of its latency. */
-export const timing = { asked: 0 };
 
 /** The muscle as a request gives it. @param {Muscle} m */
 export function muscleInput({ preset: id, form, values }) {

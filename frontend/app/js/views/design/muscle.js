@@ -101,7 +101,9 @@ function choose(id) {
   const g = curves.peek()?.geometry;
   if (id) {
     const length = m.values.nominal_length;
-    const values = length === undefined ? {} : { nominal_length: length };
+    /** @type {Record<string, number>} */
+    const values = {};
+    if (length !== undefined) values.nominal_length = length;
     editDesign({ muscle: { preset: id, form: "braid", values }, effects: null, reference: "auto" }, `preset ${id}`);
   } else if (g) {
     const { nominal_length, braid_diameter, braid_angle, inside_diameter, wall_thickness } = g;

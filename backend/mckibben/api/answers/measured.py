@@ -1,0 +1,130 @@
+"""Measured or published points as a Measurement: uploaded files, presets, several files joined."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from mckibben.api.store import MeasurementStore
+from mckibben.identification.measurement import Measurement, build
+from mckibben.physics.errors import InputError, did_you_mean
+from mckibben.presets import CurvePreset, MeasurementPreset, PresetLibrary
+
+_SHA256_LENGTH = 64
+
+
+@dataclass(frozen=True, slots=True)
+class Points:
+    """A measurement, and the rows of its source that were left out before.
+
+    Attributes:
+        measurement: the rows that may be compared.
+        left_out: why rows were left out -> how many.
+        nominal_length: of the sample that was measured, when the source says it [m].
+    """
+
+    measurement: Measurement
+    left_out: dict[str, int] = field(default_factory=dict)
+    nominal_length: float | None = None
+
+
+def find_points(identity: str, *, library: PresetLibrary, store: MeasurementStore) -> Points:
+    """The points of an uploaded file (SHA-256) or of a measurement or curve preset.
+
+    Raises:
+        InputError: code ``not_found``, with the nearest preset id.
+    """
+    if len(identity) == _SHA256_LENGTH and set(identity) <= set("0123456789abcdef"):
+        return Points(store.get(identity))
+    known = []
+    for kind in ("measurements", "curves"):
+        presets = library.list(kind)
+        if any(preset.id.lower() == identity.lower() for preset in presets):
+            preset = library.get(kind, identity)
+            if isinstance(preset, MeasurementPreset | CurvePreset):
+                return preset_points(preset)
+        known += [preset.id for preset in presets]
+    raise InputError(
+        f"there is no measurement '{identity[:80]}'",
+        field="measurement",
+        hint=did_you_mean(identity, known),
+        code="not_found",
+    )
+
+
+def preset_points(preset: MeasurementPreset | CurvePreset) -> Points:
+    """The points of a preset that are not excluded there.
+
+    Where a maker's curve goes to zero or below, the muscle is slack: it cannot push.
+    """
+    used = preset.used
+    columns = {name: values[used] for name, values in preset.si_columns().items()}
+    if isinstance(preset, MeasurementPreset):
+        kind, rest = preset.measurement_kind, preset.nominal_length.si("m")
+        slack = np.array(preset.slack, bool)[used] if preset.slack else None
+    else:
+        kind, rest, slack = "static", None, columns["force"] <= 0.0
+    reasons = [f"row {row.index + 1} is not used: {row.why}" for row in preset.excluded]
+    measurement = build(
+        columns,
+        name=preset.id,
+        id=hashlib.sha256(f"{preset.kind}:{preset.id}".encode()).hexdigest(),
+        kind=kind,
+        marked_slack=slack,
+        messages=reasons,
+    )
+    return Points(measurement, {"by its source": len(reasons)} if reasons else {}, rest)
+
+
+def joined(all_points: Sequence[Points]) -> Points:
+    """Several measurements of one muscle as one; each keeps its groups.
+
+    Raises:
+        InputError: they are of different kinds or loads, or share no channels.
+    """
+    if len(all_points) == 1:
+        return all_points[0]
+    parts = [points.measurement for points in all_points]
+    first = parts[0]
+    for part in parts[1:]:
+        if part.kind != first.kind:
+            raise InputError(
+                f"{part.name} is of kind {part.kind}, {first.name} of kind {first.kind}",
+                field="kind",
+                hint="compare them one after the other",
+            )
+        for condition in ("load_force", "load_mass"):
+            if part.conditions.get(condition) != first.conditions.get(condition):
+                raise InputError(
+                    f"{part.name} and {first.name} have different {condition}",
+                    field=condition,
+                    hint="give the load as a column, or compare them one after the other",
+                )
+    shared = [name for name in first.columns if all(name in part.columns for part in parts)]
+    columns = {name: np.concatenate([part.columns[name] for part in parts]) for name in shared}
+    offset, labels = 0, []
+    for part in parts:
+        own = np.unique(part.columns["group"], return_inverse=True)[1]
+        labels.append(own + offset)
+        offset += int(own.max()) + 1
+    columns["group"] = np.concatenate(labels)
+    together = build(
+        columns,
+        name=", ".join(part.name for part in parts),
+        id=hashlib.sha256("".join(part.id for part in parts).encode()).hexdigest(),
+        kind=first.kind,
+        conditions=first.conditions,
+        marked_slack=np.concatenate([part.slack for part in parts]),
+    )
+    messages = [f"{part.name}: {message}" for part in parts for message in part.messages]
+    left_out: dict[str, int] = {}
+    for points in all_points:
+        for reason, count in points.left_out.items():
+            left_out[reason] = left_out.get(reason, 0) + count
+    rest = {points.nominal_length for points in all_points}
+    return Points(
+        replace(together, messages=tuple(messages)), left_out, rest.pop() if len(rest) == 1 else None
+    )

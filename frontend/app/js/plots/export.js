@@ -1,0 +1,110 @@
+// @ts-check
+// Plots as PNG, SVG, CSV or table: always on white, whatever the theme, and with the whole data.
+import { figure, plotly } from "./chart.js";
+import { LIGHT } from "./theme.js";
+import { number } from "../format.js";
+import { openDialog } from "../ui/dialog.js";
+import { dataTable, download, downloadText, toCsv } from "../ui/table.js";
+
+/** @typedef {import("./chart.js").Chart} Chart */
+
+const WIDTH = 800, HEIGHT = 480;
+const FONT = "Arial, 'Liberation Sans', sans-serif";
+
+/** @param {Chart} chart @param {string} title @returns {Promise<string>} SVG text */
+async function svgOf(chart, title) {
+  if (!chart.build) return "";
+  const spec = chart.build(LIGHT);
+  const { data, layout } = figure(spec, LIGHT, { width: WIDTH, height: HEIGHT, font: FONT });
+  const x = chart.axes?.xaxis.range ?? spec.x.range, y = chart.axes?.yaxis.range ?? spec.y.range;
+  const names = new Map((spec.labels ?? []).map((l) => [l.color, l.text]));
+  for (const t of data) {
+    t.name = names.get(t.line?.color) ?? t.name;
+    /** @type {any} */ (t).showlegend = Boolean(t.line) || t.uid === "points";
+  }
+  const full = {
+    ...layout,
+    title: { text: title, x: 0.02, font: { size: 15 } },
+    margin: { ...layout.margin, t: 44, r: 150 },
+    paper_bgcolor: "#ffffff",
+    showlegend: true,
+    legend: { x: 1.1, y: 1, font: { size: 11 } },
+    xaxis: { ...layout.xaxis, range: x },
+    yaxis: { ...layout.yaxis, range: y },
+  };
+  const url = await plotly().toImage({ data, layout: full }, { format: "svg", width: WIDTH, height: HEIGHT });
+  return decodeURIComponent(url.slice(url.indexOf(",") + 1));
+}
+
+/** @param {string} svg @param {number} width @param {number} height @returns {Promise<Blob>} at twice the size */
+async function pngOf(svg, width, height) {
+  const image = new Image();
+  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
+  await image.decode();
+  const canvas = document.createElement("canvas");
+  canvas.width = 2 * width;
+  canvas.height = 2 * height;
+  const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+  pen.fillStyle = "#ffffff";
+  pen.fillRect(0, 0, canvas.width, canvas.height);
+  pen.drawImage(image, 0, 0, canvas.width, canvas.height);
+  return new Promise((done, fail) =>
+    canvas.toBlob((blob) => blob ? done(blob) : fail(new Error("The browser could not write the PNG.")))
+  );
+}
+
+/** All plots on one sheet, two by two. @param {{title: string, chart: Chart}[]} charts */
+async function sheet(charts) {
+  const parts = await Promise.all(charts.map(({ chart, title }) => svgOf(chart, title)));
+  const placed = parts.map((svg, i) =>
+    svg.replace("<svg ", `<svg x="${(i % 2) * WIDTH}" y="${Math.floor(i / 2) * HEIGHT}" `)
+      // Plotly numbers its clip paths per figure: two figures in one file must not share them.
+      .replace(/(id="|url\(#|href="#)/g, `$1p${i}-`)
+  );
+  const width = 2 * WIDTH, height = Math.ceil(parts.length / 2) * HEIGHT;
+  const open = `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}">`;
+  return { svg: `${open}${placed.join("")}</svg>`, width, height };
+}
+
+/** @param {{title: string, chart: Chart}[]} charts @param {"png" | "svg"} format @param {string} name */
+export async function saveSheet(charts, format, name) {
+  const { svg, width, height } = await sheet(charts);
+  if (format === "svg") downloadText(`${name}.svg`, svg, "image/svg+xml");
+  else download(`${name}.png`, await pngOf(svg, width, height));
+}
+
+/** The lines of a plot as columns beside their x. @param {Chart} chart @returns {import("../ui/table.js").Table} */
+export function chartTable(chart) {
+  const spec = chart.spec;
+  const lines = spec?.traces.filter((t) => t.line) ?? [];
+  const [xTitle, xUnit] = split(spec?.x.title ?? "");
+  const [, yUnit] = split(spec?.y.title ?? ""), [, rightUnit] = split(spec?.y2?.title ?? "");
+  return {
+    columns: [
+      { title: xTitle, unit: xUnit },
+      ...lines.map((t) => ({ title: t.column ?? t.id, unit: t.axis === 2 ? rightUnit : yUnit })),
+    ],
+    rows: (lines[0]?.x ?? []).map((x, i) => [x, ...lines.map((t) => t.y[i] ?? null)]),
+  };
+}
+/** "Force (N)" → ["Force", "N"]. @param {string} title */
+const split = (title) => /^(.*?) \((.*)\)$/.exec(title)?.slice(1) ?? [title, ""];
+
+/** @param {Chart} chart @param {string} title
+ * @returns {import("../ui/menu.js").Item[]} */
+export function chartMenu(chart, title) {
+  const name = `mckibben-${chart.name}`;
+  return [
+    {
+      label: "Show as table",
+      run: () => openDialog({ title, wide: true }, dataTable(chartTable(chart), (v) => number(v, 3), title)),
+    },
+    { label: "Save as CSV", run: () => downloadText(`${name}.csv`, toCsv(chartTable(chart)), "text/csv") },
+    {
+      label: "Save as PNG",
+      run: async () => download(`${name}.png`, await pngOf(await svgOf(chart, title), WIDTH, HEIGHT)),
+    },
+    { label: "Save as SVG", run: async () => downloadText(`${name}.svg`, await svgOf(chart, title), "image/svg+xml") },
+    { label: "Reset zoom", note: "or double click", run: () => chart.unzoom() },
+  ];
+}

@@ -1,0 +1,278 @@
+// @ts-check
+// The four plots: cards with title, legend and menu; one drawing of all of them when an answer arrives.
+import { h, icon } from "../../dom.js";
+import { computed, effect, signal } from "../../reactive.js";
+import { commit, design, editDesign, look, patchDesign, preview, units } from "../../state.js";
+import { brief, scaleOf, toShown, toSi, withUnit } from "../../format.js";
+import { Chart } from "../../plots/chart.js";
+import { dragLine, linkCursor, writeLabels } from "../../plots/overlay.js";
+import { palette, pressureColour } from "../../plots/theme.js";
+import { menuButton } from "../../ui/menu.js";
+import { niceStep } from "../../ui/field.js";
+import { chartMenu } from "../../plots/export.js";
+import { curves, fault, reference, retry } from "./model.js";
+import {
+  ACROSS,
+  acrossAt,
+  forceSpec,
+  OVER,
+  overPressureSpec,
+  pressureName,
+  shareOf,
+  stiffnessSpec,
+  volumeSpec,
+  xColumn,
+} from "./specs.js";
+
+/** @typedef {import("./specs.js").View} View */
+
+/** @returns {View | null} */
+const viewNow = () => {
+  const answer = curves.value;
+  return answer && { curves: answer, design: design.value, system: units.value, reference: reference.value };
+};
+
+/** @param {string} id @param {string} title @param {string} label */
+function chartCard(id, title, label) {
+  const host = h("div", { class: "plot", id, role: "figure", "aria-label": label });
+  return { title, chart: new Chart(host, id), host };
+}
+
+const force = chartCard("force", "Force", "Force over contraction, one line per pressure, with the load");
+const stiffness = chartCard("stiffness", "Stiffness", "Stiffness over contraction, valve open and closed");
+const volume = chartCard("volume", "Volume and diameter", "Volume and diameter over contraction");
+const over = chartCard("over-pressure", "Over pressure", "Position or force over pressure, filling and venting");
+
+/** All plots with their titles, for the export of the sheet. */
+export const charts = [force, stiffness, volume, over].map(({ title, chart }) => ({ title, chart }));
+
+/** @param {ReturnType<typeof chartCard>} card @param {import("../../dom.js").Child[]} head */
+function frame(card, ...head) {
+  return h(
+    "section",
+    { class: `card chart ${card.host.id}`, "aria-label": card.title },
+    h(
+      "div",
+      { class: "card-head" },
+      h("h2", null, card.title),
+      ...head,
+      menuButton({
+        label: icon("more"),
+        name: `${card.title}: save or show as table`,
+        class: "mini",
+        items: () => chartMenu(card.chart, card.title),
+      }),
+    ),
+    card.host,
+  );
+}
+
+function familyLegend() {
+  const answer = curves.value;
+  if (!answer) return null;
+  const v = /** @type {View} */ ({ system: units.value, curves: answer });
+  const colours = palette.value;
+  return h(
+    "ul",
+    { class: "legend" },
+    ...answer.pressure.map((p) =>
+      h(
+        "li",
+        null,
+        h("i", { style: `background:${pressureColour(shareOf(p, answer), colours)}` }),
+        pressureName(v, p).split(" ")[0],
+      )
+    ),
+    h("li", { class: "muted" }, scaleOf("pressure", units.value).unit),
+    reference.value ? h("li", null, h("i", { class: "ring" }), "points") : null,
+  );
+}
+/** The family's legend changes with the pressures only, not with every answer. */
+const legendKey = computed(() => JSON.stringify([curves.value?.pressure, units.value, reference.value?.id]));
+
+/** @param {string} solid @param {string} dashed @param {boolean} [coloured] */
+const dashLegend = (solid, dashed, coloured) =>
+  h(
+    "ul",
+    { class: "legend" },
+    h("li", null, h("i", { class: coloured ? "first" : "" }), solid),
+    h("li", null, h("i", { class: `dash ${coloured ? "second" : ""}` }), dashed),
+  );
+
+/** @template {string} T
+ * @param {string} label @param {[T, string][]} options @param {() => T} get @param {(value: T) => void} set */
+const choice = (label, options, get, set) =>
+  h("select", {
+    "aria-label": label,
+    class: "small",
+    onchange: (/** @type {Event} */ e) =>
+      set(/** @type {T} */ (/** @type {HTMLSelectElement} */ (e.target).value)),
+  }, () => options.map(([value, text]) => h("option", { value, selected: value === get() }, text)));
+
+/** The cursor's place as a share of the columns of the answer; null = it is nowhere. */
+const cursor = signal(/** @type {number | null} */ (null));
+
+function readout() {
+  const at = cursor.value, answer = curves.value, v = viewNow();
+  if (at === null || !answer || !v) return h("span", { class: "muted" }, "Move over a plot to read values.");
+  const column = /** @type {number[]} */ (xColumn(v));
+  let i = 0;
+  column.forEach((x, k) => {
+    if (Math.abs(x - at) < Math.abs(column[i] - at)) i = k;
+  });
+  const system = units.value, colours = palette.value;
+  return [
+    h("b", null, withUnit(answer.contraction[i], "ratio", system)),
+    h("span", null, withUnit(answer.length[i], "length", system)),
+    h("span", null, withUnit(answer.braid_angle[i], "angle", system)),
+    ...answer.pressure.map((p, k) =>
+      h(
+        "span",
+        { title: `${pressureName(v, p)}` },
+        h("i", { style: `background:${pressureColour(shareOf(p, answer), colours)}` }),
+        withUnit(answer.force[k][i], "force", system),
+      )
+    ),
+    h("span", null, "Ø ", withUnit(answer.diameter[i], "length", system)),
+    h("span", null, withUnit(answer.volume[i], "volume", system)),
+  ];
+}
+
+function stateNote() {
+  const told = fault.value;
+  if (!told && curves.value) return null;
+  if (!told) return h("p", { class: "note" }, "Asking the server for the curves…");
+  return h(
+    "div",
+    { class: "note bad", role: "alert" },
+    icon("warn"),
+    h("span", null, told.words, curves.value ? " The plots show the last valid model." : ""),
+    told.field ? null : h("button", { type: "button", onclick: retry }, "Try again"),
+  );
+}
+
+function overHint() {
+  const d = design.value;
+  const system = units.value;
+  if (d.over !== "force") return `at a load of ${withUnit(d.load, "force", system)}`;
+  if (d.fixed_length != null) return `at ${withUnit(d.fixed_length, "length", system)}`;
+  return h("button", {
+    type: "button",
+    class: "link",
+    onclick: () => editDesign({ fixed_length: curves.peek()?.geometry.nominal_length ?? 0.3 }, "fixed length"),
+  }, "hold the muscle at its length");
+}
+
+/** The load as a handle on the force plot. */
+function loadHandle() {
+  const scale = () => scaleOf("force", units.peek());
+  return dragLine(force.chart, {
+    label: "Load",
+    get: () => toShown(design.peek().load, scale()),
+    text: () => `Load ${brief(toShown(design.peek().load, scale()))} ${scale().unit}`,
+    step: () => niceStep(Math.abs(force.chart.spec?.y.range[1] ?? 100) / 150),
+    set: (value, done) => {
+      const grain = niceStep(Math.abs(force.chart.spec?.y.range[1] ?? 100) / 1000);
+      preview(patchDesign({ load: toSi(Math.round(value / grain) * grain, scale()) }));
+      if (done) commit("load");
+    },
+  });
+}
+
+let drawings = 0;
+
+/** Redraws every plot; the count tells tests, and the marks tell how long it took since the answer came. */
+function drawAll() {
+  const v = viewNow();
+  palette.value;
+  if (!v) return;
+  performance.mark("draw-start");
+  force.chart.show((p) => forceSpec(v, p));
+  stiffness.chart.show((p) => stiffnessSpec(v, p));
+  volume.chart.show((p) => volumeSpec(v, p));
+  over.chart.show((p) => overPressureSpec(v, p));
+  if (!force.chart.axes) return;
+  performance.measure("draw", "draw-start");
+  document.documentElement.dataset.drawn = String(++drawings);
+}
+
+/** Draws when Plotly has arrived; before, the page is usable and says so. */
+export const plotlyReady = signal(false);
+
+export function chartColumn() {
+  const acrossOptions = /** @type {[import("../../types.js").Across, string][]} */ (
+    Object.entries(ACROSS).map(([key, { title }]) => [key, `over ${title.toLowerCase()}`])
+  );
+  const overOptions = /** @type {[import("../../types.js").Over, string][]} */ (
+    Object.entries(OVER).map(([key, { title }]) => [key, key === "force" ? "Force at fixed length" : title])
+  );
+  const column = h(
+    "div",
+    { class: () => `column centre${fault.value ? " stale" : ""}` },
+    stateNote,
+    frame(
+      force,
+      choice("Quantity along the x axis", acrossOptions, () => design.value.across, (across) =>
+        editDesign({ across }, `plots over ${ACROSS[across].title.toLowerCase()}`)),
+      () => (legendKey.value, familyLegend()),
+    ),
+    h("div", { class: "readout", "aria-live": "off" }, readout),
+    frame(stiffness, dashLegend("open valve", "closed valve")),
+    frame(volume, dashLegend("volume", "diameter", true)),
+    frame(
+      over,
+      choice("Quantity over pressure", overOptions, () => design.value.over, (value) =>
+        look(patchDesign({ over: value }))),
+      h("span", { class: "muted" }, overHint),
+      dashLegend("filling", "venting", true),
+    ),
+  );
+  linkCursor([force.chart, stiffness.chart, volume.chart], (x) => (cursor.value = x));
+  writeLabels(force.chart);
+  writeLabels(over.chart);
+  const placeLoad = loadHandle();
+  effect(() => {
+    design.value.load;
+    units.value;
+    placeLoad();
+  });
+  effect(() => {
+    if (plotlyReady.value) drawAll();
+  });
+  return column;
+}
+
+/** Every number behind the plots, one row per pressure and contraction. @returns {import("../../ui/table.js").Table} */
+export function curvesTable() {
+  const answer = curves.peek(), system = units.peek();
+  const unit = (/** @type {import("../../format.js").Quantity} */ q) => scaleOf(q, system).unit;
+  const write = (/** @type {number | null} */ v, /** @type {import("../../format.js").Quantity} */ q) =>
+    v == null ? null : toShown(v, scaleOf(q, system));
+  const rows = answer?.pressure.flatMap((p, k) =>
+    answer.contraction.map((c, i) => [
+      write(p, "pressure"),
+      c * 100,
+      write(answer.length[i], "length"),
+      write(acrossAt(answer, "braid_angle", c), "angle"),
+      write(answer.force[k][i], "force"),
+      write(answer.stiffness[k][i], "stiffness"),
+      write(answer.stiffness_closed[k][i], "stiffness"),
+      write(answer.volume[i], "volume"),
+      write(answer.diameter[i], "length"),
+    ])
+  );
+  return {
+    columns: [
+      { title: "pressure", unit: unit("pressure") },
+      { title: "contraction", unit: "%" },
+      { title: "length", unit: unit("length") },
+      { title: "braid_angle", unit: "deg" },
+      { title: "force", unit: unit("force") },
+      { title: "stiffness", unit: unit("stiffness") },
+      { title: "stiffness_closed", unit: unit("stiffness") },
+      { title: "volume", unit: unit("volume") },
+      { title: "diameter", unit: unit("length") },
+    ],
+    rows: rows ?? [],
+  };
+}
