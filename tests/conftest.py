@@ -1,4 +1,4 @@
-"""What every test gets: a working directory of its own, nothing written to the checkout, the real server."""
+"""What every test gets: a working directory of its own, one place for caches, the real server."""
 
 from __future__ import annotations
 
@@ -17,6 +17,13 @@ hypothesis.settings.register_profile("mckibben", hypothesis.settings(), deadline
 hypothesis.settings.load_profile("mckibben")
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """Keep the plugins' caches in the ignored folders of the checkout, not wherever pytest was started."""
+    hypothesis.configuration.set_hypothesis_home_dir(config.rootpath / ".hypothesis")
+    if config.option.benchmark_storage == "file://./.benchmarks":
+        config.option.benchmark_storage = f"file://{config.rootpath}/.benchmarks"
+
+
 @pytest.fixture(scope="session", autouse=True)
 def _own_working_directory(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """Tests find their files by absolute path; what they write without one lands in a temporary folder.
@@ -24,9 +31,7 @@ def _own_working_directory(tmp_path_factory: pytest.TempPathFactory) -> Iterator
     So it does not matter where pytest was started, and two runs at once do not meet.
     """
     started_in = os.getcwd()
-    folder = tmp_path_factory.mktemp("working-directory")
-    os.chdir(folder)
-    hypothesis.configuration.set_hypothesis_home_dir(folder / "hypothesis")
+    os.chdir(tmp_path_factory.mktemp("working-directory"))
     yield
     os.chdir(started_in)
 

@@ -12,12 +12,23 @@ from dataclasses import dataclass
 from mckibben.physics.braid import Braid, Rhombus, braid_from_rhombus, rest_diameter_and_angle
 from mckibben.physics.catalogue import Catalogue
 from mckibben.physics.errors import InputError, did_you_mean
-from mckibben.physics.muscle import Muscle
+from mckibben.physics.muscle import GEOMETRY, Muscle
 from mckibben.physics.units import si
-from mckibben.presets import MusclePreset, PresetLibrary
+from mckibben.presets import MusclePreset, Quantity
+from mckibben.presets.quantity import quantities
+from mckibben.simulation.limits import Limits
 
 EffectValues = dict[str, dict[str, float]]
 
+# Where a preset holds figures that enter the curves or their limits.
+_MODEL_PARTS = (
+    "geometry.",
+    "effects.",
+    "limits.max_pressure",
+    "limits.max_force",
+    "limits.max_contraction",
+    "limits.max_pretension",
+)
 # What tells the three forms of geometry apart; a bore or a wall goes with any of them.
 _MARKS = {
     "diameter and angle": ("braid_angle", "braid_diameter"),
@@ -42,27 +53,95 @@ class GivenMuscle:
 
 
 @dataclass(frozen=True, slots=True)
+class PresetFacts:
+    """What the physics takes from a muscle preset, in SI.
+
+    Attributes:
+        id: id of the preset.
+        muscle: geometry at rest.
+        effects: the preset's own effects with all their parameters.
+        limits: what the maker allows.
+        tolerance: geometry field -> how far a fit may free it.
+        shortest, longest: nominal lengths the muscle is made in, None where not known [m].
+        unverified: names of the figures that enter the model and nobody verified.
+    """
+
+    id: str
+    muscle: Muscle
+    effects: EffectValues
+    limits: Limits
+    tolerance: dict[str, float]
+    shortest: float | None
+    longest: float | None
+    unverified: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class StartModel:
     """A complete muscle with the effects its model has.
 
     Attributes:
         muscle: geometry at rest.
         effects: effect id -> every parameter of it, SI.
-        preset: the preset it is based on, for limits, tolerances and sources.
+        preset: facts of the preset it is based on.
         rhombus: the lattice, when the caller gave the geometry by it.
     """
 
     muscle: Muscle
-    effects: EffectValues
-    preset: MusclePreset | None = None
+    effects: Mapping[str, Mapping[str, float]]
+    preset: PresetFacts | None = None
     rhombus: Rhombus | None = None
+
+    @property
+    def limits(self) -> Limits:
+        """What the maker allows; nothing is known of a muscle given by geometry."""
+        return Limits() if self.preset is None else self.preset.limits
+
+
+def preset_facts(preset: MusclePreset, catalogue: Catalogue) -> PresetFacts:
+    """The preset in SI, with the defaults of its effects filled in."""
+    geometry, limits = preset.geometry, preset.limits
+    wall = geometry.wall_thickness
+    return PresetFacts(
+        id=preset.id,
+        muscle=Muscle(
+            nominal_length=geometry.nominal_length.si("m"),
+            braid_diameter=geometry.braid_diameter.si("m"),
+            braid_angle=geometry.braid_angle.si("rad"),
+            wall_thickness=0.0 if wall is None else wall.si("m"),
+            inside_diameter=geometry.inside_diameter.si("m"),
+        ),
+        effects={name: catalogue[name].defaults | own for name, own in preset.effect_values().items()},
+        limits=Limits(
+            max_pressure=_optional(limits.max_pressure, "Pa"),
+            max_force=_optional(limits.max_force, "N"),
+            max_contraction=_optional(limits.max_contraction, "1"),
+            max_pretension=_optional(limits.max_pretension, "1"),
+        ),
+        tolerance={
+            name: width.si("rad" if name == "braid_angle" else "m")
+            for name in GEOMETRY
+            if (width := getattr(preset.tolerance, name, None)) is not None
+        },
+        shortest=_optional(limits.min_nominal_length, "m"),
+        longest=_optional(limits.max_nominal_length, "m"),
+        unverified=tuple(
+            path.rpartition(".")[2].replace("_", " ")
+            for path, quantity in quantities(preset)
+            if path.startswith(_MODEL_PARTS) and not quantity.verified
+        ),
+    )
+
+
+def _optional(quantity: Quantity | None, unit: str) -> float | None:
+    return None if quantity is None else quantity.si(unit)
 
 
 def start_model(
     given: GivenMuscle,
     effects: Mapping[str, Mapping[str, float | str]] | None,
     *,
-    library: PresetLibrary,
+    preset: PresetFacts | None,
     catalogue: Catalogue,
 ) -> StartModel:
     """The muscle and effects a request means.
@@ -71,31 +150,23 @@ def start_model(
         given: the muscle; fields besides a preset take the place of the preset's own.
         effects: effect id -> parameters (SI numbers or texts with units); {} is the ideal model, None the
             preset's own effects, or the ideal model without a preset.
-        library: where the preset is looked up.
+        preset: facts of the preset that ``given`` names.
         catalogue: the known effects.
 
     Raises:
-        InputError: no or more than one form of geometry, something of it missing, an unknown preset, effect or
-            parameter, a value outside the bounds of its parameter.
+        InputError: no or more than one form of geometry, something of it missing, an unknown effect or parameter,
+            a value with a wrong unit. Bounds are the model's to check.
     """
-    preset = None if given.preset is None else _preset(given.preset, library)
-    muscle = _muscle(given, preset)
+    muscle = _muscle(given, None if preset is None else preset.muscle)
+    chosen: Mapping[str, Mapping[str, float]]
     if effects is None:
-        own = {} if preset is None else preset.effect_values()
-        chosen = {name: catalogue[name].defaults | values for name, values in own.items()}
+        chosen = {} if preset is None else preset.effects
     else:
         chosen = {name: _effect_values(name, values, catalogue) for name, values in effects.items()}
     return StartModel(muscle, chosen, preset, given.rhombus)
 
 
-def _preset(preset_id: str, library: PresetLibrary) -> MusclePreset:
-    try:
-        return library.muscle(preset_id)
-    except InputError as error:
-        raise InputError(error.message, field="muscle.preset", hint=error.hint, code="unknown_preset") from error
-
-
-def _muscle(given: GivenMuscle, preset: MusclePreset | None) -> Muscle:
+def _muscle(given: GivenMuscle, base: Muscle | None) -> Muscle:
     forms = [form for form, marks in _MARKS.items() if any(getattr(given, mark) is not None for mark in marks)]
     if len(forms) > 1:
         raise InputError(
@@ -104,7 +175,6 @@ def _muscle(given: GivenMuscle, preset: MusclePreset | None) -> Muscle:
             hint="give braid_angle with a diameter, or thread_length with turns, or rhombus",
         )
     form = forms[0] if forms else "diameter and angle"
-    base = None if preset is None else _preset_muscle(preset)
     length = given.nominal_length if given.nominal_length is not None else base and base.nominal_length
     if length is None:
         raise InputError(
@@ -117,18 +187,6 @@ def _muscle(given: GivenMuscle, preset: MusclePreset | None) -> Muscle:
 
 def _first_given(given: GivenMuscle, names: tuple[str, ...]) -> str:
     return next(name for name in names if getattr(given, name) is not None)
-
-
-def _preset_muscle(preset: MusclePreset) -> Muscle:
-    geometry = preset.geometry
-    wall = geometry.wall_thickness
-    return Muscle(
-        nominal_length=geometry.nominal_length.si("m"),
-        braid_diameter=geometry.braid_diameter.si("m"),
-        braid_angle=geometry.braid_angle.si("rad"),
-        wall_thickness=0.0 if wall is None else wall.si("m"),
-        inside_diameter=geometry.inside_diameter.si("m"),
-    )
 
 
 def _by_diameter(given: GivenMuscle, base: Muscle | None, length: float) -> Muscle:

@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from mckibben.muscle_input import GivenMuscle, StartModel, start_model
+from mckibben.muscle_input import GivenMuscle, PresetFacts, StartModel, preset_facts, start_model
 from mckibben.physics.catalogue import Catalogue, default_catalogue
+from mckibben.physics.errors import InputError
 from mckibben.presets import MusclePreset, PresetLibrary
-from mckibben.simulation.limits import Limits
 from mckibben.simulation.static import StaticModel
-
-_LIMIT_UNITS = {"max_pressure": "Pa", "max_force": "N", "max_contraction": "1", "max_pretension": "1"}
 
 
 class Studio:
@@ -33,12 +31,35 @@ class Studio:
         self.catalogue = Catalogue(effects) if effects else default_catalogue()
         table = {name: {p.name: p for p in effect.parameters} for name, effect in self.catalogue.items()}
         self.library = PresetLibrary(presets, user_presets, table)
+        self._facts: dict[str, tuple[MusclePreset, PresetFacts]] = {}
 
     def start_model(
         self, muscle: GivenMuscle, effects: Mapping[str, Mapping[str, float | str]] | None
     ) -> StartModel:
-        """The complete muscle and effects a caller means; see `mckibben.muscle_input.start_model`."""
-        return start_model(muscle, effects, library=self.library, catalogue=self.catalogue)
+        """The complete muscle and effects a caller means; see `mckibben.muscle_input.start_model`.
+
+        Raises:
+            InputError: as there, or there is no such preset.
+        """
+        preset = None if muscle.preset is None else self.facts(muscle.preset)
+        return start_model(muscle, effects, preset=preset, catalogue=self.catalogue)
+
+    def facts(self, preset_id: str) -> PresetFacts:
+        """A muscle preset in SI; converted once, and again when its file has changed.
+
+        Raises:
+            InputError: there is no such preset; names the nearest.
+        """
+        try:
+            preset = self.library.muscle(preset_id)
+        except InputError as error:
+            raise InputError(
+                error.message, field="muscle.preset", hint=error.hint, code="unknown_preset"
+            ) from error
+        known = self._facts.get(preset.id)
+        if known is None or known[0] is not preset:
+            known = self._facts[preset.id] = preset, preset_facts(preset, self.catalogue)
+        return known[1]
 
     def static_model(self, start: StartModel) -> StaticModel:
         """The compiled static model of a muscle with its effects.
@@ -46,12 +67,4 @@ class Studio:
         Raises:
             InputError: a geometry that cannot pull, or a parameter outside its bounds.
         """
-        return StaticModel(start.muscle, start.effects, catalogue=self.catalogue, limits=limits_of(start.preset))
-
-
-def limits_of(preset: MusclePreset | None) -> Limits:
-    """What the maker allows, in SI; nothing is known of a muscle given by geometry."""
-    if preset is None:
-        return Limits()
-    given = {name: getattr(preset.limits, name) for name in _LIMIT_UNITS}
-    return Limits(**{name: limit and limit.si(_LIMIT_UNITS[name]) for name, limit in given.items()})
+        return StaticModel(start.muscle, start.effects, catalogue=self.catalogue, limits=start.limits)

@@ -74,9 +74,11 @@ def find_or_get(say: Say) -> Browser:
     Raises:
         NoBrowserError: there is none and none could be had; or Playwright itself does not start.
     """
+    if _driver_failure() is None and (found := find()):
+        return found
     with _one_at_a_time(say):
         _need_driver(say)
-        if found := find():
+        if found := find():  # a run beside this one has just installed it
             return found
         failures = []
         for name, command, limit, environment in ways():
@@ -172,14 +174,17 @@ def _candidates() -> Iterator[tuple[str, str]]:
             yield path, path
 
 
+def _driver_failure() -> str | None:
+    return run([sys.executable, "-m", "playwright", "--version"], limit=CHECK_LIMIT)
+
+
 def _need_driver(say: Say) -> None:
     """Playwright drives the browser from a Node of its own, which needs a library a bare Debian lacks."""
-    version = [sys.executable, "-m", "playwright", "--version"]
-    failure = run(version, limit=CHECK_LIMIT)
+    failure = _driver_failure()
     if failure and _has_apt():
         say(f"Playwright does not start: trying apt-get install {DRIVER_LIBRARY} ...")
         run(_apt_install(DRIVER_LIBRARY), limit=APT_LIMIT, environment=APT_ENVIRONMENT)
-        failure = run(version, limit=CHECK_LIMIT)
+        failure = _driver_failure()
     if failure:
         raise NoBrowserError(
             f"The browser tests need Playwright, which does not start ({failure}): "

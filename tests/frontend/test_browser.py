@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 import time
 from pathlib import Path
 
@@ -17,6 +18,7 @@ def bare(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         monkeypatch.delenv(variable, raising=False)
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.setenv("PLAYWRIGHT_BROWSERS_PATH", str(tmp_path / "nothing-downloaded"))
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))  # where the lock is
     return tmp_path
 
 
@@ -56,7 +58,7 @@ def test_without_any_way_the_message_says_what_to_install(
     bare: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     refuses = ("asking nicely", [program(bare / "installer", exit_code=1)], 120, {})
-    monkeypatch.setattr(browser, "_need_driver", lambda say: None)  # tested by every test that opens a page
+    monkeypatch.setattr(browser, "_driver_failure", lambda: None)  # tested by every test that opens a page
     monkeypatch.setattr(browser, "ways", lambda: [refuses])
     said: list[str] = []
     with pytest.raises(browser.NoBrowserError, match=r"apt-get install chromium.*asking nicely: it speaks"):

@@ -91,7 +91,7 @@ def _steps(values: Array) -> tuple[int, int]:
     span = np.ptp(values)
     if span == 0.0:
         return 1, 1
-    counts = np.bincount(np.rint((values - np.min(values)) / (_GRAIN * span)).astype(np.intp))
+    counts = np.bincount(np.rint((values - np.min(values)) / span / _GRAIN).astype(np.intp))
     counts = np.sort(counts[counts > 0])[::-1]
     return len(counts), int(np.searchsorted(np.cumsum(counts), 0.95 * len(values)) + 1)
 

@@ -140,6 +140,7 @@ def build(
     labels, rule = group_rows(table, kind)
     table["group"] = labels
     notes.append(f"grouped {rule}")
+    table = {channel: values.view() for channel, values in table.items()}  # the caller's stay writable
     for values in (*table.values(), slack):
         values.flags.writeable = False  # a cached measurement is shared between requests
     return Measurement(

@@ -231,12 +231,13 @@ def convert(
     except _UnitError as error:
         raise _refusal(_as_sentence(f"the unit '{unit_text}'", error), si_unit, field) from error
     result = np.array(values, dtype=np.float64)
-    if multiplier != 1.0:
-        result *= multiplier
-    if divisor != 1.0:
-        result /= divisor
-    if offset:
-        result += offset
+    with np.errstate(over="ignore"):  # becomes inf, which the reader of the column refuses with its row
+        if multiplier != 1.0:
+            result *= multiplier
+        if divisor != 1.0:
+            result /= divisor
+        if offset:
+            result += offset
     return result
 
 

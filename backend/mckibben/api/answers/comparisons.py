@@ -12,9 +12,7 @@ from mckibben.api.answers.measured import Points
 from mckibben.api.answers.start import Json, geometry_json, start_flags
 from mckibben.identification.compare import Comparison, compare
 from mckibben.muscle_input import StartModel
-from mckibben.physics.muscle import GEOMETRY
-from mckibben.presets import MusclePreset
-from mckibben.studio import Studio, limits_of
+from mckibben.studio import Studio
 
 MAX_POINTS_PER_SERIES = 400
 _MAX_SERIES = 200
@@ -35,10 +33,10 @@ def comparison_answer(
         start.muscle,
         start.effects,
         catalogue=studio.catalogue,
-        limits=limits_of(start.preset),
+        limits=start.limits,
         fit=fit,
         free=free,
-        tolerance=_tolerance(start.preset),
+        tolerance={} if start.preset is None else start.preset.tolerance,
     )
     report = result.report()
     series, thinned = _series(result)
@@ -57,16 +55,6 @@ def comparison_answer(
         ),
         "series": series,
         "flags": start_flags(start),
-    }
-
-
-def _tolerance(preset: MusclePreset | None) -> dict[str, float]:
-    """How far a fit may free each geometry field, in SI; what the preset does not say is left out."""
-    if preset is None:
-        return {}
-    given = {name: getattr(preset.tolerance, name, None) for name in GEOMETRY}
-    return {
-        name: width.si("rad" if name == "braid_angle" else "m") for name, width in given.items() if width is not None
     }
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,6 @@ from mckibben.api.schemas.convert import given_muscle
 from mckibben.api.schemas.curves import CurvesRequest
 from mckibben.physics import ideal
 from mckibben.physics.errors import InputError
-from mckibben.physics.muscle import Muscle
 from mckibben.simulation.inverse import contraction_at
 from mckibben.simulation.limits import Flag, FlagCode
 from mckibben.simulation.static import StaticModel
@@ -26,6 +25,15 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _SHORTEST = 0.05  # share of the nominal length; nothing contracts further
 
 
+class _Held(NamedTuple):
+    """Contractions at which the muscle carries a load; NaN where it cannot."""
+
+    free: Array  # without load, at each pressure
+    load: Array  # the load of the request, at each pressure; empty without one
+    filling: Array  # the same over the grid of pressures, while shortening
+    venting: Array  # and while lengthening
+
+
 def curves_answer(request: CurvesRequest, studio: Studio) -> Json:
     """The answer to a curves request, with numpy arrays in it.
 
@@ -34,13 +42,11 @@ def curves_answer(request: CurvesRequest, studio: Studio) -> Json:
     """
     start = studio.start_model(given_muscle(request.muscle), request.effects)
     model = studio.static_model(start)
-    muscle = model.muscle
     pressures = np.array(request.pressures)
-    free = contraction_at(
-        model, load=0.0, pressures=pressures, direction=request.direction, temperature=request.temperature
-    )
-    contraction = _range(request, model, free)
-    length = muscle.nominal_length * (1.0 - contraction)
+    grid = np.linspace(0.0, float(np.max(pressures)), _OVER_PRESSURE_POINTS)
+    held = _solve(request, model, pressures, grid)
+    contraction = _range(request, model, held.free)
+    length = model.muscle.nominal_length * (1.0 - contraction)
     curves = model.curves(
         pressures,
         length,
@@ -50,7 +56,7 @@ def curves_answer(request: CurvesRequest, studio: Studio) -> Json:
         dead_volume=request.dead_volume,
         polytropic_exponent=request.polytropic_exponent,
     )
-    points, flags = _operating_points(request, model, pressures)
+    points, flags = _operating_points(request, model, pressures, held.load)
     flags = [crossed for p in request.pressures for crossed in model.limits.flags(pressure=p)] + flags
     # Volume, diameter and angle depend on the length; where an effect lets the pressure stretch the braid,
     # they are those of the highest pressure.
@@ -66,13 +72,32 @@ def curves_answer(request: CurvesRequest, studio: Studio) -> Json:
         "volume": curves.volume[top],
         "diameter": curves.diameter[top],
         "limits": _limits(model, pressures),
-        "characteristics": _characteristics(request, model, pressures, free),
+        "characteristics": _characteristics(request, model, pressures, held.free),
         "geometry": geometry_json(start),
         "model": {"effects": model.values},
-        "over_pressure": _over_pressure(request, model, pressures),
+        "over_pressure": _over_pressure(request, model, grid, held),
         "operating_points": points,
         "flags": [*start_flags(start), *flags_json(flags)],
     }
+
+
+def _solve(request: CurvesRequest, model: StaticModel, pressures: Array, grid: Array) -> _Held:
+    """All contractions of the answer in one vectorised search: the calls cost more than the rows."""
+    free = (np.zeros(len(pressures)), pressures, np.full(len(pressures), float(request.direction)))
+    parts = [free]
+    if request.load is not None:
+        parts += [
+            (np.full(len(pressures), request.load), pressures, free[2]),
+            (np.full(len(grid), request.load), grid, np.full(len(grid), -1.0)),
+            (np.full(len(grid), request.load), grid, np.full(len(grid), 1.0)),
+        ]
+    load, pressure, direction = (np.concatenate(column) for column in zip(*parts, strict=True))
+    found = contraction_at(
+        model, load=load, pressures=pressure, direction=direction, temperature=request.temperature
+    )
+    ends = np.cumsum([len(part[0]) for part in parts])[:-1]
+    pieces = np.split(found, ends)
+    return _Held(*pieces, *[np.empty(0)] * (4 - len(pieces)))
 
 
 def _range(request: CurvesRequest, model: StaticModel, free: Array) -> Array:
@@ -81,9 +106,9 @@ def _range(request: CurvesRequest, model: StaticModel, free: Array) -> Array:
     first = 0.0 if request.contraction_from is None else request.contraction_from
     last = request.contraction_to
     if last is None:
-        reached = np.max(free, initial=0.0, where=np.isfinite(free))
+        reached = float(np.max(free, initial=0.0, where=np.isfinite(free)))
         enough = max(first, 0.0) + 1e-3
-        last = reached if reached > enough else max(_ideal_contraction(muscle), enough)
+        last = reached if reached > enough else max(_ideal_contraction(model), enough)
     locked = 1.0 - model.longest / muscle.nominal_length
     for name, value in (("contraction_from", first), ("contraction_to", last)):
         if value < locked:
@@ -93,19 +118,17 @@ def _range(request: CurvesRequest, model: StaticModel, free: Array) -> Array:
                 hint=f"at least '{locked * 100:.3g} %'",
             )
         if value > 1.0 - _SHORTEST:
-            raise InputError(
-                f"no muscle contracts by {value * 100:.3g} %", field=name, hint="e.g. '25 %'"
-            )
+            raise InputError(f"no muscle contracts by {value * 100:.3g} %", field=name, hint="e.g. '25 %'")
     if not last > first:
         raise InputError(
-            f"the range ends at {last * 100:.3g} %, before it begins at {first * 100:.3g} %",
+            f"the range ends at {last * 100:.3g} %, not after it begins at {first * 100:.3g} %",
             field="contraction_to" if request.contraction_to is not None else "contraction_from",
         )
     return np.linspace(first, last, request.points)
 
 
-def _ideal_contraction(muscle: Muscle) -> float:
-    return float(ideal.max_contraction(braid_angle=muscle.braid_angle))
+def _ideal_contraction(model: StaticModel) -> float:
+    return float(ideal.max_contraction(braid_angle=model.muscle.braid_angle))
 
 
 def _limits(model: StaticModel, pressures: Array) -> Json:
@@ -115,7 +138,7 @@ def _limits(model: StaticModel, pressures: Array) -> Json:
         "max_force": limits.max_force,
         "max_contraction": limits.max_contraction,
         "max_pretension": limits.max_pretension,
-        "ideal_max_contraction": _ideal_contraction(model.muscle),
+        "ideal_max_contraction": _ideal_contraction(model),
         "braid_lock_force": ideal.lock_force(braid=model.muscle.braid, pressure=pressures),
     }
 
@@ -125,20 +148,22 @@ def _characteristics(
 ) -> list[Json]:
     """Blocked force, free contraction and work of each pressure."""
     rest = model.muscle.nominal_length
-    state = {"direction": request.direction, "temperature": request.temperature}
-    blocked = model.force(length=rest, pressure=pressures, **state)
     stroke = np.where(np.isfinite(free) & (free > 0.0), free, 0.0)
-    # Work of the stroke by Gauss-Legendre over each pressure's own range of contraction.
-    at = stroke[:, None] * (_NODES + 1.0) / 2.0
+    # The work of the stroke by Gauss-Legendre over each pressure's own range; the first column is the
+    # nominal length itself.
+    at = np.concatenate([[0.0], (_NODES + 1.0) / 2.0]) * stroke[:, None]
     force = model.force(
-        length=rest * (1.0 - at.ravel()), pressure=np.repeat(pressures, len(_NODES)), **state
+        length=rest * (1.0 - at.ravel()),
+        pressure=np.repeat(pressures, at.shape[1]),
+        direction=request.direction,
+        temperature=request.temperature,
     ).reshape(at.shape)
-    work = rest * stroke / 2.0 * (force @ _WEIGHTS)
+    work = rest * stroke / 2.0 * (force[:, 1:] @ _WEIGHTS)
     tension = ideal.thread_tension(braid=model.muscle.braid, pressure=pressures, length=rest)
     return [
         {
             "pressure": pressure,
-            "blocked_force": blocked[index],
+            "blocked_force": force[index, 0],
             "free_contraction": free[index],
             "free_contraction_flag": _free_flag(model, free[index]),
             "max_work": work[index],
@@ -156,25 +181,22 @@ def _free_flag(model: StaticModel, contraction: float) -> str | None:
 
 
 def _operating_points(
-    request: CurvesRequest, model: StaticModel, pressures: Array
+    request: CurvesRequest, model: StaticModel, pressures: Array, held: Array
 ) -> tuple[list[Json], list[Flag]]:
     """Where the muscle holds the load at each pressure, and every limit that is crossed there."""
     if request.load is None:
         return [], []
-    state: dict[str, Any] = {"direction": request.direction, "temperature": request.temperature}
-    held = contraction_at(model, load=request.load, pressures=pressures, **state)
     reached = np.flatnonzero(np.isfinite(held))
     length = model.muscle.nominal_length * (1.0 - held)
     there = model.curves(
         pressures[reached],
         length[reached],
-        **state,
+        direction=request.direction,
+        temperature=request.temperature,
         dead_volume=request.dead_volume,
         polytropic_exponent=request.polytropic_exponent,
     )
-    figures = {
-        name: np.full(len(pressures), np.nan) for name in ("stiffness", "stiffness_closed", "diameter")
-    }
+    figures = {name: np.full(len(pressures), np.nan) for name in ("stiffness", "stiffness_closed", "diameter")}
     for name, values in figures.items():
         values[reached] = np.diagonal(getattr(there, name))
     points, flags = [], []
@@ -182,13 +204,8 @@ def _operating_points(
         if np.isfinite(held[index]):
             crossed = model.limits.flags(pressure=pressure, force=request.load, contraction=held[index])
         else:
-            crossed = [
-                Flag(
-                    FlagCode.OUT_OF_REACH,
-                    f"{request.load:.4g} N stretch the muscle to the braid lock at {pressure / 1e5:.3g} bar",
-                    "load",
-                )
-            ]
+            why = f"{request.load:.4g} N stretch the muscle to the braid lock at {pressure / 1e5:.3g} bar"
+            crossed = [Flag(FlagCode.OUT_OF_REACH, why, "load")]
         flags += crossed
         points.append(
             {
@@ -203,43 +220,42 @@ def _operating_points(
     return points, flags
 
 
-def _over_pressure(request: CurvesRequest, model: StaticModel, pressures: Array) -> Json | None:
+def _over_pressure(request: CurvesRequest, model: StaticModel, grid: Array, held: _Held) -> Json | None:
     """Position at the load and force at the fixed length, from zero to the highest pressure, both ways."""
     if request.load is None and request.fixed_length is None:
         return None
-    grid = np.linspace(0.0, float(np.max(pressures)), _OVER_PRESSURE_POINTS)
     force = None
     if request.fixed_length is not None:
         _check_fixed_length(request.fixed_length, model)
-        force = {
-            name: model.force(
-                length=request.fixed_length, pressure=grid, direction=sign, temperature=request.temperature
-            )
-            for name, sign in (("filling", -1.0), ("venting", 1.0))
-        }
+        both = model.force(
+            length=request.fixed_length,
+            pressure=np.tile(grid, 2),
+            direction=np.repeat([-1.0, 1.0], len(grid)),
+            temperature=request.temperature,
+        )
+        force = {"filling": both[: len(grid)], "venting": both[len(grid) :]}
     return {
         "pressure": grid,
         "load": request.load,
-        "filling": _branch(request, model, grid, -1.0),
-        "venting": _branch(request, model, grid, 1.0),
+        "filling": _branch(request, model, grid, held.filling, -1.0),
+        "venting": _branch(request, model, grid, held.venting, 1.0),
         "fixed_length": request.fixed_length,
         "force_at_fixed_length": force,
     }
 
 
-def _branch(request: CurvesRequest, model: StaticModel, grid: Array, direction: float) -> Json | None:
+def _branch(
+    request: CurvesRequest, model: StaticModel, grid: Array, held: Array, direction: float
+) -> Json | None:
     if request.load is None:
         return None
-    held = contraction_at(
-        model, load=request.load, pressures=grid, direction=direction, temperature=request.temperature
-    )
     length = model.muscle.nominal_length * (1.0 - held)
     reached = np.isfinite(length)
+    state: dict[str, Any] = {"direction": direction, "temperature": request.temperature}
     diameter = np.full(len(grid), np.nan)
     if reached.any():
-        diameter[reached] = model.outputs(
-            length=length[reached], pressure=grid[reached], direction=direction, temperature=request.temperature
-        )["diameter"]
+        there = model.outputs(length=length[reached], pressure=grid[reached], **state)
+        diameter[reached] = there["diameter"]
     return {"contraction": held, "length": length, "diameter": diameter}
 
 

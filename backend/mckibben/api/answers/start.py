@@ -7,8 +7,6 @@ from typing import Any
 
 from mckibben.muscle_input import StartModel
 from mckibben.physics.muscle import Muscle
-from mckibben.presets import MusclePreset
-from mckibben.presets.quantity import quantities
 from mckibben.simulation.limits import Flag
 
 Json = dict[str, Any]
@@ -47,38 +45,26 @@ def start_flags(start: StartModel) -> list[Json]:
     if preset is None:
         return []
     found = []
-    unverified = _unverified(preset)
-    if unverified:
+    if preset.unverified:
         found.append(
             flag(
                 "unverified",
-                f"{preset.id}: {', '.join(unverified)} {'is' if len(unverified) == 1 else 'are'} from general "
-                "knowledge or estimated, not read in a source",
+                f"{preset.id}: {', '.join(preset.unverified)} {'is' if len(preset.unverified) == 1 else 'are'} "
+                "from general knowledge or estimated, not read in a source",
                 "muscle.preset",
             )
         )
-    length = start.muscle.nominal_length
-    for name, beyond in (("min_nominal_length", "shorter"), ("max_nominal_length", "longer")):
-        limit = getattr(preset.limits, name)
-        if limit is None:
-            continue
-        bound = limit.si("m")
-        if (length < bound * (1.0 - 1e-9)) if beyond == "shorter" else (length > bound * (1.0 + 1e-9)):
-            found.append(
-                flag(
-                    "length_outside_range",
-                    f"{length * 1e3:.4g} mm is {beyond} than the {bound * 1e3:.4g} mm {preset.id} is made in",
-                    "muscle.nominal_length",
-                )
+    length, bound, word = start.muscle.nominal_length, None, ""
+    if preset.shortest is not None and length < preset.shortest * (1.0 - 1e-9):
+        bound, word = preset.shortest, "shorter"
+    if preset.longest is not None and length > preset.longest * (1.0 + 1e-9):
+        bound, word = preset.longest, "longer"
+    if bound is not None:
+        found.append(
+            flag(
+                "length_outside_range",
+                f"{length * 1e3:.4g} mm is {word} than the {bound * 1e3:.4g} mm {preset.id} is made in",
+                "muscle.nominal_length",
             )
+        )
     return found
-
-
-def _unverified(preset: MusclePreset) -> list[str]:
-    """Figures that enter the curves and are not verified, in words."""
-    model_parts = ("geometry.", "limits.max_pressure", "limits.max_force", "limits.max_c", "limits.max_pre", "effects.")
-    return [
-        path.rpartition(".")[2].replace("_", " ")
-        for path, quantity in quantities(preset)
-        if path.startswith(model_parts) and not quantity.verified
-    ]

@@ -27,6 +27,7 @@ from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert, si
 
 ATMOSPHERE = 101_325.0  # Pa, subtracted from an absolute pressure
+LARGEST = 1e100  # no physical value is; keeps sums and ranges of a column finite
 
 #: Conditions that are physical values -> SI unit; the others stay text.
 CONDITION_UNITS = {
@@ -128,9 +129,9 @@ def _split(text: str, name: str) -> tuple[list[tuple[int, str]], str, str, int, 
         end = len(text) if end < 0 else end
         line = text[position:end]
         row, position = row + 1, end + 1
-        bare = line.strip().strip('"')
-        if bare.startswith("#"):
-            preamble.append((row, bare.rstrip(";,\t ")))
+        bare = line.strip()
+        if bare.lstrip('"').startswith("#"):
+            preamble.append((row, bare.strip(';,\t "')))
         elif re.fullmatch(r"sep=[,;\t]", bare):  # a spreadsheet's own hint
             separator = bare[-1]
         elif bare.strip(",;\t "):
@@ -180,7 +181,10 @@ def _channel(column: Column, reading: _Reading) -> dict[str, NDArray[np.float64]
     if use == "command" and np.max(np.abs(values)) > 1.001:
         reading.drop(column, "a command is the share of valve opening, -1 to 1")
         return {}
-    bad, what, hint = ~np.isfinite(values), "is too large", "a finite number"
+    huge = ~(np.abs(values) < LARGEST)
+    if huge.any():
+        raise _value_error(reading, column, huge, "is too large", "a number of physical size")
+    bad, what, hint = np.zeros(len(values), bool), "", ""
     if use == "pressure":
         said = str(reading.conditions.get("pressure", "")).lower()
         by_line = True if said.startswith("abs") else False if said.startswith(("gauge", "rel")) else None
@@ -190,26 +194,29 @@ def _channel(column: Column, reading: _Reading) -> dict[str, NDArray[np.float64]
             messages.append(f"{label} is absolute pressure: {ATMOSPHERE:.0f} Pa subtracted")
         elif absolute is None:
             messages.append(f"{label} read as gauge pressure")
-        bad |= values < -ATMOSPHERE
+        bad = values < -ATMOSPHERE
         what = "is a negative absolute pressure"
         hint = "say 'pressure_abs_bar' or '# pressure: absolute' where it is absolute, gauge is assumed"
     elif use in ("length", "diameter", "temperature"):
-        bad |= values <= 0.0
+        bad = values <= 0.0
         what, hint = f"is not a {use}", f"a {use} above 0"
     elif use == "contraction":
-        bad |= values >= 1.0
+        bad = values >= 1.0
         what, hint = "leaves no length", "contraction is (L0 - L)/L0 < 1; percent is 'contraction_pct'"
     if bad.any():
-        shown = f"{raw[np.argmax(bad)]:g} {unit or CHANNEL_UNITS[use]}"
-        raise _row_error(reading, column, bad, f"{shown} {what}", hint)
+        raise _value_error(reading, column, bad, what, hint)
     return {use: values}
 
 
-def _row_error(reading: _Reading, column: Column, bad: NDArray[np.bool_], what: str, hint: str) -> InputError:
-    line, count = int(reading.table.lines[np.argmax(bad)]), int(np.count_nonzero(bad))
+def _value_error(
+    reading: _Reading, column: Column, bad: NDArray[np.bool_], what: str, hint: str
+) -> InputError:
+    first, count = int(np.argmax(bad)), int(np.count_nonzero(bad))
+    line, value = int(reading.table.lines[first]), reading.table.numbers[column.index][first]
     more = f" (and {count - 1} more such rows)" if count > 1 else ""
+    unit = f" {column.unit}" if column.unit else ""
     return InputError(
-        f"{reading.name}, row {line}, column '{column.header}': {what}{more}",
+        f"{reading.name}, row {line}, column '{column.header}': {value:g}{unit} {what}{more}",
         field=f"row {line}, column {column.header}", hint=hint,
     )  # fmt: skip
 

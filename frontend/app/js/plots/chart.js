@@ -113,7 +113,14 @@ export class Chart {
     this.over = document.createElement("div");
     this.over.className = "over";
     host.append(this.canvas, this.over);
-    new ResizeObserver(() => this.draw()).observe(host);
+    this.width = 0;
+    this.height = 0;
+    // The size is kept, not asked for: asking would make the browser lay out the page in the middle of a redraw.
+    new ResizeObserver(([entry]) => {
+      this.width = Math.round(entry.contentRect.width);
+      this.height = Math.round(entry.contentRect.height);
+      this.draw();
+    }).observe(host);
   }
 
   /** @param {(p: Palette) => Spec} build */
@@ -123,7 +130,7 @@ export class Chart {
   }
 
   draw() {
-    const width = this.host.clientWidth, height = this.host.clientHeight;
+    const { width, height } = this;
     if (!this.build || !plotly() || width < 60 || height < 60) return;
     this.spec = this.build(palette.peek());
     const font = "Inter, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif";

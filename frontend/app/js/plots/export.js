@@ -19,7 +19,7 @@ async function svgOf(chart, title) {
   const x = chart.axes?.xaxis.range ?? spec.x.range, y = chart.axes?.yaxis.range ?? spec.y.range;
   const names = new Map((spec.labels ?? []).map((l) => [l.color, l.text]));
   for (const t of data) {
-    t.name = names.get(t.line?.color) ?? t.name;
+    t.name = names.get(t.line?.color ?? "") ?? t.name;
     /** @type {any} */ (t).showlegend = Boolean(t.line) || t.uid === "points";
   }
   const full = {

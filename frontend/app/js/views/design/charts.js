@@ -11,25 +11,25 @@ import { menuButton } from "../../ui/menu.js";
 import { niceStep } from "../../ui/field.js";
 import { chartMenu } from "../../plots/export.js";
 import { curves, fault, reference, retry } from "./model.js";
-import {
-  ACROSS,
-  acrossAt,
-  forceSpec,
-  OVER,
-  overPressureSpec,
-  pressureName,
-  shareOf,
-  stiffnessSpec,
-  volumeSpec,
-  xColumn,
-} from "./specs.js";
+import { ACROSS, acrossAt, OVER, pressureName, shareOf, xColumn } from "./axes.js";
+import { forceSpec, overPressureSpec, stiffnessSpec, volumeSpec } from "./specs.js";
 
-/** @typedef {import("./specs.js").View} View */
+/** @typedef {import("./axes.js").View} View */
 
-/** @returns {View | null} */
+const across = computed(() => design.value.across);
+const overWhat = computed(() => design.value.over);
+
+/** Follows the answers and what is looked at, not the inputs: a plot of new inputs with old curves would be wrong.
+ * @returns {View | null} */
 const viewNow = () => {
   const answer = curves.value;
-  return answer && { curves: answer, design: design.value, system: units.value, reference: reference.value };
+  return answer && {
+    curves: answer,
+    across: across.value,
+    over: overWhat.value,
+    system: units.value,
+    reference: reference.value,
+  };
 };
 
 /** @param {string} id @param {string} title @param {string} label */
@@ -212,8 +212,8 @@ export function chartColumn() {
     stateNote,
     frame(
       force,
-      choice("Quantity along the x axis", acrossOptions, () => design.value.across, (across) =>
-        editDesign({ across }, `plots over ${ACROSS[across].title.toLowerCase()}`)),
+      choice("Quantity along the x axis", acrossOptions, () => across.value, (key) =>
+        editDesign({ across: key }, `plots over ${ACROSS[key].title.toLowerCase()}`)),
       () => (legendKey.value, familyLegend()),
     ),
     h("div", { class: "readout", "aria-live": "off" }, readout),
@@ -221,7 +221,7 @@ export function chartColumn() {
     frame(volume, dashLegend("volume", "diameter", true)),
     frame(
       over,
-      choice("Quantity over pressure", overOptions, () => design.value.over, (value) =>
+      choice("Quantity over pressure", overOptions, () => overWhat.value, (value) =>
         look(patchDesign({ over: value }))),
       h("span", { class: "muted" }, overHint),
       dashLegend("filling", "venting", true),

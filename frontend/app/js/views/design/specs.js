@@ -1,116 +1,37 @@
 // @ts-check
 // What each plot shows: from the server's answer to lines, points and shaded zones in the user's units. Pure functions.
-import { number, scaleOf, siOf, toShown } from "../../format.js";
+import { scaleOf, siOf, toShown } from "../../format.js";
 import { pressureColour } from "../../plots/theme.js";
+import {
+  ACROSS,
+  acrossAt,
+  axisTitle,
+  extent,
+  OVER,
+  pressureName,
+  shareOf,
+  shown,
+  steadyRange,
+  steadyX,
+  xAxis,
+  xColumn,
+} from "./axes.js";
 
-/** @typedef {import("../../types.js").Curves} Curves */
-/** @typedef {import("../../types.js").Design} Design */
-/** @typedef {import("../../types.js").Preset} Preset */
-/** @typedef {import("../../types.js").Across} Across */
 /** @typedef {import("../../plots/chart.js").Spec} Spec */
 /** @typedef {import("../../plots/chart.js").Trace} Trace */
 /** @typedef {import("../../plots/chart.js").Zone} Zone */
 /** @typedef {import("../../plots/theme.js").Palette} Palette */
-/** @typedef {import("../../format.js").System} System */
 /** @typedef {import("../../format.js").Quantity} Quantity */
-/** @typedef {{curves: Curves, design: Design, system: System, reference: Preset | null}} View */
-
-/** @type {Record<Across, {title: string, quantity: Quantity}>} */
-export const ACROSS = {
-  contraction: { title: "Contraction", quantity: "ratio" },
-  length: { title: "Length", quantity: "length" },
-  braid_angle: { title: "Braid angle", quantity: "angle" },
-};
-
-/** @param {(number | null)[]} values @param {Quantity} quantity @param {System} system */
-export function shown(values, quantity, system) {
-  const s = scaleOf(quantity, system), offset = s.offset ?? 0;
-  return values.map((v) => v == null ? null : (v - offset) / s.factor);
-}
-
-/** @param {string} title @param {Quantity} quantity @param {System} system */
-export const axisTitle = (title, quantity, system) => `${title} (${scaleOf(quantity, system).unit})`;
-
-/** Ranges that stay put while a slider moves: a new one is taken only when the data leaves it or shrinks to half.
- * @type {Map<string, [number, number]>} */
-const kept = new Map();
-/** @param {string} key @param {number} low @param {number} high @returns {[number, number]} */
-export function steadyRange(key, low, high) {
-  if (!(high > low)) high = low + (Math.abs(low) || 1);
-  const last = kept.get(key), span = high - low;
-  if (last && low >= last[0] && high <= last[1] && span > 0.55 * (last[1] - last[0])) return last;
-  const step = 10 ** Math.floor(Math.log10(span)) / 4;
-  const margin = 0.04 * span;
-  const from = low >= 0 && low < 0.5 * span ? 0 : Math.floor((low - margin) / step) * step;
-  /** @type {[number, number]} */
-  const range = [from, Math.ceil((high + margin) / step) * step];
-  kept.set(key, range);
-  return range;
-}
-
-/** @param {(number | null)[][]} rows @returns {[number, number]} */
-function extent(rows) {
-  let low = Infinity, high = -Infinity;
-  for (const row of rows) {
-    for (const v of row) {
-      if (v == null) continue;
-      if (v < low) low = v;
-      if (v > high) high = v;
-    }
-  }
-  return low <= high ? [low, high] : [0, 1];
-}
-
-/** Value at a contraction, read off the answer's own columns. @param {Curves} c @param {Across} across @param {number} k */
-export function acrossAt(c, across, k) {
-  if (across === "contraction") return k;
-  if (across === "length") return c.geometry.nominal_length * (1 - k);
-  const cosine = (1 - k) * Math.cos(c.geometry.braid_angle);
-  return Math.acos(Math.min(1, Math.max(-1, cosine)));
-}
-
-/** @param {View} v the x columns of the curves, in shown units */
-export const xColumn = ({ curves, design, system }) =>
-  shown(curves[design.across], ACROSS[design.across].quantity, system);
-
-/** @param {View} v @param {string} key */
-function xAxis(v, key) {
-  const { title, quantity } = ACROSS[v.design.across];
-  const [low, high] = extent([xColumn(v)]);
-  const range = steadyX(`${key}${v.design.across}${v.system}`, low, high);
-  return { title: axisTitle(title, quantity, v.system), range };
-}
-
-/** The x range follows the data exactly, but not its last digits. @param {string} key @param {number} low
- * @param {number} high @returns {[number, number]} */
-function steadyX(key, low, high) {
-  const last = kept.get(`x${key}`), span = high - low || 1;
-  const fits = last && Math.abs(last[0] - low) < 0.002 * span && Math.abs(last[1] - high) < 0.002 * span;
-  const range = /** @type {[number, number]} */ (fits ? last : [low, high]);
-  kept.set(`x${key}`, range);
-  return range;
-}
-
-/** @param {number} p @param {Curves} c 0 at the lowest pressure of the family, 1 at the highest */
-export function shareOf(p, c) {
-  const low = Math.min(...c.pressure), high = Math.max(...c.pressure);
-  return high > low ? (p - low) / (high - low) : 0.6;
-}
-
-/** @param {View} v @param {number} p */
-export function pressureName({ system }, p) {
-  const s = scaleOf("pressure", system);
-  return `${number(toShown(p, s), 2)} ${s.unit}`;
-}
+/** @typedef {import("./axes.js").View} View */
 
 /** Contractions the maker does not allow. @param {View} v @param {[number, number]} range @returns {Zone[]} */
 function limitZones(v, range) {
   const { max_contraction, max_pretension } = v.curves.limits;
-  const s = scaleOf(ACROSS[v.design.across].quantity, v.system);
-  const at = (/** @type {number} */ k) => toShown(acrossAt(v.curves, v.design.across, k), s);
+  const s = scaleOf(ACROSS[v.across].quantity, v.system);
+  const at = (/** @type {number} */ k) => toShown(acrossAt(v.curves, v.across, k), s);
   /** @type {Zone[]} */
   const zones = [];
-  const rising = v.design.across !== "length";
+  const rising = v.across !== "length";
   /** @param {number} from @param {boolean} up @param {string} text */
   const add = (from, up, text) => {
     const to = up ? range[1] : range[0];
@@ -158,8 +79,8 @@ export function referencePoints(v) {
 function pointTraces(v, p, range) {
   const points = referencePoints(v);
   if (!points) return [];
-  const s = scaleOf(ACROSS[v.design.across].quantity, v.system);
-  const x = points.contraction.map((k) => toShown(acrossAt(v.curves, v.design.across, k), s));
+  const s = scaleOf(ACROSS[v.across].quantity, v.system);
+  const x = points.contraction.map((k) => toShown(acrossAt(v.curves, v.across, k), s));
   const y = shown(points.force, "force", v.system);
   const inside = x.map((at) => at >= range[0] - 1e-9 && at <= range[1] + 1e-9);
   /** @param {boolean} excluded @param {string} id @param {string} symbol @param {number} size @returns {Trace} */
@@ -181,18 +102,18 @@ function pointTraces(v, p, range) {
 
 /** @param {View} v @param {Palette} p @returns {Spec} */
 export function forceSpec(v, p) {
-  const { curves, design, system } = v;
+  const { curves, across, system } = v;
   const x = xAxis(v, "force");
   const lines = family(v, p, "force", "force");
   const points = pointTraces(v, p, x.range);
-  const load = toShown(design.load, scaleOf("force", system));
+  const load = toShown(curves.over_pressure?.load ?? 0, scaleOf("force", system));
   const [low, high] = extent([...lines.map((t) => t.y), ...points.map((t) => t.y), [load * 1.02, 0]]);
   const y = {
     title: axisTitle("Force", "force", system),
     range: steadyRange(`force${system}`, low, Math.max(high, 1e-3)),
   };
   const dots = curves.operating_points.map((o) => o.contraction);
-  const s = scaleOf(ACROSS[design.across].quantity, system);
+  const s = scaleOf(ACROSS[across].quantity, system);
   const zones = limitZones(v, x.range);
   const most = curves.limits.max_force;
   const top = most == null ? Infinity : toShown(most, scaleOf("force", system));
@@ -201,18 +122,18 @@ export function forceSpec(v, p) {
     x,
     y,
     zones,
-    revision: `${design.across}${system}`,
+    revision: `${across}${system}`,
     traces: [
       ...points,
       ...lines,
       {
         id: "held",
-        x: dots.map((k) => k == null ? null : toShown(acrossAt(curves, design.across, k), s)),
+        x: dots.map((k) => k == null ? null : toShown(acrossAt(curves, across, k), s)),
         y: dots.map(() => load),
         marker: { size: 9, symbol: "circle", color: p.load, edge: p.card },
       },
     ],
-    labels: lines.map((t, i) => lineLabel(t, i, v, x.range, design.across === "length")).filter((l) => l !== null),
+    labels: lines.map((t, i) => lineLabel(t, i, v, x.range, across === "length")).filter((l) => l !== null),
   };
 }
 
@@ -246,7 +167,7 @@ export function stiffnessSpec(v, p) {
     },
     zones: limitZones(v, x.range),
     traces,
-    revision: `${v.design.across}${v.system}`,
+    revision: `${v.across}${v.system}`,
   };
 }
 
@@ -269,25 +190,16 @@ export function volumeSpec(v, p) {
       { id: "volume", x: column, y: volume, line: { color: p.accent }, column: "volume" },
       { id: "diameter", x: column, y: diameter, line: { color: p.second, dash: "dash" }, axis: 2, column: "diameter" },
     ],
-    revision: `${v.design.across}${system}`,
+    revision: `${v.across}${system}`,
   };
 }
 
-/** @type {Record<import("../../types.js").Over, {title: string, quantity: Quantity}>} */
-export const OVER = {
-  contraction: { title: "Contraction", quantity: "ratio" },
-  length: { title: "Length", quantity: "length" },
-  diameter: { title: "Diameter", quantity: "length" },
-  force: { title: "Force", quantity: "force" },
-};
-
 /** @param {View} v @param {Palette} p @returns {Spec} */
 export function overPressureSpec(v, p) {
-  const { curves, design, system } = v;
-  const { title, quantity } = OVER[design.over];
+  const { curves, over, system } = v;
+  const { title, quantity } = OVER[over];
   const o = curves.over_pressure;
   const held = o?.force_at_fixed_length;
-  const over = design.over;
   const branch = (/** @type {"filling" | "venting"} */ way) =>
     over === "force" ? held?.[way] ?? [] : o?.[way]?.[over] ?? [];
   const x = shown(o?.pressure ?? [], "pressure", system);

@@ -1,0 +1,125 @@
+// @ts-check
+// The model's error: against which points, in newtons and in % of full scale, beside the ideal braid.
+import { h, icon } from "../../dom.js";
+import { computed } from "../../reactive.js";
+import { design, editDesign, units } from "../../state.js";
+import { presets, references } from "../../store.js";
+import { brief, siOf, withUnit } from "../../format.js";
+import { saveDialog } from "./save-preset.js";
+import { curves, errors, preset, reference, referenceId } from "./model.js";
+
+/** @typedef {import("../../types.js").Comparison} Comparison */
+
+const NONE = "none";
+
+function referenceSelect() {
+  /** @param {import("../../types.js").Preset} r */
+  const option = (r) => h("option", { value: r.id, selected: r.id === referenceId.value }, r.title);
+  /** @param {string} label @param {import("../../types.js").Preset[]} list */
+  const group = (label, list) => list.length ? h("optgroup", { label }, ...list.map(option)) : null;
+  return h("select", {
+    "aria-label": "Points to compare with",
+    onchange: (/** @type {Event} */ e) => {
+      const id = /** @type {HTMLSelectElement} */ (e.target).value;
+      editDesign({ reference: id === NONE ? null : id }, "points to compare with");
+    },
+  }, () => {
+    const own = preset.value?.id;
+    const mine = references.value.filter((r) => r.muscle === own);
+    return [
+      h("option", { value: NONE, selected: !referenceId.value }, "No points"),
+      group("Of this muscle", mine),
+      group("Of other muscles", references.value.filter((r) => !mine.includes(r))),
+    ];
+  });
+}
+
+/** The newest figures of one kind stay on screen while new ones are asked for. */
+const model = computed(() => errors.value.model);
+const ideal = computed(() => errors.value.ideal);
+
+/** @param {string} name @param {Comparison} c @param {boolean} first @param {number} widest */
+function figure(name, c, first, widest) {
+  return h(
+    "div",
+    { class: `rmse${first ? " first" : ""}` },
+    h("span", null, name),
+    h("b", { class: "num" }, withUnit(c.rmse, "force", units.value)),
+    h("span", { class: "num" }, `${brief(c.nrmse_percent ?? NaN)} % of full scale`),
+    h("span", { class: "bar" }, h("i", { style: `width:${(100 * (c.rmse ?? 0)) / widest}%` })),
+  );
+}
+
+function body() {
+  const { words } = errors.value, now = model.value, bare = ideal.value;
+  if (!reference.value) {
+    return h("p", { class: "muted" }, "Choose points above: the model’s error against them is shown here.");
+  }
+  if (words) return h("p", { class: "error" }, words);
+  if (!now || !bare) return h("p", { class: "muted" }, "Comparing…");
+  const widest = Math.max(now.rmse ?? 0, bare.rmse ?? 0, 1e-9);
+  const left = Object.entries(now.excluded).filter(([, n]) => n > 0);
+  return [
+    figure("This model", now, true, widest),
+    figure("Ideal braid", bare, false, widest),
+    h(
+      "p",
+      { class: "muted" },
+      `${now.rows_used} of ${now.rows} points used`,
+      left.length ? `; left out: ${left.map(([why, n]) => `${n} ${why.replaceAll("_", " ")}`).join(", ")}` : "",
+      `. Mean residual ${withUnit(now.residual_mean, "force", units.value)}.`,
+    ),
+    ...now.messages.map((m) => h("p", { class: "muted" }, m)),
+  ];
+}
+
+/** Points of another length than the muscle's compare badly, and the number alone would not tell. */
+function lengthNote() {
+  const at = reference.value?.nominal_length, length = curves.value?.geometry.nominal_length;
+  if (!at || !length || Math.abs(siOf(at) / length - 1) < 0.002) return null;
+  const measured = siOf(at);
+  return h(
+    "p",
+    { class: "flag note" },
+    icon("info"),
+    h(
+      "span",
+      null,
+      `Measured on a muscle ${withUnit(measured, "length", units.value)} long, yours has `,
+      `${withUnit(length, "length", units.value)}: the error compares different muscles. `,
+      h("button", {
+        type: "button",
+        class: "link",
+        onclick: () => {
+          const { muscle } = design.peek();
+          const values = { ...muscle.values, nominal_length: measured };
+          editDesign({ muscle: { ...muscle, values } }, "length of the sample");
+        },
+      }, "Take the sample’s length"),
+    ),
+  );
+}
+
+export function errorCard() {
+  return h(
+    "section",
+    { class: "card", "aria-label": "Model error" },
+    h("div", { class: "card-head" }, h("h2", null, "Model error")),
+    referenceSelect(),
+    h("div", { class: "found", id: "rmse" }, body),
+    lengthNote,
+    () => {
+      const r = reference.value;
+      return r?.source ? h("p", { class: "muted source" }, `Points: ${r.source}`, r.verified ? "" : " (unverified)") : null;
+    },
+    h(
+      "div",
+      { class: "foot" },
+      h("button", {
+        type: "button",
+        disabled: () => !curves.value || !presets.value.muscles,
+        onclick: saveDialog,
+      }, "Save as my preset…"),
+    ),
+  );
+}

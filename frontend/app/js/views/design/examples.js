@@ -1,0 +1,15 @@
+// @ts-check
+// Example documents of the server (presets/designs): one click replaces the design, one undo brings it back.
+import { defaultDesign, edit, readDesign } from "../../state.js";
+import { status } from "../../store.js";
+
+/** @param {import("../../types.js").Preset} preset */
+export function openExample(preset) {
+  try {
+    const design = readDesign({ ...defaultDesign(), ...preset.document });
+    edit((d) => ({ ...d, view: "design", design }), `example ${preset.title}`);
+    status.value = `${preset.title}: ${preset.description}`;
+  } catch (error) {
+    status.value = `The example “${preset.title}” cannot be opened: ${/** @type {Error} */ (error).message}.`;
+  }
+}

@@ -1,0 +1,159 @@
+// @ts-check
+// Inverse questions: what pressure, what contraction, what range. Asked again whenever the model changes.
+import { h, icon } from "../../dom.js";
+import { effect, signal } from "../../reactive.js";
+import { design, units } from "../../state.js";
+import { scaleOf, withUnit } from "../../format.js";
+import { latest, post } from "../../api.js";
+import { quantityField } from "../../ui/field.js";
+import { curves, modelInput } from "./model.js";
+
+/** @typedef {import("../../format.js").Quantity} Quantity */
+/** @typedef {import("../../types.js").Answer} Answer */
+/** @typedef {{label: string, short: string, inputs: string[], found: string}} Question */
+
+/** @type {Record<string, Question>} */
+const QUESTIONS = {
+  pressure: { label: "Pressure for a force at a length", short: "Pressure", inputs: ["force", "length"], found: "Pressure" },
+  contraction: {
+    label: "Contraction for a force at a pressure",
+    short: "Contraction",
+    inputs: ["force", "pressure"],
+    found: "Contraction",
+  },
+  stroke_pressure: {
+    label: "Pressure for a stroke under load",
+    short: "Stroke",
+    inputs: ["load", "stroke"],
+    found: "Pressure",
+  },
+  working_range: {
+    label: "Working range between preload and load",
+    short: "Range",
+    inputs: ["preload", "load", "pressure"],
+    found: "Usable contraction",
+  },
+};
+
+/** @type {Record<string, {label: string, quantity: Quantity}>} */
+const INPUTS = {
+  force: { label: "Force", quantity: "force" },
+  length: { label: "Length", quantity: "length" },
+  pressure: { label: "Pressure", quantity: "pressure" },
+  load: { label: "Load", quantity: "force" },
+  stroke: { label: "Stroke", quantity: "length" },
+  preload: { label: "Preload", quantity: "force" },
+};
+
+/** What the details of an answer measure, by their name's last word or unit. @type {[RegExp, Quantity][]} */
+const DETAILS = [
+  [/length|stroke|diameter/, "length"],
+  [/contraction/, "ratio"],
+  [/pressure/, "pressure"],
+  [/force|load/, "force"],
+  [/work|energy/, "energy"],
+  [/volume/, "volume"],
+];
+
+const kind = signal("pressure");
+const values = signal(/** @type {Record<string, number>} */ ({}));
+const answer = signal(/** @type {Answer | null} */ (null));
+const wrong = signal("");
+
+/** A sensible start for each input, from the design. @param {string} key */
+function start(key) {
+  const d = design.value, length = curves.value?.geometry.nominal_length ?? 0.3;
+  /** @type {Record<string, number>} */
+  const all = { force: d.load, load: d.load, preload: 0, length: 0.9 * length, stroke: 0.1 * length };
+  return all[key] ?? d.pressures.at(-1) ?? 6e5;
+}
+/** @param {string} key */
+const value = (key) => values.value[key] ?? start(key);
+
+/** @param {string} unit @param {string} name @returns {Quantity} */
+const quantityOfAnswer = (unit, name) =>
+  unit === "Pa" ? "pressure" : DETAILS.find(([pattern]) => pattern.test(name))?.[1] ?? "ratio";
+
+const ask = latest(
+  (/** @type {unknown} */ body, control) => post("/api/inverse", body, control),
+  (got) => {
+    wrong.value = "";
+    answer.value = got;
+  },
+  (error) => {
+    answer.value = null;
+    wrong.value = error.words;
+  },
+);
+
+/** @param {string} key */
+const inputField = (key) =>
+  quantityField({
+    key: `ask.${key}`,
+    label: INPUTS[key].label,
+    quantity: INPUTS[key].quantity,
+    slider: false,
+    bounds: () => [0, Math.max(2 * start(key), 1e-3)],
+    scale: () => scaleOf(INPUTS[key].quantity, units.value),
+    get: () => value(key),
+    put: (si) => (values.value = { ...values.peek(), [key]: si }),
+  });
+
+function shown() {
+  if (wrong.value) return h("p", { class: "error" }, wrong.value);
+  const got = answer.value;
+  if (!got || got.question !== kind.value) return h("p", { class: "muted" }, "…");
+  const quantity = quantityOfAnswer(got.unit, got.unit === "m" ? "length" : got.question);
+  const details = Object.entries(got.details).filter(([, v]) => v != null);
+  return [
+    h(
+      "p",
+      { class: "answer" },
+      h("span", null, QUESTIONS[kind.value].found),
+      h("b", null, got.value == null ? "none" : withUnit(got.value, quantity, units.value)),
+    ),
+    details.length
+      ? h(
+        "dl",
+        null,
+        ...details.flatMap(([name, v]) => [
+          h("dt", null, name.replaceAll("_", " ")),
+          h("dd", null, withUnit(v, quantityOfAnswer("", name), units.value)),
+        ]),
+      )
+      : null,
+    ...got.flags.map((f) => h("p", { class: "flag bad" }, icon("warn"), h("span", null, f.message))),
+  ];
+}
+
+export function inverseCard() {
+  let timer = 0;
+  effect(() => {
+    const { inputs } = QUESTIONS[kind.value];
+    const given = Object.fromEntries(inputs.map((key) => [key, value(key)]));
+    if (!curves.value) return;
+    clearTimeout(timer);
+    timer = setTimeout(() => ask({ ...modelInput(design.peek()), question: kind.peek(), ...given }), 90);
+  });
+  return h(
+    "section",
+    { class: "card", "aria-label": "Inverse questions" },
+    h("div", { class: "card-head" }, h("h2", null, "What is needed?")),
+    h(
+      "div",
+      { class: "segments", role: "radiogroup", "aria-label": "Question" },
+      ...Object.entries(QUESTIONS).map(([id, q]) =>
+        h("button", {
+          type: "button",
+          role: "radio",
+          title: q.label,
+          "aria-checked": () => String(kind.value === id),
+          onclick: () => (kind.value = id),
+        }, q.short)
+      ),
+    ),
+    h("p", { class: "muted" }, () => QUESTIONS[kind.value].label),
+    () => QUESTIONS[kind.value].inputs.map(inputField),
+    h("div", { class: "found", "aria-live": "polite" }, shown),
+  );
+}

@@ -1,0 +1,164 @@
+// @ts-check
+// The right column's first cards: verdicts in words, the operating points at the load, figures per pressure.
+import { h, icon } from "../../dom.js";
+import { computed } from "../../reactive.js";
+import { design, units } from "../../state.js";
+import { brief, scaleOf, toShown, withUnit } from "../../format.js";
+import { curves, fault } from "./model.js";
+
+/** @typedef {import("../../format.js").Quantity} Quantity */
+/** @typedef {import("../../types.js").Curves} Curves */
+/** @typedef {[title: string, quantity: Quantity]} Column */
+
+/** @param {string} title @param {Column[]} columns @param {() => {cells: (number | null)[], mark?: string}[]} rows */
+function figures(title, columns, rows) {
+  return h(
+    "div",
+    { class: "scroll", tabindex: 0, role: "region", "aria-label": title },
+    h(
+      "table",
+      { class: "data" },
+      h("caption", { class: "unseen" }, title),
+      h(
+        "thead",
+        null,
+        h(
+          "tr",
+          null,
+          ...columns.map(([name, quantity]) =>
+            h("th", { scope: "col" }, name, h("small", null, () => scaleOf(quantity, units.value).unit))
+          ),
+        ),
+      ),
+      h("tbody", null, () =>
+        rows().map(({ cells, mark }) =>
+          h(
+            "tr",
+            { class: mark ? "marked" : null, title: mark ?? null },
+            ...cells.map((v, i) => h(i ? "td" : "th", i ? null : { scope: "row" }, cell(v, columns[i][1]))),
+          )
+        )),
+    ),
+  );
+}
+
+/** @param {number | null} si @param {Quantity} quantity */
+const cell = (si, quantity) => si == null ? "–" : brief(toShown(si, scaleOf(quantity, units.value)));
+
+/** What a flag of a row means, from the flags of the answer. @param {Curves} c @param {string[]} codes */
+const explain = (c, codes) =>
+  codes.map((code) => c.flags.find((f) => f.code === code)?.message ?? code.replaceAll("_", " ")).join("; ");
+
+function operatingPoints() {
+  const c = curves.value;
+  return (c?.operating_points ?? []).map((o) => ({
+    cells: [o.pressure, o.contraction, o.length, o.stiffness, o.stiffness_closed, o.diameter],
+    mark: c && o.flags.length ? explain(c, o.flags) : undefined,
+  }));
+}
+
+function characteristics() {
+  return (curves.value?.characteristics ?? []).map((c) => ({
+    cells: [c.pressure, c.blocked_force, c.free_contraction, c.max_work],
+    mark: c.free_contraction_flag ?? undefined,
+  }));
+}
+
+/** A doubt about a figure is a note; everything else about an answer is a limit. */
+const NOTE = "unverified";
+
+/** The limit that is reached first stands on top; its share of the limit says how near the others are. */
+function verdict() {
+  const c = curves.value;
+  if (!c) return h("p", { class: "muted" }, fault.value ? "No valid model yet." : "Waiting for the first curves…");
+  const hard = c.flags.filter((f) => f.code !== NOTE), notes = c.flags.filter((f) => f.code === NOTE);
+  const best = c.operating_points.filter((o) => o.contraction != null).at(-1);
+  const reach = best
+    ? `${withUnit(best.pressure, "pressure", units.value)} holds ${withUnit(best.force, "force", units.value)} at ${
+      withUnit(best.contraction, "ratio", units.value)
+    } contraction (${withUnit(best.length, "length", units.value)} long).`
+    : `No pressure of the family holds ${withUnit(design.value.load, "force", units.value)}.`;
+  return [
+    h(
+      "p",
+      { class: `verdict ${best && !hard.length ? "good" : "bad"}` },
+      icon(best && !hard.length ? "check" : "warn"),
+      h("span", null, best && !hard.length ? "Within all limits. " : "", reach),
+    ),
+    ...[...hard, ...notes].map((f) =>
+      h(
+        "p",
+        { class: `flag ${f.code === NOTE ? "note" : "bad"}` },
+        icon(f.code === NOTE ? "info" : "warn"),
+        h("span", null, f.message),
+      )
+    ),
+  ];
+}
+
+/** How much of each limit the family uses: one bar each, the fullest is the one that binds. */
+function margins() {
+  const c = curves.value;
+  if (!c) return null;
+  const most = (/** @type {(number | null | undefined)[]} */ all) => Math.max(...all.map((v) => v ?? 0));
+  /** @type {[string, number, number | null, Quantity][]} */
+  const rows = [
+    ["Pressure", most(c.pressure), c.limits.max_pressure, "pressure"],
+    ["Force", Math.max(design.value.load, most(c.characteristics.map((x) => x.blocked_force))), c.limits.max_force, "force"],
+    ["Contraction", most(c.operating_points.map((o) => o.contraction)), c.limits.max_contraction, "ratio"],
+  ];
+  const known = rows.filter(([, , limit]) => limit);
+  if (!known.length) return null;
+  return h(
+    "div",
+    { class: "margins" },
+    ...known.map(([name, used, limit, quantity]) => {
+      const share = used / (limit ?? 1);
+      return h(
+        "div",
+        { class: share > 1.0001 ? "over" : "" },
+        h("span", null, name),
+        h("span", { class: "bar" }, h("i", { style: `width:${Math.min(100, share * 100)}%` })),
+        h("span", { class: "num" }, `${withUnit(used, quantity, units.value)} of ${withUnit(limit, quantity, units.value)}`),
+      );
+    }),
+  );
+}
+
+const loadText = computed(() => withUnit(design.value.load, "force", units.value));
+
+export function resultCards() {
+  return [
+    h(
+      "section",
+      { class: "card", "aria-label": "Verdict" },
+      h("div", { class: "card-head" }, h("h2", null, "Verdict")),
+      h("div", { class: "verdicts" }, verdict),
+      margins,
+    ),
+    h(
+      "section",
+      { class: "card", "aria-label": "Operating points" },
+      h("div", { class: "card-head" }, h("h2", null, "At the load"), h("span", { class: "muted" }, () => loadText.value)),
+      figures("Operating points at the load", [
+        ["P", "pressure"],
+        ["ε", "ratio"],
+        ["L", "length"],
+        ["k open", "stiffness"],
+        ["k closed", "stiffness"],
+        ["D", "length"],
+      ], operatingPoints),
+    ),
+    h(
+      "section",
+      { class: "card", "aria-label": "Characteristics" },
+      h("div", { class: "card-head" }, h("h2", null, "Characteristics")),
+      figures("Characteristics per pressure", [
+        ["P", "pressure"],
+        ["Blocked force", "force"],
+        ["Free contraction", "ratio"],
+        ["Work", "energy"],
+      ], characteristics),
+    ),
+  ];
+}

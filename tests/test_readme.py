@@ -1,0 +1,65 @@
+"""The README's promises: two commands, a picture that exists, an example effect that works as printed."""
+
+from __future__ import annotations
+
+import re
+from math import radians
+from pathlib import Path
+
+import pytest
+
+from mckibben.physics.catalogue import Catalogue
+from mckibben.physics.muscle import Muscle
+from mckibben.simulation.static import StaticModel
+
+ROOT = Path(__file__).parents[1]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+@pytest.fixture
+def example_folder(tmp_path: Path) -> Path:
+    (example,) = re.findall(r"```python\n(.*?)```", README, flags=re.DOTALL)
+    (tmp_path / "seal_drag.py").write_text(example, encoding="utf-8")
+    return tmp_path
+
+
+def test_exactly_two_commands():
+    commands = re.findall(r"```bash\n(.*?)```", README, flags=re.DOTALL)
+    assert len(commands) == 2
+    assert all(len(command.strip().splitlines()) == 1 for command in commands)
+
+
+def test_pictures_and_files_named_exist():
+    for path in re.findall(r"!\[[^]]*\]\(([^)]+)\)", README):
+        assert (ROOT / path).is_file(), path
+    for path in re.findall(r"`((?:backend|tests|frontend|presets)/[\w./]+)`", README):
+        assert (ROOT / path).exists(), path
+
+
+def test_the_example_effect_takes_its_force_off_every_curve(example_folder):
+    catalogue = Catalogue([example_folder])
+    assert catalogue.problems == []
+    muscle = Muscle(0.3, 0.02, radians(25))
+    state = {"length": [0.25, 0.28], "pressure": [3e5, 5e5], "clipped": False}
+    plain = StaticModel(muscle, catalogue=catalogue).force(**state)
+    dragged = StaticModel(muscle, {"seal_drag": {}}, catalogue=catalogue).force(**state)
+    assert dragged - plain == pytest.approx([-5.0, -5.0])
+
+
+def test_the_example_effect_reaches_the_interface_with_no_other_edit(example_folder):
+    from fastapi.testclient import TestClient
+
+    from mckibben.api.app import create_app
+    from mckibben.api.settings import Settings
+
+    client = TestClient(create_app(Settings(effects=(example_folder,))), base_url="http://127.0.0.1")
+    effects = {effect["id"]: effect for effect in client.get("/api/effects").json()["effects"]}
+    assert effects["seal_drag"]["title"] == "Seal drag"
+    assert "<math" in effects["seal_drag"]["equation_mathml"]
+    request = {"muscle": {"preset": "DMSP-20"}, "pressures": [3e5], "points": 5, "unclipped": True}
+    request |= {"contraction_from": 0.0, "contraction_to": 0.2}
+    plain, dragged = (
+        client.post("/api/curves", json={**request, "effects": effect}).json()["force"][0]
+        for effect in ({}, {"seal_drag": {"drag": "7 N"}})
+    )
+    assert [a - b for a, b in zip(plain, dragged, strict=True)] == pytest.approx([7.0] * 5)
