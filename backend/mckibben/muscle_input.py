@@ -154,8 +154,8 @@ def start_model(
         catalogue: the known effects.
 
     Raises:
-        InputError: no or more than one form of geometry, something of it missing, an unknown effect or parameter,
-            a value with a wrong unit. Bounds are the model's to check.
+        InputError: no or more than one form of geometry, something of it missing, an unknown effect or
+            parameter, a value with a wrong unit. Bounds are the model's to check.
     """
     muscle = _muscle(given, None if preset is None else preset.muscle)
     chosen: Mapping[str, Mapping[str, float]]
@@ -167,7 +167,7 @@ def start_model(
 
 
 def _muscle(given: GivenMuscle, base: Muscle | None) -> Muscle:
-    forms = [form for form, marks in _MARKS.items() if any(getattr(given, mark) is not None for mark in marks)]
+    forms = [form for form, marks in _MARKS.items() if any(_has(given, mark) for mark in marks)]
     if len(forms) > 1:
         raise InputError(
             f"the muscle is given in {len(forms)} forms at once: {' and '.join(forms)}",
@@ -178,7 +178,7 @@ def _muscle(given: GivenMuscle, base: Muscle | None) -> Muscle:
     length = given.nominal_length if given.nominal_length is not None else base and base.nominal_length
     if length is None:
         raise InputError(
-            "the muscle has no length", field="muscle.nominal_length", hint="e.g. \"nominal_length\": \"300 mm\""
+            "the muscle has no length", field="muscle.nominal_length", hint='e.g. "nominal_length": "300 mm"'
         )
     if form == "diameter and angle":
         return _by_diameter(given, base, length)
@@ -186,38 +186,39 @@ def _muscle(given: GivenMuscle, base: Muscle | None) -> Muscle:
 
 
 def _first_given(given: GivenMuscle, names: tuple[str, ...]) -> str:
-    return next(name for name in names if getattr(given, name) is not None)
+    return next(name for name in names if _has(given, name))
+
+
+def _has(given: GivenMuscle, name: str) -> bool:
+    return getattr(given, name) is not None
 
 
 def _by_diameter(given: GivenMuscle, base: Muscle | None, length: float) -> Muscle:
     """D0 is the braid diameter at the braid angle; without it the bore is taken."""
     if base is None:
-        if given.braid_angle is None:
-            raise InputError(
-                "the muscle has no braid angle" if _has_diameter(given) else "the muscle has no geometry",
-                field="muscle.braid_angle" if _has_diameter(given) else "muscle",
-                hint="give a preset, or braid_angle with a diameter, or thread_length with turns, or rhombus",
-            )
-        if not _has_diameter(given):
-            raise InputError(
-                "the muscle has a braid angle but no diameter",
-                field="muscle.inside_diameter",
-                hint="e.g. \"inside_diameter\": \"20 mm\"",
-            )
         wall = given.wall_thickness or 0.0
         bore = given.inside_diameter
         braid = given.braid_diameter if given.braid_diameter is not None else bore
+        if given.braid_angle is None:
+            raise InputError(
+                "the muscle has no geometry" if braid is None else "the muscle has no braid angle",
+                field="muscle" if braid is None else "muscle.braid_angle",
+                hint="give a preset, or braid_angle with a diameter, or thread_length with turns, or rhombus",
+            )
+        if braid is None:
+            raise InputError(
+                "the muscle has a braid angle but no diameter",
+                field="muscle.inside_diameter",
+                hint='e.g. "inside_diameter": "20 mm"',
+            )
         return Muscle(length, braid, given.braid_angle, wall, bore if bore is not None else braid - wall)
     wall = base.wall_thickness if given.wall_thickness is None else given.wall_thickness
     bore = base.inside_diameter if given.inside_diameter is None else given.inside_diameter
     # A wider bore or a thicker wall carries the braid outwards with it.
     follows = base.braid_diameter + (bore - base.inside_diameter) + (wall - base.wall_thickness)
     braid = follows if given.braid_diameter is None else given.braid_diameter
-    return Muscle(length, braid, base.braid_angle if given.braid_angle is None else given.braid_angle, wall, bore)
-
-
-def _has_diameter(given: GivenMuscle) -> bool:
-    return given.braid_diameter is not None or given.inside_diameter is not None
+    angle = base.braid_angle if given.braid_angle is None else given.braid_angle
+    return Muscle(length, braid, angle, wall, bore)
 
 
 def _by_thread(given: GivenMuscle, base: Muscle | None, length: float) -> Muscle:
@@ -243,8 +244,10 @@ def _by_thread(given: GivenMuscle, base: Muscle | None, length: float) -> Muscle
     return Muscle(length, diameter, angle, wall, bore)
 
 
-def _effect_values(effect_id: str, given: Mapping[str, float | str], catalogue: Catalogue) -> dict[str, float]:
-    """Every parameter of an effect in SI: the given ones, defaults for the rest; bounds are the model's to check."""
+def _effect_values(
+    effect_id: str, given: Mapping[str, float | str], catalogue: Catalogue
+) -> dict[str, float]:
+    """Every parameter of an effect in SI: the given ones, defaults for the rest."""
     path = f"effects.{effect_id}"
     if effect_id not in catalogue:
         raise InputError(

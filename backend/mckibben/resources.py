@@ -1,4 +1,4 @@
-"""Where the files that come with the package are, installed or in a checkout, and where the user's are kept."""
+"""Where the files that come with the package are, and where the user's are kept."""
 
 from __future__ import annotations
 

@@ -29,8 +29,11 @@ class Studio:
         self, *, presets: Path, user_presets: Path | None = None, effects: Sequence[Path] = ()
     ) -> None:
         self.catalogue = Catalogue(effects) if effects else default_catalogue()
-        table = {name: {p.name: p for p in effect.parameters} for name, effect in self.catalogue.items()}
-        self.library = PresetLibrary(presets, user_presets, table)
+        #: Effect id -> parameter name -> parameter; what presets are checked against.
+        self.effect_table = {
+            name: {p.name: p for p in effect.parameters} for name, effect in self.catalogue.items()
+        }
+        self.library = PresetLibrary(presets, user_presets, self.effect_table)
         self._facts: dict[str, tuple[MusclePreset, PresetFacts]] = {}
 
     def start_model(

@@ -112,8 +112,8 @@ def check_numbers_and_symbols_agree(effect: Effect) -> None:
             step = steps.get(name, 1e-6 * point[name])
             up, down = ({**point, name: point[name] + sign * step} for sign in (1.0, -1.0))
             slope = (numeric(effects, up).force - numeric(effects, down).force) / (2.0 * step)
-            # Differences of forces of 1 kN carry a rounding of 1e-13 N, so the tolerance has a floor there.
-            assert abs(exact - slope) <= 1e-6 * abs(slope) + 1e-10 * FORCE_SCALE / step * 1e-2, (
+            # Forces of 1 kN carry a rounding of 1e-12 N, which a difference divides by its step.
+            assert abs(exact - slope) <= 1e-6 * abs(slope) + 1e-14 * FORCE_SCALE / step, (
                 f"dF/d {name}: {exact} symbolic, {slope} by differences at {point}"
             )
 

@@ -21,7 +21,7 @@ from mckibben.simulation.static import StaticModel
 MUSCLE = Muscle(0.3, 0.0218, math.radians(26.5), 0.0018, 0.020)
 LENGTHS = MUSCLE.nominal_length * (1.0 - np.linspace(-0.03, 0.25, 15))
 PRESSURES = np.array([0.0, 0.2e5, 0.5e5, 1e5, 2e5, 4e5, 6e5, 8e5])
-SPEED = 0.02  # m/s, where a motion is needed
+SPEED = 0.002  # m/s, where a motion is needed
 WARM = 333.15  # K, so that a temperature effect shows
 FORCE_SCALE = 1500.0  # N, the muscle's catalogue force
 INPUTS = ("length", "pressure", "velocity", "direction", "temperature")

@@ -16,7 +16,7 @@ _OPTIONS = orjson.OPT_SERIALIZE_NUMPY
 
 
 def _unusual(value: object) -> object:
-    """What orjson does not take by itself: arrays that are not contiguous, numpy integers of odd width, tuples."""
+    """What orjson does not take by itself: arrays that are not contiguous, numpy scalars."""
     if isinstance(value, np.ndarray):
         return value.tolist()
     if isinstance(value, np.generic):
@@ -43,7 +43,7 @@ class JsonAnswer(Response):
         return content if isinstance(content, bytes) else to_json(content)
 
 
-class _Duplicate(ValueError):
+class _DuplicateKeyError(ValueError):
     """A key that occurs twice in one JSON object."""
 
 
@@ -51,7 +51,7 @@ def _refuse_duplicates(pairs: list[tuple[str, object]]) -> dict[str, object]:
     found = dict(pairs)
     if len(found) < len(pairs):
         keys = [key for key, _ in pairs]
-        raise _Duplicate(next(key for key in keys if keys.count(key) > 1))
+        raise _DuplicateKeyError(next(key for key in keys if keys.count(key) > 1))
     return found
 
 
@@ -69,7 +69,7 @@ def read_json(text: bytes) -> Any:
         raise HTTPException(400, f"The body is not valid JSON: {error}.") from error
     except RecursionError as error:
         raise HTTPException(400, "The body is nested too deeply.") from error
-    except _Duplicate as error:
+    except _DuplicateKeyError as error:
         raise HTTPException(400, f"The key '{error}' occurs twice in one JSON object.") from error
     return value
 

@@ -50,9 +50,10 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app = FastAPI(
         title="mckibben",
         version=__version__,
-        description="Design studio for pneumatic-muscle drives. Physical values of requests are numbers in SI "
-        "units or texts with a unit; answers are in SI.",
-        docs_url=None,  # Swagger's page loads scripts from elsewhere, which the content security policy forbids
+        description="Design studio for pneumatic-muscle drives. Physical values of requests are numbers in "
+        "SI units or texts with a unit; answers are in SI.",
+        # Their pages load scripts from elsewhere, which the content security policy forbids.
+        docs_url=None,
         redoc_url=None,
         openapi_tags=_TAGS,
         generate_unique_id_function=_operation_name,

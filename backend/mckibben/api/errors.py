@@ -34,7 +34,7 @@ _CODE_OF_STATUS = {
     422: "bad_input",
 }
 _HINTS = {
-    400: "Send one JSON object, e.g. {\"muscle\": {\"preset\": \"DMSP-20\"}}.",
+    400: 'Send one JSON object, e.g. {"muscle": {"preset": "DMSP-20"}}.',
     413: "Measurement files may have up to 64 MB, other requests up to 1 MB.",
     415: "Send 'Content-Type: application/json'; measurement files as 'text/csv'.",
 }
@@ -53,7 +53,8 @@ def error_answer(
     """An answer in the one error shape; the code follows from the status unless given."""
     code = code or _CODE_OF_STATUS.get(status, "error")
     hint = hint or _HINTS.get(status)
-    return JsonAnswer(error_body(code, _printable(message), field=_printable(field), hint=_printable(hint)), status)
+    body = error_body(code, _printable(message), field=_printable(field), hint=_printable(hint))
+    return JsonAnswer(body, status)
 
 
 def _printable(text: str | None) -> Any:

@@ -1,8 +1,8 @@
 """Who may talk to the server, as pure ASGI middleware.
 
-Four things are checked before a request reaches a route: the Host header (against DNS rebinding), the origin of
-requests that change or compute something (against other pages in the same browser), the token when the server is
-reachable from outside, and the size of the body. Every answer carries the security headers.
+Four things are checked before a request reaches a route: the Host header (against DNS rebinding), the origin
+of requests that change or compute something (against other pages in the same browser), the token when the
+server is reachable from outside, and the size of the body. Every answer carries the security headers.
 """
 
 from __future__ import annotations
@@ -183,7 +183,8 @@ class BodyLimitMiddleware:
         message = f"The body is larger than {limit // 1_000_000} MB."
         declared = Headers(scope=scope).get("content-length", "0")
         if not (declared.isascii() and declared.isdigit()):
-            await error_answer(400, "Content-Length is not a number.", code="bad_header")(scope, receive, send)
+            refusal = error_answer(400, "Content-Length is not a number.", code="bad_header")
+            await refusal(scope, receive, send)
             return
         # Compared by digits first: int() refuses more than 4300 of them.
         if len(declared.lstrip("0")) > 12 or int(declared) > limit:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import types
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -23,7 +24,6 @@ _MUST_BE = {
     "too_short": "must have at least {min_length} entries",
     "string_too_long": "must have at most {max_length} characters",
     "string_too_short": "must have at least {min_length} characters",
-    "string_pattern_mismatch": "must have the form {pattern}",
     "union_tag_invalid": "must be one of {expected_tags}",
     "finite_number": "must be a finite number",
     "string_type": "must be a text",
@@ -106,20 +106,22 @@ def _path(location: Sequence[int | str], value: object) -> str | None:
 
 
 def _shown(value: object) -> str:
+    if value is None or isinstance(value, bool):
+        return {None: "null", True: "true", False: "false"}[value]
     if isinstance(value, dict | list):
         return "an object" if isinstance(value, dict) else "a list"
     text = repr(value) if isinstance(value, str) else str(value)
     return text if len(text) <= 60 else f"{text[:57]}…"
 
 
-def _problem(error: Mapping[str, Any], model: Any, body: object) -> Problem:
+def _problem(error: Mapping[str, Any], model: Any, body: object, subject: str) -> Problem:
     location: tuple[int | str, ...] = tuple(error["loc"])
     place = str(location[0]) if location and location[0] in _PLACES else "body"
     if location and location[0] in _PLACES:
         location = location[1:]
     kind, context = error["type"], error.get("ctx") or {}
     field = _path(location, body)
-    name = field or "The request"
+    name = field or subject
     cause = context.get("error")
 
     if isinstance(cause, InputError):
@@ -129,7 +131,7 @@ def _problem(error: Mapping[str, Any], model: Any, body: object) -> Problem:
         return Problem(f"The body is not valid JSON: {cause}.", code="bad_json")
     if kind == "missing":
         if field is None:
-            return Problem("The request has no body.", hint="Send one JSON object.")
+            return Problem(f"{subject} has no body.", hint="Send one JSON object.")
         return Problem(f"{name} is missing.", field, None, "missing", place)
     if kind == "extra_forbidden":
         known = _known_fields(_annotations(model), location[:-1])
@@ -141,21 +143,30 @@ def _problem(error: Mapping[str, Any], model: Any, body: object) -> Problem:
     if kind == "union_tag_invalid":
         tag = str(context["discriminator"]).strip("'")
         return Problem(f"{tag} must be one of {context['expected_tags']}, not {_shown(context['tag'])}.", tag)
+    shown = _shown(error.get("input"))
+    if kind == "string_pattern_mismatch":
+        form = f"its form is {context['pattern']}"
+        return Problem(f"{name} cannot be {shown}.", field, form, "bad_input", place)
     if kind in _MUST_BE:
+        options = re.findall(r"'([^']*)'", str(context.get("expected", "")))
+        near = did_you_mean(str(error.get("input"))[:80], options) if options else None
         wanted = _MUST_BE[kind].format(**context)
-        return Problem(f"{name} {wanted}, not {_shown(error.get('input'))}.", field, None, "bad_input", place)
+        return Problem(f"{name} {wanted}, not {shown}.", field, near, "bad_input", place)
     message = str(error["msg"]).removeprefix("Value error, ")
     return Problem(f"{name}: {message}", field, None, "bad_input", place)
 
 
-def first_problem(errors: Sequence[Mapping[str, Any]], model: Any = None, body: object = None) -> Problem:
-    """The first of pydantic's errors as a sentence; the hint names the other fields that need attention.
+def first_problem(
+    errors: Sequence[Mapping[str, Any]], model: Any = None, body: object = None, subject: str = "The request"
+) -> Problem:
+    """The first of pydantic's errors as a sentence.
 
     Args:
         errors: ``ValidationError.errors()``.
         model: the model that was validated, from which near field names are suggested.
         body: what was sent, so that the field path holds only keys the sender wrote.
+        subject: what to call the whole.
     """
     # A misspelt field explains the missing one, so it is the one to tell first.
     ordered = sorted(errors, key=lambda error: error["type"] != "extra_forbidden")
-    return _problem(ordered[0], model, body)
+    return _problem(ordered[0], model, body, subject)

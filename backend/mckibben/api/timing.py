@@ -1,4 +1,4 @@
-"""The outermost layer of ``/api``: how long an answer took, and what happens when something unexpected fails."""
+"""The outermost layer: how long an answer took, and what happens when something unexpected fails."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from mckibben.api.errors import unexpected_answer
 
 
 class TimingMiddleware:
-    """``Server-Timing: app;dur=<ms>`` on API answers, no caching unless a route asks for it, errors as 500."""
+    """``Server-Timing: app;dur=<ms>`` on API answers, no caching unless a route asks for it, 500 as JSON."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app

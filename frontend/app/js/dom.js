@@ -6,7 +6,15 @@ import { effect } from "./reactive.js";
 /** @typedef {Leaf | Leaf[] | (() => Leaf | Leaf[])} Child */
 
 /** Set as properties, because the attribute of the same name is only the start value. */
-const PROPERTIES = new Set(["value", "checked", "disabled", "hidden", "open", "textContent", "indeterminate"]);
+const PROPERTIES = new Set([
+  "value",
+  "checked",
+  "disabled",
+  "hidden",
+  "open",
+  "textContent",
+  "indeterminate",
+]);
 
 /** @template {keyof HTMLElementTagNameMap} K
  * @param {K} tag @param {Record<string, unknown> | null} [props] on… = listener, ref = called with the element

@@ -151,7 +151,7 @@ export function withUnit(si, quantity, system) {
   if (si == null) return "–";
   const s = scaleOf(quantity, system);
   const text = brief(toShown(si, s));
-  return s.unit ? `${text}${s.unit === "°" ? "" : "\u202f"}${s.unit}` : text;
+  return s.unit ? `${text}${s.unit === "°" ? "" : "\u00a0"}${s.unit}` : text;
 }
 
 /** Reads "30 cm", "6 bar", "25°", "1,5"; a bare number is in the shown unit.
@@ -180,6 +180,12 @@ function noun(quantity) {
   if (quantity === null || quantity === "number") return "a plain number";
   if (quantity === "ratio") return "a share";
   return (/^[aeiou]/.test(quantity) ? "an " : "a ") + quantity;
+}
+
+/** The quantity a unit of a preset measures, if it is shown in the user's units. @param {string} unit
+ * @returns {Quantity | null} */
+export function quantityOfUnit(unit) {
+  return TYPED[unit.toLowerCase()]?.[0] ?? null;
 }
 
 /** A preset's {value, unit} in SI. @param {{value: number, unit: string}} q */

@@ -3,7 +3,7 @@
 import { h, icon } from "./dom.js";
 import { doc, edit, future, look, past, readDoc, redo, undo, units, view } from "./state.js";
 import { toHash } from "./link.js";
-import { outage, presets, status, loadAll } from "./store.js";
+import { loadAll, outage, presets, status } from "./store.js";
 import { setTheme, themeChoice } from "./plots/theme.js";
 import { menuButton } from "./ui/menu.js";
 import { openDialog } from "./ui/dialog.js";
@@ -111,7 +111,9 @@ function historyButton(label, name, run, keys) {
 }
 
 const themeItems = () =>
-  /** @type {const} */ ([["system", "As the system"], ["light", "Light"], ["dark", "Dark"]]).map(([id, label]) => ({
+  /** @type {const} */ ([["system", "As the system"], ["light", "Light"], ["dark", "Dark"]]).map((
+    [id, label],
+  ) => ({
     label,
     checked: themeChoice.peek() === id,
     run: () => setTheme(id),
@@ -161,14 +163,30 @@ export function shell(views, help) {
           edit((d) => ({ ...d, units: system }), `units ${SYSTEMS[system]}`);
         },
       },
-      () => Object.entries(SYSTEMS).map(([id, name]) => h("option", { value: id, selected: units.value === id }, name)),
+      () =>
+        Object.entries(SYSTEMS).map(([id, name]) =>
+          h("option", { value: id, selected: units.value === id }, name)
+        ),
     ),
-    menuButton({ label: [icon("export"), h("span", { class: "wide" }, "Export")], name: "Export", items: exportItems }),
-    h("button", { type: "button", onclick: share, title: "Copy a link that restores everything" }, icon("share"),
-      h("span", { class: "wide" }, "Share")),
+    menuButton({
+      label: [icon("export"), h("span", { class: "wide" }, "Export")],
+      name: "Export",
+      items: exportItems,
+    }),
+    h(
+      "button",
+      { type: "button", onclick: share, title: "Copy a link that restores everything" },
+      icon("share"),
+      h("span", { class: "wide" }, "Share"),
+    ),
     menuButton({ label: icon("system"), name: "Theme", class: "quiet", items: themeItems }),
-    h("button", { type: "button", class: "quiet", "aria-label": "Keyboard shortcuts", title: "Keyboard  (?)", onclick: help },
-      icon("help")),
+    h("button", {
+      type: "button",
+      class: "quiet",
+      "aria-label": "Keyboard shortcuts",
+      title: "Keyboard  (?)",
+      onclick: help,
+    }, icon("help")),
   );
   const banner = () =>
     outage.value

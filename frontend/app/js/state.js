@@ -161,7 +161,9 @@ export function readDoc(raw) {
   if (!isObject(raw)) throw new Error("it holds no document");
   if (raw.schema !== 1) throw new Error(`it is of version ${raw.schema}; this program reads version 1`);
   const start = defaultDoc();
-  const units = ["si", "bar", "us"].includes(String(raw.units)) ? /** @type {Doc["units"]} */ (raw.units) : "bar";
+  const units = ["si", "bar", "us"].includes(String(raw.units))
+    ? /** @type {Doc["units"]} */ (raw.units)
+    : "bar";
   return {
     ...start,
     view: typeof raw.view === "string" ? raw.view : start.view,
@@ -177,7 +179,9 @@ function readFilter(raw) {
   if (!isObject(raw)) return start;
   const sound = Object.entries(raw).filter(([key, value]) => {
     const usual = /** @type {Record<string, unknown>} */ (start)[key];
-    if (usual === null) return value === null || (key === "selected" ? typeof value === "string" : isNumber(value));
+    if (usual === null) {
+      return value === null || (key === "selected" ? typeof value === "string" : isNumber(value));
+    }
     return Object.hasOwn(start, key) && typeof usual === typeof value;
   });
   return { ...start, ...Object.fromEntries(sound) };

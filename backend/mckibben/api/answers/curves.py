@@ -1,4 +1,4 @@
-"""The static characteristics of a muscle: curves per pressure, figures per pressure, position over pressure."""
+"""The static characteristics of a muscle: curves and figures per pressure, position over pressure."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from mckibben.api.answers.start import Json, flags_json, geometry_json, start_flags
 from mckibben.api.schemas.convert import given_muscle
-from mckibben.api.schemas.curves import CurvesRequest
+from mckibben.api.schemas.curves import CurvesOptions, CurvesRequest
+from mckibben.muscle_input import StartModel
 from mckibben.physics import ideal
 from mckibben.physics.errors import InputError
 from mckibben.simulation.inverse import contraction_at
@@ -41,6 +42,15 @@ def curves_answer(request: CurvesRequest, studio: Studio) -> Json:
         InputError: the muscle, an effect or the range cannot be used.
     """
     start = studio.start_model(given_muscle(request.muscle), request.effects)
+    return curves_of(request, start, studio)
+
+
+def curves_of(request: CurvesOptions, start: StartModel, studio: Studio) -> Json:
+    """The curves of a muscle that is known already.
+
+    Raises:
+        InputError: the geometry cannot pull, a parameter is out of bounds, the range cannot be used.
+    """
     model = studio.static_model(start)
     pressures = np.array(request.pressures)
     grid = np.linspace(0.0, float(np.max(pressures)), _OVER_PRESSURE_POINTS)
@@ -81,7 +91,7 @@ def curves_answer(request: CurvesRequest, studio: Studio) -> Json:
     }
 
 
-def _solve(request: CurvesRequest, model: StaticModel, pressures: Array, grid: Array) -> _Held:
+def _solve(request: CurvesOptions, model: StaticModel, pressures: Array, grid: Array) -> _Held:
     """All contractions of the answer in one vectorised search: the calls cost more than the rows."""
     free = (np.zeros(len(pressures)), pressures, np.full(len(pressures), float(request.direction)))
     parts = [free]
@@ -100,16 +110,18 @@ def _solve(request: CurvesRequest, model: StaticModel, pressures: Array, grid: A
     return _Held(*pieces, *[np.empty(0)] * (4 - len(pieces)))
 
 
-def _range(request: CurvesRequest, model: StaticModel, free: Array) -> Array:
-    """Contractions of the columns: from the nominal length to where the strongest curve ends, unless given."""
-    muscle = model.muscle
-    first = 0.0 if request.contraction_from is None else request.contraction_from
-    last = request.contraction_to
+def _range(request: CurvesOptions, model: StaticModel, free: Array) -> Array:
+    """Contractions of the columns; unless given, from the permitted stretch to where the last curve ends."""
+    locked = 1.0 - model.longest / model.muscle.nominal_length
+    first, last = request.contraction_from, request.contraction_to
+    if first is None:
+        first = max(-(model.limits.max_pretension or 0.0), locked)
+        if last is not None and last <= first:
+            first = max(last - 0.01, locked)
     if last is None:
         reached = float(np.max(free, initial=0.0, where=np.isfinite(free)))
         enough = max(first, 0.0) + 1e-3
         last = reached if reached > enough else max(_ideal_contraction(model), enough)
-    locked = 1.0 - model.longest / muscle.nominal_length
     for name, value in (("contraction_from", first), ("contraction_to", last)):
         if value < locked:
             raise InputError(
@@ -124,7 +136,11 @@ def _range(request: CurvesRequest, model: StaticModel, free: Array) -> Array:
             f"the range ends at {last * 100:.3g} %, not after it begins at {first * 100:.3g} %",
             field="contraction_to" if request.contraction_to is not None else "contraction_from",
         )
-    return np.linspace(first, last, request.points)
+    columns = np.linspace(first, last, request.points)
+    nearest = int(np.argmin(np.abs(columns)))
+    if 0 < nearest < len(columns) - 1:
+        columns[nearest] = 0.0  # the nominal length itself, where the blocked force is read
+    return columns
 
 
 def _ideal_contraction(model: StaticModel) -> float:
@@ -143,9 +159,7 @@ def _limits(model: StaticModel, pressures: Array) -> Json:
     }
 
 
-def _characteristics(
-    request: CurvesRequest, model: StaticModel, pressures: Array, free: Array
-) -> list[Json]:
+def _characteristics(request: CurvesOptions, model: StaticModel, pressures: Array, free: Array) -> list[Json]:
     """Blocked force, free contraction and work of each pressure."""
     rest = model.muscle.nominal_length
     stroke = np.where(np.isfinite(free) & (free > 0.0), free, 0.0)
@@ -181,24 +195,27 @@ def _free_flag(model: StaticModel, contraction: float) -> str | None:
 
 
 def _operating_points(
-    request: CurvesRequest, model: StaticModel, pressures: Array, held: Array
+    request: CurvesOptions, model: StaticModel, pressures: Array, held: Array
 ) -> tuple[list[Json], list[Flag]]:
     """Where the muscle holds the load at each pressure, and every limit that is crossed there."""
     if request.load is None:
         return [], []
     reached = np.flatnonzero(np.isfinite(held))
     length = model.muscle.nominal_length * (1.0 - held)
-    there = model.curves(
-        pressures[reached],
-        length[reached],
-        direction=request.direction,
-        temperature=request.temperature,
-        dead_volume=request.dead_volume,
-        polytropic_exponent=request.polytropic_exponent,
-    )
-    figures = {name: np.full(len(pressures), np.nan) for name in ("stiffness", "stiffness_closed", "diameter")}
-    for name, values in figures.items():
-        values[reached] = np.diagonal(getattr(there, name))
+    figures = {
+        name: np.full(len(pressures), np.nan) for name in ("stiffness", "stiffness_closed", "diameter")
+    }
+    if reached.size:
+        there = model.curves(
+            pressures[reached],
+            length[reached],
+            direction=request.direction,
+            temperature=request.temperature,
+            dead_volume=request.dead_volume,
+            polytropic_exponent=request.polytropic_exponent,
+        )
+        for name, values in figures.items():
+            values[reached] = np.diagonal(getattr(there, name))
     points, flags = [], []
     for index, pressure in enumerate(request.pressures):
         if np.isfinite(held[index]):
@@ -220,7 +237,7 @@ def _operating_points(
     return points, flags
 
 
-def _over_pressure(request: CurvesRequest, model: StaticModel, grid: Array, held: _Held) -> Json | None:
+def _over_pressure(request: CurvesOptions, model: StaticModel, grid: Array, held: _Held) -> Json | None:
     """Position at the load and force at the fixed length, from zero to the highest pressure, both ways."""
     if request.load is None and request.fixed_length is None:
         return None
@@ -245,7 +262,7 @@ def _over_pressure(request: CurvesRequest, model: StaticModel, grid: Array, held
 
 
 def _branch(
-    request: CurvesRequest, model: StaticModel, grid: Array, held: Array, direction: float
+    request: CurvesOptions, model: StaticModel, grid: Array, held: Array, direction: float
 ) -> Json | None:
     if request.load is None:
         return None

@@ -61,7 +61,9 @@ def _effect(effect: Effect) -> Json:
             "zero_at": list(signature.zero_at),
             "energy": signature.energy,
         },
-        "confused_with": [{"effect": twin.effect, "separated_by": twin.separated_by} for twin in effect.confused_with],
+        "confused_with": [
+            {"effect": twin.effect, "separated_by": twin.separated_by} for twin in effect.confused_with
+        ],
         "references": [_source(source) for source in effect.references],
         "slots": list(effect.slots),
     }

@@ -68,7 +68,7 @@ def _ask(request: Question, model: StaticModel) -> inverse.Answer:
             rest = model.muscle.nominal_length
             if request.stroke >= 0.95 * rest:
                 raise InputError(
-                    f"a stroke of {request.stroke * 1e3:.4g} mm is as long as the muscle ({rest * 1e3:.4g} mm)",
+                    f"no muscle of {rest * 1e3:.4g} mm makes a stroke of {request.stroke * 1e3:.4g} mm",
                     field="stroke",
                     hint="muscles contract by up to about a quarter of their length",
                 )
@@ -90,7 +90,7 @@ def _length(request: PressureQuestion, model: StaticModel) -> float:
         raise InputError(
             "give either the length or the contraction",
             field="length",
-            hint="e.g. \"contraction\": \"10 %\"",
+            hint='e.g. "contraction": "10 %"',
         )
     if request.length is not None:
         field, length = "length", request.length
@@ -98,6 +98,8 @@ def _length(request: PressureQuestion, model: StaticModel) -> float:
         field, length = "contraction", rest * (1.0 - (request.contraction or 0.0))
     if length < 0.05 * rest:
         raise InputError(
-            f"no muscle of {rest * 1e3:.4g} mm contracts to {length * 1e3:.4g} mm", field=field, hint="e.g. '10 %'"
+            f"no muscle of {rest * 1e3:.4g} mm contracts to {length * 1e3:.4g} mm",
+            field=field,
+            hint="e.g. '10 %'",
         )
     return length

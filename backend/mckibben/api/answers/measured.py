@@ -14,6 +14,7 @@ from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.presets import CurvePreset, MeasurementPreset, PresetLibrary
 
 _SHA256_LENGTH = 64
+_KINDS = ("measurements", "curves")
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,20 +40,25 @@ def find_points(identity: str, *, library: PresetLibrary, store: MeasurementStor
     """
     if len(identity) == _SHA256_LENGTH and set(identity) <= set("0123456789abcdef"):
         return Points(store.get(identity))
-    known = []
-    for kind in ("measurements", "curves"):
-        presets = library.list(kind)
-        if any(preset.id.lower() == identity.lower() for preset in presets):
-            preset = library.get(kind, identity)
-            if isinstance(preset, MeasurementPreset | CurvePreset):
-                return preset_points(preset)
-        known += [preset.id for preset in presets]
+    points = find_preset(identity, library)
+    if points is not None:
+        return points
+    known = [preset.id for kind in _KINDS for preset in library.list(kind)]
     raise InputError(
         f"there is no measurement '{identity[:80]}'",
         field="measurement",
         hint=did_you_mean(identity, known),
         code="not_found",
     )
+
+
+def find_preset(identity: str, library: PresetLibrary) -> Points | None:
+    """The points of a measurement or curve preset, None when there is none of this id."""
+    for kind in _KINDS:
+        for preset in library.list(kind):
+            if preset.id.lower() == identity.lower() and isinstance(preset, MeasurementPreset | CurvePreset):
+                return preset_points(preset)
+    return None
 
 
 def preset_points(preset: MeasurementPreset | CurvePreset) -> Points:

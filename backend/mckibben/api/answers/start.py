@@ -46,13 +46,9 @@ def start_flags(start: StartModel) -> list[Json]:
         return []
     found = []
     if preset.unverified:
+        why = "from general knowledge or estimated, not read in a source"
         found.append(
-            flag(
-                "unverified",
-                f"{preset.id}: {', '.join(preset.unverified)} {'is' if len(preset.unverified) == 1 else 'are'} "
-                "from general knowledge or estimated, not read in a source",
-                "muscle.preset",
-            )
+            flag("unverified", f"{preset.id}: {', '.join(preset.unverified)} {why}", "muscle.preset")
         )
     length, bound, word = start.muscle.nominal_length, None, ""
     if preset.shortest is not None and length < preset.shortest * (1.0 - 1e-9):

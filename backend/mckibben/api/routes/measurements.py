@@ -35,7 +35,9 @@ _BODY = {
 }
 _Name = Annotated[
     str,
-    Query(min_length=1, max_length=MAX_NAME, description="Name of the file, for people.", examples=["run1.csv"]),
+    Query(
+        min_length=1, max_length=MAX_NAME, description="Name of the file, for people.", examples=["run1.csv"]
+    ),
 ]
 
 

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, StringConstraints
 
 from mckibben.api.schemas.common import Flag, Series, Strict, si_field
-from mckibben.api.schemas.curves import Geometry
+from mckibben.api.schemas.curves import MuscleGeometry
 from mckibben.api.schemas.muscle import EffectsInput, MuscleInput
 
 MeasurementId = Annotated[
@@ -79,6 +79,6 @@ class ComparisonAnswer(Strict):
     correlations: list[Correlation]
     excluded: dict[str, int] = Field(description="Why rows were left out -> how many.")
     messages: list[str]
-    geometry: Geometry
+    geometry: MuscleGeometry
     series: list[ComparisonSeries]
     flags: list[Flag]

@@ -12,17 +12,15 @@ from mckibben.api.schemas.quantity import Contraction, Length, Load, Pressure, T
 
 Direction = Annotated[
     Literal[-1, 0, 1],
-    Field(description="Sign of dL/dt for friction: -1 shortening (filling), 1 lengthening (venting), 0 none."),
+    Field(description="Sign of dL/dt, for friction: -1 filling (shortening), 1 venting, 0 none."),
 ]
 Rows = Annotated[list[Series], Field(description="One row per pressure, one number per length.")]
 _DEFAULT_PRESSURES = [1e5, 2e5, 3e5, 4e5, 5e5, 6e5]
 
 
-class CurvesRequest(Strict):
-    """Which muscle, which pressures, which range."""
+class CurvesOptions(Strict):
+    """Which pressures, which range, which conditions."""
 
-    muscle: MuscleInput
-    effects: EffectsInput | None = None
     pressures: list[Pressure] = Field(
         default=_DEFAULT_PRESSURES, min_length=1, max_length=12, description="Gauge pressures of the curves."
     )
@@ -30,12 +28,23 @@ class CurvesRequest(Strict):
     direction: Direction = 0
     temperature: Temperature = Field(293.15, description="Temperature of the muscle.")
     unclipped: bool = Field(False, description="Also negative forces, which a muscle cannot exert.")
-    dead_volume: Volume = Field(0.0, description="Gas volume besides the muscle, for the closed-valve stiffness.")
+    dead_volume: Volume = Field(0.0, description="Gas volume besides the muscle, for the closed valve.")
     polytropic_exponent: float = Field(1.4, ge=1.0, le=1.7, description="1 isothermal, 1.4 adiabatic (air).")
-    contraction_from: Contraction | None = Field(None, description="Start of the range; null: the pretension limit.")
-    contraction_to: Contraction | None = Field(None, description="End of the range; null: the free contraction.")
+    contraction_from: Contraction | None = Field(
+        None, description="Start of the range; null: the pretension limit."
+    )
+    contraction_to: Contraction | None = Field(
+        None, description="End of the range; null: the largest free contraction."
+    )
     load: Load | None = Field(None, description="Constant load, for the operating points.")
     fixed_length: Length | None = Field(None, description="Length held fixed, for force over pressure.")
+
+
+class CurvesRequest(CurvesOptions):
+    """Which muscle, which pressures, which range."""
+
+    muscle: MuscleInput
+    effects: EffectsInput | None = None
 
 
 class CurveLimits(Strict):
@@ -57,7 +66,7 @@ class Characteristics(Strict):
     free_contraction: float | None = si_field("1", "Contraction without load.")
     free_contraction_flag: str | None = Field(description="Why the free contraction is not a plain figure.")
     max_work: float | None = si_field("J", "Work of one stroke from nominal length to free contraction.")
-    thread_tension_total: float | None = si_field("N", "Ideal tension of all threads together at nominal length.")
+    thread_tension_total: float | None = si_field("N", "Ideal tension of all threads at nominal length.")
 
 
 class RhombusAnswer(Strict):
@@ -68,7 +77,7 @@ class RhombusAnswer(Strict):
     around: float = si_field("1", "Rhombi around the muscle.")
 
 
-class Geometry(Strict):
+class MuscleGeometry(Strict):
     """The muscle at rest in all its forms."""
 
     braid_diameter: float = si_field("m", "Diameter of the braid at the braid angle.")
@@ -136,11 +145,11 @@ class CurvesAnswer(Strict):
     force: Rows = si_field("N", "Tension; 0 where the muscle would have to push, unless unclipped.")
     stiffness: Rows = si_field("N/m", "dF/dL at constant pressure.")
     stiffness_closed: Rows = si_field("N/m", "dF/dL at constant gas mass.")
-    volume: Series = si_field("m3", "Enclosed volume.")
-    diameter: Series = si_field("m", "Braid diameter.")
+    volume: Series = si_field("m3", "Enclosed volume at the highest pressure.")
+    diameter: Series = si_field("m", "Braid diameter at the highest pressure.")
     limits: CurveLimits
     characteristics: list[Characteristics]
-    geometry: Geometry
+    geometry: MuscleGeometry
     model: ModelAnswer
     over_pressure: OverPressure | None = Field(description="Null without load and fixed length.")
     operating_points: list[OperatingPoint]

@@ -28,7 +28,7 @@ class Signature(Strict):
 
     text: str = Field(description="In words.")
     direction: str | None = Field(description="Parity when the motion reverses: even, odd or null.")
-    pressure_power: float | None = Field(description="n when it is proportional to the n-th power of pressure.")
+    pressure_power: float | None = Field(description="n when it grows with the n-th power of pressure.")
     zero_at: list[str] = Field(description="States at which it contributes nothing.")
     energy: str = Field(description="conservative, dissipative, lumped or reading.")
 
@@ -36,14 +36,14 @@ class Signature(Strict):
 class Twin(Strict):
     """Another effect that looks alike."""
 
-    effect: str = Field(examples=["prestress"])
+    effect: str = Field(description="Its id.")
     separated_by: str = Field(description="The experiment that tells the two apart.")
 
 
 class EffectAnswer(Strict):
     """One physical effect, as its file declares it."""
 
-    id: str = Field(description="The file name.", examples=["bladder_elasticity"])
+    id: str = Field(description="The name of the file that declares it.")
     title: str
     family: str = Field(examples=["elastomer"])
     type: str = Field(description="static, rate, hysteretic, dynamic or measurement.")

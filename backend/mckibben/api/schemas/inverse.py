@@ -37,7 +37,7 @@ class ContractionQuestion(_Question):
 
 
 class WorkingRangeQuestion(_Question):
-    """Which stroke can the muscle make, from the preload without pressure to the load at the highest pressure?
+    """Which stroke is there from the preload without pressure to the load at the highest pressure?
 
     It begins venting and ends filling, whatever ``direction`` says.
     """

@@ -47,6 +47,6 @@ EffectsInput = Annotated[
         max_length=64,
         description="Effect id -> its parameters; parameters left out take their defaults. {} is the ideal "
         "model; null takes the preset's own effects (and the ideal model for a muscle given by geometry).",
-        examples=[{"bladder_elasticity": {"shear_modulus": "0.47 MPa"}, "prestress": {}}],
+        examples=[{}],
     ),
 ]

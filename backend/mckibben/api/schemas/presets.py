@@ -33,7 +33,7 @@ def _answer(preset: type[Preset], name: str) -> type[BaseModel]:
         __doc__=preset.__doc__,
         **fields,
         verified=(bool, Field(description="No figure is general knowledge (M) or an estimate (E).")),
-        origin=(Literal["built-in", "user"], Field(description="Came with the program, or saved by the user.")),
+        origin=(Literal["built-in", "user"], Field(description="With the program, or the user's own.")),
     )
 
 

@@ -50,7 +50,7 @@ class Quantity:
 
     @property
     def _hint(self) -> str:
-        return f"e.g. '{self.example}'; a bare number is in {self.unit if self.unit != '1' else 'parts of one'}."
+        return f"e.g. '{self.example}'"
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         """Validation by `__call__`; nothing of the annotated float's own."""
@@ -78,7 +78,7 @@ class Quantity:
 Length = Annotated[float, Quantity("m", "300 mm", above=0.0, at_most=1e3)]
 Diameter = Annotated[float, Quantity("m", "20 mm", above=0.0, at_most=10.0)]
 Thickness = Annotated[float, Quantity("m", "1.8 mm", at_least=0.0, at_most=1.0)]
-# Angles and sizes of a muscle are judged by the physics, in its own words ("… would lengthen instead of contract").
+# Judged by the physics in its own words ("… the muscle would lengthen instead of contract").
 Angle = Annotated[float, Quantity("rad", "25 deg")]
 Turns = Annotated[float, Quantity("1", "1.48", above=0.0, at_most=1e6)]
 Pressure = Annotated[float, Quantity("Pa", "6 bar", at_least=0.0, at_most=1e8)]

@@ -39,24 +39,20 @@ const axisLayout = (axis, p) => ({
 /** Plotly's data and layout of a specification.
  * @param {Spec} spec @param {Palette} p @param {{width: number, height: number, font: string}} box */
 export function figure(spec, p, box) {
-  const data = spec.traces.map((t) => ({
-    uid: t.id,
-    x: t.x,
-    y: t.y,
-    yaxis: t.axis === 2 ? "y2" : "y",
-    type: "scatter",
-    mode: t.marker ? "markers" : "lines",
-    line: t.line && { simplify: false, width: 2, dash: "solid", ...t.line },
-    marker: t.marker && {
-      size: t.marker.size,
-      symbol: t.marker.symbol,
-      color: t.marker.color,
-      line: { width: 1.4, color: t.marker.edge ?? t.marker.color },
-    },
-    hoverinfo: "skip",
-    cliponaxis: true,
-    name: t.column ?? t.id,
-  }));
+  const data = spec.traces.map((t) => {
+    const common = { uid: t.id, x: t.x, y: t.y, yaxis: t.axis === 2 ? "y2" : "y", type: "scatter" };
+    const look = { hoverinfo: "skip", name: t.column ?? t.id };
+    if (!t.marker) {
+      return { ...common, ...look, mode: "lines", line: { simplify: false, width: 2, ...t.line } };
+    }
+    const { size, symbol, color, edge } = t.marker;
+    return {
+      ...common,
+      ...look,
+      mode: "markers",
+      marker: { size, symbol, color, line: { width: 1.4, color: edge ?? color } },
+    };
+  });
   const layout = {
     width: box.width,
     height: box.height,

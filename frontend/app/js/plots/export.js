@@ -18,9 +18,9 @@ async function svgOf(chart, title) {
   const { data, layout } = figure(spec, LIGHT, { width: WIDTH, height: HEIGHT, font: FONT });
   const x = chart.axes?.xaxis.range ?? spec.x.range, y = chart.axes?.yaxis.range ?? spec.y.range;
   const names = new Map((spec.labels ?? []).map((l) => [l.color, l.text]));
-  for (const t of data) {
-    t.name = names.get(t.line?.color ?? "") ?? t.name;
-    /** @type {any} */ (t).showlegend = Boolean(t.line) || t.uid === "points";
+  for (const t of /** @type {any[]} */ (data)) {
+    t.name = names.get(t.line?.color) ?? t.name;
+    t.showlegend = t.mode === "lines" || t.uid === "points";
   }
   const full = {
     ...layout,
@@ -104,7 +104,10 @@ export function chartMenu(chart, title) {
       label: "Save as PNG",
       run: async () => download(`${name}.png`, await pngOf(await svgOf(chart, title), WIDTH, HEIGHT)),
     },
-    { label: "Save as SVG", run: async () => downloadText(`${name}.svg`, await svgOf(chart, title), "image/svg+xml") },
+    {
+      label: "Save as SVG",
+      run: async () => downloadText(`${name}.svg`, await svgOf(chart, title), "image/svg+xml"),
+    },
     { label: "Reset zoom", note: "or double click", run: () => chart.unzoom() },
   ];
 }

@@ -12,7 +12,11 @@ export function openDialog({ title, wide = false }, ...body) {
       "div",
       { class: "dialog-head" },
       h("h2", null, title),
-      h("button", { type: "button", class: "quiet", "aria-label": "Close", onclick: () => dialog.close() }, icon("close")),
+      h(
+        "button",
+        { type: "button", class: "quiet", "aria-label": "Close", onclick: () => dialog.close() },
+        icon("close"),
+      ),
     ),
     h("div", { class: "dialog-body", tabindex: -1 }, ...body),
   );

@@ -87,8 +87,7 @@ export function quantityField(o) {
     const r = rail.value;
     typed.value = null;
     if (!r) return;
-    const at = r.at(si);
-    const next = by > 0 ? Math.floor(at + 1e-6) + by : Math.ceil(at - 1e-6) + by;
+    const next = Math.round(r.at(si)) + by;
     o.put(r.value(Math.min(r.n, Math.max(0, next))), true);
     input.value = shown();
   };
@@ -123,7 +122,10 @@ export function quantityField(o) {
   const changed = () => Boolean(o.changed?.());
   return h(
     "div",
-    { class: () => `field${changed() ? " changed" : ""}${message.value ? " wrong" : ""}`, "data-field": o.key },
+    {
+      class: () => `field${changed() ? " changed" : ""}${message.value ? " wrong" : ""}`,
+      "data-field": o.key,
+    },
     h(
       "div",
       { class: "field-head" },
@@ -173,7 +175,10 @@ function slider(o, rail, step) {
     range.max = String(r.n);
     range.value = String(at);
     range.style.setProperty("--at", `${(100 * at) / r.n}%`);
-    range.setAttribute("aria-valuetext", si == null ? "not set" : `${number(toShown(si, s), s.digits)} ${s.unit}`);
+    range.setAttribute(
+      "aria-valuetext",
+      si == null ? "not set" : `${number(toShown(si, s), s.digits)} ${s.unit}`,
+    );
   });
   /** @param {-1 | 1} by */
   const button = (by) =>

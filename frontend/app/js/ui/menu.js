@@ -14,7 +14,8 @@ export function menuButton(o) {
     "aria-expanded": "false",
     "aria-label": o.name,
     title: o.name,
-    onclick: () => openPopover(button, o.name, (close) => list(o.items(), close), { role: "menu", kind: "menu" }),
+    onclick: () =>
+      openPopover(button, o.name, (close) => list(o.items(), close), { role: "menu", kind: "menu" }),
   }, o.label);
   return button;
 }

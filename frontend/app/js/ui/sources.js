@@ -42,7 +42,13 @@ export function unverifiedNote(preset) {
       "ul",
       { class: "plain" },
       ...doubtful.map(([key, q]) =>
-        h("li", null, h("b", null, spoken(key)), ` ${q.value} ${tidyUnit(q.unit)} `, h("small", null, q.source))
+        h(
+          "li",
+          null,
+          h("b", null, spoken(key)),
+          ` ${q.value} ${tidyUnit(q.unit)} `,
+          h("small", null, q.source),
+        )
       ),
     ),
   );

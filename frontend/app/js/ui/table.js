@@ -21,7 +21,12 @@ export function dataTable(table, write, caption) {
           "tr",
           null,
           table.columns.map((c) =>
-            h("th", { scope: "col", class: c.text ? "text" : "" }, c.title, c.unit ? h("small", null, c.unit) : null)
+            h(
+              "th",
+              { scope: "col", class: c.text ? "text" : "" },
+              c.title,
+              c.unit ? h("small", null, c.unit) : null,
+            )
           ),
         ),
       ),
@@ -48,7 +53,8 @@ export function dataTable(table, write, caption) {
 
 /** Comma-separated, "name [unit]" in the header: the form measurement files are read in. @param {Table} table */
 export function toCsv({ columns, rows }) {
-  const quote = (/** @type {string} */ text) => /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+  const quote = (/** @type {string} */ text) =>
+    /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
   const head = columns.map((c) => quote(c.unit ? `${c.title} [${c.unit}]` : c.title));
   const write = (/** @type {string | number | null} */ v) =>
     v == null ? "" : typeof v === "number" ? String(Number(v.toPrecision(7))) : quote(v);

@@ -65,8 +65,7 @@ export function acrossAt(c, across, k) {
 }
 
 /** @param {View} v the x columns of the curves, in shown units */
-export const xColumn = ({ curves, across, system }) =>
-  shown(curves[across], ACROSS[across].quantity, system);
+export const xColumn = ({ curves, across, system }) => shown(curves[across], ACROSS[across].quantity, system);
 
 /** @param {View} v @param {string} key */
 export function xAxis(v, key) {

@@ -41,7 +41,11 @@ function chartCard(id, title, label) {
 const force = chartCard("force", "Force", "Force over contraction, one line per pressure, with the load");
 const stiffness = chartCard("stiffness", "Stiffness", "Stiffness over contraction, valve open and closed");
 const volume = chartCard("volume", "Volume and diameter", "Volume and diameter over contraction");
-const over = chartCard("over-pressure", "Over pressure", "Position or force over pressure, filling and venting");
+const over = chartCard(
+  "over-pressure",
+  "Over pressure",
+  "Position or force over pressure, filling and venting",
+);
 
 /** All plots with their titles, for the export of the sheet. */
 export const charts = [force, stiffness, volume, over].map(({ title, chart }) => ({ title, chart }));
@@ -159,7 +163,8 @@ function overHint() {
   return h("button", {
     type: "button",
     class: "link",
-    onclick: () => editDesign({ fixed_length: curves.peek()?.geometry.nominal_length ?? 0.3 }, "fixed length"),
+    onclick: () =>
+      editDesign({ fixed_length: curves.peek()?.geometry.nominal_length ?? 0.3 }, "fixed length"),
   }, "hold the muscle at its length");
 }
 
@@ -212,8 +217,12 @@ export function chartColumn() {
     stateNote,
     frame(
       force,
-      choice("Quantity along the x axis", acrossOptions, () => across.value, (key) =>
-        editDesign({ across: key }, `plots over ${ACROSS[key].title.toLowerCase()}`)),
+      choice(
+        "Quantity along the x axis",
+        acrossOptions,
+        () => across.value,
+        (key) => editDesign({ across: key }, `plots over ${ACROSS[key].title.toLowerCase()}`),
+      ),
       () => (legendKey.value, familyLegend()),
     ),
     h("div", { class: "readout", "aria-live": "off" }, readout),
@@ -221,8 +230,12 @@ export function chartColumn() {
     frame(volume, dashLegend("volume", "diameter", true)),
     frame(
       over,
-      choice("Quantity over pressure", overOptions, () => overWhat.value, (value) =>
-        look(patchDesign({ over: value }))),
+      choice(
+        "Quantity over pressure",
+        overOptions,
+        () => overWhat.value,
+        (value) => look(patchDesign({ over: value })),
+      ),
       h("span", { class: "muted" }, overHint),
       dashLegend("filling", "venting", true),
     ),

@@ -35,7 +35,11 @@ export function effectNote(e) {
     null,
     h("h3", null, e.title),
     h("p", null, e.cause),
-    h("div", { class: "equation", tabindex: 0, role: "region", "aria-label": "Equation" }, mathml(e.equation_mathml)),
+    h(
+      "div",
+      { class: "equation", tabindex: 0, role: "region", "aria-label": "Equation" },
+      mathml(e.equation_mathml),
+    ),
     e.parameters.length
       ? h(
         "table",
@@ -43,7 +47,11 @@ export function effectNote(e) {
         h(
           "thead",
           null,
-          h("tr", null, ...["", "Parameter", "Usual", "Range", "Unit"].map((t) => h(t ? "th" : "td", null, t))),
+          h(
+            "tr",
+            null,
+            ...["", "Parameter", "Usual", "Range", "Unit"].map((t) => h(t ? "th" : "td", null, t)),
+          ),
         ),
         h("tbody", null, ...e.parameters.map(parameterRow)),
       )

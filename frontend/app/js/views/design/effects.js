@@ -3,7 +3,7 @@
 import { h, icon, mathml } from "../../dom.js";
 import { computed, signal } from "../../reactive.js";
 import { commit, design, editDesign, patchDesign, preview, units } from "../../state.js";
-import { effects } from "../../store.js";
+import { effects, musclesById } from "../../store.js";
 import { number, plainScale, quantityOf, scaleOf, toShown } from "../../format.js";
 import { quantityField } from "../../ui/field.js";
 import { openPopover } from "../../ui/dialog.js";
@@ -57,7 +57,8 @@ function parameterField(e, p) {
       preview(patchDesign(set(si)));
       if (done) commit(`${e.title}: ${p.name.replaceAll("_", " ")}`);
     },
-    changed: () => Math.abs(valueOf(e, p) - usual(e, p)) > 1e-9 * Math.max(Math.abs(p.lower), Math.abs(p.upper)),
+    changed: () =>
+      Math.abs(valueOf(e, p) - usual(e, p)) > 1e-9 * Math.max(Math.abs(p.lower), Math.abs(p.upper)),
     reset: () => editDesign(set(null), `reset ${p.name.replaceAll("_", " ")}`),
     message: () => messageFor(`effects.${e.id}.${p.name}`),
   });
@@ -95,7 +96,13 @@ function row(e) {
   };
   const body = () => {
     if (!on.value || !e.parameters.length) return null;
-    if (open.value) return h("div", { class: "parameters" }, ...e.parameters.map((p) => parameterField(e, p)));
+    if (open.value) {
+      return h(
+        "div",
+        { class: "parameters" },
+        ...e.parameters.map((p) => parameterField(e, p)),
+      );
+    }
     return h("button", {
       type: "button",
       class: "summary",
@@ -166,6 +173,9 @@ function byFamily(all) {
   return [...families].map(([family, list]) => group(family, list));
 }
 
+/** Families with a switched-on effect start open, so the presets must be known too. */
+const ready = computed(() => effects.value.length > 0 && musclesById.value.size > 0);
+
 export function effectsCard() {
   const own = () => preset.value && Object.keys(presetEffects.value).length > 0;
   return h(
@@ -206,9 +216,12 @@ export function effectsCard() {
         id: "effect-search",
         placeholder: "Search effects  ( / )",
         "aria-label": "Search effects",
-        oninput: (/** @type {Event} */ e) => (wanted.value = /** @type {HTMLInputElement} */ (e.target).value),
+        oninput: (
+          /** @type {Event} */ e,
+        ) => (wanted.value = /** @type {HTMLInputElement} */ (e.target).value),
       }),
     ),
-    () => effects.value.length ? byFamily(effects.value) : h("p", { class: "muted" }, "Loading the catalogue of effects…"),
+    () =>
+      ready.value ? byFamily(effects.value) : h("p", { class: "muted" }, "Loading the catalogue of effects…"),
   );
 }

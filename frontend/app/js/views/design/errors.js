@@ -66,7 +66,9 @@ function body() {
       "p",
       { class: "muted" },
       `${now.rows_used} of ${now.rows} points used`,
-      left.length ? `; left out: ${left.map(([why, n]) => `${n} ${why.replaceAll("_", " ")}`).join(", ")}` : "",
+      left.length
+        ? `; left out: ${left.map(([why, n]) => `${n} ${why.replaceAll("_", " ")}`).join(", ")}`
+        : "",
       `. Mean residual ${withUnit(now.residual_mean, "force", units.value)}.`,
     ),
     ...now.messages.map((m) => h("p", { class: "muted" }, m)),
@@ -110,7 +112,9 @@ export function errorCard() {
     lengthNote,
     () => {
       const r = reference.value;
-      return r?.source ? h("p", { class: "muted source" }, `Points: ${r.source}`, r.verified ? "" : " (unverified)") : null;
+      return r?.source
+        ? h("p", { class: "muted source" }, `Points: ${r.source}`, r.verified ? "" : " (unverified)")
+        : null;
     },
     h(
       "div",

@@ -14,7 +14,12 @@ import { curves, modelInput } from "./model.js";
 
 /** @type {Record<string, Question>} */
 const QUESTIONS = {
-  pressure: { label: "Pressure for a force at a length", short: "Pressure", inputs: ["force", "length"], found: "Pressure" },
+  pressure: {
+    label: "Pressure for a force at a length",
+    short: "Pressure",
+    inputs: ["force", "length"],
+    found: "Pressure",
+  },
   contraction: {
     label: "Contraction for a force at a pressure",
     short: "Contraction",

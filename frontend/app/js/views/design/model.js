@@ -2,7 +2,7 @@
 // From the document to the server's answers: curves, errors against points, and which message belongs to which field.
 import { batch, computed, effect, signal } from "../../reactive.js";
 import { design } from "../../state.js";
-import { ApiError, latest, post } from "../../api.js";
+import { latest, post } from "../../api.js";
 import { musclesById, references } from "../../store.js";
 import { siOf } from "../../format.js";
 
@@ -27,7 +27,7 @@ export const preset = computed(() => musclesById.value.get(muscle.value.preset ?
 
 export const curves = signal(/** @type {Curves | null} */ (null));
 /** Why there are no new curves: the plots keep the last ones, dimmed. */
-export const fault = signal(/** @type {ApiError | null} */ (null));
+export const fault = signal(/** @type {import("../../api.js").ApiError | null} */ (null));
 
 /** The muscle as a request gives it. @param {Muscle} m */
 export function muscleInput({ preset: id, form, values }) {
@@ -163,9 +163,7 @@ export const referenceId = computed(() => {
   if (chosen !== "auto") return chosen;
   return preset.value?.measurement ?? preset.value?.reference_curve ?? null;
 });
-export const reference = computed(() =>
-  references.value.find((r) => r.id === referenceId.value) ?? null
-);
+export const reference = computed(() => references.value.find((r) => r.id === referenceId.value) ?? null);
 
 /** @typedef {{model: Comparison | null, ideal: Comparison | null, words: string | null}} Errors */
 export const errors = signal(/** @type {Errors} */ ({ model: null, ideal: null, words: null }));

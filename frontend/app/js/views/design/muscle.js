@@ -2,13 +2,22 @@
 // The muscle card: preset, three forms of geometry, each value with slider, typed units and reset.
 import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
-import { design, editDesign, commit, patchDesign, preview, units } from "../../state.js";
+import { commit, design, editDesign, patchDesign, preview, units } from "../../state.js";
 import { muscles } from "../../store.js";
 import { scaleOf, siOf } from "../../format.js";
 import { quantityField } from "../../ui/field.js";
 import { openPopover } from "../../ui/dialog.js";
 import { unverifiedNote } from "../../ui/sources.js";
-import { curves, FORM_KEYS, geometryValue, inForm, messageFor, muscle, preset, presetValue } from "./model.js";
+import {
+  curves,
+  FORM_KEYS,
+  geometryValue,
+  inForm,
+  messageFor,
+  muscle,
+  preset,
+  presetValue,
+} from "./model.js";
 
 /** @typedef {import("../../types.js").Form} Form */
 /** @typedef {{label: string, symbol: string, quantity: import("../../format.js").Quantity,
@@ -18,14 +27,26 @@ const DEG = Math.PI / 180;
 /** Slider ranges span what is built; the field beside takes any value the model takes. @type {Record<string, Spec>} */
 const SPECS = {
   nominal_length: { label: "Length", symbol: "L₀", quantity: "length", bounds: [0.02, 10], log: true },
-  braid_diameter: { label: "Braid diameter", symbol: "D₀", quantity: "length", bounds: [3e-3, 0.1], log: true },
+  braid_diameter: {
+    label: "Braid diameter",
+    symbol: "D₀",
+    quantity: "length",
+    bounds: [3e-3, 0.1],
+    log: true,
+  },
   braid_angle: { label: "Braid angle", symbol: "θ₀", quantity: "angle", bounds: [10 * DEG, 54 * DEG] },
   thread_length: { label: "Thread length", symbol: "b", quantity: "length", bounds: [0.02, 12], log: true },
   turns: { label: "Turns", symbol: "n", quantity: "number", bounds: [0.1, 100], log: true },
   side: { label: "Rhombus side", symbol: "ℓ", quantity: "length", bounds: [5e-4, 0.02], log: true },
   along: { label: "Rhombi along", symbol: "n_L", quantity: "number", bounds: [2, 3000], log: true },
   around: { label: "Rhombi around", symbol: "n_C", quantity: "number", bounds: [2, 200], log: true },
-  inside_diameter: { label: "Inside diameter", symbol: "D_i", quantity: "length", bounds: [2e-3, 0.1], log: true },
+  inside_diameter: {
+    label: "Inside diameter",
+    symbol: "D_i",
+    quantity: "length",
+    bounds: [2e-3, 0.1],
+    log: true,
+  },
   wall_thickness: { label: "Wall thickness", symbol: "H₀", quantity: "length", bounds: [0, 5e-3] },
 };
 
@@ -91,28 +112,40 @@ const subscript = (symbol) => {
 /** The maker's range of lengths where there is one. @param {string} key @param {Spec} spec @returns {[number, number]} */
 function sliderBounds(key, spec) {
   const limits = preset.value?.limits ?? {};
-  if (key !== "nominal_length" || !limits.min_nominal_length || !limits.max_nominal_length) return spec.bounds;
+  if (key !== "nominal_length" || !limits.min_nominal_length || !limits.max_nominal_length) {
+    return spec.bounds;
+  }
   return [siOf(limits.min_nominal_length), siOf(limits.max_nominal_length)];
 }
 
-/** @param {string} id */
+/** The preset with its own effects and points; a length that was set stays. @param {string} id */
+export function usePreset(id) {
+  const length = design.peek().muscle.values.nominal_length;
+  /** @type {Record<string, number>} */
+  const values = {};
+  if (length !== undefined) values.nominal_length = length;
+  editDesign(
+    { muscle: { preset: id, form: "braid", values }, effects: null, reference: "auto" },
+    `preset ${id}`,
+  );
+}
+
+/** @param {string} id "" = own geometry: the muscle as it is now, free of its preset */
 function choose(id) {
-  const { muscle: m, reference } = design.peek();
+  const { reference } = design.peek();
   const g = curves.peek()?.geometry;
-  if (id) {
-    const length = m.values.nominal_length;
-    /** @type {Record<string, number>} */
-    const values = {};
-    if (length !== undefined) values.nominal_length = length;
-    editDesign({ muscle: { preset: id, form: "braid", values }, effects: null, reference: "auto" }, `preset ${id}`);
-  } else if (g) {
+  if (id) usePreset(id);
+  else if (g) {
     const { nominal_length, braid_diameter, braid_angle, inside_diameter, wall_thickness } = g;
     const values = { nominal_length, braid_diameter, braid_angle };
     if (inside_diameter) Object.assign(values, { inside_diameter });
     if (wall_thickness) Object.assign(values, { wall_thickness });
     const active = curves.peek()?.model.effects ?? {};
     const own = reference === "auto" ? null : reference;
-    editDesign({ muscle: { preset: null, form: "braid", values }, effects: active, reference: own }, "own geometry");
+    editDesign(
+      { muscle: { preset: null, form: "braid", values }, effects: active, reference: own },
+      "own geometry",
+    );
   }
 }
 
@@ -121,14 +154,19 @@ function presetSelect() {
     /** @type {Map<string, import("../../types.js").Preset[]>} */
     const groups = new Map();
     for (const m of muscles.value) {
-      const name = [m.maker, m.series].filter((x, i, all) => x && all.indexOf(x) === i).join(" · ") || "Other";
+      const name = [m.maker, m.series].filter((x, i, all) => x && all.indexOf(x) === i).join(" · ") ||
+        "Other";
       groups.set(m.origin === "user" ? "My presets" : name, [...groups.get(name) ?? [], m]);
     }
     const chosen = presetId.value;
     return [
       h("option", { value: "", selected: chosen === null }, "Own geometry"),
       ...[...groups].map(([name, list]) =>
-        h("optgroup", { label: name }, ...list.map((m) => h("option", { value: m.id, selected: m.id === chosen }, m.title)))
+        h(
+          "optgroup",
+          { label: name },
+          ...list.map((m) => h("option", { value: m.id, selected: m.id === chosen }, m.title)),
+        )
       ),
     ];
   };
@@ -142,12 +180,17 @@ function presetSelect() {
 function badge() {
   const p = preset.value;
   if (!p || p.verified) return null;
-  const button = h("button", {
-    type: "button",
-    class: "badge warn",
-    onclick: () => openPopover(button, "Unverified values", () => unverifiedNote(p)),
-    "aria-expanded": "false",
-  }, icon("warn"), "unverified values");
+  const button = h(
+    "button",
+    {
+      type: "button",
+      class: "badge warn",
+      onclick: () => openPopover(button, "Unverified values", () => unverifiedNote(p)),
+      "aria-expanded": "false",
+    },
+    icon("warn"),
+    "unverified values",
+  );
   return button;
 }
 
@@ -178,7 +221,11 @@ export function muscleCard() {
     h("div", { class: "card-head" }, h("h2", null, "Muscle"), badge),
     presetSelect(),
     h("p", { class: "error" }, () => messageFor("muscle.preset") ?? ""),
-    h("div", { class: "segments", role: "radiogroup", "aria-label": "Form of the geometry" }, ...FORMS.map(formButton)),
+    h(
+      "div",
+      { class: "segments", role: "radiogroup", "aria-label": "Form of the geometry" },
+      ...FORMS.map(formButton),
+    ),
     field("nominal_length"),
     () => FORM_KEYS[form.value].map(field),
     h(

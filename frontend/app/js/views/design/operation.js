@@ -35,7 +35,10 @@ function chip(p) {
   const name = `${shownPressure(p)} ${pressureScale().unit}`;
   return h(
     "li",
-    { class: () => `chip${over() ? " over" : ""}`, title: () => over() ? "Above the highest pressure allowed" : null },
+    {
+      class: () => `chip${over() ? " over" : ""}`,
+      title: () => over() ? "Above the highest pressure allowed" : null,
+    },
     shownPressure(p),
     h("button", {
       type: "button",
@@ -55,7 +58,9 @@ function pressureEditor() {
     const bad = read.find((r) => "error" in r);
     const values = read.flatMap((r) => ("value" in r ? [r.value] : []));
     if (bad && "error" in bad) return void (wrong.value = bad.error);
-    if (values.some((p) => p < 0)) return void (wrong.value = "A gauge pressure below zero collapses the muscle.");
+    if (values.some((p) => p < 0)) {
+      return void (wrong.value = "A gauge pressure below zero collapses the muscle.");
+    }
     if (pressures.peek().length + values.length > MOST) {
       return void (wrong.value = `At most ${MOST} pressures; remove one first.`);
     }
@@ -130,7 +135,10 @@ function spaced() {
           onclick: () => {
             const n = Math.round(count.peek());
             const step = n > 1 ? (to.peek() - from.peek()) / (n - 1) : 0;
-            setPressures(Array.from({ length: n }, (_, i) => from.peek() + i * step), "evenly spaced pressures");
+            setPressures(
+              Array.from({ length: n }, (_, i) => from.peek() + i * step),
+              "evenly spaced pressures",
+            );
             close();
           },
         }, "Use these"),

@@ -70,13 +70,17 @@ const NOTE = "unverified";
 /** The limit that is reached first stands on top; its share of the limit says how near the others are. */
 function verdict() {
   const c = curves.value;
-  if (!c) return h("p", { class: "muted" }, fault.value ? "No valid model yet." : "Waiting for the first curves…");
+  if (!c) {
+    return h("p", { class: "muted" }, fault.value ? "No valid model yet." : "Waiting for the first curves…");
+  }
   const hard = c.flags.filter((f) => f.code !== NOTE), notes = c.flags.filter((f) => f.code === NOTE);
   const best = c.operating_points.filter((o) => o.contraction != null).at(-1);
   const reach = best
-    ? `${withUnit(best.pressure, "pressure", units.value)} holds ${withUnit(best.force, "force", units.value)} at ${
-      withUnit(best.contraction, "ratio", units.value)
-    } contraction (${withUnit(best.length, "length", units.value)} long).`
+    ? `${withUnit(best.pressure, "pressure", units.value)} holds ${
+      withUnit(best.force, "force", units.value)
+    } at ${withUnit(best.contraction, "ratio", units.value)} contraction (${
+      withUnit(best.length, "length", units.value)
+    } long).`
     : `No pressure of the family holds ${withUnit(design.value.load, "force", units.value)}.`;
   return [
     h(
@@ -104,7 +108,12 @@ function margins() {
   /** @type {[string, number, number | null, Quantity][]} */
   const rows = [
     ["Pressure", most(c.pressure), c.limits.max_pressure, "pressure"],
-    ["Force", Math.max(design.value.load, most(c.characteristics.map((x) => x.blocked_force))), c.limits.max_force, "force"],
+    [
+      "Force",
+      Math.max(design.value.load, most(c.characteristics.map((x) => x.blocked_force))),
+      c.limits.max_force,
+      "force",
+    ],
     ["Contraction", most(c.operating_points.map((o) => o.contraction)), c.limits.max_contraction, "ratio"],
   ];
   const known = rows.filter(([, , limit]) => limit);
@@ -119,7 +128,11 @@ function margins() {
         { class: share > 1.0001 ? "over" : "" },
         h("span", null, name),
         h("span", { class: "bar" }, h("i", { style: `width:${Math.min(100, share * 100)}%` })),
-        h("span", { class: "num" }, `${withUnit(used, quantity, units.value)} of ${withUnit(limit, quantity, units.value)}`),
+        h(
+          "span",
+          { class: "num" },
+          `${withUnit(used, quantity, units.value)} of ${withUnit(limit, quantity, units.value)}`,
+        ),
       );
     }),
   );
@@ -139,7 +152,12 @@ export function resultCards() {
     h(
       "section",
       { class: "card", "aria-label": "Operating points" },
-      h("div", { class: "card-head" }, h("h2", null, "At the load"), h("span", { class: "muted" }, () => loadText.value)),
+      h(
+        "div",
+        { class: "card-head" },
+        h("h2", null, "At the load"),
+        h("span", { class: "muted" }, () => loadText.value),
+      ),
       figures("Operating points at the load", [
         ["P", "pressure"],
         ["ε", "ratio"],

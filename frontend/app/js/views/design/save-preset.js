@@ -3,7 +3,7 @@
 import { h } from "../../dom.js";
 import { signal } from "../../reactive.js";
 import { ApiError, post } from "../../api.js";
-import { editDesign, design } from "../../state.js";
+import { design, editDesign } from "../../state.js";
 import { effectsById, loadKind, status } from "../../store.js";
 import { openDialog } from "../../ui/dialog.js";
 import { curves, muscle, preset } from "./model.js";
@@ -84,7 +84,10 @@ export function saveDialog() {
     try {
       await post("/api/presets/muscles", document_(id.value, title.value.trim()));
       await loadKind("muscles");
-      editDesign({ muscle: { preset: id.value, form: "braid", values: {} }, effects: null }, `preset ${id.value}`);
+      editDesign(
+        { muscle: { preset: id.value, form: "braid", values: {} }, effects: null },
+        `preset ${id.value}`,
+      );
       status.value = `Saved as “${title.value}”.`;
       dialog.close();
     } catch (error) {
@@ -96,7 +99,11 @@ export function saveDialog() {
     h(
       "form",
       { onsubmit: save },
-      h("p", { class: "muted" }, "Geometry and effects as they are now. Values you did not change keep their sources."),
+      h(
+        "p",
+        { class: "muted" },
+        "Geometry and effects as they are now. Values you did not change keep their sources.",
+      ),
       h("label", { for: "save-id" }, "Id"),
       id,
       h("label", { for: "save-title" }, "Title"),

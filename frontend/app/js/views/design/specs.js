@@ -188,7 +188,14 @@ export function volumeSpec(v, p) {
     zones: limitZones(v, x.range),
     traces: [
       { id: "volume", x: column, y: volume, line: { color: p.accent }, column: "volume" },
-      { id: "diameter", x: column, y: diameter, line: { color: p.second, dash: "dash" }, axis: 2, column: "diameter" },
+      {
+        id: "diameter",
+        x: column,
+        y: diameter,
+        line: { color: p.second, dash: "dash" },
+        axis: 2,
+        column: "diameter",
+      },
     ],
     revision: `${v.across}${system}`,
   };
@@ -203,7 +210,8 @@ export function overPressureSpec(v, p) {
   const branch = (/** @type {"filling" | "venting"} */ way) =>
     over === "force" ? held?.[way] ?? [] : o?.[way]?.[over] ?? [];
   const x = shown(o?.pressure ?? [], "pressure", system);
-  const filling = shown(branch("filling"), quantity, system), venting = shown(branch("venting"), quantity, system);
+  const filling = shown(branch("filling"), quantity, system),
+    venting = shown(branch("venting"), quantity, system);
   const dots = over === "force" ? [] : curves.operating_points;
   const y = shown(dots.map((d) => over === "force" ? null : d[over]), quantity, system);
   const [low, high] = extent([filling, venting, y]);

@@ -1,0 +1,177 @@
+"""The command line: ``mckibben`` alone starts the studio, further commands answer without a browser.
+
+Exit 0: done. Exit 2: the input cannot be used; one line on stderr says where, what is wrong and what would be
+right. Each command is one module, imported only when it runs.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import typer
+
+from mckibben import __version__
+from mckibben.cli.options import (
+    AsJson,
+    DataFiles,
+    DataFolder,
+    EffectIds,
+    EffectsFolders,
+    Free,
+    Ideal,
+    MuscleText,
+    PresetsFolder,
+    located,
+)
+from mckibben.physics.errors import InputError
+
+__all__ = ["app", "main"]
+
+app = typer.Typer(
+    name="mckibben",
+    help="Design studio for pneumatic (McKibben) muscles. Without a command: serve.",
+    add_completion=False,
+    no_args_is_help=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+_BAD_INPUT = 2
+# Options of `mckibben` itself; with any other first option `serve` is meant.
+_OWN_OPTIONS = frozenset({"-h", "--help", "--version"})
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"mckibben {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _root(
+    version: bool = typer.Option(
+        False, "--version", callback=_show_version, is_eager=True, help="Show the version."
+    ),
+) -> None:
+    """Design studio for pneumatic (McKibben) muscles. Without a command: serve."""
+
+
+@app.command()
+def serve(
+    host: str = typer.Option(
+        "127.0.0.1", help="Address to listen on; any but this machine's own needs a token."
+    ),
+    port: int | None = typer.Option(
+        None, min=0, max=65535, help="Port; 0 takes any free one. Default: 8000, or the next free one."
+    ),
+    no_open: bool = typer.Option(False, "--no-open", help="Do not open the browser."),
+    presets: PresetsFolder = None,
+    effects: EffectsFolders = None,
+    data: DataFolder = None,
+) -> None:
+    """Start the studio and open it in the browser."""
+    from mckibben.cli.serve import run
+
+    run(host=host, port=port, open_browser=not no_open, presets=presets, effects=effects or [], data=data)
+
+
+@app.command()
+def curves(
+    muscle: MuscleText,
+    ideal: Ideal = False,
+    effect: EffectIds = None,
+    pressure: str | None = typer.Option(
+        None, help='Gauge pressures, e.g. "1 bar,3 bar"; 1 to 6 bar when left out.'
+    ),
+    as_json: AsJson = False,
+    presets: PresetsFolder = None,
+    effects: EffectsFolders = None,
+    data: DataFolder = None,
+) -> None:
+    """Force, stiffness, volume and diameter of a muscle over its contraction."""
+    from mckibben.cli.curves import run
+    from mckibben.cli.options import open_studio
+
+    run(
+        open_studio(presets, effects, data),
+        muscle=muscle,
+        ideal=ideal,
+        effects=effect or [],
+        pressure=pressure,
+        as_json=as_json,
+    )
+
+
+@app.command()
+def compare(
+    files: DataFiles,
+    muscle: MuscleText = "",
+    ideal: Ideal = False,
+    effect: EffectIds = None,
+    fit: bool = typer.Option(False, "--fit", help="Fit the parameters of the effects."),
+    free: Free = None,
+    as_json: AsJson = False,
+    presets: PresetsFolder = None,
+    effects: EffectsFolders = None,
+    data: DataFolder = None,
+) -> None:
+    """A model beside measurements: the error in numbers, with or without a fit."""
+    from mckibben.cli.compare import run
+    from mckibben.cli.options import open_studio
+
+    run(
+        open_studio(presets, effects, data),
+        files=files,
+        muscle=muscle,
+        ideal=ideal,
+        effects=effect or [],
+        fit=fit,
+        free=free or [],
+        as_json=as_json,
+    )
+
+
+def one_line(error: InputError) -> str:
+    """Where, what is wrong, what would be right, in one line."""
+    hint = "" if not error.hint else f" ({error.hint.rstrip('.')})"
+    return " ".join(f"{located(error.field, error.message)}{hint}".split())
+
+
+def _fail(message: str, code: int = _BAD_INPUT) -> int:
+    typer.echo(f"mckibben: {' '.join(message.split())}", err=True)
+    return code
+
+
+def _command(arguments: list[str]) -> str:
+    known = {command.name or getattr(command.callback, "__name__", "") for command in app.registered_commands}
+    return f"{arguments[0]} " if arguments[0] in known else ""
+
+
+def run(arguments: list[str]) -> int:
+    """Run one command line; the exit code."""
+    if not arguments or (arguments[0].startswith("-") and arguments[0] not in _OWN_OPTIONS):
+        arguments = ["serve", *arguments]
+    try:
+        return app(args=arguments, prog_name="mckibben", standalone_mode=False) or 0
+    except typer.Exit as stop:
+        return stop.exit_code
+    except InputError as error:
+        return _fail(one_line(error))
+    except (KeyboardInterrupt, typer.Abort):
+        return 130
+    except BrokenPipeError:
+        # The reader of a pipe has gone; nothing more can be said, also not by the interpreter on exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except Exception as error:
+        # typer's own errors of usage; their class is click's in some versions and a copy of it in others.
+        if callable(explain := getattr(error, "format_message", None)):
+            return _fail(f"{explain()} (see mckibben {_command(arguments)}--help)")
+        if os.environ.get("MCKIBBEN_DEBUG"):
+            raise
+        return _fail(f"unexpected {type(error).__name__}: {error} (MCKIBBEN_DEBUG=1 shows where)", 1)
+
+
+def main() -> None:
+    """Entry point of the console script."""
+    sys.exit(run(sys.argv[1:]))

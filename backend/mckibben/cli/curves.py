@@ -1,0 +1,93 @@
+"""``mckibben curves``: the static characteristics of a muscle."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mckibben.api.answers.curves import curves_of
+from mckibben.api.answers.start import Json
+from mckibben.api.schemas.curves import CurvesOptions
+from mckibben.cli.options import start_model
+from mckibben.cli.output import figure, remark, write_json, write_table
+from mckibben.physics.errors import InputError
+from mckibben.physics.units import si
+from mckibben.studio import Studio
+
+_MAX_PRESSURES = 12
+_TABLE_ROWS = 11
+
+
+def run(
+    studio: Studio,
+    *,
+    muscle: str,
+    ideal: bool,
+    effects: Sequence[str],
+    pressure: str | None,
+    as_json: bool,
+) -> None:
+    """Print the curves.
+
+    Raises:
+        InputError: an option cannot be used.
+    """
+    start = start_model(studio, muscle, ideal=ideal, effects=effects)
+    given = {} if pressure is None else {"pressures": _pressures(pressure)}
+    options = CurvesOptions.model_validate(given)
+    answer = curves_of(options, start, studio)
+    if as_json:
+        write_json(answer)
+        return
+    _write_tables(muscle, answer)
+    for flag in answer["flags"]:
+        remark(flag["message"])
+
+
+def _pressures(text: str) -> list[float]:
+    """ "1 bar,3 bar" in Pa."""
+    parts = [part.strip() for part in text.split(",")]
+    if len(parts) > _MAX_PRESSURES:
+        raise InputError(f"--pressure: {len(parts)} pressures, at most {_MAX_PRESSURES} are possible")
+    found = []
+    for part in parts:
+        try:
+            value = si(part, "Pa")
+        except InputError as error:
+            raise InputError(f"--pressure: {error.message}", hint='e.g. --pressure "1 bar,3 bar"') from error
+        if not 0.0 <= value <= 1e8:
+            raise InputError(f"--pressure: {part} is not between 0 and 1000 bar", hint="gauge pressures")
+        found.append(value)
+    return found
+
+
+def _write_tables(muscle: str, answer: Json) -> None:
+    bars = [f"{value / 1e5:g} bar" for value in answer["pressure"]]
+    chosen = np.unique(np.linspace(0, len(answer["contraction"]) - 1, _TABLE_ROWS).astype(int))
+    force = np.asarray(answer["force"])
+    write_table(
+        f"Force of {muscle} [N]",
+        ["contraction", "length", *bars],
+        [
+            [
+                f"{answer['contraction'][index] * 100:.1f} %",
+                f"{answer['length'][index] * 1e3:.1f} mm",
+                *(figure(row[index]) for row in force),
+            ]
+            for index in chosen
+        ],
+    )
+    write_table(
+        "Per pressure",
+        ["pressure", "blocked force", "free contraction", "work of a stroke"],
+        [
+            [
+                name,
+                figure(item["blocked_force"], unit=" N"),
+                figure(item["free_contraction"] * 100, unit=" %"),
+                figure(item["max_work"], unit=" J"),
+            ]
+            for name, item in zip(bars, answer["characteristics"], strict=True)
+        ],
+    )

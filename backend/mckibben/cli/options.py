@@ -1,0 +1,180 @@
+"""Options that several commands share, and what they mean."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from mckibben.physics.errors import InputError, did_you_mean
+
+if TYPE_CHECKING:
+    from mckibben.muscle_input import StartModel
+    from mckibben.studio import Studio
+
+MuscleText = Annotated[
+    str,
+    typer.Option(
+        metavar="M",
+        help="A preset (DMSP-20), also with a length (DMSP-20:300mm), or a JSON file.",
+        show_default=False,
+    ),
+]
+DataFiles = Annotated[
+    list[str],
+    typer.Argument(metavar="DATA...", help="Measurement files, or ids of preset measurements and curves."),
+]
+Ideal = Annotated[bool, typer.Option("--ideal", help="The ideal model: no effects.")]
+EffectIds = Annotated[
+    list[str] | None,
+    typer.Option("--effect", metavar="ID", help="Use it instead of the preset's own effects; repeatable."),
+]
+Free = Annotated[
+    list[str] | None,
+    typer.Option("--free", metavar="NAME", help="Geometry to fit too, e.g. braid_angle; repeatable."),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
+PresetsFolder = Annotated[
+    Path | None, typer.Option("--presets", metavar="DIR", help="Folder of your own presets.")
+]
+EffectsFolders = Annotated[
+    list[Path] | None,
+    typer.Option("--effects", metavar="DIR", help="Folder of your own effect files (Python); repeatable."),
+]
+DataFolder = Annotated[
+    Path | None, typer.Option("--data", metavar="DIR", help="Where measurements and saved presets are kept.")
+]
+
+
+Effects = dict[str, dict[str, float | str]]
+
+
+@dataclass(frozen=True, slots=True)
+class Folders:
+    """Where presets, effects and data are."""
+
+    user_presets: Path
+    effects: tuple[Path, ...]
+    data: Path
+
+
+def folders(presets: Path | None, effects: Sequence[Path] | None, data: Path | None) -> Folders:
+    """The folders meant by the options; what is not named lies in the user's data folder.
+
+    Raises:
+        InputError: a named folder is not a folder.
+    """
+    from mckibben.resources import user_folder
+
+    for option, folder in (("--presets", presets), *(("--effects", path) for path in effects or [])):
+        if folder is not None and not folder.is_dir():
+            what = "is not a folder" if folder.exists() else "does not exist"
+            raise InputError(f"{option} {folder}: {what}", hint="name an existing folder")
+    if data is not None and data.exists() and not data.is_dir():
+        raise InputError(f"--data {data}: is not a folder", hint="name a folder")
+    data = data or user_folder()
+    return Folders(presets or data / "presets", tuple(effects or ()), data)
+
+
+def open_studio(presets: Path | None, effects: Sequence[Path] | None, data: Path | None) -> Studio:
+    """Presets and effects of a command that answers without a server."""
+    from mckibben.resources import presets_folder
+    from mckibben.studio import Studio
+
+    chosen = folders(presets, effects, data)
+    studio = Studio(presets=presets_folder(), user_presets=chosen.user_presets, effects=chosen.effects)
+    for problem in studio.catalogue.problems:
+        typer.echo(f"effect file {problem.file} is not used: {problem.message}", err=True)
+    return studio
+
+
+def start_model(studio: Studio, muscle: str, *, ideal: bool, effects: Sequence[str]) -> StartModel:
+    """The muscle of ``--muscle`` with the effects of ``--ideal`` or ``--effect``.
+
+    Raises:
+        InputError: names the file or option, what is wrong and what would be right.
+    """
+    if ideal and effects:
+        raise InputError("--ideal and --effect exclude each other", hint="use one of them")
+    for effect in effects:
+        if effect not in studio.catalogue:
+            raise InputError(
+                f"--effect {effect}: there is no such effect", hint=did_you_mean(effect, studio.catalogue)
+            )
+    chosen = {} if ideal else {effect: {} for effect in effects} or None
+    name, separator, length = muscle.partition(":")
+    if _is_file(muscle, studio):
+        return _start_of_file(studio, Path(muscle), chosen)
+    document: dict[str, object] = {"preset": name}
+    if separator:
+        document["nominal_length"] = length
+    return _start_of_input(studio, document, chosen, f"--muscle {muscle}")
+
+
+def _is_file(muscle: str, studio: Studio) -> bool:
+    """A JSON file, rather than a preset id with a slash or a file that happens to have a preset's name."""
+    if muscle.lower().endswith(".json"):
+        return True
+    known = {preset.id.lower() for preset in studio.library.list("muscles")}
+    return muscle.partition(":")[0].lower() not in known and Path(muscle).exists()
+
+
+def _start_of_file(studio: Studio, path: Path, effects: Effects | None) -> StartModel:
+    """A muscle by geometry, or a whole preset file."""
+    from mckibben.muscle_input import GivenMuscle, preset_facts, start_model
+    from mckibben.presets import MusclePreset
+    from mckibben.presets.reading import BadDocumentError, parse, read_file
+
+    try:
+        document = read_file(path, follow_links=True)
+        if not isinstance(document, dict) or "kind" not in document:
+            return _start_of_input(studio, document, effects, str(path))
+        preset = parse(MusclePreset, document, studio.effect_table)
+    except BadDocumentError as bad:
+        finding = bad.findings[0]
+        where = f"{path}: {finding.field}" if finding.field else str(path)
+        raise InputError(f"{where}: {finding.message}", hint=finding.hint) from bad
+    assert isinstance(preset, MusclePreset)  # noqa: S101 - it was parsed as one
+    preset.adopt("user", studio.effect_table)
+    facts = preset_facts(preset, studio.catalogue)
+    try:
+        return _usable(studio, start_model(GivenMuscle(), effects, preset=facts, catalogue=studio.catalogue))
+    except InputError as error:
+        raise _at(str(path), error.field, error.message, error.hint) from error
+
+
+def _usable(studio: Studio, start: StartModel) -> StartModel:
+    """The same, when a model can be made of it; a mistake is told here, where its file is known."""
+    studio.static_model(start)
+    return start
+
+
+def _start_of_input(studio: Studio, document: object, effects: Effects | None, source: str) -> StartModel:
+    from pydantic import ValidationError
+
+    from mckibben.api.schemas.convert import given_muscle
+    from mckibben.api.schemas.muscle import MuscleInput
+    from mckibben.api.sentences import first_problem
+
+    try:
+        given = given_muscle(MuscleInput.model_validate(document))
+        return _usable(studio, studio.start_model(given, effects))
+    except ValidationError as error:
+        problem = first_problem(error.errors(), MuscleInput, document, "the muscle")
+        raise _at(source, problem.field, problem.message, problem.hint) from error
+    except InputError as error:
+        raise _at(source, (error.field or "").removeprefix("muscle."), error.message, error.hint) from error
+
+
+def _at(source: str, field: str | None, message: str, hint: str | None) -> InputError:
+    return InputError(f"{source}: {located(field, message).removesuffix('.')}", hint=hint)
+
+
+def located(field: str | None, message: str) -> str:
+    """The message with its field in front, unless the message names the field already."""
+    if not field or field in message or field.rpartition(".")[2].replace("_", " ") in message:
+        return message
+    return f"{field}: {message}"

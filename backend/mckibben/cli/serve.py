@@ -1,0 +1,141 @@
+"""``mckibben serve``: the studio in the browser."""
+
+from __future__ import annotations
+
+import errno
+import os
+import socket
+import sys
+import threading
+import webbrowser
+from collections.abc import Sequence
+from pathlib import Path
+
+import typer
+
+from mckibben.cli.options import folders
+from mckibben.physics.errors import InputError
+
+DEFAULT_PORT = 8000
+_PORTS_TRIED = 50
+
+
+def run(
+    *,
+    host: str,
+    port: int | None,
+    open_browser: bool,
+    presets: Path | None,
+    effects: Sequence[Path],
+    data: Path | None,
+) -> None:
+    """Serve until interrupted.
+
+    Raises:
+        InputError: the address cannot be used, or a folder does not exist.
+    """
+    chosen = folders(presets, effects, data)
+    listening = _bind(host, port)
+    # Imported after the port is known to be free: a mistake is told at once.
+    import uvicorn
+
+    from mckibben.api.app import create_app
+    from mckibben.api.security import new_token
+    from mckibben.api.settings import Settings, is_every_interface, is_loopback
+
+    actual_port = int(listening.getsockname()[1])
+    token = None if is_loopback(host) else new_token()
+    settings = Settings(
+        host=host,
+        port=actual_port,
+        token=token,
+        user_presets=chosen.user_presets,
+        effects=chosen.effects,
+        data=chosen.data,
+    )
+    link = _link(_own_address() if is_every_interface(host) else host, actual_port, token)
+
+    class Server(uvicorn.Server):
+        async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+            await super().startup(sockets)
+            if port is None and actual_port != DEFAULT_PORT:
+                typer.echo(f"Port {DEFAULT_PORT} is in use; taking {actual_port}.", err=True)
+            typer.echo(f"mckibben is ready at {link} (Ctrl+C stops it)")
+            sys.stdout.flush()
+            if open_browser and _has_screen():
+                threading.Thread(target=webbrowser.open, args=(link,), daemon=True).start()
+
+    config = uvicorn.Config(
+        create_app(settings),
+        log_level="warning",
+        access_log=False,
+        server_header=False,
+        proxy_headers=False,
+        timeout_graceful_shutdown=2,
+    )
+    try:
+        Server(config).run(sockets=[listening])
+    except KeyboardInterrupt:
+        typer.echo("Stopped.", err=True)
+
+
+def _bind(host: str, port: int | None) -> socket.socket:
+    """A bound socket; without a wish for a port, the first free one from 8000 on."""
+    name = host.strip("[]")
+    try:
+        family, kind, _, _, address = socket.getaddrinfo(name, 0, type=socket.SOCK_STREAM)[0]
+    except (OSError, UnicodeError) as error:
+        raise _unknown_host(host) from error
+    wishes = range(DEFAULT_PORT, DEFAULT_PORT + _PORTS_TRIED) if port is None else [port]
+    for wish in wishes:
+        listening = socket.socket(family, kind)
+        if os.name == "posix":
+            # On Windows this would let two servers share a port.
+            listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            listening.bind((address[0], wish, *address[2:]))
+            listening.listen(128)
+            return listening
+        except OSError as error:
+            listening.close()
+            if error.errno == errno.EADDRINUSE and port is None:
+                continue
+            raise _refused(host, wish, error) from error
+    raise InputError(f"ports {wishes[0]} to {wishes[-1]} are all in use", hint="choose one with --port")
+
+
+def _refused(host: str, port: int, error: OSError) -> InputError:
+    if error.errno == errno.EADDRINUSE:
+        return InputError(f"--port {port}: is in use by another program", hint=f"e.g. --port {port + 1}")
+    if error.errno in (errno.EACCES, errno.EPERM):
+        return InputError(f"--port {port}: needs administrator rights", hint="ports from 1024 on do not")
+    if error.errno == errno.EADDRNOTAVAIL:
+        return _unknown_host(host)
+    return InputError(f"{host}:{port} cannot be opened: {error.strerror or error}")
+
+
+def _unknown_host(host: str) -> InputError:
+    return InputError(f"--host {host}: is not an address of this machine", hint="e.g. 127.0.0.1")
+
+
+def _own_address() -> str:
+    """The address other machines reach this one by; connecting a datagram socket sends nothing."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.connect(("192.0.2.1", 9))
+            return str(probe.getsockname()[0])
+        except OSError:
+            return "127.0.0.1"
+
+
+def _link(host: str, port: int, token: str | None) -> str:
+    name = host.strip("[]")
+    shown = f"[{name}]" if ":" in name else name
+    return f"http://{shown}:{port}/" + (f"?token={token}" if token else "")
+
+
+def _has_screen() -> bool:
+    """Without a display a text browser would take over the terminal."""
+    return sys.platform in ("win32", "darwin") or bool(
+        os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
+    )

@@ -1,0 +1,184 @@
+// @ts-check
+// One part in full: a small force–contraction plot for muscles, every value with unit, source and grade, references.
+import { h, icon } from "../../dom.js";
+import { effect } from "../../reactive.js";
+import { units } from "../../state.js";
+import { goTo } from "../../shell.js";
+import { effectsById } from "../../store.js";
+import { latest, post } from "../../api.js";
+import { siOf } from "../../format.js";
+import { Chart } from "../../plots/chart.js";
+import { writeLabels } from "../../plots/overlay.js";
+import { palette } from "../../plots/theme.js";
+import { openPopover } from "../../ui/dialog.js";
+import { gradeTag, spoken, unverifiedNote } from "../../ui/sources.js";
+import { plotlyReady } from "../design/charts.js";
+import { usePreset } from "../design/muscle.js";
+import { forceSpec } from "../design/specs.js";
+import { shownValue } from "./columns.js";
+import { selected } from "./table.js";
+
+/** @typedef {import("../../types.js").Preset} Preset */
+/** @typedef {import("../../types.js").Values} Values */
+/** @typedef {import("../../types.js").Curves} Curves */
+
+/** @param {string} title @param {Values | undefined} values */
+function valueTable(title, values) {
+  const entries = Object.entries(values ?? {});
+  if (!entries.length) return null;
+  return h(
+    "div",
+    null,
+    h("h4", null, title),
+    h(
+      "ul",
+      { class: "values" },
+      ...entries.map(([key, q]) =>
+        h(
+          "li",
+          null,
+          h("span", null, spoken(key)),
+          h("b", null, () => {
+            const { text, unit } = shownValue(q, units.value);
+            return `${text} ${unit}`;
+          }),
+          h("small", { class: "source" }, q.source, " ", gradeTag(q.grade), q.note ? ` ${q.note}` : ""),
+        )
+      ),
+    ),
+  );
+}
+
+/** Measured points and reference curves: what there is of each column. @param {Preset} p */
+function columnList(p) {
+  const entries = Object.entries(p.data_columns ?? {});
+  if (!entries.length) return null;
+  return h(
+    "ul",
+    { class: "values" },
+    ...entries.map(([key, c]) =>
+      h(
+        "li",
+        null,
+        h("span", null, spoken(key)),
+        h("b", null, `${Math.min(...c.values)} … ${Math.max(...c.values)} ${c.unit}`),
+        h("small", { class: "source" }, `${c.values.length} values`),
+      )
+    ),
+  );
+}
+
+/** @param {Preset} p */
+function badge(p) {
+  if (p.verified) return h("span", { class: "badge good" }, icon("check"), "all values sourced");
+  const button = h(
+    "button",
+    {
+      type: "button",
+      class: "badge warn",
+      "aria-expanded": "false",
+      onclick: () => openPopover(button, "Unverified values", () => unverifiedNote(p)),
+    },
+    icon("warn"),
+    "unverified values",
+  );
+  return button;
+}
+
+const SHOWN = 6;
+
+/** Curves at even steps up to the highest pressure. @param {Preset} p */
+function request(p) {
+  const most = p.limits?.max_pressure ? siOf(p.limits.max_pressure) : 6e5;
+  const pressures = Array.from({ length: SHOWN }, (_, i) => ((i + 1) * most) / SHOWN);
+  return { muscle: { preset: p.id }, pressures, points: 60, contraction_from: 0 };
+}
+
+function smallPlot() {
+  const host = h("div", {
+    class: "plot",
+    role: "figure",
+    "aria-label": "Force over contraction of this muscle",
+  });
+  const chart = new Chart(host, "catalogue-force");
+  writeLabels(chart);
+  /** @type {Curves | null} */
+  let shown = null;
+  const draw = () => {
+    if (!shown) return;
+    const view = {
+      curves: shown,
+      across: /** @type {const} */ ("contraction"),
+      over: /** @type {const} */ ("contraction"),
+    };
+    chart.show((p) => forceSpec({ ...view, system: units.peek(), reference: null }, p));
+  };
+  const ask = latest(
+    (/** @type {object} */ body, control) => post("/api/curves", body, control),
+    (answer) => {
+      shown = answer;
+      draw();
+    },
+    () => (shown = null),
+  );
+  effect(() => {
+    const p = selected.value;
+    if (p?.kind === "muscle") ask(request(p));
+  });
+  effect(() => {
+    units.value;
+    palette.value;
+    if (plotlyReady.value) draw();
+  });
+  return host;
+}
+
+/** @param {string} id */
+const effectTitle = (id) => effectsById.value.get(id)?.title ?? spoken(id);
+
+/** @param {Preset} p */
+function facts(p) {
+  return [
+    p.kind === "muscle"
+      ? h(
+        "button",
+        {
+          type: "button",
+          class: "primary block",
+          onclick: () => {
+            usePreset(p.id);
+            goTo("design");
+          },
+        },
+        "Use in design",
+      )
+      : null,
+    valueTable("Geometry", p.geometry),
+    valueTable("Limits", p.limits),
+    valueTable(p.kind === "muscle" ? "Further data" : "Data", p.data),
+    ...Object.entries(p.effects ?? {}).map(([id, values]) => valueTable(effectTitle(id), values)),
+    columnList(p),
+    p.source ? h("p", { class: "muted" }, p.source, " ", gradeTag(p.grade ?? "")) : null,
+    p.note ? h("p", { class: "muted" }, p.note) : null,
+    p.references?.length ? h("h4", null, "References") : null,
+    h("ul", { class: "plain" }, ...(p.references ?? []).map((r) => h("li", { class: "muted" }, r))),
+  ];
+}
+
+export function detailPanel() {
+  const plot = smallPlot();
+  return h(
+    "section",
+    { class: "card detail", "aria-label": "Detail" },
+    () => {
+      const p = selected.value;
+      if (!p) return h("p", { class: "muted" }, "Choose a part to see everything known about it.");
+      return [
+        h("div", { class: "card-head" }, h("h2", null, p.title), badge(p)),
+        h("p", { class: "muted" }, [p.maker, p.function, p.description].filter(Boolean).join(" · ")),
+      ];
+    },
+    h("div", { hidden: () => selected.value?.kind !== "muscle" }, plot),
+    () => selected.value ? facts(selected.value) : null,
+  );
+}

@@ -1,0 +1,907 @@
+// Generated from openapi.json by `python frontend/types/generate.py`. Do not edit.
+
+export interface paths {
+  "/api/comparisons": {
+    post: operations["compare_with_measurement"];
+  };
+  "/api/curves": {
+    post: operations["compute_curves"];
+  };
+  "/api/effects": {
+    get: operations["list_effects"];
+  };
+  "/api/health": {
+    get: operations["read_health"];
+  };
+  "/api/inverse": {
+    post: operations["answer_question"];
+  };
+  "/api/measurements": {
+    put: operations["upload_measurement"];
+  };
+  "/api/measurements/{measurement_id}": {
+    get: operations["read_measurement"];
+  };
+  "/api/presets/muscles": {
+    post: operations["save_muscle"];
+  };
+  "/api/presets/{kind}": {
+    get: operations["list_presets"];
+  };
+  "/api/presets/{kind}/{preset_id}": {
+    get: operations["read_preset"];
+  };
+}
+
+export interface components {
+  schemas: {
+    /** One column of a measurement that is used. */
+    Channel: {
+      /** Name of the channel. */
+      name: string;
+      /** Header of the file. */
+      column: string;
+      /** Unit in the file. */
+      unit: string;
+      /** SI unit of minimum, maximum and the columns. */
+      si_unit: string;
+      /** Smallest value, SI. */
+      minimum: number | null;
+      /** Largest value, SI. */
+      maximum: number | null;
+    };
+    /** Figures of the muscle at one pressure. */
+    Characteristics: {
+      /** Gauge pressure. [Pa] */
+      pressure: number;
+      /** Force at the nominal length. [N] */
+      blocked_force: number | null;
+      /** Contraction without load. [1] */
+      free_contraction: number | null;
+      /** Why the free contraction is not a plain figure. */
+      free_contraction_flag: string | null;
+      /** Work of one stroke from nominal length to free contraction. [J] */
+      max_work: number | null;
+      /** Ideal tension of all threads together at nominal length. [N] */
+      thread_tension_total: number | null;
+    };
+    /** A column of numbers in one unit. */
+    Column: {
+      unit: string;
+      values: number[];
+    };
+    /** The model's error in numbers, and the points. */
+    ComparisonAnswer: {
+      /** Measurement kind. */
+      kind: string;
+      rows: number;
+      rows_used: number;
+      /** The predicted channel. */
+      predicted: string;
+      /** SI unit of the predicted channel. */
+      unit: string;
+      /** Root mean square of the residual. */
+      rmse: number | null;
+      /** RMSE over the largest measured magnitude. */
+      nrmse_percent: number | null;
+      /** The largest measured magnitude. */
+      full_scale: number | null;
+      /** RMSE with whole groups left out of the fit. */
+      holdout_rmse: number | null;
+      /** Noise of the data, when it can be told. */
+      noise_floor: number | null;
+      residual_mean: number | null;
+      /** Effect -> parameter -> value. */
+      parameters: { [key: string]: { [key: string]: components["schemas"]["FittedParameter"] } };
+      correlations: components["schemas"]["Correlation"][];
+      /** Why rows were left out -> how many. */
+      excluded: { [key: string]: number };
+      messages: string[];
+      geometry: components["schemas"]["MuscleGeometry"];
+      series: components["schemas"]["ComparisonSeries"][];
+      flags: components["schemas"]["Flag"][];
+    };
+    /** Which model beside which measurement, and whether to fit it. */
+    ComparisonRequest: {
+      muscle: components["schemas"]["MuscleInput"];
+      effects?: { [key: string]: { [key: string]: number | string } } | null;
+      /** SHA-256 id of an uploaded file, or id of a preset measurement or reference curve. */
+      measurement: string;
+      /** Fit the effects' parameters to the data. */
+      fit?: boolean;
+      /** Geometry that is fitted too, within its tolerance. */
+      free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
+    };
+    /** One curve of the comparison, e.g. all points of one pressure. */
+    ComparisonSeries: {
+      label: string;
+      /** Pressure of the series, when it has one. [Pa] */
+      pressure: number | null;
+      /** Contraction of each point. [1] */
+      contraction: (number | null)[];
+      /** Length of each point. [m] */
+      length: (number | null)[];
+      /** Pressure of each point. [Pa] */
+      x_pressure: (number | null)[];
+      /** Measured, in the unit of the answer. */
+      measured: (number | null)[];
+      /** Predicted, in the unit of the answer. */
+      predicted: (number | null)[];
+      /** Measured minus predicted. */
+      residual: (number | null)[];
+    };
+    /** How far is the muscle contracted at this force and pressure? */
+    ContractionQuestion: {
+      muscle: components["schemas"]["MuscleInput"];
+      effects?: { [key: string]: { [key: string]: number | string } } | null;
+      /** Temperature of the muscle. [K] */
+      temperature?: number | string;
+      /** Sign of dL/dt for friction: -1 shortening (filling), 1 lengthening (venting), 0 none. */
+      direction?: -1 | 0 | 1;
+      question: "contraction";
+      /** The force held. [N] */
+      force: number | string;
+      /** [Pa] */
+      pressure: number | string;
+    };
+    /** How far two fitted parameters can stand in for each other. */
+    Correlation: {
+      a: string;
+      b: string;
+      value: number;
+    };
+    /** Force over pressure and contraction. */
+    CurveColumns: {
+      pressure: components["schemas"]["Column"];
+      contraction: components["schemas"]["Column"];
+      force: components["schemas"]["Column"];
+    };
+    /** What bounds the use of the muscle; null where the preset does not say. */
+    CurveLimits: {
+      /** Highest gauge pressure. [Pa] */
+      max_pressure: number | null;
+      /** Highest force. [N] */
+      max_force: number | null;
+      /** Highest contraction. [1] */
+      max_contraction: number | null;
+      /** Highest stretch beyond the nominal length. [1] */
+      max_pretension: number | null;
+      /** Contraction at which the ideal force is zero. [1] */
+      ideal_max_contraction: number;
+      /** Ideal force of the fully stretched braid, per pressure. [N] */
+      braid_lock_force: (number | null)[];
+    };
+    /** A reference curve of the maker: not a measurement. */
+    CurvePresetAnswer: {
+      schema: 1;
+      kind: "curve";
+      id: string;
+      title: string;
+      maker?: string;
+      description?: string;
+      references?: string[];
+      muscle: string;
+      data_columns: components["schemas"]["CurveColumns"];
+      excluded?: components["schemas"]["Exclusion"][];
+      source: string;
+      grade: "S" | "S2" | "C" | "D" | "M" | "E" | "user";
+      note?: string | null;
+      /** No figure is general knowledge (M) or an estimate (E). */
+      verified: boolean;
+      /** Came with the program, or saved by the user. */
+      origin: "built-in" | "user";
+    };
+    /** Force, stiffness, volume and diameter over the length, per pressure. */
+    CurvesAnswer: {
+      /** Gauge pressures of the rows. [Pa] */
+      pressure: number[];
+      /** Lengths of the columns. [m] */
+      length: number[];
+      /** Contractions of the columns. [1] */
+      contraction: number[];
+      /** Braid angle. [rad] */
+      braid_angle: (number | null)[];
+      /** Tension; 0 where the muscle would have to push, unless unclipped. [N] */
+      force: ((number | null)[])[];
+      /** dF/dL at constant pressure. [N/m] */
+      stiffness: ((number | null)[])[];
+      /** dF/dL at constant gas mass. [N/m] */
+      stiffness_closed: ((number | null)[])[];
+      /** Enclosed volume. [m3] */
+      volume: (number | null)[];
+      /** Braid diameter. [m] */
+      diameter: (number | null)[];
+      limits: components["schemas"]["CurveLimits"];
+      characteristics: components["schemas"]["Characteristics"][];
+      geometry: components["schemas"]["MuscleGeometry"];
+      model: components["schemas"]["ModelAnswer"];
+      /** Null without load and fixed length. */
+      over_pressure: components["schemas"]["OverPressure"] | null;
+      operating_points: components["schemas"]["OperatingPoint"][];
+      flags: components["schemas"]["Flag"][];
+    };
+    /** Which muscle, which pressures, which range. */
+    CurvesRequest: {
+      /** Gauge pressures of the curves. */
+      pressures?: (number | string)[];
+      /** Points along the length. */
+      points?: number;
+      /** Sign of dL/dt for friction: -1 shortening (filling), 1 lengthening (venting), 0 none. */
+      direction?: -1 | 0 | 1;
+      /** Temperature of the muscle. [K] */
+      temperature?: number | string;
+      /** Also negative forces, which a muscle cannot exert. */
+      unclipped?: boolean;
+      /** Gas volume besides the muscle, for the closed-valve stiffness. [m3] */
+      dead_volume?: number | string;
+      /** 1 isothermal, 1.4 adiabatic (air). */
+      polytropic_exponent?: number;
+      /** Start of the range; null: the nominal length (0). [1] */
+      contraction_from?: number | string | null;
+      /** End of the range; null: the free contraction at the highest pressure. [1] */
+      contraction_to?: number | string | null;
+      /** Constant load, for the operating points. [N] */
+      load?: number | string | null;
+      /** Length held fixed, for force over pressure. [m] */
+      fixed_length?: number | string | null;
+      muscle: components["schemas"]["MuscleInput"];
+      effects?: { [key: string]: { [key: string]: number | string } } | null;
+    };
+    /** An example document of the Design view; its content is checked by the API that runs it. */
+    DesignAnswer: {
+      schema: 1;
+      kind: "design";
+      id: string;
+      title: string;
+      maker?: string;
+      description?: string;
+      references?: string[];
+      document: { [key: string]: unknown };
+      /** No figure is general knowledge (M) or an estimate (E). */
+      verified: boolean;
+      /** Came with the program, or saved by the user. */
+      origin: "built-in" | "user";
+    };
+    /** One physical effect, as its file declares it. */
+    EffectAnswer: {
+      /** The file name. */
+      id: string;
+      title: string;
+      family: string;
+      /** static, rate, hysteretic, dynamic or measurement. */
+      type: string;
+      /** Why it exists. */
+      cause: string;
+      /** LaTeX. */
+      equation: string;
+      equation_mathml: string;
+      parameters: components["schemas"]["EffectParameter"][];
+      /** Measurement kinds that reveal it. */
+      kinds: string[];
+      signature: components["schemas"]["Signature"];
+      confused_with: components["schemas"]["Twin"][];
+      references: components["schemas"]["SourceText"][];
+      /** The places of the model it fills. */
+      slots: string[];
+    };
+    /** One number of an effect, in SI. */
+    EffectParameter: {
+      name: string;
+      /** LaTeX. */
+      symbol: string;
+      /** The symbol as MathML. */
+      symbol_mathml: string;
+      /** SI unit of all figures here. */
+      unit: string;
+      /** A typical value. */
+      default: number;
+      /** Lower bound of what is plausible. */
+      lower: number;
+      /** Upper bound of what is plausible. */
+      upper: number;
+      /** The value at which the effect vanishes. */
+      off: number | null;
+      /** Whether a fit frees it by default. */
+      fitted: boolean;
+      description: string;
+      source: components["schemas"]["SourceText"];
+    };
+    /** All known effects, and the effect files that could not be loaded. */
+    EffectsAnswer: {
+      effects: components["schemas"]["EffectAnswer"][];
+      problems: components["schemas"]["FileProblem"][];
+    };
+    /** The one shape of every error. */
+    ErrorBody: {
+      error: components["schemas"]["ErrorDetail"];
+    };
+    /** What is wrong, where, and what would be right. */
+    ErrorDetail: {
+      /** Machine-readable kind. */
+      code: string;
+      /** What is wrong, for people. */
+      message: string;
+      /** Path of the field in the request. */
+      field: string | null;
+      /** What would be right. */
+      hint: string | null;
+    };
+    /** A row that is not used, and why. */
+    Exclusion: {
+      index: number;
+      why: string;
+    };
+    /** A file that was not loaded, and why. */
+    FileProblem: {
+      file: string;
+      message: string;
+    };
+    /** One parameter as used or fitted. */
+    FittedParameter: {
+      /** Value in SI. */
+      value: number;
+      /** Standard error; null when not fitted or not determined. */
+      stderr: number | null;
+      /** SI unit. */
+      unit: string;
+      /** The fit stopped at a bound. */
+      at_bound: boolean;
+      /** The fit was free to change it. */
+      fitted: boolean;
+    };
+    /** A fitting or silencer: what its port adds to the dead volume. */
+    FittingAnswer: {
+      schema: 1;
+      kind: "fitting";
+      id: string;
+      title: string;
+      maker?: string;
+      description?: string;
+      references?: string[];
+      data?: { [key: string]: components["schemas"]["Quantity"] };
+      /** No figure is general knowledge (M) or an estimate (E). */
+      verified: boolean;
+      /** Came with the program, or saved by the user. */
+      origin: "built-in" | "user";
+    };
+    /** Something the user should know about an answer: a limit, a value out of reach, an unverified figure. */
+    Flag: {
+      code: string;
+      /** In physical words. */
+      message: string;
+      /** The input it belongs to. */
+      field?: string | null;
+    };
+    /** Force over pressure at the fixed length, in both directions of motion. */
+    ForceAtLength: {
+      /** While shortening. [N] */
+      filling: (number | null)[];
+      /** While lengthening. [N] */
+      venting: (number | null)[];
+    };
+    /** The muscle at rest; a wall thickness that is not known is left out. */
+    Geometry: {
+      inside_diameter: components["schemas"]["Quantity"];
+      braid_diameter: components["schemas"]["Quantity"];
+      braid_angle: components["schemas"]["Quantity"];
+      nominal_length: components["schemas"]["Quantity"];
+      wall_thickness?: components["schemas"]["Quantity"] | null;
+    };
+    HTTPValidationError: {
+      detail?: components["schemas"]["ValidationError"][];
+    };
+    /** The server is up. */
+    Health: {
+      status: "ok";
+      /** Version of mckibben. */
+      version: string;
+      /** Version of the plotly bundle, for its link's ``?v=``. */
+      plotly: string;
+      /** Whether the server has a folder for the user's presets. */
+      can_save_presets: boolean;
+    };
+    /** The value asked for, in SI, with what to know about it. */
+    InverseAnswer: {
+      question: "pressure" | "contraction" | "working_range" | "stroke_pressure";
+      /** The answer; null when there is none (a flag says why). */
+      value: number | null;
+      /** SI unit of the value. */
+      unit: string;
+      /** Further figures in SI. */
+      details: { [key: string]: number | null };
+      flags: components["schemas"]["Flag"][];
+    };
+    /** What the maker allows; a limit that is not known is left out. */
+    Limits: {
+      max_pressure?: components["schemas"]["Quantity"] | null;
+      max_force?: components["schemas"]["Quantity"] | null;
+      max_contraction?: components["schemas"]["Quantity"] | null;
+      max_pretension?: components["schemas"]["Quantity"] | null;
+      min_nominal_length?: components["schemas"]["Quantity"] | null;
+      max_nominal_length?: components["schemas"]["Quantity"] | null;
+    };
+    /** A measurement as it was understood. */
+    MeasurementAnswer: {
+      /** SHA-256 of the file's content. */
+      id: string;
+      /** Name of the file. */
+      name: string;
+      /** isobaric, isometric, isotonic, diameter, transient or static. */
+      kind: string;
+      /** Detected from the data, not given in the file. */
+      kind_detected: boolean;
+      rows: number;
+      channels: components["schemas"]["Channel"][];
+      /** Columns that are not used. */
+      ignored: string[];
+      /** Conditions of the test, SI. */
+      conditions: { [key: string]: string | number | null };
+      /** How many sweeps or cycles the rows belong to. */
+      groups: number;
+      /** What to know about the file. */
+      messages: string[];
+    };
+    /** Force over pressure and length. */
+    MeasurementColumns: {
+      pressure: components["schemas"]["Column"];
+      length: components["schemas"]["Column"];
+      force: components["schemas"]["Column"];
+    };
+    /** A measurement with its data. */
+    MeasurementDetail: {
+      /** SHA-256 of the file's content. */
+      id: string;
+      /** Name of the file. */
+      name: string;
+      /** isobaric, isometric, isotonic, diameter, transient or static. */
+      kind: string;
+      /** Detected from the data, not given in the file. */
+      kind_detected: boolean;
+      rows: number;
+      channels: components["schemas"]["Channel"][];
+      /** Columns that are not used. */
+      ignored: string[];
+      /** Conditions of the test, SI. */
+      conditions: { [key: string]: string | number | null };
+      /** How many sweeps or cycles the rows belong to. */
+      groups: number;
+      /** What to know about the file. */
+      messages: string[];
+      /** Channel -> values in SI; 'slack' marks rows without pulling force. */
+      columns: { [key: string]: (number | boolean | null)[] };
+    };
+    /** Published measured points; ``slack`` marks rows where the muscle did not pull (not a measured zero). */
+    MeasurementPresetAnswer: {
+      schema: 1;
+      kind: "measurement";
+      id: string;
+      title: string;
+      maker?: string;
+      description?: string;
+      references?: string[];
+      muscle: string;
+      data_columns: components["schemas"]["MeasurementColumns"];
+      excluded?: components["schemas"]["Exclusion"][];
+      source: string;
+      grade: "S" | "S2" | "C" | "D" | "M" | "E" | "user";
+      note?: string | null;
+      measurement_kind: "isobaric" | "isometric" | "isotonic" | "diameter" | "transient" | "static";
+      nominal_length: components["schemas"]["Quantity"];
+      sample: string;
+      slack?: (0 | 1)[];
+      /** No figure is general knowledge (M) or an estimate (E). */
+      verified: boolean;
+      /** Came with the program, or saved by the user. */
+      origin: "built-in" | "user";
+    };
+    /** The effects that were used, with all their values in SI. */
+    ModelAnswer: {
+      effects: { [key: string]: { [key: string]: number } };
+    };
+    /** A muscle: geometry, limits, catalogue data and the effects its model has by default. */
+    MuscleAnswer: {
+      schema: 1;
+      kind: "muscle";
+      id: string;
+      title: string;
+      maker?: string;
+      description?: string;
+      references?: string[];
+      series?: string;
+      geometry: components["schemas"]["Geometry"];
+      tolerance?: components["schemas"]["Tolerance"];
+      limits?: components["schemas"]["Limits"];
+      data?: { [key: string]: components["schemas"]["Quantity"] };
+      effects?: { [key: string]: { [key: string]: components["schemas"]["Quantity"] } };
+      reference_curve?: string | null;
+      measurement?: string | null;
+      /** No figure is general knowledge (M) or an estimate (E). */
+      verified: boolean;
+      /** Came with the program, or saved by the user. */
+      origin: "built-in" | "user";
+    };
+    /** The muscle at rest in all its forms. */
+    MuscleGeometry: {
+      /** Diameter of the braid at the braid angle. [m] */
+      braid_diameter: number;
+      /** Angle between thread and axis. [rad] */
+      braid_angle: number;
+      /** Length at rest. [m] */
+      nominal_length: number;
+      /** Bore. [m] */
+      inside_diameter: number;
+      /** Wall of the bladder; 0 when not given. [m] */
+      wall_thickness: number;
+      /** Length of one thread. [m] */
+      thread_length: number;
+      /** Turns of one thread. [1] */
+      turns: number;
+      /** The lattice, when the muscle was given by it. */
+      rhombus: components["schemas"]["RhombusAnswer"] | null;
+    };
+    /** A preset id, or a length with exactly one of: diameter and angle, thread length and turns, rhombus. With a preset the given fields take the place of the preset's own. */
+    MuscleInput: {
+      preset?: string | null;
+      /** Length between the fittings at rest. [m] */
+      nominal_length?: number | string | null;
+      /** Bore at rest. [m] */
+      inside_diameter?: number | string | null;
+      /** Diameter of the braid at the braid angle; without it the inside diameter is taken. [m] */
+      braid_diameter?: number | string | null;
+      /** Angle between thread and muscle axis at rest. [rad] */
+      braid_angle?: number | string | null;
+      /** Wall of the bladder at rest. [m] */
+      wall_thickness?: number | string | null;
+      /** Length of one thread of the braid. [m] */
+      thread_length?: number | string | null;
+      /** Turns a thread makes around the muscle. [1] */
+      turns?: number | string | null;
+      rhombus?: components["schemas"]["RhombusInput"] | null;
+    };
+    /** A muscle: geometry, limits, catalogue data and the effects its model has by default. */
+    MusclePreset: {
+      schema: 1;
+      kind: "muscle";
+      id: string;
+      title: string;
+      maker?: string;
+      description?: string;
+      references?: string[];
+      series?: string;
+      geometry: components["schemas"]["Geometry"];
+      tolerance?: components["schemas"]["Tolerance"];
+      limits?: components["schemas"]["Limits"];
+      data?: { [key: string]: components["schemas"]["Quantity"] };
+      effects?: { [key: string]: { [key: string]: components["schemas"]["Quantity"] } };
+      reference_curve?: string | null;
+      measurement?: string | null;
+    };
+    /** Where the muscle holds the load at one pressure. */
+    OperatingPoint: {
+      /** Gauge pressure. [Pa] */
+      pressure: number;
+      /** Contraction; null when out of reach. [1] */
+      contraction: number | null;
+      /** Length; null when out of reach. [m] */
+      length: number | null;
+      /** The load that is held. [N] */
+      force: number | null;
+      /** Stiffness at constant pressure. [N/m] */
+      stiffness: number | null;
+      /** Stiffness with the valve closed. [N/m] */
+      stiffness_closed: number | null;
+      /** Braid diameter. [m] */
+      diameter: number | null;
+      /** Codes of the flags that hold here. */
+      flags: string[];
+    };
+    /** Characteristics over pressure: position at the load, force at the fixed length. */
+    OverPressure: {
+      /** Gauge pressure. [Pa] */
+      pressure: number[];
+      /** The load. [N] */
+      load: number | null;
+      filling: components["schemas"]["OverPressureBranch"] | null;
+      venting: components["schemas"]["OverPressureBranch"] | null;
+      /** The fixed length. [m] */
+      fixed_length: number | null;
+      force_at_fixed_length: components["schemas"]["ForceAtLength"] | null;
+    };
+    /** Position over pressure in one direction of motion; null where the load cannot be held. */
+    OverPressureBranch: {
+      /** Contraction at the load. [1] */
+      contraction: (number | null)[];
+      /** Length at the load. [m] */
+      length: (number | null)[];
+      /** Braid diameter at the load. [m] */
+      diameter: (number | null)[];
+    };
+    /** A preset file that was not loaded, and why. */
+    PresetProblem: {
+      file: string;
+      /** Where in the file. */
+      field: string | null;
+      message: string;
+      /** What would be right. */
+      hint: string | null;
+    };
+    /** All presets of one kind, and the files that could not be loaded. */
+    PresetsAnswer: {
+      kind: "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs";
+      presets: (components["schemas"]["MuscleAnswer"] | components["schemas"]["ValveAnswer"] | components["schemas"]["TubeAnswer"] | components["schemas"]["FittingAnswer"] | components["schemas"]["MeasurementPresetAnswer"] | components["schemas"]["CurvePresetAnswer"] | components["schemas"]["DesignAnswer"])[];
+      problems: components["schemas"]["PresetProblem"][];
+    };
+    /** Which pressure gives this force at this length (or contraction)? */
+    PressureQuestion: {
+      muscle: components["schemas"]["MuscleInput"];
+      effects?: { [key: string]: { [key: string]: number | string } } | null;
+      /** Temperature of the muscle. [K] */
+      temperature?: number | string;
+      /** Sign of dL/dt for friction: -1 shortening (filling), 1 lengthening (venting), 0 none. */
+      direction?: -1 | 0 | 1;
+      question: "pressure";
+      /** The force wanted. [N] */
+      force: number | string;
+      /** The length; or give the contraction. [m] */
+      length?: number | string | null;
+      /** The contraction; or give the length. [1] */
+      contraction?: number | string | null;
+    };
+    /** A value with its unit (text), source (short) and grade (a key of `physics.parameter.GRADES`). */
+    Quantity: {
+      value: number;
+      unit: string;
+      source: string;
+      grade: "S" | "S2" | "C" | "D" | "M" | "E" | "user";
+      note?: string | null;
+    };
+    /** The lattice of the braid. */
+    RhombusAnswer: {
+      /** Side of one rhombus. [m] */
+      side: number;
+      /** Rhombi along the muscle. [1] */
+      along: number;
+      /** Rhombi around the muscle. [1] */
+      around: number;
+    };
+    /** The lattice of the braid: rhombi of one side, so many along the muscle and around it. */
+    RhombusInput: {
+      /** Side of one rhombus. [m] */
+      side: number | string;
+      /** Rhombi along the muscle. [1] */
+      along: number | string;
+      /** Rhombi around the muscle. [1] */
+      around: number | string;
+    };
+    /** How the effect shows in the residual. */
+    Signature: {
+      /** In words. */
+      text: string;
+      /** Parity when the motion reverses: even, odd or null. */
+      direction: string | null;
+      /** n when it is proportional to the n-th power of pressure. */
+      pressure_power: number | null;
+      /** States at which it contributes nothing. */
+      zero_at: string[];
+      /** conservative, dissipative, lumped or reading. */
+      energy: string;
+    };
+    /** Where a figure comes from, and how sure it is. */
+    SourceText: {
+      /** Short source. */
+      text: string;
+      /** S read in the source, S2 second-hand, C computed, D derived here, M general knowledge and E estimate (both unverified), user. */
+      grade: string;
+    };
+    /** Which pressure lifts this load by this stroke? */
+    StrokePressureQuestion: {
+      muscle: components["schemas"]["MuscleInput"];
+      effects?: { [key: string]: { [key: string]: number | string } } | null;
+      /** Temperature of the muscle. [K] */
+      temperature?: number | string;
+      /** Sign of dL/dt for friction: -1 shortening (filling), 1 lengthening (venting), 0 none. */
+      direction?: -1 | 0 | 1;
+      question: "stroke_pressure";
+      /** [N] */
+      load: number | string;
+      /** From the nominal length. [m] */
+      stroke: number | string;
+    };
+    /** How far (+-) a fit may free a geometry value. */
+    Tolerance: {
+      braid_angle?: components["schemas"]["Quantity"] | null;
+      braid_diameter?: components["schemas"]["Quantity"] | null;
+      nominal_length?: components["schemas"]["Quantity"] | null;
+      wall_thickness?: components["schemas"]["Quantity"] | null;
+    };
+    /** A tube; its conductance is given for ``reference_length``. */
+    TubeAnswer: {
+      schema: 1;
+      kind: "tube";
+      id: string;
+      title: string;
+      maker?: string;
+      description?: string;
+      references?: string[];
+      data?: { [key: string]: components["schemas"]["Quantity"] };
+      /** No figure is general knowledge (M) or an estimate (E). */
+      verified: boolean;
+      /** Came with the program, or saved by the user. */
+      origin: "built-in" | "user";
+    };
+    /** Another effect that looks alike. */
+    Twin: {
+      effect: string;
+      /** The experiment that tells the two apart. */
+      separated_by: string;
+    };
+    ValidationError: {
+      loc: (string | number)[];
+      msg: string;
+      type: string;
+      input?: unknown;
+      ctx?: { [key: string]: unknown };
+    };
+    /** A valve; without ``sonic_conductance`` it cannot be simulated. */
+    ValveAnswer: {
+      schema: 1;
+      kind: "valve";
+      id: string;
+      title: string;
+      maker?: string;
+      description?: string;
+      references?: string[];
+      data?: { [key: string]: components["schemas"]["Quantity"] };
+      function: string;
+      /** No figure is general knowledge (M) or an estimate (E). */
+      verified: boolean;
+      /** Came with the program, or saved by the user. */
+      origin: "built-in" | "user";
+    };
+    /** Which stroke can the muscle make, from the preload without pressure to the load at the highest pressure? It begins venting and ends filling, whatever ``direction`` says. */
+    WorkingRangeQuestion: {
+      muscle: components["schemas"]["MuscleInput"];
+      effects?: { [key: string]: { [key: string]: number | string } } | null;
+      /** Temperature of the muscle. [K] */
+      temperature?: number | string;
+      /** Sign of dL/dt for friction: -1 shortening (filling), 1 lengthening (venting), 0 none. */
+      direction?: -1 | 0 | 1;
+      question: "working_range";
+      /** [N] */
+      load: number | string;
+      /** The highest gauge pressure. [Pa] */
+      pressure: number | string;
+      /** Load at the start of the stroke. [N] */
+      preload?: number | string;
+    };
+  };
+}
+
+export interface operations {
+  /** The pressure, contraction, working range or stroke pressure asked for, with the limits it crosses. */
+  answer_question: {
+    requestBody: { content: { "application/json": components["schemas"]["PressureQuestion"] | components["schemas"]["ContractionQuestion"] | components["schemas"]["WorkingRangeQuestion"] | components["schemas"]["StrokePressureQuestion"] } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["InverseAnswer"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** The model's error on a measurement in numbers, with or without a fit, and the points of both. */
+  compare_with_measurement: {
+    requestBody: { content: { "application/json": components["schemas"]["ComparisonRequest"] } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["ComparisonAnswer"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Force, stiffness, volume and diameter over the length for each pressure, and what bounds them. */
+  compute_curves: {
+    requestBody: { content: { "application/json": components["schemas"]["CurvesRequest"] } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["CurvesAnswer"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Every effect with its equation, parameters, sources and what it is confused with. */
+  list_effects: {
+    responses: {
+      200: { content: { "application/json": components["schemas"]["EffectsAnswer"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** All presets of a kind with unit, source and grade of each figure, and the files that were refused. */
+  list_presets: {
+    parameters: {
+      path: { kind: "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs" };
+    };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["PresetsAnswer"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["HTTPValidationError"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Version of the server. */
+  read_health: {
+    responses: {
+      200: { content: { "application/json": components["schemas"]["Health"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** A measurement with its columns in SI. */
+  read_measurement: {
+    parameters: {
+      path: { measurement_id: string };
+    };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["MeasurementDetail"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** One preset. */
+  read_preset: {
+    parameters: {
+      path: { kind: "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs"; preset_id: string };
+    };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["MuscleAnswer"] | components["schemas"]["ValveAnswer"] | components["schemas"]["TubeAnswer"] | components["schemas"]["FittingAnswer"] | components["schemas"]["MeasurementPresetAnswer"] | components["schemas"]["CurvePresetAnswer"] | components["schemas"]["DesignAnswer"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["HTTPValidationError"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Keep a muscle among the user's presets; one of the same id is replaced, a built-in one never. */
+  save_muscle: {
+    requestBody: { content: { "application/json": components["schemas"]["MusclePreset"] } };
+    responses: {
+      201: { content: { "application/json": components["schemas"]["MuscleAnswer"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Send a measurement file; the answer says how it was understood. Sent twice it is kept once. */
+  upload_measurement: {
+    parameters: {
+      query: { name: string };
+    };
+    requestBody: { content: { "application/csv": Blob | ArrayBuffer | string; "application/octet-stream": Blob | ArrayBuffer | string; "application/vnd.ms-excel": Blob | ArrayBuffer | string; "text/csv": Blob | ArrayBuffer | string; "text/plain": Blob | ArrayBuffer | string; "text/tab-separated-values": Blob | ArrayBuffer | string } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["MeasurementAnswer"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+}

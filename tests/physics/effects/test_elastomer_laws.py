@@ -1,0 +1,75 @@
+"""The elastomer under braid kinematics against small-strain theory of a tube and a hand-derived slope."""
+
+from __future__ import annotations
+
+from math import pi, radians, sqrt, tan
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from mckibben.physics.catalogue import default_catalogue
+from mckibben.physics.model import Model
+from mckibben.physics.muscle import Muscle
+
+CATALOGUE = default_catalogue()
+MUSCLE = Muscle(0.3, 0.0218, radians(26.5), 0.0018)
+LATEX = {"shear_modulus": 118.4e3, "mooney_constant": 105.7e3}  # Klute & Hannaford 2000
+
+
+def tension(length: float, values: dict[str, float] = LATEX, muscle: Muscle = MUSCLE) -> float:
+    """Tension of the bladder alone [N]: without pressure nothing else pulls."""
+    model = Model([CATALOGUE["bladder_elasticity"]])
+    return float(
+        model.evaluate(
+            muscle=muscle, values={"bladder_elasticity": values}, length=length, pressure=0.0
+        ).force
+    )
+
+
+def test_published_latex_figures() -> None:
+    assert [tension(0.3 * (1.0 - e)) for e in (0.0, 0.05, 0.1, 0.2)] == pytest.approx(
+        [0.0, -78.939, -100.678, -108.932], abs=1e-3
+    )
+
+
+def test_initial_stiffness_is_that_of_a_tube_under_a_braid() -> None:
+    """k_e = (2/3)(E A_w/L0)[1 + q^2 + (q - 1)^2], q = cot^2(theta0), E = 6 (C10 + C01)."""
+    q = 1.0 / tan(MUSCLE.braid_angle) ** 2
+    bare = 6.0 * (118.4e3 + 105.7e3) * pi * 0.0218 * 0.0018 / 0.3
+    stiffness = 2.0 / 3.0 * bare * (1.0 + q**2 + (q - 1.0) ** 2)
+    assert stiffness == pytest.approx(9695.0, abs=1.0)
+    assert bare == pytest.approx(553.0, abs=1.0), "17.5 times softer"
+    step = 1e-6
+    assert (tension(0.3 + step) - tension(0.3 - step)) / (2.0 * step) == pytest.approx(stiffness, rel=1e-6)
+
+
+def test_tension_is_the_derivative_of_mooney_and_rivlins_energy() -> None:
+    """dW/dlambda_z written out with the stretches and their slopes."""
+    cot2 = 1.0 / tan(MUSCLE.braid_angle) ** 2
+    rubber = pi * 0.0218 * 0.0018 * 0.3
+    for lam in (1.02, 0.97, 0.9, 0.78):
+        hoop = sqrt(1.0 + cot2 * (1.0 - lam**2))
+        radial = 1.0 / (lam * hoop)
+        hoop_slope = -lam * cot2 / hoop
+        radial_slope = -(hoop + lam * hoop_slope) / (lam * hoop) ** 2
+        first = 2.0 * (lam + hoop * hoop_slope + radial * radial_slope)
+        second = -2.0 * (lam**-3 + hoop**-3 * hoop_slope + radial**-3 * radial_slope)
+        expected = rubber / 0.3 * (118.4e3 * first + 105.7e3 * second)
+        assert tension(0.3 * lam) == pytest.approx(expected, rel=1e-11)
+
+
+def test_stretch_pulls_and_contraction_pushes() -> None:
+    assert tension(0.31) > 0.0 > tension(0.29)
+
+
+def test_linear_elasticity_stores_half_k_x_squared() -> None:
+    model = Model([CATALOGUE["linear_elasticity"]])
+    values = {"linear_elasticity": {"stiffness": 3000.0}}
+
+    def force(length: float) -> float:
+        return float(model.evaluate(muscle=MUSCLE, values=values, length=length, pressure=0.0).force)
+
+    work, _ = quad(force, 0.27, 0.3)
+    assert work == pytest.approx(-0.5 * 3000.0 * 0.03**2, rel=1e-10)
+    assert np.sign(force(0.31)) == 1.0

@@ -1,0 +1,155 @@
+"""Effects are found in folders; what is wrong with a file is said by name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mckibben.physics.catalogue import BUILT_IN_FOLDER, Catalogue, default_catalogue
+from mckibben.physics.errors import InputError
+from mckibben.physics.model import Model
+from mckibben.physics.muscle import Muscle
+from mckibben.physics.slots import SLOTS
+
+SOURCE = (BUILT_IN_FOLDER / "coulomb_friction.py").read_text(encoding="utf-8")
+
+
+def write(folder: Path, name: str, *changes: tuple[str, str]) -> None:
+    """The friction effect as another file, with some of its text replaced."""
+    text = SOURCE
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    (folder / name).write_text(text, encoding="utf-8")
+
+
+def test_the_folder_is_the_registry() -> None:
+    files = {path.stem for path in BUILT_IN_FOLDER.glob("*.py")} - {"__init__"}
+    catalogue = default_catalogue()
+    assert set(catalogue) == files
+    assert list(catalogue) == sorted(files)
+    assert len(catalogue) == len(files)
+    assert all(catalogue[effect_id].id == effect_id for effect_id in files)
+    assert catalogue.problems == []
+    assert default_catalogue() is catalogue
+
+
+def test_unknown_effect_names_the_nearest() -> None:
+    with pytest.raises(InputError, match="there is no effect 'colomb_friction'") as caught:
+        default_catalogue()["colomb_friction"]
+    assert caught.value.hint == "Did you mean 'coulomb_friction'?"
+    assert caught.value.code == "unknown_effect"
+    assert "colomb_friction" not in default_catalogue()
+    assert "coulomb_friction" in default_catalogue()
+
+
+def test_unknown_effect_without_a_near_one_lists_them() -> None:
+    with pytest.raises(InputError) as caught:
+        default_catalogue()["xyz"]
+    assert caught.value.hint is not None
+    assert "coulomb_friction" in caught.value.hint
+
+
+def test_a_new_file_appears_and_works(tmp_path: Path) -> None:
+    write(tmp_path, "rope_drag.py", ("return force * direction", "return 2.0 * force * direction"))
+    (tmp_path / "_draft.py").write_text("raise RuntimeError", encoding="utf-8")
+    (tmp_path / "notes.txt").write_text("not an effect", encoding="utf-8")
+    catalogue = Catalogue([tmp_path])
+    assert set(catalogue) - set(default_catalogue()) == {"rope_drag"}
+    assert catalogue.problems == []
+    effect = catalogue["rope_drag"]
+    state = {"muscle": Muscle(0.3, 0.02, 0.45), "length": 0.28, "pressure": 3e5, "direction": 1.0}
+    change = Model([effect]).evaluate(values={"rope_drag": {"force": 10.0}}, **state).force
+    assert change - Model().evaluate(values={}, **state).force == pytest.approx(20.0, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("EFFECT = Effect(", "FRICTION = Effect(", "no module-level EFFECT"),
+        ("EFFECT = Effect(", "EFFECT = dict(", "no module-level EFFECT"),
+        ("direction: Value, force", "velocty: Value, force", "asks for 'velocty'"),
+        (
+            "def friction(*, direction",
+            "def friction(direction",
+            "'direction' of slot 'friction' must be keyword-only",
+        ),
+        (
+            '"force",\n            "F_c"',
+            '"direction",\n            "F_c"',
+            "hide what slot 'friction' offers",
+        ),
+        ('"force",\n            "F_c"', '"width",\n            "F_c"', "asks for 'force'"),
+        ('slots={"friction"', 'slots={"rubbing"', "unknown slot 'rubbing'"),
+        ('family="friction"', 'family="rubbing"', "family 'rubbing' is not one of geometry"),
+        ('type="static"', 'type="statical"', "type 'statical' is not one of static"),
+        ('"isobaric", ', '"isobarisch", ', "unknown measurement kinds ['isobarisch']"),
+        ('zero_at=("no_motion",)', 'zero_at=("standstill",)', "unknown zero_at ['standstill']"),
+        ("references=(_CHOU,)", "references=()", "must not be empty"),
+        (
+            "            10.0,\n            0.0,",
+            "            -10.0,\n            0.0,",
+            "default -10.0 is outside",
+        ),
+        ("return force * direction", "return force *", "SyntaxError"),
+        ("from mckibben.physics.ops", "from mckibben.physics.opps", "ModuleNotFoundError"),
+        ('title="Coulomb friction",', "", "missing 1 required"),
+        (
+            'title="Coulomb friction",',
+            'title="Coulomb friction", titel="",',
+            "unexpected keyword argument 'titel'",
+        ),
+    ],
+)
+def test_a_broken_file_of_the_user_becomes_a_problem(
+    tmp_path: Path, old: str, new: str, message: str
+) -> None:
+    write(tmp_path, "broken.py", (old, new))
+    write(tmp_path, "sound.py")
+    catalogue = Catalogue([tmp_path])
+    assert "broken" not in catalogue
+    assert "sound" in catalogue, "the others still load"
+    (problem,) = catalogue.problems
+    assert problem.file == "broken.py"
+    assert message in problem.message
+
+
+def test_a_parameter_that_nothing_takes_is_refused(tmp_path: Path) -> None:
+    write(
+        tmp_path,
+        "idle.py",
+        ("direction: Value, force: Value", "direction: Value"),
+        ("return force *", "return 3.0 *"),
+    )
+    (problem,) = Catalogue([tmp_path]).problems
+    assert "no slot function takes the parameter(s) ['force']" in problem.message
+
+
+def test_an_id_that_exists_is_refused(tmp_path: Path) -> None:
+    write(tmp_path, "coulomb_friction.py", ("return force * direction", "return 2.0 * force * direction"))
+    catalogue = Catalogue([tmp_path])
+    (problem,) = catalogue.problems
+    assert "an effect 'coulomb_friction' exists already; rename the file" in problem.message
+    assert catalogue["coulomb_friction"].call("friction", {"direction": 1.0}, {"force": 1.0}) == 1.0
+
+
+def test_two_folders_with_one_id(tmp_path: Path) -> None:
+    folders = [tmp_path / "a", tmp_path / "b"]
+    for folder in folders:
+        folder.mkdir()
+        write(folder, "twice.py")
+    catalogue = Catalogue(folders)
+    assert "twice" in catalogue
+    assert len(catalogue.problems) == 1
+
+
+def test_a_missing_folder_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="does not exist"):
+        Catalogue([tmp_path / "nowhere"])
+
+
+def test_every_slot_says_what_it_does() -> None:
+    for slot in SLOTS.values():
+        assert slot.meaning
+        assert slot.combined_by in ("chain", "sum", "product")

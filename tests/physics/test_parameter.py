@@ -1,0 +1,67 @@
+"""Parameters and sources refuse what cannot be meant, and name it."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import pytest
+
+from mckibben.physics.parameter import GRADES, Parameter, Source
+
+SOURCE = Source("Chou & Hannaford 1996", "M")
+
+
+def parameter(**changes: object) -> Parameter:
+    """A valid parameter with some fields changed."""
+    fields = {
+        "name": "force",
+        "symbol": "F_c",
+        "unit": "N",
+        "default": 10.0,
+        "lower": 0.0,
+        "upper": 200.0,
+        "source": SOURCE,
+        "description": "Half the width of the loop.",
+        "off": 0.0,
+    }
+    return Parameter(**{**fields, **changes})
+
+
+def test_a_valid_one() -> None:
+    assert parameter().fitted
+    assert parameter(off=None).off is None
+    assert parameter(default=0.0).default == parameter().lower, "bounds belong to the range"
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"name": "loop width"}, r"'loop width' is not an identifier"),
+        ({"lower": 300.0}, r"'force': lower bound 300.0 is not below 200.0"),
+        ({"lower": 10.0, "upper": 10.0}, r"'force': lower bound"),
+        ({"default": -1.0}, r"'force': default -1.0 is outside \[0.0, 200.0\]"),
+        ({"default": 201.0}, r"'force': default 201.0 is outside"),
+        ({"off": -5.0}, r"'force': off value -5.0 is outside its bounds"),
+        ({"default": float("nan")}, r"'force': .* must be finite"),
+        ({"upper": float("inf")}, r"'force': .* must be finite"),
+        ({"off": float("nan")}, r"'force': .* must be finite"),
+    ],
+)
+def test_refusals_name_the_parameter(changes: dict, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        parameter(**changes)
+
+
+def test_cannot_be_changed() -> None:
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        parameter().default = 1.0  # type: ignore[misc]
+
+
+@pytest.mark.parametrize("grade", sorted(GRADES))
+def test_grades(grade: str) -> None:
+    assert Source("anything", grade).verified == (grade not in ("M", "E"))
+
+
+def test_unknown_grade_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"grade 'A' of source 'a paper' is not one of S, S2, C"):
+        Source("a paper", "A")
