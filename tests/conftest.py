@@ -57,6 +57,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
     """The real server with empty data and preset folders, one for the whole run."""
     with RunningServer(tmp_path_factory.mktemp("server")) as running:
         yield running
+    assert "Traceback" not in running.output, running.output
 
 
 @pytest.fixture(scope="session")

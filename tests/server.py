@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-import socket
+import re
 import subprocess
 import sys
 import time
@@ -15,6 +15,7 @@ from typing import Self
 
 READY_WITHIN = 60.0  # s; the first start on a cold machine compiles bytecode of every dependency
 STOPS_WITHIN = 10.0  # s
+READY = re.compile(r"ready at (http://[\d.]+:\d+)/")  # what it prints, with the port it was given
 MAIN = (sys.executable, "-m", "mckibben")
 
 
@@ -50,9 +51,7 @@ class RunningServer:
     def __enter__(self) -> Self:
         self.data.mkdir(parents=True, exist_ok=True)
         self.presets.mkdir(exist_ok=True)
-        port = free_port()
-        self.url = f"http://127.0.0.1:{port}"
-        serve = ["serve", "--port", str(port), "--no-open", "--data", self.data, "--presets", self.presets]
+        serve = ["serve", "--port", "0", "--no-open", "--data", self.data, "--presets", self.presets]
         with self._log.open("wb") as log:  # a file: a pipe nobody reads would stop the server when it is full
             self._process = subprocess.Popen(
                 [*self._command, *map(str, serve), *self._arguments],
@@ -89,21 +88,18 @@ class RunningServer:
 
     def _wait_until_ready(self) -> None:
         start = time.perf_counter()
+        while not (ready := READY.search(self.output)):
+            self.check_alive()
+            if time.perf_counter() - start > READY_WITHIN:
+                raise ServerError(
+                    f"the server was not ready after {READY_WITHIN:g} s; it printed:\n{self.output}"
+                )
+            time.sleep(0.01)
+        self.url = ready[1]
         # Without proxies: some machines send every address through one, loopback included.
         opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
-        while (waited := time.perf_counter() - start) < READY_WITHIN:
-            self.check_alive()
-            try:
-                with opener.open(f"{self.url}/api/health", timeout=5):
-                    self.seconds_to_ready = time.perf_counter() - start
-            except OSError:
-                time.sleep(0.02)
-            else:
-                self.check_alive()  # else something other than our process answers on this port
-                return
-        raise ServerError(
-            f"the server was not ready after {waited:.0f} s; it printed:\n{self.output or '(nothing)'}"
-        )
+        with opener.open(f"{self.url}/api/health", timeout=READY_WITHIN):
+            self.seconds_to_ready = time.perf_counter() - start
 
     def _stop(self) -> None:
         self._process.terminate()
@@ -112,10 +108,3 @@ class RunningServer:
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
-
-
-def free_port() -> int:
-    """A TCP port of the loopback interface that nothing listens on at the moment."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]

@@ -42,7 +42,9 @@ class PageGuard:
             self._complaints.append(f"console {message.type}: {message.text} ({message.location.get('url')})")
 
     def _on_error(self, error: WebError) -> None:
-        self._complaints.append(f"uncaught error in the page: {error.error}")
+        self._complaints.append(
+            f"uncaught error in the page: {error.error}\n{error.error.stack or ''}".rstrip()
+        )
 
     def _on_request(self, request: Request) -> None:
         if not request.url.startswith((f"{self._origin}/", *LOCAL_SCHEMES)):

@@ -243,16 +243,19 @@ def check_energy(effect: Effect) -> None:
     """Conservative: the closed integral of F dL + P dV vanishes. Dissipative: no motion gains work.
 
     Work of the gas is taken as the integral of -V dP, the same over a closed path. A lumped effect must fail
-    the conservative test, or it should be declared conservative. Readings move no energy.
+    the conservative test, or it should be declared conservative. Readings move no energy: the tension is that
+    of the ideal muscle at the true length.
     """
     state, length_rate, pressure_rate = closed_path()
     if effect.signature.energy in ("conservative", "lumped"):
         effects = (*companions(effect), effect)
-        got = Model(effects).evaluate(muscle=MUSCLE, values=defaults(effects), **state)
-        work = np.sum(got.tension * length_rate - got.volume * pressure_rate) * PHASE_STEP
-        scale = np.sum(np.abs(got.tension * length_rate)) * PHASE_STEP
-        closes = abs(work) <= 1e-6 * scale
-        assert closes == (effect.signature.energy == "conservative"), work / scale
+        for own in (effect.defaults, {parameter.name: parameter.upper for parameter in effect.parameters}):
+            values = {**defaults(effects), effect.id: own}
+            got = Model(effects).evaluate(muscle=MUSCLE, values=values, **state)
+            work = np.sum(got.tension * length_rate - got.volume * pressure_rate) * PHASE_STEP
+            scale = np.sum(np.abs(got.tension * length_rate)) * PHASE_STEP
+            closes = abs(work) <= 1e-6 * scale
+            assert closes == (effect.signature.energy == "conservative"), f"{work / scale:.1e} at {own}"
     elif effect.signature.energy == "dissipative":
         for sign in (-1.0, 1.0):
             assert (sign * contribution(effect, **grid(sign=sign))).min() >= 0.0

@@ -28,9 +28,7 @@ def test_flow_reverses_and_vanishes_at_equal_pressure():
 
 def test_flow_function_is_continuous_where_it_changes_form():
     for joint in (0.3, gas.LAMINAR_RATIO):
-        below, above = (
-            float(gas.flow_function(ratio=joint + d, critical_ratio=0.3)) for d in (-1e-9, 1e-9)
-        )
+        below, above = (float(gas.flow_function(ratio=joint + d, critical_ratio=0.3)) for d in (-1e-9, 1e-9))
         assert below == pytest.approx(above, abs=1e-6)
 
 

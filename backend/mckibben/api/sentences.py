@@ -131,7 +131,7 @@ def _problem(error: Mapping[str, Any], model: Any, body: object, subject: str) -
         return Problem(f"The body is not valid JSON: {cause}.", code="bad_json")
     if kind == "missing":
         if field is None:
-            return Problem(f"{subject} has no body.", hint="Send one JSON object.")
+            return Problem(f"{subject} has no body.", None, "Send one JSON object.", "missing")
         return Problem(f"{name} is missing.", field, None, "missing", place)
     if kind == "extra_forbidden":
         known = _known_fields(_annotations(model), location[:-1])

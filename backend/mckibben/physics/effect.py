@@ -33,6 +33,27 @@ ZERO_STATES = (
 
 
 @dataclass(frozen=True, slots=True)
+class StateVariable:
+    """A state of an effect with memory; its rate comes from the slot ``rates`` or ``drive_rates``.
+
+    Attributes:
+        name: keyword by which the effect's slot functions ask for it.
+        symbol: LaTeX symbol.
+        unit: SI unit as text.
+        scale: typical magnitude, for error control.
+        description: what it is, one sentence.
+        initial: value at the start of a run, at which the effect is at rest; static curves keep it there.
+    """
+
+    name: str
+    symbol: str
+    unit: str
+    scale: float
+    description: str
+    initial: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class Signature:
     """How the effect shows in the residual (measured minus ideal force), in words and as checkable claims.
 
@@ -96,6 +117,7 @@ class Effect:
         examples: worked examples, at least one.
         order: position in chained slots; lower acts first.
         needs: fields of the muscle that must be known (not zero) for the effect to mean anything.
+        states: memory of the effect; ``rates`` (of the muscle) or ``drive_rates`` gives their derivatives.
         id: the file name, set by the catalogue.
     """
 
@@ -113,6 +135,7 @@ class Effect:
     examples: tuple[Example, ...]
     order: int = 0
     needs: tuple[str, ...] = ()
+    states: tuple[StateVariable, ...] = ()
     id: str = ""
     _wanted: Mapping[str, tuple[str, ...]] = field(default_factory=dict, repr=False)
 
@@ -129,9 +152,12 @@ class Effect:
         names = [parameter.name for parameter in self.parameters]
         if len(set(names)) != len(names):
             raise ValueError(f"a parameter name occurs twice: {names}")
-        wanted = {slot: _wanted_arguments(slot, function, names) for slot, function in self.slots.items()}
-        if unused := set(names) - {argument for arguments in wanted.values() for argument in arguments}:
-            raise ValueError(f"no slot function takes the parameter(s) {sorted(unused)}")
+        if bool(self.states) != bool({"rates", "drive_rates"} & set(self.slots)):
+            raise ValueError("states and a slot 'rates' or 'drive_rates' belong together")
+        own = [*names, *(state.name for state in self.states)]
+        wanted = {slot: _wanted_arguments(slot, function, own) for slot, function in self.slots.items()}
+        if unused := set(own) - {argument for arguments in wanted.values() for argument in arguments}:
+            raise ValueError(f"no slot function takes {sorted(unused)}")
         object.__setattr__(self, "_wanted", wanted)
 
     def named(self, effect_id: str) -> Effect:
@@ -139,8 +165,12 @@ class Effect:
         return replace(self, id=effect_id)
 
     def call(self, slot: str, context: Mapping[str, Value], values: Mapping[str, Value]) -> Value:
-        """The slot's function, given what it asks for out of the context and this effect's values."""
-        arguments = {name: values[name] if name in values else context[name] for name in self._wanted[slot]}
+        """The slot's function, given what it asks for: this effect's values, the context, or rest states."""
+        rest = {state.name: state.initial for state in self.states}
+        sources = (values, context, rest)
+        arguments = {
+            name: next(source[name] for source in sources if name in source) for name in self._wanted[slot]
+        }
         return self.slots[slot](**arguments)
 
     @property

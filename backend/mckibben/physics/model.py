@@ -80,58 +80,91 @@ class Model:
         (`mckibben.simulation.static` solves for both). Direction is the sign of the velocity dL/dt: -1
         shortening (filling), +1 lengthening (venting), 0 at rest.
         """
-        true_length = _inverse(self._reading("length_sensor", values, {"muscle": muscle}), length)
-        true_pressure = _inverse(self._reading("pressure_sensor", values, {}), pressure)
+        sensor = self.reading("force_sensor", muscle=muscle, values=values)
+        state = self.at(
+            muscle=muscle,
+            values=values,
+            length=_inverse(self.reading("length_sensor", muscle=muscle, values=values), length),
+            pressure=_inverse(self.reading("pressure_sensor", muscle=muscle, values=values), pressure),
+            velocity=velocity,
+            direction=direction,
+            temperature=temperature,
+        )
+        return state._replace(force=sensor.scale * state.tension + sensor.offset, slack_force=sensor.offset)
+
+    def at(
+        self,
+        *,
+        muscle: Muscle,
+        values: Values,
+        length: Value,
+        pressure: Value,
+        velocity: Value,
+        direction: Value,
+        temperature: Value = ROOM_TEMPERATURE,
+    ) -> State:
+        """The state at a true length [m] and true gauge pressure [Pa], without any sensor in between.
+
+        ``values`` may hold states of effects beside their parameters; states left out are at rest.
+        """
         context: dict[str, Any] = {
             "muscle": muscle,
-            "length": true_length,
-            "pressure": true_pressure,
+            "length": length,
+            "pressure": pressure,
             "velocity": velocity,
             "direction": direction,
             "temperature": temperature,
         }
         shape, braid = self._shape(values, context)
-        here = shape(true_length)
-        area = -ops.derivative(lambda x: shape(x).volume, true_length)
-        driving = true_pressure
-        for effect in self._with("pressure"):
-            driving = effect.call("pressure", {**context, "pressure": driving}, values[effect.id])
+        here = shape(length)
+        area = -ops.derivative(lambda x: shape(x).volume, length)
+        driving = self.chain("pressure", pressure, values, context, name="pressure")
         tension = (
-            self._product("force_factor", values, context) * driving * area
-            + self._product("elastomer_factor", values, context) * self._sum("elastomer", values, context)
-            + self._sum("tension", values, context)
-            + self._sum("friction", values, context)
+            self.product("force_factor", values, context) * driving * area
+            + self.product("elastomer_factor", values, context) * self.sum("elastomer", values, context)
+            + self.sum("tension", values, context)
+            + self.sum("friction", values, context)
         )
-        sensor = self._reading("force_sensor", values, {})
         return State(
-            force=sensor.scale * tension + sensor.offset,
+            force=tension,
             tension=tension,
-            slack_force=sensor.offset,
-            length=true_length,
+            slack_force=0.0,
+            length=length,
             area=area,
             volume=here.volume,
             diameter=here.diameter,
-            braid_angle=braid_geometry.angle(braid=braid, length=true_length),
-            outer_diameter=here.diameter + _wall(muscle, here.diameter, true_length),
-            compliance=self._sum("compliance", values, {}),
+            braid_angle=braid_geometry.angle(braid=braid, length=length),
+            outer_diameter=here.diameter + _wall(muscle, here.diameter, length),
+            compliance=self.sum("compliance", values, {}),
         )
 
     def _with(self, slot: str) -> list[Effect]:
         return [effect for effect in self.effects if slot in effect.slots]
 
-    def _sum(self, slot: str, values: Values, context: Mapping[str, Value]) -> Value:
+    def sum(self, slot: str, values: Values, context: Mapping[str, Value]) -> Value:
+        """Sum of what the effects of a slot give; 0 when there is none."""
         return sum((e.call(slot, context, values[e.id]) for e in self._with(slot)), 0.0)
 
-    def _product(self, slot: str, values: Values, context: Mapping[str, Value]) -> Value:
+    def product(self, slot: str, values: Values, context: Mapping[str, Value]) -> Value:
+        """Product of what the effects of a slot give; 1 when there is none."""
         result: Value = 1.0
         for effect in self._with(slot):
             result = result * effect.call(slot, context, values[effect.id])
         return result
 
-    def _reading(self, slot: str, values: Values, context: Mapping[str, Value]) -> Reading:
+    def chain(
+        self, slot: str, start: Value, values: Values, context: Mapping[str, Value], *, name: str
+    ) -> Value:
+        """What a chained slot makes of a value that its functions know under a name."""
+        for effect in self._with(slot):
+            start = effect.call(slot, {**context, name: start}, values[effect.id])
+        return start
+
+    def reading(self, slot: str, *, muscle: Muscle, values: Values) -> Reading:
+        """The sensors of a channel in series as one."""
         chain = Reading(1.0, 0.0)
         for effect in self._with(slot):
-            scale, offset = effect.call(slot, context, values[effect.id])
+            scale, offset = effect.call(slot, {"muscle": muscle}, values[effect.id])
             chain = Reading(chain.scale * scale, chain.offset * scale + offset)
         return chain
 

@@ -30,6 +30,21 @@ class Reading(NamedTuple):
     offset: Value
 
 
+# What a state of the drive may depend on: opening of the valve before this effect [-], mass flows [kg/s] from
+# the supply and into the muscle, pressures [Pa] (supply absolute, muscle gauge), the load's stroke and speed.
+_DRIVE = (
+    "opening",
+    "supply_flow",
+    "mass_flow",
+    "supply_pressure",
+    "pressure",
+    "force",
+    "stroke",
+    "speed",
+    "gas_temperature",
+)
+
+
 @dataclass(frozen=True, slots=True)
 class Slot:
     """What a slot does, the names its functions may ask for, and the rule of combination."""
@@ -67,6 +82,36 @@ SLOTS: dict[str, Slot] = {
     ),
     "friction": Slot("additive tension with the sign of the motion [N]", _STATE, "sum"),
     "compliance": Slot("extension of what is in series with the muscle, per force [m/N]", (), "sum"),
+    "rates": Slot(
+        "rates of the effect's states in the muscle, in their order",
+        (*_STATE, "area", "pressure_rate"),
+        "concatenate",
+    ),
+    "dead_volume": Slot("gas volume besides the muscle's own [m^3]", (), "sum"),
+    "heat": Slot(
+        "heat flow into the gas [W]; makes the chamber obey the energy balance instead of a polytrope",
+        ("muscle", "length", "diameter", "gas_temperature", "ambient_temperature"),
+        "sum",
+    ),
+    "leak": Slot(
+        "mass flow out of the muscle [kg/s]",
+        ("absolute_pressure", "ambient_pressure", "gas_temperature"),
+        "sum",
+    ),
+    "command_delay": Slot("dead time of opening and of closing, a pair [s]", ("tube_length",), "sum"),
+    "opening": Slot("commanded to effective opening of the valve [-1, 1]", ("opening",), "chain"),
+    "fill_conductance": Slot("sonic conductance of filling [m^3/(s Pa)]", ("conductance",), "chain"),
+    "exhaust_conductance": Slot("sonic conductance of exhausting [m^3/(s Pa)]", ("conductance",), "chain"),
+    "tube_conductance": Slot("sonic conductance of the tube [m^3/(s Pa)]", ("conductance",), "chain"),
+    "supply": Slot("absolute supply pressure at the valve [Pa]", ("supply_pressure",), "chain"),
+    "inertia": Slot("mass that moves with the load [kg]", ("muscle",), "sum"),
+    "load_factor": Slot("multiplies mass and force of the load [-]", (), "product"),
+    "guide": Slot("force of the guide against the motion [N]", ("stroke", "speed", "direction"), "sum"),
+    "drive_rates": Slot("rates of the effect's states in the drive, in their order", _DRIVE, "concatenate"),
+    "pressure_reading": Slot("measured gauge pressure [Pa]", ("reading",), "chain"),
+    "force_reading": Slot("measured force [N]", ("reading",), "chain"),
+    "stroke_reading": Slot("measured stroke [m]", ("reading",), "chain"),
+    "skew": Slot("delay of the force channel against the others [s]", (), "sum"),
     "pressure_sensor": Slot("true to measured gauge pressure (a Reading)", (), "chain"),
     "length_sensor": Slot("true to measured length (a Reading)", ("muscle",), "chain"),
     "force_sensor": Slot("true to measured force (a Reading)", (), "chain"),

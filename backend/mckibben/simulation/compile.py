@@ -19,7 +19,17 @@ from mckibben.physics.muscle import GEOMETRY, Muscle
 
 # Inputs that vary from row to row, in this order; geometry and parameters follow.
 INPUTS = ("length", "pressure", "velocity", "direction", "temperature")
-OUTPUTS = (*State._fields, "force_by_length", "tension_by_length", "length_by_length", "force_by_pressure")
+# Exact derivatives that follow the fields of State, as (field, by which input).
+DERIVATIVES = (
+    ("force", "length"),
+    ("force", "pressure"),
+    ("tension", "length"),
+    ("tension", "pressure"),
+    ("length", "length"),
+    ("volume", "length"),
+    ("volume", "pressure"),
+)
+OUTPUTS = (*State._fields, *(f"{field}_by_{by}" for field, by in DERIVATIVES))
 
 
 class CompiledState:
@@ -44,13 +54,7 @@ class CompiledState:
         state = model.evaluate(muscle=Muscle(**geometry), values=values, **inputs)
         outputs = [se.sympify(output) for output in state]
         fields = State(*outputs)
-        length, pressure = inputs["length"], inputs["pressure"]
-        outputs += [
-            fields.force.diff(length),
-            fields.tension.diff(length),
-            fields.length.diff(length),
-            fields.force.diff(pressure),
-        ]
+        outputs += [getattr(fields, field).diff(inputs[by]) for field, by in DERIVATIVES]
         named = {**geometry, **parameters}
         for name in gradient:
             chosen = (fields.force, fields.tension, fields.length, fields.compliance)

@@ -141,7 +141,7 @@ def stroke_pressure(
     direction: float = -1.0,
     temperature: float = ROOM_TEMPERATURE,
 ) -> Answer:
-    """The gauge pressure at which the muscle has lifted ``load`` [N] by ``stroke`` [m] from its nominal length."""
+    """The gauge pressure at which the muscle has lifted ``load`` [N] by ``stroke`` [m] from L0."""
     length = model.muscle.nominal_length - stroke
     return pressure_for_force(model, force=load, length=length, direction=direction, temperature=temperature)
 

@@ -1,12 +1,12 @@
-"""One model-independent Rodas4 kernel: a stiff Rosenbrock method over two compiled functions given as pointers.
+"""One model-independent Rodas4 kernel: a stiff Rosenbrock method over two compiled functions.
 
-The kernel holds no physics, so numba compiles it once per installation, whatever is simulated. A model comes in
-as raw function pointers made by symengine's LLVM back end: ``rates`` (states, parameters, inputs -> rates and
-outputs) and ``jacobian`` (the same plus the dense Jacobian, row by row). Inputs are linear in time within a
-segment; switching instants are segment ends, so no step crosses a jump.
+The kernel holds no physics, so numba compiles it once per installation, whatever is simulated. A model comes
+in as raw function pointers made by symengine's LLVM back end: ``rates`` (states, parameters, inputs -> rates
+and outputs) and ``jacobian`` (the same states -> rates and the dense Jacobian, row by row). Inputs are
+constant within a segment; switching instants are segment ends, so no step crosses a jump.
 
-Method: Rodas4 of Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.7: six stages, order 4
-with an embedded order 3, L-stable, dense output of order 3.
+Method: Rodas4 of Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.7: six stages, order
+4 with an embedded order 3, L-stable, dense output of order 3.
 """
 
 from __future__ import annotations

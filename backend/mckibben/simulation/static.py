@@ -120,8 +120,9 @@ class StaticModel:
     ) -> Curves:
         """Curves over lengths [m] for each gauge pressure [Pa].
 
-        The closed-valve stiffness keeps the gas mass: k_c = k + (dF/dP) gamma p (-dV/dL)/(V + V_d) with the
-        absolute pressure p. A slack muscle has neither force nor stiffness unless unclipped.
+        The closed-valve stiffness keeps the gas mass: k_c = dF/dL - (dF/dP) gamma p (dV/dL)/(V + V_d +
+        gamma p dV/dP) with the absolute pressure p. A slack muscle has neither force nor stiffness unless
+        unclipped.
         """
         shape = (len(pressures), len(lengths))
         pressure = np.repeat(pressures, len(lengths))
@@ -131,11 +132,10 @@ class StaticModel:
             direction=direction,
             temperature=temperature,
         )
-        gas = (
-            polytropic_exponent * (pressure + ideal.ATMOSPHERE) * out["area"] / (out["volume"] + dead_volume)
-        )
+        bulk = polytropic_exponent * (pressure + ideal.ATMOSPHERE)
+        volume = out["volume"] + dead_volume + bulk * out["volume_by_pressure"]
         force, stiffness = out["force"], out["force_by_length"]
-        closed = stiffness + out["force_by_pressure"] * gas
+        closed = stiffness - out["force_by_pressure"] * bulk * out["volume_by_length"] / volume
         if clipped:
             pulling = out["tension"] > 0.0
             force = clip_slack(out)
@@ -146,7 +146,7 @@ class StaticModel:
 
 
 def checked_values(effects: EffectValues, catalogue: Mapping[str, Effect]) -> dict[str, dict[str, float]]:
-    """Values of every parameter of the named effects, defaults filled in, unknown names and bounds refused."""
+    """Values of every parameter of the named effects, defaults filled in; unknown names are refused."""
     values: dict[str, dict[str, float]] = {}
     for effect_id, given in effects.items():
         effect = catalogue[effect_id]
@@ -196,10 +196,13 @@ def settle(
         out = dict(zip(OUTPUTS, rows, strict=False))
         if np.max(np.abs(step)) < _LENGTH_TOLERANCE:
             break
-    share = out["length_by_length"] / (out["length_by_length"] + out["compliance"] * out["tension_by_length"])
     pulling = out["tension"] > 0.0
-    share = np.where(pulling, share, 1.0)
-    # At a fixed measured length more pressure also shortens the muscle, so dF/dP falls by the same share.
-    out["force_by_pressure"] = out["force_by_pressure"] * share
-    out["force_by_length"] = out["force_by_length"] * share
+    compliance = np.where(pulling, out["compliance"], 0.0)
+    slope = out["length_by_length"] + compliance * out["tension_by_length"]
+    # How the muscle's own reading follows the measured length, and the pressure at a fixed measured length.
+    by_length = out["length_by_length"] / slope
+    by_pressure = -compliance * out["tension_by_pressure"] / slope
+    for name in ("force", "volume"):
+        out[f"{name}_by_pressure"] = out[f"{name}_by_pressure"] + out[f"{name}_by_length"] * by_pressure
+        out[f"{name}_by_length"] = out[f"{name}_by_length"] * by_length
     return out, rows[len(OUTPUTS) :]

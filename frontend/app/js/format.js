@@ -126,6 +126,13 @@ export const toShown = (si, s) => (si - (s.offset ?? 0)) / s.factor;
 /** @param {number} shown @param {Scale} s */
 export const toSi = (shown, s) => shown * s.factor + (s.offset ?? 0);
 
+/** 1, 2 or 5 times a power of ten, at most x. @param {number} x */
+export function niceStep(x) {
+  const power = 10 ** Math.floor(Math.log10(x));
+  const lead = x / power;
+  return (lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * power;
+}
+
 /** A number with at most `digits` decimals and about five significant figures, no trailing zeros.
  * @param {number} value @param {number} digits */
 export function number(value, digits) {

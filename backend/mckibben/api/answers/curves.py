@@ -101,9 +101,9 @@ def _solve(request: CurvesOptions, model: StaticModel, pressures: Array, grid: A
             (np.full(len(grid), request.load), grid, np.full(len(grid), -1.0)),
             (np.full(len(grid), request.load), grid, np.full(len(grid), 1.0)),
         ]
-    load, pressure, direction = (np.concatenate(column) for column in zip(*parts, strict=True))
+    rows: list[Any] = [np.concatenate(column) for column in zip(*parts, strict=True)]
     found = contraction_at(
-        model, load=load, pressures=pressure, direction=direction, temperature=request.temperature
+        model, load=rows[0], pressures=rows[1], direction=rows[2], temperature=request.temperature
     )
     ends = np.cumsum([len(part[0]) for part in parts])[:-1]
     pieces = np.split(found, ends)

@@ -4,9 +4,9 @@ N threads carry :math:`N T_t = P b' L/(2\pi n^2)` and lengthen by :math:`b'/b - 
 
 .. math:: b' = \frac{b}{1-q}, \qquad q = \frac{P\,b\,L}{2\pi n^2\,N E_t A_t} .
 
-Tension is taken in the stretched braid. This makes the muscle exactly conservative: b' is where the work of
-the gas and the energy :math:`\tfrac12 N E_t A_t b (b'/b-1)^2` balance, so :math:`\oint (F\,dL + P\,dV) = 0`
-over any closed path in P and L, with the volume of the stretched braid.
+The tension is that of the stretched braid, so b' is where the work of the gas and the energy
+:math:`\tfrac12 N E_t A_t b (b'/b-1)^2` of the threads balance, and :math:`\oint (F\,dL + P\,dV) = 0` over any
+closed path in P and L, with the volume of the stretched braid.
 """
 
 from mckibben.physics import ops

@@ -86,9 +86,10 @@ export function figure(spec, p, box) {
 /** Everything of a figure but the numbers of its lines: if this stays, the picture can be patched.
  * @param {{data: any[], layout: any}} fig */
 const signature = ({ data, layout }) =>
-  JSON.stringify([layout, data.map(({ x, y, ...style }) => [style, count(x, y)])]);
-/** @param {(number | null)[]} x @param {(number | null)[]} y */
-const count = (x, y) => x.filter((v, i) => v != null && y[i] != null).length;
+  JSON.stringify([layout, data.map(({ x: _x, y: _y, ...style }) => style)]);
+
+/** Between other work; Safari has no idle callbacks. @param {() => void} fn */
+const whenIdle = (fn) => "requestIdleCallback" in globalThis ? requestIdleCallback(fn) : setTimeout(fn);
 
 export class Chart {
   /** @param {HTMLElement} host the element that becomes the plot @param {string} name used in file names */
@@ -103,6 +104,8 @@ export class Chart {
     this.after = new Set();
     this.drawnAs = "";
     this.settle = 0;
+    /** @type {{data: any[], layout: any} | null} */
+    this.newest = null;
     this.canvas = document.createElement("div");
     this.canvas.className = "canvas";
     this.canvas.setAttribute("aria-hidden", "true");
@@ -133,9 +136,10 @@ export class Chart {
     const fig = figure(this.spec, palette.peek(), { width, height, font });
     const now = signature(fig);
     clearTimeout(this.settle);
+    this.newest = fig;
     if (now === this.drawnAs && canPatch(this.canvas, fig.data)) {
       patch(this.canvas, fig.data);
-      this.settle = setTimeout(() => this.full(fig, now), SETTLE_MS);
+      this.settle = setTimeout(() => whenIdle(() => this.newest === fig && this.full(fig, now)), SETTLE_MS);
     } else this.full(fig, now);
     this.after.forEach((fn) => fn());
   }

@@ -2,7 +2,7 @@
 // A quantity one can type (with a unit), step, slide and reset.
 import { computed, effect, signal } from "../reactive.js";
 import { h, icon } from "../dom.js";
-import { number, parse, toShown, toSi } from "../format.js";
+import { niceStep, number, parse, toShown, toSi } from "../format.js";
 
 /** @typedef {import("../format.js").Scale} Scale */
 /** @typedef {{
@@ -15,13 +15,6 @@ import { number, parse, toShown, toSi } from "../format.js";
 
 let count = 0;
 const STEPS = 200;
-
-/** 1, 2 or 5 times a power of ten, at most x. @param {number} x */
-export function niceStep(x) {
-  const power = 10 ** Math.floor(Math.log10(x));
-  const lead = x / power;
-  return (lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * power;
-}
 
 /** @param {number} x @param {number} digits */
 const significant = (x, digits) => Number(x.toPrecision(digits));

@@ -106,12 +106,16 @@ function smallPlot() {
   let shown = null;
   const draw = () => {
     if (!shown) return;
+    /** @type {import("../design/axes.js").View} */
     const view = {
+      place: "catalogue",
       curves: shown,
-      across: /** @type {const} */ ("contraction"),
-      over: /** @type {const} */ ("contraction"),
+      across: "contraction",
+      over: "contraction",
+      system: units.peek(),
+      reference: null,
     };
-    chart.show((p) => forceSpec({ ...view, system: units.peek(), reference: null }, p));
+    chart.show((p) => forceSpec(view, p));
   };
   const ask = latest(
     (/** @type {object} */ body, control) => post("/api/curves", body, control),

@@ -1,6 +1,6 @@
 // @ts-check
 // Axes of the plots: columns in shown units, ranges that stand still while a slider moves, names and colours.
-import { number, scaleOf, toShown } from "../../format.js";
+import { niceStep, number, scaleOf, toShown } from "../../format.js";
 
 /** @typedef {import("../../types.js").Curves} Curves */
 /** @typedef {import("../../types.js").Across} Across */
@@ -8,7 +8,9 @@ import { number, scaleOf, toShown } from "../../format.js";
 /** @typedef {import("../../types.js").Preset} Preset */
 /** @typedef {import("../../format.js").System} System */
 /** @typedef {import("../../format.js").Quantity} Quantity */
-/** @typedef {{curves: Curves, across: Across, over: Over, system: System, reference: Preset | null}} View */
+/** What a plot needs; `place` keeps the ranges of one place apart from those of another.
+ * @typedef {{place: string, curves: Curves, across: Across, over: Over, system: System,
+ *   reference: Preset | null}} View */
 
 /** @type {Record<Across, {title: string, quantity: Quantity}>} */
 export const ACROSS = {
@@ -35,7 +37,9 @@ export function steadyRange(key, low, high) {
   const last = kept.get(key), span = high - low;
   if (last && low >= last[0] && high <= last[1] && span > 0.55 * (last[1] - last[0])) return last;
   const step = 10 ** Math.floor(Math.log10(span)) / 4;
-  const margin = 0.04 * span;
+  // A range that is left by a moving slider will be left again: it gets room to grow.
+  const growing = last && span < 1.5 * (last[1] - last[0]) && span > 0.5 * (last[1] - last[0]);
+  const margin = (growing ? 0.15 : 0.04) * span;
   const from = low >= 0 && low < 0.5 * span ? 0 : Math.floor((low - margin) / step) * step;
   /** @type {[number, number]} */
   const range = [from, Math.ceil((high + margin) / step) * step];
@@ -71,16 +75,20 @@ export const xColumn = ({ curves, across, system }) => shown(curves[across], ACR
 export function xAxis(v, key) {
   const { title, quantity } = ACROSS[v.across];
   const [low, high] = extent([xColumn(v)]);
-  const range = steadyX(`${key}${v.across}${v.system}`, low, high);
+  const range = steadyX(`${v.place}${key}${v.across}${v.system}`, low, high);
   return { title: axisTitle(title, quantity, v.system), range };
 }
 
-/** The x range follows the data exactly, but not its last digits. @param {string} key @param {number} low
+/** As steadyRange, but close to the data on both sides. @param {string} key @param {number} low
  * @param {number} high @returns {[number, number]} */
 export function steadyX(key, low, high) {
-  const last = kept.get(`x${key}`), span = high - low || 1;
-  const fits = last && Math.abs(last[0] - low) < 0.002 * span && Math.abs(last[1] - high) < 0.002 * span;
-  const range = /** @type {[number, number]} */ (fits ? last : [low, high]);
+  const span = high - low || 1, step = niceStep(span / 30);
+  const last = kept.get(`x${key}`);
+  const near = (/** @type {number} */ gap) => gap > -1e-6 * span && gap < 0.08 * span;
+  if (last && near(low - last[0]) && near(last[1] - high)) return last;
+  const tiny = 1e-6;
+  /** @type {[number, number]} */
+  const range = [Math.floor(low / step + tiny) * step, Math.ceil(high / step - tiny) * step];
   kept.set(`x${key}`, range);
   return range;
 }

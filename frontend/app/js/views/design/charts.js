@@ -3,12 +3,11 @@
 import { h, icon } from "../../dom.js";
 import { computed, effect, signal } from "../../reactive.js";
 import { commit, design, editDesign, look, patchDesign, preview, units } from "../../state.js";
-import { brief, scaleOf, toShown, toSi, withUnit } from "../../format.js";
+import { brief, niceStep, scaleOf, toShown, toSi, withUnit } from "../../format.js";
 import { Chart } from "../../plots/chart.js";
 import { dragLine, linkCursor, writeLabels } from "../../plots/overlay.js";
 import { palette, pressureColour } from "../../plots/theme.js";
 import { menuButton } from "../../ui/menu.js";
-import { niceStep } from "../../ui/field.js";
 import { chartMenu } from "../../plots/export.js";
 import { curves, fault, reference, retry } from "./model.js";
 import { ACROSS, acrossAt, OVER, pressureName, shareOf, xColumn } from "./axes.js";
@@ -24,6 +23,7 @@ const overWhat = computed(() => design.value.over);
 const viewNow = () => {
   const answer = curves.value;
   return answer && {
+    place: "design",
     curves: answer,
     across: across.value,
     over: overWhat.value,

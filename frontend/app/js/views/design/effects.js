@@ -3,7 +3,7 @@
 import { h, icon, mathml } from "../../dom.js";
 import { computed, signal } from "../../reactive.js";
 import { commit, design, editDesign, patchDesign, preview, units } from "../../state.js";
-import { effects, musclesById } from "../../store.js";
+import { effects } from "../../store.js";
 import { number, plainScale, quantityOf, scaleOf, toShown } from "../../format.js";
 import { quantityField } from "../../ui/field.js";
 import { openPopover } from "../../ui/dialog.js";
@@ -153,16 +153,29 @@ function row(e) {
   );
 }
 
-/** @param {string} family @param {Effect[]} list */
+/** A family is open while one of its effects is on, until the user folds or unfolds it.
+ * @param {string} family @param {Effect[]} list */
 function group(family, list) {
-  const count = () => list.filter((e) => e.id in chosen.value).length;
-  const open = signal(list.some((e) => e.id in chosen.peek()));
-  return h(
+  const count = computed(() => list.filter((e) => e.id in chosen.value).length);
+  const folded = signal(/** @type {boolean | null} */ (null));
+  const open = () => wanted.value.trim() !== "" || !(folded.value ?? count.value === 0);
+  const box = h(
     "details",
-    { class: "family", open: () => open.value || wanted.value.trim() !== "" },
-    h("summary", null, h("span", null, family), h("small", null, () => `${count()} of ${list.length}`)),
+    { class: "family", open, onchange: () => (folded.value = false) },
+    h(
+      "summary",
+      {
+        onclick: (/** @type {Event} */ event) => {
+          event.preventDefault();
+          folded.value = box.open;
+        },
+      },
+      h("span", null, family),
+      h("small", null, () => `${count.value} of ${list.length}`),
+    ),
     h("ul", null, ...list.map(row)),
   );
+  return box;
 }
 
 /** @param {Effect[]} all */
@@ -172,9 +185,6 @@ function byFamily(all) {
   for (const e of all) families.set(e.family, [...families.get(e.family) ?? [], e]);
   return [...families].map(([family, list]) => group(family, list));
 }
-
-/** Families with a switched-on effect start open, so the presets must be known too. */
-const ready = computed(() => effects.value.length > 0 && musclesById.value.size > 0);
 
 export function effectsCard() {
   const own = () => preset.value && Object.keys(presetEffects.value).length > 0;
@@ -222,6 +232,8 @@ export function effectsCard() {
       }),
     ),
     () =>
-      ready.value ? byFamily(effects.value) : h("p", { class: "muted" }, "Loading the catalogue of effects…"),
+      effects.value.length
+        ? byFamily(effects.value)
+        : h("p", { class: "muted" }, "Loading the catalogue of effects…"),
   );
 }

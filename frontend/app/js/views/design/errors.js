@@ -50,6 +50,12 @@ function figure(name, c, first, widest) {
   );
 }
 
+function source() {
+  const r = reference.value;
+  return r?.source ? h("li", null, `Source: ${r.source}`, r.verified ? "." : " (unverified).") : null;
+}
+
+/** The "Used" opens the reasons and the source of the points. */
 function body() {
   const { words } = errors.value, now = model.value, bare = ideal.value;
   if (!reference.value) {
@@ -63,15 +69,18 @@ function body() {
     figure("This model", now, true, widest),
     figure("Ideal braid", bare, false, widest),
     h(
-      "p",
-      { class: "muted" },
-      `${now.rows_used} of ${now.rows} points used`,
-      left.length
-        ? `; left out: ${left.map(([why, n]) => `${n} ${why.replaceAll("_", " ")}`).join(", ")}`
-        : "",
-      `. Mean residual ${withUnit(now.residual_mean, "force", units.value)}.`,
+      "details",
+      null,
+      h("summary", null, `${now.rows_used} of ${now.rows} points used`),
+      h(
+        "ul",
+        { class: "plain muted" },
+        ...left.map(([why, n]) => h("li", null, `Left out: ${n} ${why.replaceAll("_", " ")}.`)),
+        h("li", null, `Mean residual ${withUnit(now.residual_mean, "force", units.value)}.`),
+        ...now.messages.map((m) => h("li", null, m.replace(/^./, (c) => c.toUpperCase()))),
+        source(),
+      ),
     ),
-    ...now.messages.map((m) => h("p", { class: "muted" }, m)),
   ];
 }
 
@@ -110,12 +119,6 @@ export function errorCard() {
     referenceSelect(),
     h("div", { class: "found", id: "rmse" }, body),
     lengthNote,
-    () => {
-      const r = reference.value;
-      return r?.source
-        ? h("p", { class: "muted source" }, `Points: ${r.source}`, r.verified ? "" : " (unverified)")
-        : null;
-    },
     h(
       "div",
       { class: "foot" },

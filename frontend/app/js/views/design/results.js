@@ -3,7 +3,8 @@
 import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { design, units } from "../../state.js";
-import { brief, scaleOf, toShown, withUnit } from "../../format.js";
+import { number, scaleOf, withUnit } from "../../format.js";
+import { shown } from "./axes.js";
 import { curves, fault } from "./model.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
@@ -30,20 +31,31 @@ function figures(title, columns, rows) {
           ),
         ),
       ),
-      h("tbody", null, () =>
-        rows().map(({ cells, mark }) =>
+      h("tbody", null, () => {
+        const all = rows();
+        const texts = columns.map(([, quantity], i) => column(all.map((r) => r.cells[i]), quantity));
+        return all.map(({ mark }, k) =>
           h(
             "tr",
             { class: mark ? "marked" : null, title: mark ?? null },
-            ...cells.map((v, i) => h(i ? "td" : "th", i ? null : { scope: "row" }, cell(v, columns[i][1]))),
+            ...texts.map((column, i) => h(i ? "td" : "th", i ? null : { scope: "row" }, column[k])),
           )
-        )),
+        );
+      }),
     ),
   );
 }
 
-/** @param {number | null} si @param {Quantity} quantity */
-const cell = (si, quantity) => si == null ? "–" : brief(toShown(si, scaleOf(quantity, units.value)));
+/** The numbers of one column with the same number of decimals, so that they stand under each other.
+ * @param {(number | null)[]} values in SI @param {Quantity} quantity */
+function column(values, quantity) {
+  const numbers = shown(values, quantity, units.value);
+  const most = Math.max(...numbers.map((v) => Math.abs(v ?? 0)));
+  const places = quantity === "pressure" ? null : most >= 100 ? 0 : most >= 10 ? 1 : 2;
+  return numbers.map((v) => v == null ? "–" : places === null ? number(v, 2) : tidy(v.toFixed(places)));
+}
+/** @param {string} text */
+const tidy = (text) => text.replace(/^-(?=0\.?0*$)/, "").replace("-", "−");
 
 /** What a flag of a row means, from the flags of the answer. @param {Curves} c @param {string[]} codes */
 const explain = (c, codes) =>
@@ -108,12 +120,7 @@ function margins() {
   /** @type {[string, number, number | null, Quantity][]} */
   const rows = [
     ["Pressure", most(c.pressure), c.limits.max_pressure, "pressure"],
-    [
-      "Force",
-      Math.max(design.value.load, most(c.characteristics.map((x) => x.blocked_force))),
-      c.limits.max_force,
-      "force",
-    ],
+    ["Load", design.value.load, c.limits.max_force, "force"],
     ["Contraction", most(c.operating_points.map((o) => o.contraction)), c.limits.max_contraction, "ratio"],
   ];
   const known = rows.filter(([, , limit]) => limit);

@@ -46,10 +46,13 @@ function limitZones(v, range) {
  * @param {string} [dash] @returns {Trace[]} */
 function family(v, p, what, quantity, dash) {
   const x = xColumn(v);
+  // Where the muscle is slack there is nothing to be stiff; a line down to zero would look like a jump.
+  const slack = (/** @type {number} */ i, /** @type {number} */ k) =>
+    what !== "force" && v.curves.force[i][k] === 0;
   return v.curves[what].map((row, i) => ({
     id: `${what}${i}`,
     x,
-    y: shown(row, quantity, v.system),
+    y: shown(row.map((y, k) => slack(i, k) ? null : y), quantity, v.system),
     line: { color: pressureColour(shareOf(v.curves.pressure[i], v.curves), p), width: dash ? 1.5 : 2, dash },
     column: `${what === "stiffness_closed" ? "closed valve, " : ""}${pressureName(v, v.curves.pressure[i])}`,
   }));
@@ -110,7 +113,7 @@ export function forceSpec(v, p) {
   const [low, high] = extent([...lines.map((t) => t.y), ...points.map((t) => t.y), [load * 1.02, 0]]);
   const y = {
     title: axisTitle("Force", "force", system),
-    range: steadyRange(`force${system}`, low, Math.max(high, 1e-3)),
+    range: steadyRange(`${v.place}force${system}`, low, Math.max(high, 1e-3)),
   };
   const dots = curves.operating_points.map((o) => o.contraction);
   const s = scaleOf(ACROSS[across].quantity, system);
@@ -163,7 +166,7 @@ export function stiffnessSpec(v, p) {
     x,
     y: {
       title: axisTitle("Stiffness", "stiffness", v.system),
-      range: steadyRange(`stiffness${v.system}`, Math.min(0, low), high),
+      range: steadyRange(`${v.place}stiffness${v.system}`, Math.min(0, low), high),
     },
     zones: limitZones(v, x.range),
     traces,
@@ -179,10 +182,13 @@ export function volumeSpec(v, p) {
   const [, most] = extent([volume]), [, widest] = extent([diameter]);
   return {
     x,
-    y: { title: axisTitle("Volume", "volume", system), range: steadyRange(`volume${system}`, 0, most) },
+    y: {
+      title: axisTitle("Volume", "volume", system),
+      range: steadyRange(`${v.place}volume${system}`, 0, most),
+    },
     y2: {
       title: axisTitle("Diameter", "length", system),
-      range: steadyRange(`diameter${system}`, 0, widest),
+      range: steadyRange(`${v.place}diameter${system}`, 0, widest),
       right: true,
     },
     zones: limitZones(v, x.range),
@@ -221,8 +227,14 @@ export function overPressureSpec(v, p) {
   /** @type {Zone[]} */
   const zones = top < last ? [{ x: [top, last], y: null, text: "pressure limit" }] : [];
   return {
-    x: { title: axisTitle("Pressure", "pressure", system), range: steadyX(`over${system}`, first, last) },
-    y: { title: axisTitle(title, quantity, system), range: steadyRange(`over${over}${system}`, low, high) },
+    x: {
+      title: axisTitle("Pressure", "pressure", system),
+      range: steadyX(`${v.place}over${system}`, first, last),
+    },
+    y: {
+      title: axisTitle(title, quantity, system),
+      range: steadyRange(`${v.place}over${over}${system}`, low, high),
+    },
     zones,
     traces: [
       { id: "filling", x, y: filling, line: { color: p.accent }, column: "filling" },

@@ -1,0 +1,133 @@
+"""``/api/measurements``: send, read back, refuse."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+import pytest
+from fastapi.testclient import TestClient
+
+from mckibben.api.app import create_app
+from mckibben.api.schemas.measurements import MeasurementAnswer, MeasurementDetail
+from mckibben.api.settings import Settings
+from mckibben.api.store import clean_name
+from tests.api.conftest import CSV, URL, assert_error
+
+ID = hashlib.sha256(CSV).hexdigest()
+
+
+def upload(client: TestClient, content: bytes = CSV, name: str = "run1.csv", kind: str = "text/csv"):  # noqa: ANN201
+    """PUT a file."""
+    return client.put("/api/measurements", params={"name": name}, content=content, headers={"content-type": kind})
+
+
+def test_a_file_is_understood_and_said_back(client: TestClient) -> None:
+    response = upload(client)
+    assert response.status_code == 200, response.text
+    MeasurementAnswer.model_validate_json(response.content)
+    body = response.json()
+    assert body["id"] == ID
+    assert (body["name"], body["kind"], body["kind_detected"], body["rows"]) == ("run1.csv", "static", False, 9)
+    channels = {channel["name"]: channel for channel in body["channels"]}
+    assert channels["pressure"]["unit"] == "bar"
+    assert channels["pressure"]["si_unit"] == "Pa"
+    assert channels["pressure"]["maximum"] == 3e5
+
+
+def test_it_is_read_back_in_si(client: TestClient) -> None:
+    sent = upload(client).json()
+    response = client.get(f"/api/measurements/{ID}")
+    MeasurementDetail.model_validate_json(response.content)
+    body = response.json()
+    assert {name: body[name] for name in sent} == sent
+    assert body["columns"]["length"][:3] == pytest.approx([0.28, 0.29, 0.3])
+    assert body["columns"]["slack"] == [False] * 9
+
+
+def test_sent_twice_it_is_kept_once(client: TestClient, settings: Settings) -> None:
+    assert upload(client).json()["id"] == upload(client, name="other.csv").json()["id"]
+    assert len(list(settings.data.rglob("*.data"))) == 1
+    assert client.get(f"/api/measurements/{ID}").json()["name"] == "other.csv"
+    assert not [path for path in settings.data.rglob("*") if path.suffix == ".tmp"]
+
+
+def test_it_is_there_after_a_restart(client: TestClient, settings: Settings) -> None:
+    upload(client)
+    with TestClient(create_app(settings), base_url=URL) as later:
+        assert later.get(f"/api/measurements/{ID}").json()["name"] == "run1.csv"
+        for path in settings.data.rglob("*.json"):
+            path.write_text("{broken", "utf-8")
+    with TestClient(create_app(settings), base_url=URL) as later:
+        assert later.get(f"/api/measurements/{ID}").json()["rows"] == 9
+
+
+def test_an_unknown_id_asks_to_send_the_file_again(client: TestClient) -> None:
+    error = assert_error(client.get(f"/api/measurements/{ID}"), 404, code="not_found")
+    assert "send the file again" in error["hint"]
+
+
+@pytest.mark.parametrize("name", ["x", "A" * 64, "g" * 64, f"{ID}.data", f"{ID}%0a"])
+def test_anything_else_is_no_id(client: TestClient, name: str) -> None:
+    assert_error(client.get(f"/api/measurements/{name}"), 404)
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"", ""),
+        (b"\x00\x01\x02", ""),
+        (b"pressure_bar;length_mm;force_N\n1;300;abc\n", "abc"),
+        (b"pressure_kg;length_mm;force_N\n1;300;1\n", ""),
+        (b"just a text", ""),
+    ],
+)
+def test_what_is_no_measurement_is_refused_and_not_kept(
+    client: TestClient, settings: Settings, content: bytes, words: str
+) -> None:
+    error = assert_error(upload(client, content), 422)
+    assert "run1.csv" in error["message"]
+    assert words in error["message"]
+    assert not list(settings.data.rglob("*.data"))
+
+
+def test_the_name_is_needed_and_bounded(client: TestClient) -> None:
+    assert_error(client.put("/api/measurements", content=CSV), 422, field="name")
+    assert_error(upload(client, name=""), 422, field="name")
+    assert_error(upload(client, name="x" * 201), 422, field="name")
+
+
+@pytest.mark.parametrize("kind", ["application/json", "multipart/form-data; boundary=x", "text/html"])
+def test_other_content_types_are_refused(client: TestClient, kind: str) -> None:
+    assert_error(upload(client, kind=kind), 415)
+
+
+@pytest.mark.parametrize(
+    "kind", ["text/csv; charset=utf-8", "TEXT/CSV", "application/vnd.ms-excel", "application/octet-stream"]
+)
+def test_what_browsers_say_of_a_csv_file_is_accepted(client: TestClient, kind: str) -> None:
+    assert upload(client, kind=kind).status_code == 200
+
+
+@pytest.mark.parametrize(
+    "name", ["../../etc/passwd.csv", "C:\\Users\\me\\run1.csv", "/tmp/run1.csv", "a\x00b.csv", "run\n1.csv"]
+)
+def test_a_name_is_only_a_name(client: TestClient, settings: Settings, name: str) -> None:
+    body = upload(client, name=name).json()
+    assert "/" not in body["name"]
+    assert "\\" not in body["name"]
+    written = {path.relative_to(settings.data) for path in settings.data.rglob("*") if path.is_file()}
+    assert written == {Path(f"measurements/{ID}.data"), Path(f"measurements/{ID}.json")}
+
+
+def test_names_are_cleaned() -> None:
+    assert clean_name("a/b/c.csv") == "c.csv"
+    assert clean_name("\x00\n") == "measurement.csv"
+    assert clean_name("ä b.csv") == "ä b.csv"
+
+
+def test_a_folder_that_cannot_be_written_is_said(tmp_path: Path) -> None:
+    (tmp_path / "data").write_text("a file", "utf-8")
+    with TestClient(create_app(Settings(data=tmp_path / "data")), base_url=URL) as client:
+        error = assert_error(upload(client), 409)
+    assert "--data" in error["hint"]

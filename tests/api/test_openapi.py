@@ -1,0 +1,123 @@
+"""The interface's own description is complete, and the committed files say the same."""
+
+from __future__ import annotations
+
+import importlib.util
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+from fastapi import FastAPI
+from fastapi.testclient import TestClient
+
+ROOT = Path(__file__).parents[2]
+PATHS = {
+    "/api/health": {"get"},
+    "/api/effects": {"get"},
+    "/api/presets/{kind}": {"get"},
+    "/api/presets/{kind}/{preset_id}": {"get"},
+    "/api/presets/muscles": {"post"},
+    "/api/curves": {"post"},
+    "/api/inverse": {"post"},
+    "/api/measurements": {"put"},
+    "/api/measurements/{measurement_id}": {"get"},
+    "/api/comparisons": {"post"},
+}
+
+
+@pytest.fixture(scope="module")
+def document(shared_client: TestClient) -> dict[str, Any]:
+    """The document as served."""
+    return shared_client.get("/openapi.json").json()
+
+
+def operations(document: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Every operation with its name."""
+    for path, item in document["paths"].items():
+        for method, operation in item.items():
+            yield f"{method} {path}", operation
+
+
+def test_it_lists_every_path(document: dict[str, Any]) -> None:
+    assert {path: set(item) for path, item in document["paths"].items()} == PATHS
+
+
+def test_operations_are_named_described_and_tagged(document: dict[str, Any]) -> None:
+    names = [operation["operationId"] for _, operation in operations(document)]
+    assert len(set(names)) == len(names)
+    assert all(name.isidentifier() for name in names)
+    known = {tag["name"] for tag in document["tags"]}
+    for name, operation in operations(document):
+        assert operation["description"], name
+        assert set(operation["tags"]) <= known, name
+
+
+def test_every_error_is_declared_in_the_one_shape(document: dict[str, Any]) -> None:
+    for name, operation in operations(document):
+        for status, response in operation["responses"].items():
+            if int(status) >= 400:
+                schema = response["content"]["application/json"]["schema"]
+                assert schema == {"$ref": "#/components/schemas/ErrorBody"}, f"{name} {status}"
+    assert "HTTPValidationError" not in document["components"]["schemas"]
+
+
+def properties(schema: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """The fields of an object schema."""
+    yield from schema.get("properties", {}).items()
+
+
+def test_requests_refuse_unknown_fields_and_say_what_each_field_is(document: dict[str, Any]) -> None:
+    for name, schema in document["components"]["schemas"].items():
+        if schema.get("type") != "object":
+            continue
+        assert schema["additionalProperties"] is False, name
+        assert schema["description"], name
+
+
+def test_physical_fields_of_requests_have_units_and_examples(document: dict[str, Any]) -> None:
+    schemas = document["components"]["schemas"]
+    seen = 0
+    for name in ("MuscleInput", "CurvesRequest", "PressureQuestion", "ContractionQuestion", "RhombusInput"):
+        for field, schema in properties(schemas[name]):
+            parts = [schema, *schema.get("anyOf", []), schema.get("items", {})]
+            kinds = {inner.get("type") for part in parts for inner in (part, *part.get("anyOf", []))}
+            if {"number", "string"} <= kinds:
+                found = [part for part in parts if "unit" in part]
+                assert found, f"{name}.{field} has no unit"
+                assert found[0]["examples"], f"{name}.{field} has no example"
+                seen += 1
+    assert seen > 15
+
+
+def test_figures_of_answers_have_units(document: dict[str, Any]) -> None:
+    schemas = document["components"]["schemas"]
+    for name in ("CurveLimits", "Characteristics", "MuscleGeometry", "OperatingPoint", "OverPressureBranch"):
+        for field, schema in properties(schemas[name]):
+            texts = {"flags", "free_contraction_flag", "rhombus"}
+            assert field in texts or "unit" in schema, f"{name}.{field}"
+
+
+def test_there_is_no_documentation_page_that_loads_scripts_from_elsewhere(shared_client: TestClient) -> None:
+    for path in ("/docs", "/redoc"):
+        assert shared_client.get(path).status_code == 404
+
+
+@pytest.fixture(scope="module")
+def generator() -> ModuleType:
+    """frontend/types/generate.py as a module."""
+    spec = importlib.util.spec_from_file_location("generate", ROOT / "frontend" / "types" / "generate.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_the_committed_types_are_up_to_date(generator: ModuleType) -> None:
+    assert not generator.stale_files(), f"run: {generator.COMMAND}"
+
+
+def test_the_types_do_not_depend_on_the_settings(generator: ModuleType, app: FastAPI) -> None:
+    assert generator.typescript(app.openapi()) == generator.generated_files()["api.d.ts"]
