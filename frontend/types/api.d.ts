@@ -62,7 +62,7 @@ export interface components {
       free_contraction_flag: string | null;
       /** Work of one stroke from nominal length to free contraction. [J] */
       max_work: number | null;
-      /** Ideal tension of all threads together at nominal length. [N] */
+      /** Ideal tension of all threads at nominal length. [N] */
       thread_tension_total: number | null;
     };
     /** A column of numbers in one unit. */
@@ -136,7 +136,7 @@ export interface components {
       effects?: { [key: string]: { [key: string]: number | string } } | null;
       /** Temperature of the muscle. [K] */
       temperature?: number | string;
-      /** Sign of dL/dt for friction: -1 shortening (filling), 1 lengthening (venting), 0 none. */
+      /** Sign of dL/dt, for friction: -1 filling (shortening), 1 venting, 0 none. */
       direction?: -1 | 0 | 1;
       question: "contraction";
       /** The force held. [N] */
@@ -188,7 +188,7 @@ export interface components {
       note?: string | null;
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
-      /** Came with the program, or saved by the user. */
+      /** With the program, or the user's own. */
       origin: "built-in" | "user";
     };
     /** Force, stiffness, volume and diameter over the length, per pressure. */
@@ -207,9 +207,9 @@ export interface components {
       stiffness: ((number | null)[])[];
       /** dF/dL at constant gas mass. [N/m] */
       stiffness_closed: ((number | null)[])[];
-      /** Enclosed volume. [m3] */
+      /** Enclosed volume at the highest pressure. [m3] */
       volume: (number | null)[];
-      /** Braid diameter. [m] */
+      /** Braid diameter at the highest pressure. [m] */
       diameter: (number | null)[];
       limits: components["schemas"]["CurveLimits"];
       characteristics: components["schemas"]["Characteristics"][];
@@ -226,19 +226,19 @@ export interface components {
       pressures?: (number | string)[];
       /** Points along the length. */
       points?: number;
-      /** Sign of dL/dt for friction: -1 shortening (filling), 1 lengthening (venting), 0 none. */
+      /** Sign of dL/dt, for friction: -1 filling (shortening), 1 venting, 0 none. */
       direction?: -1 | 0 | 1;
       /** Temperature of the muscle. [K] */
       temperature?: number | string;
       /** Also negative forces, which a muscle cannot exert. */
       unclipped?: boolean;
-      /** Gas volume besides the muscle, for the closed-valve stiffness. [m3] */
+      /** Gas volume besides the muscle, for the closed valve. [m3] */
       dead_volume?: number | string;
       /** 1 isothermal, 1.4 adiabatic (air). */
       polytropic_exponent?: number;
-      /** Start of the range; null: the nominal length (0). [1] */
+      /** Start of the range; null: the pretension limit. [1] */
       contraction_from?: number | string | null;
-      /** End of the range; null: the free contraction at the highest pressure. [1] */
+      /** End of the range; null: the largest free contraction. [1] */
       contraction_to?: number | string | null;
       /** Constant load, for the operating points. [N] */
       load?: number | string | null;
@@ -259,12 +259,12 @@ export interface components {
       document: { [key: string]: unknown };
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
-      /** Came with the program, or saved by the user. */
+      /** With the program, or the user's own. */
       origin: "built-in" | "user";
     };
     /** One physical effect, as its file declares it. */
     EffectAnswer: {
-      /** The file name. */
+      /** The name of the file that declares it. */
       id: string;
       title: string;
       family: string;
@@ -361,7 +361,7 @@ export interface components {
       data?: { [key: string]: components["schemas"]["Quantity"] };
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
-      /** Came with the program, or saved by the user. */
+      /** With the program, or the user's own. */
       origin: "built-in" | "user";
     };
     /** Something the user should know about an answer: a limit, a value out of reach, an unverified figure. */
@@ -386,9 +386,6 @@ export interface components {
       braid_angle: components["schemas"]["Quantity"];
       nominal_length: components["schemas"]["Quantity"];
       wall_thickness?: components["schemas"]["Quantity"] | null;
-    };
-    HTTPValidationError: {
-      detail?: components["schemas"]["ValidationError"][];
     };
     /** The server is up. */
     Health: {
@@ -491,7 +488,7 @@ export interface components {
       slack?: (0 | 1)[];
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
-      /** Came with the program, or saved by the user. */
+      /** With the program, or the user's own. */
       origin: "built-in" | "user";
     };
     /** The effects that were used, with all their values in SI. */
@@ -517,7 +514,7 @@ export interface components {
       measurement?: string | null;
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
-      /** Came with the program, or saved by the user. */
+      /** With the program, or the user's own. */
       origin: "built-in" | "user";
     };
     /** The muscle at rest in all its forms. */
@@ -637,7 +634,7 @@ export interface components {
       effects?: { [key: string]: { [key: string]: number | string } } | null;
       /** Temperature of the muscle. [K] */
       temperature?: number | string;
-      /** Sign of dL/dt for friction: -1 shortening (filling), 1 lengthening (venting), 0 none. */
+      /** Sign of dL/dt, for friction: -1 filling (shortening), 1 venting, 0 none. */
       direction?: -1 | 0 | 1;
       question: "pressure";
       /** The force wanted. [N] */
@@ -679,7 +676,7 @@ export interface components {
       text: string;
       /** Parity when the motion reverses: even, odd or null. */
       direction: string | null;
-      /** n when it is proportional to the n-th power of pressure. */
+      /** n when it grows with the n-th power of pressure. */
       pressure_power: number | null;
       /** States at which it contributes nothing. */
       zero_at: string[];
@@ -699,7 +696,7 @@ export interface components {
       effects?: { [key: string]: { [key: string]: number | string } } | null;
       /** Temperature of the muscle. [K] */
       temperature?: number | string;
-      /** Sign of dL/dt for friction: -1 shortening (filling), 1 lengthening (venting), 0 none. */
+      /** Sign of dL/dt, for friction: -1 filling (shortening), 1 venting, 0 none. */
       direction?: -1 | 0 | 1;
       question: "stroke_pressure";
       /** [N] */
@@ -726,21 +723,15 @@ export interface components {
       data?: { [key: string]: components["schemas"]["Quantity"] };
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
-      /** Came with the program, or saved by the user. */
+      /** With the program, or the user's own. */
       origin: "built-in" | "user";
     };
     /** Another effect that looks alike. */
     Twin: {
+      /** Its id. */
       effect: string;
       /** The experiment that tells the two apart. */
       separated_by: string;
-    };
-    ValidationError: {
-      loc: (string | number)[];
-      msg: string;
-      type: string;
-      input?: unknown;
-      ctx?: { [key: string]: unknown };
     };
     /** A valve; without ``sonic_conductance`` it cannot be simulated. */
     ValveAnswer: {
@@ -755,16 +746,16 @@ export interface components {
       function: string;
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
-      /** Came with the program, or saved by the user. */
+      /** With the program, or the user's own. */
       origin: "built-in" | "user";
     };
-    /** Which stroke can the muscle make, from the preload without pressure to the load at the highest pressure? It begins venting and ends filling, whatever ``direction`` says. */
+    /** Which stroke is there from the preload without pressure to the load at the highest pressure? It begins venting and ends filling, whatever ``direction`` says. */
     WorkingRangeQuestion: {
       muscle: components["schemas"]["MuscleInput"];
       effects?: { [key: string]: { [key: string]: number | string } } | null;
       /** Temperature of the muscle. [K] */
       temperature?: number | string;
-      /** Sign of dL/dt for friction: -1 shortening (filling), 1 lengthening (venting), 0 none. */
+      /** Sign of dL/dt, for friction: -1 filling (shortening), 1 venting, 0 none. */
       direction?: -1 | 0 | 1;
       question: "working_range";
       /** [N] */
@@ -835,7 +826,7 @@ export interface operations {
       200: { content: { "application/json": components["schemas"]["PresetsAnswer"] } };
       403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
-      422: { content: { "application/json": components["schemas"]["HTTPValidationError"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
@@ -869,7 +860,7 @@ export interface operations {
       200: { content: { "application/json": components["schemas"]["MuscleAnswer"] | components["schemas"]["ValveAnswer"] | components["schemas"]["TubeAnswer"] | components["schemas"]["FittingAnswer"] | components["schemas"]["MeasurementPresetAnswer"] | components["schemas"]["CurvePresetAnswer"] | components["schemas"]["DesignAnswer"] } };
       403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
-      422: { content: { "application/json": components["schemas"]["HTTPValidationError"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };

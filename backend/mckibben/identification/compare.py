@@ -210,7 +210,10 @@ def _free_parameters(model: StaticModel, free: Sequence[str], tolerance: Mapping
 
 
 def _replaced(
-    model: StaticModel, choice: Sequence[Free], numbers: Sequence[float], catalogue: Mapping[str, Effect]
+    model: StaticModel,
+    choice: Sequence[Free],
+    numbers: Sequence[float] | np.ndarray,
+    catalogue: Mapping[str, Effect],
 ) -> StaticModel:
     muscle, values = with_values(model.muscle, model.values, [p.name for p in choice], numbers)
     return StaticModel(muscle, values, catalogue=catalogue, limits=model.limits)

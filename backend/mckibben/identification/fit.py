@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -75,12 +76,13 @@ def least_squares_fit(
     span = upper - lower
     first = np.clip([p.start for p in free], lower + 1e-9 * span, upper - 1e-9 * span)
     random = np.random.default_rng(seed).uniform(0.02, 0.98, (starts - 1, len(free)))
+    derivatives: Any = jacobian or "3-point"  # scipy's stub knows the text only
     best = None
     for start in (first, *(lower + share * span for share in random)):
         found = least_squares(
             residual,
             start,
-            jac=jacobian or "3-point",
+            jac=derivatives,
             bounds=(lower, upper),
             x_scale=span,
             xtol=1e-12,

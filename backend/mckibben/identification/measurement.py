@@ -28,6 +28,7 @@ CHANNEL_UNITS: Mapping[str, str] = MappingProxyType({
     "diameter": "m", "velocity": "m/s", "command": "1", "temperature": "K", "direction": "1", "group": "1",
 })  # fmt: skip
 
+
 class Channel(NamedTuple):
     """Where a channel came from; ``unit``, ``minimum`` and ``maximum`` are SI, ``source_unit`` the file's."""
 
@@ -117,9 +118,7 @@ def build(
             raise InputError(f"{name}: {error}", field=error.field, hint=error.hint) from error
         notes.append(f"kind detected: {kind}")
     elif kind not in KINDS:
-        raise InputError(
-            f"{name}: kind '{kind}' is not known", field="kind", hint=did_you_mean(kind, KINDS)
-        )
+        raise InputError(f"{name}: kind '{kind}' is not known", field="kind", hint=did_you_mean(kind, KINDS))
     _check_channels(columns, kind, name)
     table = dict(columns)
     rows = len(next(iter(table.values())))

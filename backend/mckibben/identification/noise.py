@@ -1,4 +1,4 @@
-"""How much of a residual is noise: what is left of it within a sweep after all smooth change is taken away."""
+"""How much of a residual is noise: what remains within a sweep once all smooth change is taken away."""
 
 from __future__ import annotations
 

@@ -185,7 +185,7 @@ def force_gradient(
 
 
 def with_values(
-    muscle: Muscle, values: EffectValues, names: Sequence[str], numbers: Sequence[float]
+    muscle: Muscle, values: EffectValues, names: Sequence[str], numbers: Sequence[float] | np.ndarray
 ) -> tuple[Muscle, dict[str, dict[str, float]]]:
     """The muscle and effect values with some of them replaced, by the names of `force_gradient`."""
     changed = {effect: dict(own) for effect, own in values.items()}

@@ -32,10 +32,10 @@ class Answer:
 def contraction_at(
     model: StaticModel,
     *,
-    load: float,
+    load: float | np.ndarray,
     pressures: np.ndarray,
-    direction: float = 0.0,
-    temperature: float = ROOM_TEMPERATURE,
+    direction: float | np.ndarray = 0.0,
+    temperature: float | np.ndarray = ROOM_TEMPERATURE,
 ) -> np.ndarray:
     """Contraction ratio at which the muscle carries the load [N] at each gauge pressure [Pa].
 
@@ -104,9 +104,11 @@ def pressure_for_force(
         why = f"stretched to this length the muscle pulls {without + force:.4g} N without any pressure"
         return Answer(None, "Pa", details, [*flags, Flag(FlagCode.OUT_OF_REACH, why, "force")])
 
-    from scipy.optimize import brentq  # 0.2 s import, not paid at start
+    from scipy.optimize import root_scalar  # 0.2 s import, not paid at start
 
-    pressure = 0.0 if without == 0.0 else float(brentq(excess, 0.0, SEARCH_PRESSURE, xtol=1e-6))
+    pressure = 0.0
+    if without < 0.0:
+        pressure = float(root_scalar(excess, bracket=(0.0, SEARCH_PRESSURE), xtol=1e-6).root)
     return Answer(pressure, "Pa", details, [*flags, *model.limits.flags(pressure=pressure)])
 
 

@@ -29,8 +29,7 @@ class Status(IntEnum):
     NOT_FINITE = 3
 
 
-@intrinsic
-def _call(_typing: Any, _address: Any, _out: Any, _inputs: Any, _data: Any) -> Any:
+def _call_at(_typing: Any, _address: Any, _out: Any, _inputs: Any, _data: Any) -> Any:
     """Call ``void f(double* out, double* inputs, void* data)`` at an address."""
 
     def generate(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
@@ -41,6 +40,9 @@ def _call(_typing: Any, _address: Any, _out: Any, _inputs: Any, _data: Any) -> A
         return _context.get_dummy_value()
 
     return types.void(types.int64, types.uintp, types.uintp, types.uintp), generate
+
+
+_call: Any = intrinsic(_call_at)
 
 
 @njit(inline="always")

@@ -157,7 +157,7 @@ export function brief(value) {
 export function withUnit(si, quantity, system) {
   if (si == null) return "–";
   const s = scaleOf(quantity, system);
-  const text = brief(toShown(si, s));
+  const text = quantity === "pressure" ? number(toShown(si, s), 2) : brief(toShown(si, s));
   return s.unit ? `${text}${s.unit === "°" ? "" : "\u00a0"}${s.unit}` : text;
 }
 

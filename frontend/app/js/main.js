@@ -1,7 +1,7 @@
 // @ts-check
 // The start: read the link, build the page, then fetch Plotly (4.8 MB), which the page does not wait for.
 import { effect } from "./reactive.js";
-import { append } from "./dom.js";
+import { append, h } from "./dom.js";
 import { doc } from "./state.js";
 import { fromHash, toHash } from "./link.js";
 import { get } from "./api.js";
@@ -80,15 +80,31 @@ async function fetchPlotly() {
   document.head.append(script);
 }
 
+/** A fault of the program itself must not leave a blank page. @param {unknown} error */
+function showFault(error) {
+  const text = `The page could not be built: ${error instanceof Error ? error.message : error}. `;
+  const again = h("a", { href: "/" }, "Start again with the example");
+  document.getElementById("app")?.replaceChildren(h("p", { class: "loading", role: "alert" }, text, again));
+}
+
+function start() {
+  const { bar, main, show, banner, status: line } = shell(VIEWS, () => showShortcuts(KEYS));
+  const app = /** @type {HTMLElement} */ (document.getElementById("app"));
+  app.replaceChildren(bar);
+  append(app, banner);
+  app.append(main, line);
+  effect(show);
+  listenToKeys(KEYS);
+  writeLink();
+  loadAll();
+  requestAnimationFrame(() => setTimeout(fetchPlotly));
+  document.documentElement.dataset.ready = "1";
+}
+
 await readLink();
-const { bar, main, show, banner, status: line } = shell(VIEWS, () => showShortcuts(KEYS));
-const app = /** @type {HTMLElement} */ (document.getElementById("app"));
-app.replaceChildren(bar);
-append(app, banner);
-app.append(main, line);
-effect(show);
-listenToKeys(KEYS);
-writeLink();
-loadAll();
-requestAnimationFrame(() => setTimeout(fetchPlotly));
-document.documentElement.dataset.ready = "1";
+try {
+  start();
+} catch (error) {
+  showFault(error);
+  throw error;
+}

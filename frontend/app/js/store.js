@@ -1,6 +1,6 @@
 // @ts-check
 // What the server knows and does not change while the page is open: effects, presets, version.
-import { computed, signal } from "./reactive.js";
+import { computed, effect, signal } from "./reactive.js";
 import { ApiError, get } from "./api.js";
 
 /** @typedef {import("./types.js").Effect} Effect */
@@ -13,8 +13,14 @@ export const presets = signal(/** @type {Record<string, Preset[]>} */ ({}));
 export const problems = signal(/** @type {Problem[]} */ ([]));
 /** Why the page cannot work at all; shown as a banner with “Try again”. */
 export const outage = signal("");
-/** The one sentence in the status line. */
+/** The one sentence in the status line; it leaves by itself. */
 export const status = signal("");
+const STATUS_MS = 8000;
+let clearing = 0;
+effect(() => {
+  clearTimeout(clearing);
+  if (status.value) clearing = setTimeout(() => (status.value = ""), STATUS_MS);
+});
 
 export const KINDS = ["muscles", "valves", "tubes", "fittings", "measurements", "curves", "designs"];
 

@@ -18,7 +18,7 @@ Kind = Annotated[PresetKind, Path(description="Which presets.")]
 
 
 # Worker threads: the library looks at the user's folder.
-@router.get("/{kind}", response_model=PresetsAnswer, responses=errors(404))
+@router.get("/{kind}", response_model=PresetsAnswer, responses=errors(404, 422))
 def list_presets(kind: Kind, studio: StudioDep) -> JsonAnswer:
     """All presets of a kind with unit, source and grade of each figure, and the files that were refused."""
     return JsonAnswer(
@@ -30,7 +30,7 @@ def list_presets(kind: Kind, studio: StudioDep) -> JsonAnswer:
     )
 
 
-@router.get("/{kind}/{preset_id:path}", response_model=PresetAnswer, responses=errors(404))
+@router.get("/{kind}/{preset_id:path}", response_model=PresetAnswer, responses=errors(404, 422))
 def read_preset(
     kind: Kind,
     preset_id: Annotated[str, Path(max_length=64, description="Its id.", examples=["DMSP-20"])],

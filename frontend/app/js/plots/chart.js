@@ -31,6 +31,7 @@ const axisLayout = (axis, p) => ({
   zeroline: axis.range[0] < 0 && !axis.right,
   zerolinecolor: p.line,
   nticks: 7,
+  tickmode: "auto",
   tickfont: { color: p.soft },
   automargin: false,
   showgrid: !axis.right,

@@ -44,7 +44,7 @@ export function linkCursor(charts, moved) {
 /** A horizontal line that the pointer or the arrow keys move. Plotly sends no event while one of its shapes moves.
  * @param {Chart} chart
  * @param {{label: string, get: () => number, text: () => string, set: (shown: number, done: boolean) => void,
- *   step: () => number}} o `get` and `set` in shown units */
+ *   step: () => number, left: () => boolean}} o `get` and `set` in shown units; `left`: the tag stands there */
 export function dragLine(chart, o) {
   const tag = h("span", { class: "tag" });
   const line = h("div", {
@@ -66,6 +66,7 @@ export function dragLine(chart, o) {
     if (!axes || line.hidden) return;
     line.setAttribute("aria-valuemax", String(Math.round(axes.yaxis.range[1])));
     line.classList.toggle("below", y < 22);
+    line.classList.toggle("left", o.left());
     line.style.width = `${axes.xaxis._length}px`;
     line.style.transform = `translate(${axes.xaxis._offset}px,${axes.yaxis._offset + y}px)`;
   };
@@ -116,7 +117,11 @@ export function writeLabels(chart) {
       const px = axes.xaxis.c2p(x), py = axes.yaxis.c2p(y);
       if (!inside(axes.xaxis, px) || !inside(axes.yaxis, py) || py - above < CLEAR_PX) continue;
       above = py;
-      nodes.push(place(h("span", { style: `color:${color}` }, text), axes, px + 5, py - 8));
+      const label = h("span", { style: `color:${color}` }, text);
+      const right = px > 0.5 * axes.xaxis._length;
+      nodes.push(
+        place(label, axes, px + (right ? -4 : 4), Math.max(0, py - 18), right ? "translateX(-100%)" : ""),
+      );
     }
     for (const zone of chart.spec.zones) nodes.push(...zoneLabel(zone, axes));
     box.replaceChildren(...nodes);

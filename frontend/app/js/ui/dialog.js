@@ -61,10 +61,16 @@ export function openPopover(anchor, label, body, { role = "dialog", kind = "" } 
 
 const GAP = 6, EDGE = 8;
 
-/** Below the anchor, or above it where there is more room; never over the edge of the window.
+/** Beside the anchor for a long text; else below it, or above it where there is more room; never over the edge of the window.
  * @param {HTMLElement} box @param {HTMLElement} anchor */
 function place(box, anchor) {
   const a = anchor.getBoundingClientRect();
+  if (box.classList.contains("about") && innerWidth - a.right > box.offsetWidth + 2 * EDGE) {
+    box.style.maxHeight = `${innerHeight - 2 * EDGE}px`;
+    box.style.left = `${a.right + GAP}px`;
+    box.style.top = `${Math.max(EDGE, Math.min(a.top - 40, innerHeight - box.offsetHeight - EDGE))}px`;
+    return;
+  }
   const below = innerHeight - a.bottom - GAP - EDGE, above = a.top - GAP - EDGE;
   const up = box.offsetHeight > below && above > below;
   box.style.maxHeight = `${Math.max(120, up ? above : below)}px`;

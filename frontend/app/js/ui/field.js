@@ -122,7 +122,7 @@ export function quantityField(o) {
     h(
       "div",
       { class: "field-head" },
-      h("label", { for: id }, o.label, o.symbol ? h("span", { class: "symbol" }, o.symbol) : null),
+      h("label", { for: id }, o.label, o.symbol ? h("span", { class: "symbol", "aria-hidden": "true" }, o.symbol) : null),
       () =>
         changed() && o.reset
           ? h("button", {

@@ -36,7 +36,6 @@ const POINT_COLUMNS = [
 const COLUMNS = {
   muscles: [
     maker,
-    { key: "series", title: "Series", of: (p) => p.series },
     value("inside_diameter", "Bore", "geometry"),
     value("min_nominal_length", "L from", "limits"),
     value("max_nominal_length", "L to", "limits"),
@@ -48,7 +47,7 @@ const COLUMNS = {
   curves: POINT_COLUMNS,
 };
 
-const MOST_DATA = 5;
+const MOST_DATA = 4;
 
 /** For parts: the data most of them have. @param {string} kind @param {Preset[]} list @returns {Column[]} */
 export function columnsOf(kind, list) {

@@ -47,6 +47,12 @@ export function steadyRange(key, low, high) {
   return range;
 }
 
+/** Another muscle, quantity or family is another picture: its ranges start afresh. */
+export function forgetRanges() {
+  kept.clear();
+  return null;
+}
+
 /** @param {(number | null)[][]} rows @returns {[number, number]} */
 export function extent(rows) {
   let low = Infinity, high = -Infinity;

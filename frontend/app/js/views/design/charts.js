@@ -10,7 +10,7 @@ import { palette, pressureColour } from "../../plots/theme.js";
 import { menuButton } from "../../ui/menu.js";
 import { chartMenu } from "../../plots/export.js";
 import { curves, fault, reference, retry } from "./model.js";
-import { ACROSS, acrossAt, OVER, pressureName, shareOf, xColumn } from "./axes.js";
+import { ACROSS, acrossAt, forgetRanges, OVER, pressureName, shareOf, xColumn } from "./axes.js";
 import { forceSpec, overPressureSpec, stiffnessSpec, volumeSpec } from "./specs.js";
 
 /** @typedef {import("./axes.js").View} View */
@@ -145,10 +145,10 @@ function readout() {
 function stateNote() {
   const told = fault.value;
   if (!told && curves.value) return null;
-  if (!told) return h("p", { class: "note" }, "Asking the server for the curves…");
+  if (!told) return h("p", { class: "notice" }, "Asking the server for the curves…");
   return h(
     "div",
-    { class: "note bad", role: "alert" },
+    { class: "notice bad", role: "alert" },
     icon("warn"),
     h("span", null, told.words, curves.value ? " The plots show the last valid model." : ""),
     told.field ? null : h("button", { type: "button", onclick: retry }, "Try again"),
@@ -172,7 +172,8 @@ function overHint() {
 function loadHandle() {
   const scale = () => scaleOf("force", units.peek());
   return dragLine(force.chart, {
-    label: "Load",
+    label: "Load line in the force plot",
+    left: () => across.peek() === "length",
     get: () => toShown(design.peek().load, scale()),
     text: () => `Load ${brief(toShown(design.peek().load, scale()))} ${scale().unit}`,
     step: () => niceStep(Math.abs(force.chart.spec?.y.range[1] ?? 100) / 150),
@@ -186,12 +187,33 @@ function loadHandle() {
 
 let drawings = 0;
 
+/** What makes another picture; while it stays, the axes stand still under a moving slider. */
+const picture = computed(() => {
+  const { muscle, pressures, clipped, range } = design.value;
+  return JSON.stringify([
+    muscle.preset,
+    pressures,
+    clipped,
+    range,
+    across.value,
+    overWhat.value,
+    reference.value?.id,
+  ]);
+});
+let pictured = "";
+/** The answer that was on screen when the picture changed: it sets no range for the next one.
+ * @type {unknown} */
+let outdated = null;
+
 /** Redraws every plot; the count tells tests, and the marks tell how long it took since the answer came. */
 function drawAll() {
   const v = viewNow();
   palette.value;
   if (!v) return;
   performance.mark("draw-start");
+  if (picture.peek() !== pictured) outdated = v.curves;
+  else if (outdated && outdated !== v.curves) outdated = forgetRanges();
+  pictured = picture.peek();
   force.chart.show((p) => forceSpec(v, p));
   stiffness.chart.show((p) => stiffnessSpec(v, p));
   volume.chart.show((p) => volumeSpec(v, p));

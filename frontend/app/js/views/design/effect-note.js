@@ -50,7 +50,10 @@ export function effectNote(e) {
           h(
             "tr",
             null,
-            ...["", "Parameter", "Usual", "Range", "Unit"].map((t) => h(t ? "th" : "td", null, t)),
+            h("td", null),
+            ...["Parameter", "Usual", "Range", "Unit"].map((t, i) =>
+              h("th", { scope: "col", class: i % 3 ? "" : "text" }, t)
+            ),
           ),
         ),
         h("tbody", null, ...e.parameters.map(parameterRow)),

@@ -88,7 +88,7 @@ function row(e) {
     class: "mini",
     "aria-label": `About ${e.title}`,
     "aria-expanded": "false",
-    onclick: () => openPopover(info, e.title, () => effectNote(e), { kind: "note" }),
+    onclick: () => openPopover(info, e.title, () => effectNote(e), { kind: "about" }),
   }, icon("info"));
   const matches = () => {
     const words = wanted.value.trim().toLowerCase();
@@ -197,7 +197,7 @@ export function effectsCard() {
       h("h2", null, "Effects"),
       h("span", { class: "muted" }, () => {
         const n = Object.keys(curves.value?.model.effects ?? chosen.value).length;
-        return n ? `${n} on` : "ideal braid";
+        return n ? `${n} on` : "";
       }),
       h(
         "span",

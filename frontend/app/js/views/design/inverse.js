@@ -127,7 +127,11 @@ function shown() {
         ]),
       )
       : null,
-    ...got.flags.map((f) => h("p", { class: "flag bad" }, icon("warn"), h("span", null, f.message))),
+    ...got.flags.map((f) => {
+      const note = f.code === "unverified";
+      const text = h("span", { title: f.message }, f.message);
+      return h("p", { class: `flag ${note ? "note" : "bad"}` }, icon(note ? "info" : "warn"), text);
+    }),
   ];
 }
 

@@ -97,7 +97,7 @@ function verdict() {
   return [
     h(
       "p",
-      { class: `verdict ${best && !hard.length ? "good" : "bad"}` },
+      { class: `verdict ${!best ? "bad" : hard.length ? "warn" : "good"}` },
       icon(best && !hard.length ? "check" : "warn"),
       h("span", null, best && !hard.length ? "Within all limits. " : "", reach),
     ),
@@ -106,7 +106,7 @@ function verdict() {
         "p",
         { class: `flag ${f.code === NOTE ? "note" : "bad"}` },
         icon(f.code === NOTE ? "info" : "warn"),
-        h("span", null, f.message),
+        h("span", { title: f.message }, f.message),
       )
     ),
   ];

@@ -143,7 +143,7 @@ export function forceSpec(v, p) {
 /** The pressure, written where its line is highest. @param {Trace} t @param {number} i @param {View} v
  * @param {[number, number]} range @param {boolean} fromRight */
 function lineLabel(t, i, v, range, fromRight) {
-  const at = fromRight ? range[0] + 0.93 * (range[1] - range[0]) : range[0];
+  const at = range[fromRight ? 1 : 0];
   let best = 0;
   t.x.forEach((value, k) => {
     const nearest = /** @type {number} */ (t.x[best]);

@@ -1,0 +1,73 @@
+"""The names of a drive: what decides its equations, its constants, inputs, states and outputs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mckibben.physics.effect import Effect
+
+# Numbers of one run, SI. Pressures absolute; ratio = critical pressure ratio.
+CONSTANTS = (
+    "supply_pressure",
+    "ambient_pressure",
+    "ambient_temperature",
+    "fill_conductance",
+    "fill_ratio",
+    "exhaust_conductance",
+    "exhaust_ratio",
+    "regulator_range",
+    "regulator_time",
+    "tube_volume",
+    "tube_conductance",
+    "tube_ratio",
+    "fitting_volume",
+    "polytropic_exponent",
+    "mass",
+    "own_mass",
+    "gravity",
+    "spring",
+    "lever_ratio",
+    "stop_low",
+    "stop_high",
+    "stop_stiffness",
+    "stop_damping",
+)
+# Numbers of one segment: command and external force start at a value and change linearly from ``begin`` on.
+INPUTS = ("opening", "opening_slope", "external_force", "external_force_slope", "begin")
+# What a run reports besides its states.
+OUTPUTS = (
+    "acceleration",
+    "force",
+    "mass_flow",
+    "supply_flow",
+    "exhaust_flow",
+    "opening",
+    "fill_pressure_ratio",
+    "exhaust_pressure_ratio",
+    "gas_temperature",
+    "volume",
+    "diameter",
+    "penetration",
+    "external_force",
+    "pressure_reading",
+    "force_reading",
+    "stroke_reading",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Structure:
+    """What decides the equations: effects, a tube with its own pressure, a regulator instead of a valve."""
+
+    effects: tuple[Effect, ...]
+    tube: bool = False
+    regulator: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class StateInfo:
+    """A state of the drive: name ("effect.state" for effects), value at rest, and scale for error control."""
+
+    name: str
+    initial: float | None
+    scale: float

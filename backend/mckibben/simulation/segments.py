@@ -1,0 +1,137 @@
+"""Piecewise-linear signals of time as the integrator takes them: a list of segments, jumps between them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+#: Pieces shorter than this are left out [s]: rounding of ``k * period`` makes slivers, no valve does.
+SHORTEST = 1e-12
+
+Array = NDArray[np.float64]
+
+
+class Segments(NamedTuple):
+    """y(t) = start_values[i] + slopes[i] (t - times[i]) for times[i] <= t < times[i + 1].
+
+    Attributes:
+        times: limits [s], ascending, one more than segments; the first is 0, the last the duration.
+        start_values: value at the beginning of each segment [unit of the signal].
+        slopes: its rate in the segment [unit/s].
+    """
+
+    times: Array
+    start_values: Array
+    slopes: Array
+
+    @property
+    def end_values(self) -> Array:
+        """Value at the end of each segment, before a jump."""
+        return self.start_values + self.slopes * np.diff(self.times)
+
+    def value(self, time: ArrayLike) -> Array:
+        """Value at any times; right-continuous at jumps, start and end value outside."""
+        clipped = np.clip(np.asarray(time, dtype=np.float64), self.times[0], self.times[-1])
+        return self._from_piece(self._piece(clipped), clipped)
+
+    def _piece(self, time: Array) -> NDArray[np.intp]:
+        last = len(self.start_values) - 1
+        return np.clip(np.searchsorted(self.times, time, side="right") - 1, 0, last)
+
+    def _from_piece(self, piece: NDArray[np.intp], time: Array) -> Array:
+        return self.start_values[piece] + self.slopes[piece] * (time - self.times[piece])
+
+
+def clipped(starts: ArrayLike, values: ArrayLike, slopes: ArrayLike, *, duration: float) -> Segments:
+    """Segments on [0, duration] from pieces that each last until the next one starts, the last for ever.
+
+    Args:
+        starts: ascending instants [s]; before the first its start value holds. Equal ones: the last counts.
+        values, slopes: value at, and rate from, each start.
+        duration: end [s], positive.
+    """
+    begin, level, rate = (np.array(column, dtype=np.float64) for column in (starts, values, slopes))
+    if begin[0] > 0.0:
+        begin, level, rate = np.r_[0.0, begin], np.r_[level[0], level], np.r_[0.0, rate]
+    early = begin < 0.0
+    level[early] -= rate[early] * begin[early]
+    begin[early] = 0.0
+    begin[begin < SHORTEST] = 0.0
+    ends = np.minimum(np.r_[begin[1:], np.inf], duration)
+    kept = ends - begin > SHORTEST
+    return Segments(np.r_[begin[kept], duration], level[kept], rate[kept])
+
+
+def delayed(
+    segments: Segments, on_delay: float, off_delay: float, *, before: float | None = None
+) -> Segments:
+    """The signal after a dead time that differs for rising and falling edges.
+
+    A jump upwards happens ``on_delay`` later, a jump downwards ``off_delay`` later; what follows the jump is
+    shifted with it. A kink without jump keeps the delay of the last edge (at the start: by the direction of
+    the first slope), so a continuous signal stays continuous. Where the next edge comes later than the piece
+    lasts, its end value is held; where it comes earlier, the piece is cut. An edge that would overtake the
+    one before it cancels it: a pulse shorter than ``on_delay - off_delay`` never opens the valve, a pause
+    shorter than ``off_delay - on_delay`` never closes it.
+
+    Args:
+        segments: the signal [any unit].
+        on_delay, off_delay: dead times [s], not negative.
+        before: value before t = 0; when it differs from the first value there is an edge at t = 0. None: no
+            edge, the first value has always been there.
+
+    Raises:
+        ValueError: a negative or infinite delay.
+    """
+    if not (0.0 <= on_delay < np.inf and 0.0 <= off_delay < np.inf):
+        raise ValueError("delays are finite and not negative")
+    duration = float(segments.times[-1])
+    starts, values, slopes = segments.times[:-1], segments.start_values, segments.slopes
+    ends = segments.end_values
+    previous = np.r_[values[0] if before is None else before, ends[:-1]]
+    jumps = values - previous
+    # A kink computed from the end of one piece to the start of the next misses by rounding: that is no edge.
+    scale = np.maximum(np.abs(values), np.abs(previous))
+    edges = np.where(np.abs(jumps) > 1e-9 * scale, np.sign(jumps), 0.0)
+    if edges[0] == 0.0:
+        edges[0] = -1.0 if slopes[0] < 0.0 else 1.0
+    last_edge = np.maximum.accumulate(np.where(edges != 0.0, np.arange(len(edges)), 0))
+    delay = np.where(edges[last_edge] > 0.0, on_delay, off_delay)
+    begin = starts + delay
+    # Backwards running minimum: a piece survives when no later one starts before or with it.
+    later = np.r_[np.minimum.accumulate(begin[::-1])[::-1][1:], np.inf]
+    alive = begin < later
+    shifted_end = np.r_[segments.times[1:]] + delay
+    held = alive & (later > shifted_end + SHORTEST)
+    # At the very end the last piece simply runs on to the duration, which is before its shifted end.
+    at = np.r_[begin[alive], shifted_end[held]]
+    level = np.r_[values[alive], ends[held]]
+    rate = np.r_[slopes[alive], np.zeros(int(held.sum()))]
+    order = np.argsort(at, kind="stable")
+    first = float(previous[0])
+    return clipped(
+        np.r_[-1.0, at[order]], np.r_[first, level[order]], np.r_[0.0, rate[order]], duration=duration
+    )
+
+
+def merged(a: Segments, b: Segments) -> tuple[Segments, Segments]:
+    """Both signals on the union of their breakpoints (one ``times`` array), values unchanged.
+
+    Raises:
+        ValueError: they do not cover the same time.
+    """
+    if a.times[0] != b.times[0] or a.times[-1] != b.times[-1]:
+        raise ValueError("the signals cover different times")
+    union = np.union1d(a.times, b.times)
+    inner = union[(union - union[0] > SHORTEST) & (union[-1] - union > SHORTEST)]
+    inner = inner[np.diff(inner, prefix=-np.inf) > SHORTEST]
+    times = np.r_[union[0], inner, union[-1]]
+    middle = 0.5 * (times[1:] + times[:-1])  # asks each signal for its piece away from its own jumps
+
+    def on_common(signal: Segments) -> Segments:
+        piece = signal._piece(middle)
+        return Segments(times, signal._from_piece(piece, times[:-1]), signal.slopes[piece])
+
+    return on_common(a), on_common(b)
