@@ -39,7 +39,9 @@ def test_a_measured_map_beside_its_preset(shared_client: TestClient) -> None:
 
 def test_a_fit_lowers_the_error_and_reports_its_parameters(shared_client: TestClient) -> None:
     given = compare(shared_client, {"preset": "DMSP-20"}, "martens-dmsp-20-300")
-    fitted = compare(shared_client, {"preset": "DMSP-20"}, "martens-dmsp-20-300", fit=True, free=["braid_angle"])
+    fitted = compare(
+        shared_client, {"preset": "DMSP-20"}, "martens-dmsp-20-300", fit=True, free=["braid_angle"]
+    )
     assert fitted["rmse"] < given["rmse"]
     angle = fitted["parameters"]["geometry"]["braid_angle"]
     assert angle["fitted"] is True

@@ -26,7 +26,17 @@ def curves(client: TestClient, muscle: dict, **options: object) -> dict:
 
 def test_the_shape_is_the_one_promised(shared_client: TestClient) -> None:
     answer = curves(shared_client, {"preset": "DMSP-20"}, pressures=PRESSURES, points=50)
-    promised = {"pressure", "length", "contraction", "force", "stiffness", "volume", "diameter", "limits", "flags"}
+    promised = {
+        "pressure",
+        "length",
+        "contraction",
+        "force",
+        "stiffness",
+        "volume",
+        "diameter",
+        "limits",
+        "flags",
+    }
     assert promised <= answer.keys()
     assert answer["pressure"] == [1e5, 3e5, 6e5]
     for name in ("length", "contraction", "volume", "diameter", "braid_angle"):
@@ -68,11 +78,18 @@ def test_the_three_forms_of_geometry_agree(shared_client: TestClient) -> None:
         other = curves(shared_client, muscle, pressures=["6 bar"])
         assert other["force"][0] == pytest.approx(first["force"][0], rel=1e-9, abs=1e-6)
         assert other["geometry"]["braid_angle"] == pytest.approx(math.radians(25))
-    assert other["geometry"]["rhombus"] == pytest.approx({"side": 1e-3, **{k: lattice[k] for k in ("along", "around")}})
+    assert other["geometry"]["rhombus"] == pytest.approx(
+        {"side": 1e-3, **{k: lattice[k] for k in ("along", "around")}}
+    )
 
 
 def test_the_bore_is_the_braid_diameter_when_nothing_else_is_given(shared_client: TestClient) -> None:
-    bore = {"inside_diameter": "10 mm", "braid_angle": "25 deg", "nominal_length": "100 mm", "wall_thickness": "1 mm"}
+    bore = {
+        "inside_diameter": "10 mm",
+        "braid_angle": "25 deg",
+        "nominal_length": "100 mm",
+        "wall_thickness": "1 mm",
+    }
     answer = curves(shared_client, bore, pressures=["1 bar"])
     assert answer["geometry"]["braid_diameter"] == 0.01
     assert answer["geometry"]["wall_thickness"] == 0.001
@@ -107,14 +124,18 @@ def test_units_of_a_request_do_not_matter(shared_client: TestClient) -> None:
     assert curves(shared_client, numbers, pressures=[6e5], load=50, contraction_to=0.2) == texts
 
 
-def test_the_range_begins_at_the_permitted_stretch_and_holds_the_nominal_length(shared_client: TestClient) -> None:
+def test_the_range_begins_at_the_permitted_stretch_and_holds_the_nominal_length(
+    shared_client: TestClient,
+) -> None:
     answer = curves(shared_client, {"preset": "DMSP-20"}, pressures=["6 bar"])
     assert answer["contraction"][0] == -answer["limits"]["max_pretension"]
     assert 0.0 in answer["contraction"]
     at_rest = answer["contraction"].index(0.0)
     assert answer["force"][0][at_rest] == pytest.approx(answer["characteristics"][0]["blocked_force"])
     assert answer["contraction"][-1] == pytest.approx(answer["characteristics"][0]["free_contraction"])
-    given = curves(shared_client, {"preset": "DMSP-20"}, contraction_from="5 %", contraction_to="10 %", points=2)
+    given = curves(
+        shared_client, {"preset": "DMSP-20"}, contraction_from="5 %", contraction_to="10 %", points=2
+    )
     assert given["contraction"] == pytest.approx([0.05, 0.1])
 
 
@@ -146,7 +167,9 @@ def test_force_over_pressure_at_a_fixed_length(shared_client: TestClient) -> Non
 
 def test_friction_separates_filling_from_venting(shared_client: TestClient) -> None:
     effects = {"coulomb_friction": {}}
-    over = curves(shared_client, {"preset": "DMSP-20"}, effects=effects, load=300, fixed_length=0.28)["over_pressure"]
+    over = curves(shared_client, {"preset": "DMSP-20"}, effects=effects, load=300, fixed_length=0.28)[
+        "over_pressure"
+    ]
     assert over["filling"]["contraction"][-1] < over["venting"]["contraction"][-1]
     assert over["force_at_fixed_length"]["filling"][-1] < over["force_at_fixed_length"]["venting"][-1]
 
@@ -185,7 +208,9 @@ def test_extreme_pressures_give_numbers_or_null(shared_client: TestClient, press
 def test_every_effect_gives_curves(shared_client: TestClient) -> None:
     muscle = {"preset": "DMSP-20"}
     for effect in shared_client.get("/api/effects").json()["effects"]:
-        answer = curves(shared_client, muscle, effects={effect["id"]: {}}, load="300 N", fixed_length="280 mm")
+        answer = curves(
+            shared_client, muscle, effects={effect["id"]: {}}, load="300 N", fixed_length="280 mm"
+        )
         parameters = {p["name"]: p["default"] for p in effect["parameters"]}
         assert answer["model"]["effects"] == {effect["id"]: pytest.approx(parameters)}
 
@@ -193,7 +218,10 @@ def test_every_effect_gives_curves(shared_client: TestClient) -> None:
 def test_many_requests_at_once_give_what_they_give_one_by_one(shared_client: TestClient) -> None:
     requests = [
         {
-            "muscle": {"preset": "DMSP-20" if number % 2 else "DMSP-10", "nominal_length": f"{250 + number} mm"},
+            "muscle": {
+                "preset": "DMSP-20" if number % 2 else "DMSP-10",
+                "nominal_length": f"{250 + number} mm",
+            },
             "effects": None if number % 3 else {},
             "load": "100 N",
         }
@@ -201,5 +229,7 @@ def test_many_requests_at_once_give_what_they_give_one_by_one(shared_client: Tes
     ]
     one_by_one = [post(shared_client, "/api/curves", request).content for request in requests]
     with ThreadPoolExecutor(16) as pool:
-        at_once = list(pool.map(lambda request: post(shared_client, "/api/curves", request).content, requests))
+        at_once = list(
+            pool.map(lambda request: post(shared_client, "/api/curves", request).content, requests)
+        )
     assert at_once == one_by_one

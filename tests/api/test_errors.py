@@ -16,15 +16,30 @@ REFUSED = [
     ("/api/curves", {"muscle": DMSP, "presures": []}, "presures", "Did you mean 'pressures'?"),
     ("/api/curves", {"muscle": {"preset": "DMSP-21"}}, "muscle.preset", "Did you mean 'DMSP-20'?"),
     ("/api/curves", {"muscle": {"presett": "DMSP-20"}}, "muscle.presett", "Did you mean 'preset'?"),
-    ("/api/curves", {"muscle": {**DMSP, "nominal_length": "3 kg"}}, "muscle.nominal_length", "a length is needed"),
+    (
+        "/api/curves",
+        {"muscle": {**DMSP, "nominal_length": "3 kg"}},
+        "muscle.nominal_length",
+        "a length is needed",
+    ),
     ("/api/curves", {"muscle": {**DMSP, "nominal_length": -1}}, "muscle.nominal_length", "above 0 m"),
     ("/api/curves", {"muscle": {**DMSP, "nominal_length": True}}, "muscle.nominal_length", "300 mm"),
     ("/api/curves", {"muscle": {**DMSP, "braid_angle": "60 deg"}}, "muscle.braid_angle", "lengthen"),
     ("/api/curves", {"muscle": {**DMSP, "rhombus": {"side": 1}}}, "muscle.rhombus.along", "missing"),
     ("/api/curves", {"muscle": {}}, "muscle.nominal_length", "no length"),
     ("/api/curves", {"muscle": {"nominal_length": 0.3}}, "muscle", "no geometry"),
-    ("/api/curves", {"muscle": {"nominal_length": 0.3, "braid_angle": 0.4}}, "muscle.inside_diameter", "no diameter"),
-    ("/api/curves", {"muscle": {"nominal_length": 0.3, "inside_diameter": 0.02}}, "muscle.braid_angle", "no braid angle"),
+    (
+        "/api/curves",
+        {"muscle": {"nominal_length": 0.3, "braid_angle": 0.4}},
+        "muscle.inside_diameter",
+        "no diameter",
+    ),
+    (
+        "/api/curves",
+        {"muscle": {"nominal_length": 0.3, "inside_diameter": 0.02}},
+        "muscle.braid_angle",
+        "no braid angle",
+    ),
     ("/api/curves", {"muscle": {"nominal_length": 0.3, "turns": 2}}, "muscle.thread_length", "without"),
     (
         "/api/curves",
@@ -45,8 +60,18 @@ REFUSED = [
         "effects.prestress.forse",
         "Did you mean 'force'?",
     ),
-    ("/api/curves", {"muscle": DMSP, "effects": {"prestress": {"force": "1 bar"}}}, "effects.prestress.force", "force"),
-    ("/api/curves", {"muscle": DMSP, "effects": {"prestress": {"force": 1e9}}}, "effects.prestress.force", "typical"),
+    (
+        "/api/curves",
+        {"muscle": DMSP, "effects": {"prestress": {"force": "1 bar"}}},
+        "effects.prestress.force",
+        "force",
+    ),
+    (
+        "/api/curves",
+        {"muscle": DMSP, "effects": {"prestress": {"force": 1e9}}},
+        "effects.prestress.force",
+        "typical",
+    ),
     ("/api/curves", {"muscle": DMSP, "pressures": []}, "pressures", "at least 1"),
     ("/api/curves", {"muscle": DMSP, "pressures": [1e5] * 13}, "pressures", "at most 12"),
     ("/api/curves", {"muscle": DMSP, "pressures": [1e5, "x"]}, "pressures.1", "pressure"),
@@ -56,7 +81,12 @@ REFUSED = [
     ("/api/curves", {"muscle": DMSP, "unclipped": "yes"}, "unclipped", "true or false"),
     ("/api/curves", {"muscle": DMSP, "contraction_from": "-30 %"}, "contraction_from", "braid lock"),
     ("/api/curves", {"muscle": DMSP, "contraction_to": "99 %"}, "contraction_to", "no muscle contracts"),
-    ("/api/curves", {"muscle": DMSP, "contraction_from": 0.2, "contraction_to": 0.1}, "contraction_to", "begins"),
+    (
+        "/api/curves",
+        {"muscle": DMSP, "contraction_from": 0.2, "contraction_to": 0.1},
+        "contraction_to",
+        "begins",
+    ),
     ("/api/curves", {"muscle": DMSP, "fixed_length": "1 m"}, "fixed_length", "out of reach"),
     ("/api/curves", [], None, "must be an object, not a list"),
     ("/api/curves", None, None, "not null"),
@@ -70,10 +100,20 @@ REFUSED = [
         "contraction",
         "contracts to 0 mm",
     ),
-    ("/api/inverse", {"muscle": DMSP, "question": "stroke_pressure", "load": 1, "stroke": 1}, "stroke", "no muscle"),
+    (
+        "/api/inverse",
+        {"muscle": DMSP, "question": "stroke_pressure", "load": 1, "stroke": 1},
+        "stroke",
+        "no muscle",
+    ),
     ("/api/comparisons", {"muscle": DMSP}, "measurement", "missing"),
     ("/api/comparisons", {"muscle": DMSP, "measurement": "a b"}, "measurement", "cannot be"),
-    ("/api/comparisons", {"muscle": DMSP, "measurement": "x", "free": ["braid_angel"]}, "free.0", "'braid_angle'"),
+    (
+        "/api/comparisons",
+        {"muscle": DMSP, "measurement": "x", "free": ["braid_angel"]},
+        "free.0",
+        "'braid_angle'",
+    ),
 ]
 
 
@@ -116,7 +156,11 @@ def test_odd_ids_are_unknown_or_refused(shared_client: TestClient, text: str) ->
 
 
 def test_a_body_without_the_json_content_type_is_refused(shared_client: TestClient) -> None:
-    for headers in ({"content-type": "text/plain"}, {"content-type": "application/x-www-form-urlencoded"}, {}):
+    for headers in (
+        {"content-type": "text/plain"},
+        {"content-type": "application/x-www-form-urlencoded"},
+        {},
+    ):
         assert_error(shared_client.post("/api/curves", content=b"{}", headers=headers), 415)
 
 
@@ -142,7 +186,9 @@ def test_an_unknown_path_names_the_nearest(shared_client: TestClient, path: str,
     assert len(error["message"]) < 300
 
 
-@pytest.mark.parametrize(("method", "path"), [("GET", "/api/curves"), ("POST", "/"), ("DELETE", "/api/health")])
+@pytest.mark.parametrize(
+    ("method", "path"), [("GET", "/api/curves"), ("POST", "/"), ("DELETE", "/api/health")]
+)
 def test_a_wrong_method_names_the_right_one(shared_client: TestClient, method: str, path: str) -> None:
     response = shared_client.request(method, path)
     error = assert_error(response, 405)

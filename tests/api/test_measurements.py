@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from fastapi.testclient import TestClient
+from httpx2 import Response
 
 from mckibben.api.app import create_app
 from mckibben.api.schemas.measurements import MeasurementAnswer, MeasurementDetail
@@ -17,9 +18,13 @@ from tests.api.conftest import CSV, URL, assert_error
 ID = hashlib.sha256(CSV).hexdigest()
 
 
-def upload(client: TestClient, content: bytes = CSV, name: str = "run1.csv", kind: str = "text/csv"):  # noqa: ANN201
+def upload(
+    client: TestClient, content: bytes = CSV, name: str = "run1.csv", kind: str = "text/csv"
+) -> Response:
     """PUT a file."""
-    return client.put("/api/measurements", params={"name": name}, content=content, headers={"content-type": kind})
+    return client.put(
+        "/api/measurements", params={"name": name}, content=content, headers={"content-type": kind}
+    )
 
 
 def test_a_file_is_understood_and_said_back(client: TestClient) -> None:
@@ -28,7 +33,12 @@ def test_a_file_is_understood_and_said_back(client: TestClient) -> None:
     MeasurementAnswer.model_validate_json(response.content)
     body = response.json()
     assert body["id"] == ID
-    assert (body["name"], body["kind"], body["kind_detected"], body["rows"]) == ("run1.csv", "static", False, 9)
+    assert (body["name"], body["kind"], body["kind_detected"], body["rows"]) == (
+        "run1.csv",
+        "static",
+        False,
+        9,
+    )
     channels = {channel["name"]: channel for channel in body["channels"]}
     assert channels["pressure"]["unit"] == "bar"
     assert channels["pressure"]["si_unit"] == "Pa"

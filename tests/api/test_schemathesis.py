@@ -6,7 +6,7 @@ what it allows is accepted, does not hold for texts with units, whose grammar no
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -44,11 +44,11 @@ HOST = {"host": "127.0.0.1"}
 
 
 @pytest.fixture(scope="module")
-def described(tmp_path_factory: pytest.TempPathFactory) -> Iterator[schemathesis.BaseSchema]:
+def described(tmp_path_factory: pytest.TempPathFactory) -> schemathesis.BaseSchema:
     """The schema of an application with folders of its own."""
     folder = tmp_path_factory.mktemp("schemathesis")
     app: FastAPI = create_app(Settings(data=folder / "data", user_presets=folder / "presets"))
-    yield schemathesis.openapi.from_asgi("/openapi.json", app, headers=HOST)
+    return schemathesis.openapi.from_asgi("/openapi.json", app, headers=HOST)
 
 
 Change = Callable[[schemathesis.Case], None]
@@ -63,7 +63,7 @@ def examine(operation: schemathesis.APIOperation, mode: GenerationMode, change: 
         deadline=None,
         database=None,
         phases=[Phase.explicit, Phase.generate],
-        suppress_health_check=list(HealthCheck),
+        suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large],
     )
     @given(case=operation.as_strategy(generation_mode=mode))
     def check(case: schemathesis.Case) -> None:
@@ -95,6 +95,14 @@ def test_any_conditions_of_a_real_muscle_get_a_declared_answer(
     # Generated muscles hardly ever exist, so the physics behind would stay untested.
     def use_a_real_muscle(case: schemathesis.Case) -> None:
         body: dict[str, Any] = case.body if isinstance(case.body, dict) else {}
+        # Nor do generated texts with a unit: the numbers among the values remain.
+        body = {
+            name: value for name, value in body.items() if name == "question" or not isinstance(value, str)
+        }
+        if isinstance(body.get("pressures"), list):
+            body["pressures"] = [value for value in body["pressures"] if isinstance(value, int | float)] or [
+                1e5
+            ]
         body["muscle"] = {"preset": "DMSP-20"}
         body.pop("effects", None)
         if path == "/api/comparisons":

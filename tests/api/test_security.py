@@ -1,4 +1,4 @@
-"""Only this machine, only this site, or only with the token; nothing too large; nothing outside its folder."""
+"""Only this machine, only this site, or only with the token; nothing too large, nothing outside."""
 
 from __future__ import annotations
 
@@ -37,7 +37,8 @@ def opened(tmp_path: Path) -> Iterator[Open]:
 
 
 @pytest.mark.parametrize(
-    "host", ["127.0.0.1", "127.0.0.1:8000", "localhost:8000", "LOCALHOST", "[::1]:8000", "[::1]", "127.0.0.1:9000"]
+    "host",
+    ["127.0.0.1", "127.0.0.1:8000", "localhost:8000", "LOCALHOST", "[::1]:8000", "[::1]", "127.0.0.1:9000"],
 )
 def test_loopback_names_are_answered(shared_client: TestClient, host: str) -> None:
     assert shared_client.get(HEALTH, headers={"host": host}).status_code == 200
@@ -114,7 +115,9 @@ def test_every_answer_carries_the_security_headers(shared_client: TestClient, pa
 
 
 def test_the_content_security_policy_allows_no_foreign_or_inline_script() -> None:
-    directives = dict(part.strip().split(" ", 1) for part in SECURITY_HEADERS["content-security-policy"].split(";"))
+    directives = dict(
+        part.strip().split(" ", 1) for part in SECURITY_HEADERS["content-security-policy"].split(";")
+    )
     assert directives["default-src"] == "'self'"
     assert "script-src" not in directives
     for name in ("object-src", "base-uri", "frame-ancestors", "form-action"):
@@ -136,9 +139,21 @@ def test_an_address_reachable_from_outside_needs_a_token() -> None:
 
 def test_without_the_token_nothing_is_answered(opened: Open) -> None:
     client = opened()
-    for path in (HEALTH, "/", "/openapi.json", "/vendor/plotly.min.js", "/?token=wrong", "/?token=", "/?token=%FF"):
+    for path in (
+        HEALTH,
+        "/",
+        "/openapi.json",
+        "/vendor/plotly.min.js",
+        "/?token=wrong",
+        "/?token=",
+        "/?token=%FF",
+    ):
         assert_error(client.get(path), 403, code="token_required")
-    for header in ({"authorization": "Bearer wrong"}, {"authorization": TOKEN}, {"cookie": "mckibben-8000=wrong"}):
+    for header in (
+        {"authorization": "Bearer wrong"},
+        {"authorization": TOKEN},
+        {"cookie": "mckibben-8000=wrong"},
+    ):
         assert_error(client.get(HEALTH, headers=header), 403, code="token_required")
     assert_error(client.post(f"/api/curves?token={TOKEN}", content=b"{}", headers=JSON), 403)
     assert TOKEN not in client.get("/").text
@@ -187,7 +202,9 @@ def test_a_declared_size_over_the_limit_is_refused_at_once(shared_client: TestCl
         )
         assert_error(response, 413, code="too_large")
     for length in ("-1", "1e3", "²"):
-        response = shared_client.post("/api/curves", content=b"", headers={"content-length": length.encode()})
+        response = shared_client.post(
+            "/api/curves", content=b"", headers={b"content-length": length.encode()}
+        )
         assert_error(response, 400)
 
 

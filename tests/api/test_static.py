@@ -29,7 +29,12 @@ def page(tmp_path: Path) -> TestClient:
 
 @pytest.mark.parametrize(
     ("path", "kind"),
-    [("/", "text/html"), ("/index.html", "text/html"), ("/js/main.js", "text/javascript"), ("/app.css", "text/css")],
+    [
+        ("/", "text/html"),
+        ("/index.html", "text/html"),
+        ("/js/main.js", "text/javascript"),
+        ("/app.css", "text/css"),
+    ],
 )
 def test_files_are_served_with_their_type_and_revalidated(page: TestClient, path: str, kind: str) -> None:
     response = page.get(path)

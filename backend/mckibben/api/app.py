@@ -66,7 +66,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.store = MeasurementStore(settings.data)
     app.state.effects = effects.EffectsDocument(app.state.studio.catalogue)
     app.state.plotly = static.PlotlyBundle()
-    for noun in (health, effects, presets, curves, inverse, measurements, comparisons, static):
+    # Routes are tried in this order: the one asked at every movement of a slider first.
+    for noun in (curves, inverse, comparisons, health, effects, presets, measurements, static):
         app.include_router(noun.router)
     app.router.redirect_slashes = False
     app.router.default = static.frontend(settings.frontend)

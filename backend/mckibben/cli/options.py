@@ -106,6 +106,8 @@ def start_model(studio: Studio, muscle: str, *, ideal: bool, effects: Sequence[s
             )
     chosen = {} if ideal else {effect: {} for effect in effects} or None
     name, separator, length = muscle.partition(":")
+    if not name:
+        raise InputError("--muscle is empty", hint="e.g. --muscle DMSP-20:300mm")
     if _is_file(muscle, studio):
         return _start_of_file(studio, Path(muscle), chosen)
     document: dict[str, object] = {"preset": name}

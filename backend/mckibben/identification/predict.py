@@ -170,7 +170,7 @@ def force_gradient(
 
     Geometry is named by its field, a parameter by "effect.parameter". With a series compliance c the muscle
     settles where L(x) + c T(x) is the measured length, so by the implicit function theorem
-    dF = F_theta - F_x (c T_theta + T c_theta)/(L_x + c T_x); a length sensor's offset shifts both sides alike.
+    dF = F_theta - F_x (c T_theta + T c_theta)/(L_x + c T_x); an offset of the length sensor cancels.
     """
     compiled = compiled_state(tuple(effects), names)
     out, gradients = settle(compiled, compiled.pack(muscle, values), dict(task.state))

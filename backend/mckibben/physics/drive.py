@@ -6,7 +6,8 @@ r"""A drive as one symbolic model: supply, valve, tube, muscle, load and any cho
 
 with the stroke s of the muscle (positive = shorter), the lever ratio r (muscle stroke per load stroke) and
 the volume V and tension F of `mckibben.physics.model`. The tension is never negative: a slack muscle lets
-the load fly. With a heat flow the chamber obeys the energy balance with exponent 1.4 and T = pV/(mR) instead.
+the load fly; its volume is then still taken at the distance of its ends. With a heat flow the chamber obeys
+the energy balance with exponent 1.4 and T = pV/(mR) instead.
 
 Everything is written on symengine symbols, because the volume's derivatives are taken here.
 """

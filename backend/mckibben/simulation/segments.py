@@ -92,8 +92,8 @@ def delayed(
     ends = segments.end_values
     previous = np.r_[values[0] if before is None else before, ends[:-1]]
     jumps = values - previous
-    # A kink computed from the end of one piece to the start of the next misses by rounding: that is no edge.
-    scale = np.maximum(np.abs(values), np.abs(previous))
+    # At a kink the end of one piece and the start of the next differ by rounding: that is no edge.
+    scale = max(np.abs(values).max(), np.abs(previous).max())
     edges = np.where(np.abs(jumps) > 1e-9 * scale, np.sign(jumps), 0.0)
     if edges[0] == 0.0:
         edges[0] = -1.0 if slopes[0] < 0.0 else 1.0
@@ -103,9 +103,8 @@ def delayed(
     # Backwards running minimum: a piece survives when no later one starts before or with it.
     later = np.r_[np.minimum.accumulate(begin[::-1])[::-1][1:], np.inf]
     alive = begin < later
-    shifted_end = np.r_[segments.times[1:]] + delay
+    shifted_end = segments.times[1:] + delay
     held = alive & (later > shifted_end + SHORTEST)
-    # At the very end the last piece simply runs on to the duration, which is before its shifted end.
     at = np.r_[begin[alive], shifted_end[held]]
     level = np.r_[values[alive], ends[held]]
     rate = np.r_[slopes[alive], np.zeros(int(held.sum()))]
@@ -126,7 +125,7 @@ def merged(a: Segments, b: Segments) -> tuple[Segments, Segments]:
         raise ValueError("the signals cover different times")
     union = np.union1d(a.times, b.times)
     inner = union[(union - union[0] > SHORTEST) & (union[-1] - union > SHORTEST)]
-    inner = inner[np.diff(inner, prefix=-np.inf) > SHORTEST]
+    inner = inner[np.diff(inner, prepend=-np.inf) > SHORTEST]
     times = np.r_[union[0], inner, union[-1]]
     middle = 0.5 * (times[1:] + times[:-1])  # asks each signal for its piece away from its own jumps
 

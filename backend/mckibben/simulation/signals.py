@@ -1,235 +1,182 @@
-"""Commands, references and loads as shapes of time: read from a document, cut into linear segments.
+"""Commands, references and loads as shapes of time, read from a document.
 
-A shape is piecewise linear, or smooth and then replaced by its chords with an error of at most
-`SMOOTH_ERROR` of the amplitude. Levels are in the unit the reader asks for: a share of the valve opening
-("1"), a stroke ("m"), a force ("N").
+Every shape cuts itself into linear segments (`Signal.segments`) for the integrator and gives its exact value
+for plots (`Signal.value`). Straight shapes are in shapes.py, the others in waveforms.py.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping
-from dataclasses import MISSING, Field, dataclass, field, fields
-from typing import Any, ClassVar
+from collections.abc import Mapping, Sequence
+from dataclasses import MISSING, Field, fields
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import convert, si
-from mckibben.simulation.segments import Array, Segments, clipped, delayed, merged
+from mckibben.simulation.segments import Array, Segments, delayed, merged
+from mckibben.simulation.shapes import (
+    MAX_SEGMENTS,
+    SMOOTH_ERROR,
+    Pulse,
+    Ramp,
+    Signal,
+    Square,
+    Step,
+    Triangle,
+)
+from mckibben.simulation.waveforms import Chirp, Random, Sine, Table
 
-__all__ = ["SHAPES", "Segments", "Signal", "clipped", "delayed", "merged", "signal_from"]
-
-MAX_SEGMENTS = 100_000
-#: Largest distance of a smooth shape from its chords, as a share of the amplitude.
-SMOOTH_ERROR = 1e-4
-_BLOCKS = 64
+__all__ = [
+    "MAX_SEGMENTS",
+    "SHAPES",
+    "SMOOTH_ERROR",
+    "Chirp",
+    "Pulse",
+    "Ramp",
+    "Random",
+    "Segments",
+    "Signal",
+    "Sine",
+    "Square",
+    "Step",
+    "Table",
+    "Triangle",
+    "delayed",
+    "merged",
+    "signal_from",
+]
 
 _SI = {"time": "s", "share": "1", "frequency": "Hz", "angle": "rad"}
-_POSITIVE, _NOT_NEGATIVE = "positive", "not negative"
 
-Pieces = tuple[Array, Array, Array]
+#: Keys that a document may use in place of a field.
+_SYNONYMS: dict[type[Signal], tuple[str, ...]] = {Square: ("amplitude",), Sine: ("period",)}
 
-
-def _key(kind: str, default: Any = MISSING, *, key: str = "", rule: str = "") -> Any:
-    """A field that a document may give: what it measures, its default, and what must hold.
-
-    Defaults "rest" and "full" stand for the reader's values of a signal at rest and at full.
-    """
-    metadata = {"kind": kind, "default": default, "rule": rule, "key": key}
-    # Values that depend on the reader have no default for the constructor.
-    known = default is not MISSING and not isinstance(default, str)
-    return field(default=default, metadata=metadata) if known else field(metadata=metadata)
+#: Name in a document -> shape.
+SHAPES: dict[str, type[Signal]] = {
+    kind.shape: kind for kind in (Step, Pulse, Square, Triangle, Ramp, Sine, Chirp, Random, Table)
+}
 
 
-def _require(holds: bool, name: str, message: str, hint: str | None = None) -> None:
-    if not holds:
-        raise InputError(message, field=name, hint=hint)
+def signal_from(
+    document: Mapping[str, Any],
+    *,
+    unit: str,
+    field: str,
+    rest: float = 0.0,
+    limits: tuple[float, float] | None = None,
+) -> Signal:
+    """The signal that a part of a document describes: ``{"shape": "pulse", "on": "0 s", "off": "2 s"}``.
 
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Signal:
-    """A shape of time from t = 0 on. Subclasses say which pieces it is made of.
+    Args:
+        document: ``shape`` and its keys; values are numbers in SI or texts with a unit.
+        unit: SI unit of the levels; for "1" a level or amplitude left out is 1, else it must be given.
+        field: where the part stands, for messages ("command", "controller.reference").
+        rest: the level before a step, outside a pulse, in the low part of a square, ramp or random.
+        limits: levels outside are refused (±1 for a valve).
 
     Raises:
-        InputError: an impossible value, its ``field`` the name in the document; more than `MAX_SEGMENTS`.
+        InputError: not a mapping; unknown shape or key; missing, impossible or out-of-range value.
     """
-
-    shape: ClassVar[str]
-    path: str = field(default="", repr=False)  # where the document had it, for messages
-
-    def __post_init__(self) -> None:
-        for item in fields(self):
-            rule, value = item.metadata.get("rule"), getattr(self, item.name)
-            key = item.metadata.get("key") or item.name
-            if rule:
-                good = value > 0.0 if rule == _POSITIVE else value >= 0.0
-                _require(good, self._at(key), f"{self._at(key)}: {value:g} is not {rule}")
-            if item.metadata.get("kind") not in (None, "column", "word"):
-                _require(math.isfinite(value), self._at(key), f"{self._at(key)}: {value} cannot be used")
-
-    @property
-    def before(self) -> float:
-        """Value before t = 0; a difference to the first value is an edge at t = 0 (see `delayed`)."""
-        return float(self.value(0.0))
-
-    @property
-    def extent(self) -> tuple[float, float]:
-        """The lowest and the highest value it can take."""
-        raise NotImplementedError
-
-    def value(self, time: ArrayLike) -> Array:
-        """Exact value at any times [s], right-continuous at jumps; before t = 0 the value at 0."""
-        t = np.maximum(np.asarray(time, dtype=np.float64), 0.0)
-        starts, values, slopes = self._pieces(float(t.max(initial=0.0)))
-        piece = np.maximum(np.searchsorted(starts, t, side="right") - 1, 0)
-        return values[piece] + slopes[piece] * np.maximum(t - starts[piece], 0.0)
-
-    def segments(self, duration: float, smooth_step: float | None = None) -> Segments:
-        """Linear segments on [0, duration]: breakpoints exact, a jump is a new segment.
-
-        Args:
-            duration: end [s].
-            smooth_step: longest chord of a smooth shape [s]; chords are shorter where `SMOOTH_ERROR` asks it.
-        """
-        if not (math.isfinite(duration) and duration > 0.0):
-            raise InputError(f"the duration {duration:g} s is not positive", field="duration", hint="e.g. '4 s'")
-        return clipped(*self._pieces(duration, smooth_step), duration=duration)
-
-    def _pieces(self, until: float, smooth_step: float | None = None) -> Pieces:
-        """Start, value and slope of each piece that begins up to ``until``; each lasts until the next."""
-        raise NotImplementedError
-
-    def _at(self, key: str) -> str:
-        return f"{self.path}.{key}" if self.path else key
-
-    def _check_count(self, count: float, why: str) -> None:
-        too_many = f"{self.path or self.shape}: {why} makes {count:.3g} segments, at most {MAX_SEGMENTS}"
-        _require(count <= MAX_SEGMENTS, self.path, too_many)
-
-    def _periods(self, until: float, period: float, pieces: int) -> Array:
-        """The beginnings of all periods up to ``until``."""
-        self._check_count(pieces * (until / period), f"{until:g} s in steps of {period:g} s")
-        return np.arange(math.floor(until / period) + 1) * period
+    if not isinstance(document, Mapping):
+        raise InputError(f"{field}: an object with a shape is needed", field=field, hint='{"shape": "step"}')
+    name = document.get("shape")
+    kind = SHAPES.get(name) if isinstance(name, str) else None
+    if kind is None:
+        problem = "the shape is missing" if name is None else f"there is no shape '{_shown(name)}'"
+        hint = did_you_mean(_shown(name) if name else "", SHAPES)
+        raise InputError(f"{field}: {problem}", field=f"{field}.shape", hint=hint)
+    known = {item.metadata["name"] or item.name: item for item in fields(kind) if "kind" in item.metadata}
+    given = {label: value for label, value in document.items() if label != "shape"}
+    for label in given:
+        if label not in known and label not in _SYNONYMS.get(kind, ()):
+            hint = did_you_mean(_shown(label), [*known, *_SYNONYMS.get(kind, ())])
+            message = f"{field}: a {name} has no '{_shown(label)}'"
+            raise InputError(message, field=f"{field}.{_shown(label)}", hint=hint)
+    if kind is Square:
+        _level_of_amplitude(given, unit, field, rest)
+    if kind is Sine:
+        _frequency_of_period(given, field)
+    values = {
+        item.name: _value(item, given.get(label, MISSING), unit, f"{field}.{label}", rest)
+        for label, item in known.items()
+    }
+    signal = kind(path=field, **values)
+    if limits is not None and not (limits[0] <= signal.extent[0] and signal.extent[1] <= limits[1]):
+        raise InputError(
+            f"{field}: it runs from {signal.extent[0]:g} to {signal.extent[1]:g}, "
+            f"outside {limits[0]:g} to {limits[1]:g}",
+            field=field,
+        )
+    return signal
 
 
-def _array(*values: float) -> Array:
-    return np.array(values, dtype=np.float64)
+def _shown(text: object) -> str:
+    """A text of the caller, short enough for a message."""
+    return str(text) if len(str(text)) <= 40 else str(text)[:40] + "…"
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Step(Signal):
-    """``initial`` until ``at``, then ``level``."""
-
-    shape = "step"
-    at: float = _key("time", 0.0, rule=_NOT_NEGATIVE)
-    level: float = _key("value", "full")
-    initial: float = _key("value", "rest")
-
-    @property
-    def before(self) -> float:
-        """The level before the step, also when it is at t = 0."""
-        return self.initial
-
-    @property
-    def extent(self) -> tuple[float, float]:
-        """Both levels."""
-        return min(self.level, self.initial), max(self.level, self.initial)
-
-    def _pieces(self, until: float, smooth_step: float | None = None) -> Pieces:
-        if self.at == 0.0:
-            return _array(0.0), _array(self.level), _array(0.0)
-        return _array(0.0, self.at), _array(self.initial, self.level), np.zeros(2)
+def _value(item: Field[Any], raw: Any, unit: str, where: str, rest: float) -> Any:
+    """The value of one field in SI, or its default."""
+    kind, default = item.metadata["kind"], item.metadata["default"]
+    if raw is MISSING:
+        if default == "rest":
+            return rest
+        if default == "full" and unit == "1":
+            return 1.0
+        if default is MISSING or default == "full":
+            raise InputError(f"{where} is missing", field=where)
+        return default
+    if kind == "word":
+        return _shown(raw)
+    if kind == "seed":
+        if isinstance(raw, bool) or not isinstance(raw, int) or abs(raw) >= 2**63:
+            raise InputError(f"{where}: '{_shown(raw)}' is not a whole number", field=where, hint="e.g. 7")
+        return raw
+    if kind == "column":
+        return _column(raw, "s" if item.name == "times" else unit, where)
+    return si(raw, _SI.get(kind, unit), field=where)
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Pulse(Step):
-    """``level`` from ``on`` to ``off``, ``initial`` otherwise."""
-
-    shape = "pulse"
-    at: float = field(init=False, repr=False, default=0.0)
-    on: float = _key("time", 0.0, rule=_NOT_NEGATIVE)
-    off: float = _key("time")
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        where = self._at("off")
-        message = f"{where}: {self.off:g} s is not after on = {self.on:g} s"
-        _require(self.off > self.on, where, message, f"e.g. '{self.on + 2:g} s'")
-
-    def _pieces(self, until: float, smooth_step: float | None = None) -> Pieces:
-        values = _array(self.initial, self.level, self.initial)
-        skipped = 1 if self.on == 0.0 else 0
-        return _array(0.0, self.on, self.off)[skipped:], values[skipped:], np.zeros(3 - skipped)
+def _column(raw: Any, unit: str, where: str) -> Array:
+    """A list of numbers in SI or texts with units, or ``{"unit": "ms", "values": [numbers]}``."""
+    values, source = (raw.get("values"), raw.get("unit")) if isinstance(raw, Mapping) else (raw, unit)
+    if isinstance(values, np.ndarray):
+        values = values.tolist()
+    if not isinstance(values, Sequence) or isinstance(values, str) or not isinstance(source, str):
+        hint = f'e.g. [0, 0.5, 1] or {{"unit": "{unit}", "values": [0, 0.5, 1]}}'
+        raise InputError(f"{where}: a list of values is needed", field=where, hint=hint)
+    if len(values) > MAX_SEGMENTS:
+        raise InputError(f"{where}: {len(values)} entries, at most {MAX_SEGMENTS}", field=where)
+    if isinstance(raw, Mapping):
+        numbers = [si(value, "1", field=f"{where}, entry {i}") for i, value in enumerate(values, start=1)]
+        return convert(numbers, source, unit, field=where)
+    numbers = [si(value, unit, field=f"{where}, entry {i}") for i, value in enumerate(values, start=1)]
+    return np.array(numbers, dtype=np.float64)
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Square(Step):
-    """``level`` for the share ``duty`` of each period, then ``initial``; it begins with ``level`` at t = 0.
-
-    A document may give ``amplitude`` = level - initial in place of one of the two.
-    """
-
-    shape = "square"
-    at: float = field(init=False, repr=False, default=0.0)
-    period: float = _key("time", rule=_POSITIVE)
-    duty: float = _key("share", 0.5)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        where = self._at("duty")
-        _require(0.0 < self.duty < 1.0, where, f"{where}: {self.duty:g} is not between 0 and 1", "e.g. '50 %'")
-
-    def _pieces(self, until: float, smooth_step: float | None = None) -> Pieces:
-        begin = self._periods(until, self.period, 2)
-        starts = np.column_stack([begin, begin + self.duty * self.period]).ravel()
-        return starts, np.tile(_array(self.level, self.initial), len(begin)), np.zeros(len(starts))
+def _level_of_amplitude(given: dict[str, Any], unit: str, field: str, rest: float) -> None:
+    """Replace the amplitude of a square by the level that is not given: amplitude = level - initial."""
+    if "amplitude" not in given:
+        return
+    where = f"{field}.amplitude"
+    amplitude = si(given.pop("amplitude"), unit, field=where)
+    if "level" not in given:
+        given["level"] = si(given.get("initial", rest), unit, field=f"{field}.initial") + amplitude
+    elif "initial" not in given:
+        given["initial"] = si(given["level"], unit, field=f"{field}.level") - amplitude
+    else:
+        raise InputError(f"{where}: give two of level, initial and amplitude, not all three", field=where)
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Triangle(Signal):
-    """From ``offset`` up to ``offset + amplitude`` and back in each period.
-
-    The amplitude is the height, so that a stroke reference with offset 0 stays on the reachable side.
-    """
-
-    shape = "triangle"
-    amplitude: float = _key("value", "full")
-    period: float = _key("time", rule=_POSITIVE)
-    offset: float = _key("value", 0.0)
-
-    @property
-    def extent(self) -> tuple[float, float]:
-        """Base and tip."""
-        tip = self.offset + self.amplitude
-        return min(self.offset, tip), max(self.offset, tip)
-
-    def _pieces(self, until: float, smooth_step: float | None = None) -> Pieces:
-        begin = self._periods(until, self.period, 2)
-        half = 0.5 * self.period
-        rate = self.amplitude / half
-        starts = np.column_stack([begin, begin + half]).ravel()
-        values = np.tile(_array(self.offset, self.offset + self.amplitude), len(begin))
-        return starts, values, np.tile(_array(rate, -rate), len(begin))
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Ramp(Signal):
-    """``from`` until ``start``, linear to ``to`` within ``duration``, then ``to``."""
-
-    shape = "ramp"
-    begin: float = _key("value", "rest", key="from")
-    end: float = _key("value", "full", key="to")
-    start: float = _key("time", 0.0, rule=_NOT_NEGATIVE)
-    duration: float = _key("time", rule=_POSITIVE)
-
-    @property
-    def extent(self) -> tuple[float, float]:
-        """Both ends."""
-        return min(self.begin, self.end), max(self.begin, self.end)
-
-    def _pieces(self, until: float, smooth_step: float | None = None) -> Pieces:
-        starts = _array(0.0, self.start, self.start + self.duration)
-        rate = (self.end - self.begin) / self.duration
-        return starts, _array(self.begin, self.begin, self.end), _array(0.0, rate, 0.0)
+def _frequency_of_period(given: dict[str, Any], field: str) -> None:
+    """Replace the period of a sine by its frequency."""
+    if "period" not in given:
+        return
+    where = f"{field}.period"
+    period = si(given.pop("period"), "s", field=where)
+    if "frequency" in given:
+        raise InputError(f"{where}: give the period or the frequency, not both", field=where)
+    if not period > 0.0:
+        raise InputError(f"{where}: {period:g} s is not positive", field=where, hint="e.g. '1 s'")
+    given["frequency"] = 1.0 / period

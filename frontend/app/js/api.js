@@ -11,9 +11,13 @@ export class ApiError extends Error {
   }
   /** Message and hint as one text. */
   get words() {
-    return this.hint ? `${this.message.replace(/\.$/, "")}. ${this.hint}` : this.message;
+    return [this.message, this.hint].filter((text) => text != null && text !== "").map(sentence).join(" ");
   }
 }
+
+/** @param {string | null} text */
+const sentence = (text) =>
+  String(text).replace(/^[a-z]/, (c) => c.toUpperCase()).replace(/([^.!?:])$/, "$1.");
 
 /** @param {string} path @param {RequestInit} [init] */
 async function request(path, init) {

@@ -103,7 +103,7 @@ const OF_SI = {
 /** The quantity of a parameter: its SI unit decides; a modulus of rubber is not shown in bar.
  * @param {string} unit @param {string} [name] @returns {Quantity | null} null = unit without a scale of its own */
 export function quantityOf(unit, name = "") {
-  if (unit === "Pa" && /modulus/.test(name)) return "modulus";
+  if (unit === "Pa" && /modulus|constant/.test(name)) return "modulus";
   if (unit === "1" || unit === "") return "number";
   return OF_SI[unit] ?? null;
 }
@@ -162,11 +162,11 @@ export function withUnit(si, quantity, system) {
 }
 
 /** Reads "30 cm", "6 bar", "25°", "1,5"; a bare number is in the shown unit.
- * @param {string} text @param {Scale} s @param {Quantity | null} quantity
+ * @param {string} text @param {Scale} s @param {Quantity | null} quantity @param {string} [usual] for the example
  * @returns {{value: number} | {error: string}} SI */
-export function parse(text, s, quantity) {
+export function parse(text, s, quantity, usual) {
   const tidy = text.trim().replace("−", "-").replace(/^([+-]?\d+),(\d+)(?=\D|$)/, "$1.$2");
-  const example = s.unit ? `${s.unit === "°" ? "25" : "1.5"} ${s.unit}` : "1.5";
+  const example = `${usual || "1.5"} ${s.unit}`.trim();
   if (tidy === "") return { error: `Enter a number, for example ${example}.` };
   const match = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i.exec(tidy);
   if (!match) return { error: `“${text.trim()}” is not a number. Write for example ${example}.` };
@@ -193,6 +193,15 @@ function noun(quantity) {
  * @returns {Quantity | null} */
 export function quantityOfUnit(unit) {
   return TYPED[unit.toLowerCase()]?.[0] ?? null;
+}
+
+/** The numbers of one column with the same number of decimals, so that they stand under each other.
+ * @param {(number | null)[]} values */
+export function aligned(values) {
+  const most = Math.max(...values.map((v) => Math.abs(v ?? 0)));
+  const places = most >= 100 ? 0 : most >= 10 ? 1 : most >= 1 ? 2 : 3;
+  const tidy = (/** @type {string} */ text) => text.replace(/^-(?=0\.?0*$)/, "").replace("-", "−");
+  return values.map((v) => v == null ? "–" : tidy(v.toFixed(places)));
 }
 
 /** A preset's {value, unit} in SI. @param {{value: number, unit: string}} q */

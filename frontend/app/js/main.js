@@ -98,6 +98,7 @@ function start() {
   writeLink();
   loadAll();
   requestAnimationFrame(() => setTimeout(fetchPlotly));
+  performance.mark("usable");
   document.documentElement.dataset.ready = "1";
 }
 

@@ -9,7 +9,8 @@ import { menuButton } from "./ui/menu.js";
 import { openDialog } from "./ui/dialog.js";
 import { downloadText, toCsv } from "./ui/table.js";
 import { saveSheet } from "./plots/export.js";
-import { charts, curvesTable } from "./views/design/charts.js";
+import { charts } from "./views/design/charts.js";
+import { curvesTable } from "./views/design/curves-table.js";
 import { openExample } from "./views/design/examples.js";
 
 /** @typedef {{id: string, title: string, build: () => HTMLElement}} View */
@@ -137,7 +138,7 @@ export function shell(views, help) {
   const bar = h(
     "header",
     null,
-    h("span", { class: "brand" }, mark(), "mckibben"),
+    h("h1", { class: "brand" }, mark(), "mckibben"),
     h(
       "nav",
       { "aria-label": "Views" },

@@ -11,7 +11,8 @@ import { canPatch, patch } from "./patch.js";
  *   edge?: string}, axis?: 2, column?: string}} Trace */
 /** @typedef {{x: [number, number] | null, y: [number, number] | null, text: string}} Zone */
 /** @typedef {{text: string, x: number, y: number, color: string}} Label */
-/** @typedef {{x: Axis, y: Axis, y2?: Axis, traces: Trace[], zones: Zone[], labels?: Label[], revision: string}} Spec */
+/** @typedef {{x: Axis, y: Axis, y2?: Axis, traces: Trace[], zones: Zone[], labels?: Label[], revision: string,
+ *   level?: {y: number, text: string}}} Spec  `level`: a horizontal line that is a handle on the page */
 
 const SETTLE_MS = 300;
 

@@ -2,7 +2,6 @@
 // Plots as PNG, SVG, CSV or table: always on white, whatever the theme, and with the whole data.
 import { figure, plotly } from "./chart.js";
 import { LIGHT } from "./theme.js";
-import { number } from "../format.js";
 import { openDialog } from "../ui/dialog.js";
 import { dataTable, download, downloadText, toCsv } from "../ui/table.js";
 
@@ -31,9 +30,60 @@ async function svgOf(chart, title) {
     legend: { x: 1.1, y: 1, font: { size: 11 } },
     xaxis: { ...layout.xaxis, range: x },
     yaxis: { ...layout.yaxis, range: y },
+    shapes: spec.level ? [...layout.shapes, level(spec.level.y)] : layout.shapes,
+    annotations: notes(spec),
   };
   const url = await plotly().toImage({ data, layout: full }, { format: "svg", width: WIDTH, height: HEIGHT });
   return decodeURIComponent(url.slice(url.indexOf(",") + 1));
+}
+
+/** @param {number} y */
+const level = (y) => ({
+  type: "line",
+  xref: "paper",
+  x0: 0,
+  x1: 1,
+  y0: y,
+  y1: y,
+  line: { color: LIGHT.load, dash: "dash", width: 2 },
+});
+
+/** What the page writes over the plot: the load and the reasons of the shaded zones. @param {import("./chart.js").Spec} spec */
+function notes(spec) {
+  const common = { showarrow: false, font: { size: 11, color: LIGHT.soft } };
+  const zones = spec.zones.map((zone) =>
+    zone.x
+      ? {
+        ...common,
+        text: zone.text,
+        textangle: "90",
+        x: (zone.x[0] + zone.x[1]) / 2,
+        yref: "paper",
+        y: 0.98,
+        yanchor: "top",
+      }
+      : {
+        ...common,
+        text: zone.text,
+        xref: "paper",
+        x: 0.9,
+        xanchor: "right",
+        y: zone.y?.[0] ?? 0,
+        yanchor: "bottom",
+      }
+  );
+  if (!spec.level) return zones;
+  const font = { size: 12, color: LIGHT.load };
+  const load = {
+    ...common,
+    font,
+    text: spec.level.text,
+    xref: "paper",
+    x: 1,
+    xanchor: "right",
+    y: spec.level.y,
+  };
+  return [...zones, { ...load, yanchor: "bottom" }];
 }
 
 /** @param {string} svg @param {number} width @param {number} height @returns {Promise<Blob>} at twice the size */
@@ -97,7 +147,7 @@ export function chartMenu(chart, title) {
   return [
     {
       label: "Show as table",
-      run: () => openDialog({ title, wide: true }, dataTable(chartTable(chart), (v) => number(v, 3), title)),
+      run: () => openDialog({ title, wide: true }, dataTable(chartTable(chart), title)),
     },
     { label: "Save as CSV", run: () => downloadText(`${name}.csv`, toCsv(chartTable(chart)), "text/csv") },
     {

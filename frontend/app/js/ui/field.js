@@ -53,7 +53,7 @@ export function quantityField(o) {
 
   /** @param {string} text @returns {{value: number} | {error: string}} */
   const read = (text) => {
-    const got = parse(text, o.scale(), o.quantity);
+    const got = parse(text, o.scale(), o.quantity, shown());
     if ("error" in got || !o.strict || !o.bounds) return got;
     const [low, high] = o.bounds(), slack = 1e-9 * Math.max(Math.abs(low), Math.abs(high));
     if (got.value >= low - slack && got.value <= high + slack) return got;
@@ -107,9 +107,14 @@ export function quantityField(o) {
       step((e.key === "ArrowUp" ? 1 : -1) * (e.shiftKey ? 10 : 1));
     },
   });
+  let last = "";
   effect(() => {
     const text = shown();
-    if (document.activeElement !== input || typed.peek() === null) input.value = text;
+    if (text === last) return;
+    last = text;
+    if (document.activeElement === input && typed.peek() !== null) return;
+    input.value = text;
+    typed.value = null;
   });
 
   const changed = () => Boolean(o.changed?.());
@@ -122,7 +127,12 @@ export function quantityField(o) {
     h(
       "div",
       { class: "field-head" },
-      h("label", { for: id }, o.label, o.symbol ? h("span", { class: "symbol", "aria-hidden": "true" }, o.symbol) : null),
+      h(
+        "label",
+        { for: id },
+        o.label,
+        o.symbol ? h("span", { class: "symbol", "aria-hidden": "true" }, o.symbol) : null,
+      ),
       () =>
         changed() && o.reset
           ? h("button", {

@@ -1,12 +1,17 @@
 // @ts-check
 // Tables of numbers, for the eye and for the clipboard.
 import { h } from "../dom.js";
+import { aligned } from "../format.js";
 
 /** @typedef {{title: string, unit?: string, text?: boolean}} Column */
 /** @typedef {{columns: Column[], rows: (string | number | null)[][]}} Table  null = there is no value */
 
-/** @param {Table} table @param {(value: number) => string} write @param {string} caption */
-export function dataTable(table, write, caption) {
+/** @param {Table} table @param {string} caption */
+export function dataTable(table, caption) {
+  const columns = table.columns.map((c, i) => {
+    const values = table.rows.map((row) => row[i]);
+    return c.text ? values.map(String) : aligned(/** @type {(number | null)[]} */ (values));
+  });
   return h(
     "div",
     { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
@@ -33,17 +38,11 @@ export function dataTable(table, write, caption) {
       h(
         "tbody",
         null,
-        table.rows.map((row) =>
+        table.rows.map((_, k) =>
           h(
             "tr",
             null,
-            row.map((v, i) =>
-              h(
-                "td",
-                { class: table.columns[i].text ? "text" : "" },
-                v == null ? "–" : typeof v === "number" ? write(v) : v,
-              )
-            ),
+            columns.map((texts, i) => h("td", { class: table.columns[i].text ? "text" : "" }, texts[k])),
           )
         ),
       ),

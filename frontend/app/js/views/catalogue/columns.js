@@ -1,6 +1,6 @@
 // @ts-check
 // Which columns the table of each kind has, and how a value of a preset is read, sorted and written.
-import { number, quantityOfUnit, scaleOf, siOf, tidyUnit, toShown } from "../../format.js";
+import { number, quantityOf, quantityOfUnit, scaleOf, siOf, tidyUnit, toShown } from "../../format.js";
 import { spoken } from "../../ui/sources.js";
 
 /** @typedef {import("../../types.js").Preset} Preset */
@@ -65,9 +65,10 @@ export function columnsOf(kind, list) {
 }
 
 /** A value in the user's units where its unit is known, else as it is in the file.
- * @param {PresetValue} q @param {System} system @returns {{text: string, unit: string}} */
-export function shownValue(q, system) {
-  const quantity = quantityOfUnit(q.unit);
+ * @param {PresetValue} q @param {System} system @param {string} [name] @returns {{text: string, unit: string}} */
+export function shownValue(q, system, name = "") {
+  const measured = quantityOfUnit(q.unit);
+  const quantity = measured === "pressure" ? quantityOf("Pa", name) : measured;
   if (!quantity) return { text: number(q.value, 4), unit: tidyUnit(q.unit) };
   const s = scaleOf(quantity, system);
   return { text: number(toShown(siOf(q), s), 3), unit: s.unit };

@@ -29,7 +29,7 @@ function valueTable(title, values) {
   return h(
     "div",
     null,
-    h("h4", null, title),
+    h("h3", null, title),
     h(
       "ul",
       { class: "values" },
@@ -39,7 +39,7 @@ function valueTable(title, values) {
           null,
           h("span", null, spoken(key)),
           h("b", null, () => {
-            const { text, unit } = shownValue(q, units.value);
+            const { text, unit } = shownValue(q, units.value, key);
             return `${text} ${unit}`;
           }),
           h("small", { class: "source" }, q.source, " ", gradeTag(q.grade), q.note ? ` ${q.note}` : ""),
@@ -164,7 +164,7 @@ function facts(p) {
     columnList(p),
     p.source ? h("p", { class: "muted" }, p.source, " ", gradeTag(p.grade ?? "")) : null,
     p.note ? h("p", { class: "muted" }, p.note) : null,
-    p.references?.length ? h("h4", null, "References") : null,
+    p.references?.length ? h("h3", null, "References") : null,
     h("ul", { class: "plain" }, ...(p.references ?? []).map((r) => h("li", { class: "muted" }, r))),
   ];
 }

@@ -9,8 +9,9 @@ import { dragLine, linkCursor, writeLabels } from "../../plots/overlay.js";
 import { palette, pressureColour } from "../../plots/theme.js";
 import { menuButton } from "../../ui/menu.js";
 import { chartMenu } from "../../plots/export.js";
-import { curves, fault, reference, retry } from "./model.js";
-import { ACROSS, acrossAt, forgetRanges, OVER, pressureName, shareOf, xColumn } from "./axes.js";
+import { curves, fault, fieldOf, reference, retry } from "./model.js";
+import { ACROSS, forgetRanges, OVER, pressureName, shareOf } from "./axes.js";
+import { cursor, readout } from "./readout.js";
 import { forceSpec, overPressureSpec, stiffnessSpec, volumeSpec } from "./specs.js";
 
 /** @typedef {import("./axes.js").View} View */
@@ -113,35 +114,6 @@ const choice = (label, options, get, set) =>
       set(/** @type {T} */ (/** @type {HTMLSelectElement} */ (e.target).value)),
   }, () => options.map(([value, text]) => h("option", { value, selected: value === get() }, text)));
 
-/** The cursor's place as a share of the columns of the answer; null = it is nowhere. */
-const cursor = signal(/** @type {number | null} */ (null));
-
-function readout() {
-  const at = cursor.value, answer = curves.value, v = viewNow();
-  if (at === null || !answer || !v) return h("span", { class: "muted" }, "Move over a plot to read values.");
-  const column = /** @type {number[]} */ (xColumn(v));
-  let i = 0;
-  column.forEach((x, k) => {
-    if (Math.abs(x - at) < Math.abs(column[i] - at)) i = k;
-  });
-  const system = units.value, colours = palette.value;
-  return [
-    h("b", null, withUnit(answer.contraction[i], "ratio", system)),
-    h("span", null, withUnit(answer.length[i], "length", system)),
-    h("span", null, withUnit(answer.braid_angle[i], "angle", system)),
-    ...answer.pressure.map((p, k) =>
-      h(
-        "span",
-        { title: `${pressureName(v, p)}` },
-        h("i", { style: `background:${pressureColour(shareOf(p, answer), colours)}` }),
-        withUnit(answer.force[k][i], "force", system),
-      )
-    ),
-    h("span", null, "Ø ", withUnit(answer.diameter[i], "length", system)),
-    h("span", null, withUnit(answer.volume[i], "volume", system)),
-  ];
-}
-
 function stateNote() {
   const told = fault.value;
   if (!told && curves.value) return null;
@@ -151,8 +123,21 @@ function stateNote() {
     { class: "notice bad", role: "alert" },
     icon("warn"),
     h("span", null, told.words, curves.value ? " The plots show the last valid model." : ""),
-    told.field ? null : h("button", { type: "button", onclick: retry }, "Try again"),
+    told.field
+      ? h(
+        "button",
+        { type: "button", onclick: () => goToField(fieldOf(told.field ?? "")) },
+        "Go to the field",
+      )
+      : h("button", { type: "button", onclick: retry }, "Try again"),
   );
+}
+
+/** @param {string} key */
+function goToField(key) {
+  const box = document.querySelector(`[data-field="${CSS.escape(key)}"]`) ?? document.getElementById(key);
+  const input = box?.querySelector("input") ?? box;
+  if (input instanceof HTMLElement) input.focus();
 }
 
 function overHint() {
@@ -247,7 +232,7 @@ export function chartColumn() {
       ),
       () => (legendKey.value, familyLegend()),
     ),
-    h("div", { class: "readout", "aria-live": "off" }, readout),
+    h("div", { class: "readout", "aria-live": "off" }, () => readout(viewNow())),
     frame(stiffness, dashLegend("open valve", "closed valve")),
     frame(volume, dashLegend("volume", "diameter", true)),
     frame(
@@ -275,39 +260,4 @@ export function chartColumn() {
     if (plotlyReady.value) drawAll();
   });
   return column;
-}
-
-/** Every number behind the plots, one row per pressure and contraction. @returns {import("../../ui/table.js").Table} */
-export function curvesTable() {
-  const answer = curves.peek(), system = units.peek();
-  const unit = (/** @type {import("../../format.js").Quantity} */ q) => scaleOf(q, system).unit;
-  const write = (/** @type {number | null} */ v, /** @type {import("../../format.js").Quantity} */ q) =>
-    v == null ? null : toShown(v, scaleOf(q, system));
-  const rows = answer?.pressure.flatMap((p, k) =>
-    answer.contraction.map((c, i) => [
-      write(p, "pressure"),
-      c * 100,
-      write(answer.length[i], "length"),
-      write(acrossAt(answer, "braid_angle", c), "angle"),
-      write(answer.force[k][i], "force"),
-      write(answer.stiffness[k][i], "stiffness"),
-      write(answer.stiffness_closed[k][i], "stiffness"),
-      write(answer.volume[i], "volume"),
-      write(answer.diameter[i], "length"),
-    ])
-  );
-  return {
-    columns: [
-      { title: "pressure", unit: unit("pressure") },
-      { title: "contraction", unit: "%" },
-      { title: "length", unit: unit("length") },
-      { title: "braid_angle", unit: "deg" },
-      { title: "force", unit: unit("force") },
-      { title: "stiffness", unit: unit("stiffness") },
-      { title: "stiffness_closed", unit: unit("stiffness") },
-      { title: "volume", unit: unit("volume") },
-      { title: "diameter", unit: unit("length") },
-    ],
-    rows: rows ?? [],
-  };
 }

@@ -14,7 +14,7 @@ function parameterRow(p) {
   return h(
     "tr",
     null,
-    h("th", { scope: "row" }, mathml(p.symbol_mathml)),
+    h("td", null, mathml(p.symbol_mathml)),
     h(
       "td",
       { class: "text" },

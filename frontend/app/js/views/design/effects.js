@@ -60,7 +60,7 @@ function parameterField(e, p) {
     changed: () =>
       Math.abs(valueOf(e, p) - usual(e, p)) > 1e-9 * Math.max(Math.abs(p.lower), Math.abs(p.upper)),
     reset: () => editDesign(set(null), `reset ${p.name.replaceAll("_", " ")}`),
-    message: () => messageFor(`effects.${e.id}.${p.name}`),
+    message: () => messageFor(`${e.id}.${p.name}`),
   });
 }
 
@@ -145,8 +145,8 @@ function row(e) {
     ),
     body,
     () => {
-      const text = messageFor(`effects.${e.id}`);
-      return text && !e.parameters.some((p) => messageFor(`effects.${e.id}.${p.name}`))
+      const text = messageFor(e.id);
+      return text && !e.parameters.some((p) => messageFor(`${e.id}.${p.name}`))
         ? h("p", { class: "error" }, text)
         : null;
     },

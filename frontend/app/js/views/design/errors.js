@@ -6,7 +6,7 @@ import { design, editDesign, units } from "../../state.js";
 import { presets, references } from "../../store.js";
 import { brief, siOf, withUnit } from "../../format.js";
 import { saveDialog } from "./save-preset.js";
-import { curves, errors, preset, reference, referenceId } from "./model.js";
+import { curves, errors, fault, preset, reference, referenceId } from "./model.js";
 
 /** @typedef {import("../../types.js").Comparison} Comparison */
 
@@ -124,7 +124,7 @@ export function errorCard() {
       { class: "foot" },
       h("button", {
         type: "button",
-        disabled: () => !curves.value || !presets.value.muscles,
+        disabled: () => !curves.value || Boolean(fault.value) || !presets.value.muscles,
         onclick: saveDialog,
       }, "Save as my preset…"),
     ),

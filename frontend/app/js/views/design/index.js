@@ -8,7 +8,7 @@ import { chartColumn } from "./charts.js";
 import { resultCards } from "./results.js";
 import { inverseCard } from "./inverse.js";
 import { errorCard } from "./errors.js";
-import { startModel } from "./model.js";
+import { fault, startModel } from "./model.js";
 
 export function designView() {
   const verdict = resultCards();
@@ -17,7 +17,13 @@ export function designView() {
     { class: "design" },
     h("div", { class: "column inputs" }, muscleCard(), operationCard(), effectsCard()),
     chartColumn(),
-    h("div", { class: "column results" }, errorCard(), ...verdict, inverseCard()),
+    h(
+      "div",
+      { class: () => `column results${fault.value ? " stale" : ""}` },
+      errorCard(),
+      ...verdict,
+      inverseCard(),
+    ),
   );
   startModel();
   return view;

@@ -147,12 +147,24 @@ export const presetEffects = computed(() => {
   );
 });
 
-/** Message for a field; the server names it by its path in the request. @param {string} path */
-export function messageFor(path) {
+/** Message for a field of the page, by its key. @param {string} key */
+export function messageFor(key) {
   const told = fault.value;
   if (!told?.field) return null;
-  const field = told.field.replace(/^body\./, "");
-  return field === path || field.startsWith(`${path}.`) || field.startsWith(`${path}[`) ? told.words : null;
+  const field = fieldOf(told.field);
+  return field === key || field.startsWith(`${key}.`) ? told.words : null;
+}
+
+/** The field on the page that a path of the request belongs to: "effects.a.b" → "a.b", "pressures.0" → "pressures".
+ * @param {string} path */
+export function fieldOf(path) {
+  const [part, ...rest] = path.replace(/^body\./, "").split(".");
+  if (part === "effects") return rest.join(".");
+  if (part !== "muscle") return part;
+  const key = rest.at(-1) ?? "preset";
+  const { form } = muscle.peek();
+  const elsewhere = Object.values(FORM_KEYS).flat().includes(key) && !FORM_KEYS[form].includes(key);
+  return elsewhere || key === "rhombus" ? "nominal_length" : key;
 }
 
 // ---- the model's error against points

@@ -86,7 +86,6 @@ function reset(key) {
 /** @param {string} key */
 function field(key) {
   const spec = SPECS[key];
-  const path = FORM_KEYS.rhombus.includes(key) ? `muscle.rhombus.${key}` : `muscle.${key}`;
   return quantityField({
     key,
     label: spec.label,
@@ -99,7 +98,7 @@ function field(key) {
     put: (si, done) => put(key, si, done),
     changed: () => isChanged(key),
     reset: () => reset(key),
-    message: () => messageFor(path),
+    message: () => messageFor(key),
   });
 }
 
@@ -220,7 +219,7 @@ export function muscleCard() {
     { class: "card", "aria-label": "Muscle" },
     h("div", { class: "card-head" }, h("h2", null, "Muscle"), badge),
     presetSelect(),
-    h("p", { class: "error" }, () => messageFor("muscle.preset") ?? ""),
+    h("p", { class: "error" }, () => messageFor("preset") ?? ""),
     h(
       "div",
       { class: "segments", role: "radiogroup", "aria-label": "Form of the geometry" },
@@ -230,7 +229,7 @@ export function muscleCard() {
     () => FORM_KEYS[form.value].map(field),
     h(
       "details",
-      { open: false },
+      { open: () => Boolean(messageFor("wall_thickness") ?? messageFor("inside_diameter")) },
       h("summary", null, "Bladder"),
       field("inside_diameter"),
       field("wall_thickness"),

@@ -3,7 +3,7 @@
 import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { design, units } from "../../state.js";
-import { number, scaleOf, withUnit } from "../../format.js";
+import { aligned, number, scaleOf, withUnit } from "../../format.js";
 import { shown } from "./axes.js";
 import { curves, fault } from "./model.js";
 
@@ -46,16 +46,11 @@ function figures(title, columns, rows) {
   );
 }
 
-/** The numbers of one column with the same number of decimals, so that they stand under each other.
- * @param {(number | null)[]} values in SI @param {Quantity} quantity */
+/** @param {(number | null)[]} values in SI @param {Quantity} quantity */
 function column(values, quantity) {
   const numbers = shown(values, quantity, units.value);
-  const most = Math.max(...numbers.map((v) => Math.abs(v ?? 0)));
-  const places = quantity === "pressure" ? null : most >= 100 ? 0 : most >= 10 ? 1 : 2;
-  return numbers.map((v) => v == null ? "–" : places === null ? number(v, 2) : tidy(v.toFixed(places)));
+  return quantity === "pressure" ? numbers.map((v) => number(v ?? NaN, 2)) : aligned(numbers);
 }
-/** @param {string} text */
-const tidy = (text) => text.replace(/^-(?=0\.?0*$)/, "").replace("-", "−");
 
 /** What a flag of a row means, from the flags of the answer. @param {Curves} c @param {string[]} codes */
 const explain = (c, codes) =>

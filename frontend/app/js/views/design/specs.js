@@ -1,6 +1,6 @@
 // @ts-check
 // What each plot shows: from the server's answer to lines, points and shaded zones in the user's units. Pure functions.
-import { scaleOf, siOf, toShown } from "../../format.js";
+import { scaleOf, siOf, toShown, withUnit } from "../../format.js";
 import { pressureColour } from "../../plots/theme.js";
 import {
   ACROSS,
@@ -126,6 +126,9 @@ export function forceSpec(v, p) {
     y,
     zones,
     revision: `${across}${system}`,
+    level: curves.over_pressure
+      ? { y: load, text: `Load ${withUnit(curves.over_pressure.load, "force", system)}` }
+      : undefined,
     traces: [
       ...points,
       ...lines,

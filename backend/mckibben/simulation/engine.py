@@ -1,0 +1,228 @@
+"""From a drive's equations to a run: machine code for the rates and the exact Jacobian, then an integrator.
+
+The integrator is the Rodas4 kernel once numba has it ready (compiled once per installation, in the
+background, then cached on disk); until then the same compiled functions run under scipy's LSODA.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import symengine as se
+
+from mckibben.physics.drive import DriveModel
+from mckibben.physics.drive_terms import INPUTS, OUTPUTS, Structure
+
+MAX_STEPS = 400_000
+
+
+class Outcome(Enum):
+    """How a run ended; the value says what to do next."""
+
+    COMPLETED = "completed"
+    STUCK = (
+        "The solver needed more than 400 000 steps: the drive chatters. Shorten the duration, lower the "
+        "controller's gains, or give the load more mass."
+    )
+    DIVERGED = (
+        "The solution left what a muscle can do. Check the load against the blocked force, the end stops and "
+        "the volume of the muscle."
+    )
+
+    @property
+    def label(self) -> str:
+        """Short name for programs."""
+        return self.name.lower()
+
+
+@dataclass(frozen=True)
+class CompiledDrive:
+    """A structure as machine code.
+
+    Attributes:
+        model: names of states, parameters, inputs.
+        rates: packed inputs -> rates and outputs.
+        jacobian: packed inputs -> rates and Jacobian by rows.
+        pointers: addresses of both functions and of their data, as the kernel wants them.
+    """
+
+    model: DriveModel
+    rates: Any
+    jacobian: Any
+    pointers: tuple[int, int, int, int]
+
+    @property
+    def size(self) -> int:
+        """Number of states."""
+        return len(self.model.states)
+
+
+@lru_cache(maxsize=128)
+def compiled_drive(structure: Structure) -> CompiledDrive:
+    """The compiled structure, built once (50 to 100 ms) and kept."""
+    model = DriveModel(structure)
+    states = list(model.symbols.values())
+    arguments = [*states, *model.parameters.values(), *model.inputs.values()]
+    matrix = se.Matrix(model.rates).jacobian(se.Matrix(states))
+    rates = se.Lambdify(arguments, [*model.rates, *model.outputs], backend="llvm", cse=True)
+    jacobian = se.Lambdify(arguments, [*model.rates, *matrix], backend="llvm", cse=True)
+    pointers: list[int] = []
+    for function in (rates, jacobian):
+        address, data = function.as_ctypes()
+        pointers += [ctypes.cast(address, ctypes.c_void_p).value or 0, data.value or 0]
+    first, first_data, second, second_data = pointers
+    return CompiledDrive(model, rates, jacobian, (first, first_data, second, second_data))
+
+
+class _Kernel:
+    """The Rodas4 kernel, imported (and on first use compiled) in the background."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._thread: threading.Thread | None = None
+        self._function: Callable[..., int] | None = None
+
+    def warm(self) -> threading.Thread:
+        """Start getting the kernel ready; returns the thread that does it."""
+        with self._lock:
+            if self._thread is None:
+                self._thread = threading.Thread(target=self._load, name="rodas-kernel", daemon=True)
+                self._thread.start()
+            return self._thread
+
+    def ready(self) -> Callable[..., int] | None:
+        """The kernel, or None while it is not ready."""
+        if self._function is None:
+            self.warm()
+        return self._function
+
+    def _load(self) -> None:
+        from mckibben.simulation.rodas import rodas4  # numba: 0.6 s cached, 5 s the first time ever
+
+        self._function = rodas4
+
+
+kernel = _Kernel()
+
+
+@dataclass(frozen=True)
+class Solution:
+    """Rows of states and outputs on the grid, the end state, and how it went."""
+
+    rows: np.ndarray
+    end: np.ndarray
+    outcome: Outcome
+    steps: int
+    rejected: int
+    engine: str
+
+
+def integrate(
+    drive: CompiledDrive,
+    *,
+    parameters: np.ndarray,
+    start: np.ndarray,
+    times: np.ndarray,
+    inputs: np.ndarray,
+    grid: np.ndarray,
+    tolerance: float,
+    engine: str = "auto",
+) -> Solution:
+    """Integrate from ``times[0]`` to ``times[-1]``, segment by segment.
+
+    Args:
+        drive: the compiled structure.
+        parameters: constants of the run in the order of ``drive.model.parameters``.
+        start: states at ``times[0]``.
+        times: segment limits, one more than rows of ``inputs``.
+        inputs: constants of each segment in the order of `INPUTS`.
+        grid: times of the rows wanted, inside the limits.
+        tolerance: relative error per step; the absolute one is the state's scale times it.
+        engine: "rodas", "lsoda", or "auto" for the first that is ready.
+    """
+    function = kernel.ready() if engine == "auto" else None
+    if engine == "rodas":
+        kernel.warm().join()
+        function = kernel.ready()
+    absolute = tolerance * np.array([state.scale for state in drive.model.states])
+    if function is None:
+        return _lsoda(drive, parameters, start, times, inputs, grid, tolerance, absolute)
+    rows = np.full((len(grid), drive.size + len(OUTPUTS)), np.nan)
+    counts = np.zeros(3, np.int64)
+    end = start.copy()
+    status = function(
+        *drive.pointers,
+        parameters,
+        end,
+        times,
+        inputs,
+        grid,
+        tolerance,
+        absolute,
+        rows,
+        counts,
+        MAX_STEPS,
+    )
+    outcome = {0: Outcome.COMPLETED, 2: Outcome.STUCK}.get(int(status), Outcome.DIVERGED)
+    return Solution(rows[: counts[2]], end, outcome, int(counts[0]), int(counts[1]), "rodas")
+
+
+def _lsoda(
+    drive: CompiledDrive,
+    parameters: np.ndarray,
+    start: np.ndarray,
+    times: np.ndarray,
+    inputs: np.ndarray,
+    grid: np.ndarray,
+    tolerance: float,
+    absolute: np.ndarray,
+) -> Solution:
+    from scipy.integrate import solve_ivp
+
+    size, width = drive.size, len(OUTPUTS)
+    rows = np.full((len(grid), size + width), np.nan)
+    state, steps, written = start.copy(), 0, 0
+    packed = np.concatenate([start, parameters, np.zeros(len(INPUTS))])
+
+    def rates(_time: float, y: np.ndarray) -> np.ndarray:
+        packed[:size] = y
+        return drive.rates(packed)[:size]
+
+    def jacobian(_time: float, y: np.ndarray) -> np.ndarray:
+        packed[:size] = y
+        return drive.jacobian(packed)[size:].reshape(size, size)
+
+    for segment, given in enumerate(inputs):
+        begin, finish = times[segment], times[segment + 1]
+        if not finish > begin:
+            continue
+        packed[size + len(parameters) :] = given
+        last = segment == len(inputs) - 1
+        stop = np.searchsorted(grid, finish, side="right" if last else "left")
+        wanted = grid[written:stop]
+        found = solve_ivp(
+            rates,
+            (begin, finish),
+            state,
+            method="LSODA",
+            jac=jacobian,
+            t_eval=np.union1d(wanted, finish),
+            rtol=tolerance,
+            atol=absolute,
+        )
+        steps += len(found.t)
+        if not found.success or not np.all(np.isfinite(found.y)):
+            return Solution(rows[:written], state, Outcome.DIVERGED, steps, 0, "lsoda")
+        for row, y in enumerate(found.y.T[: len(wanted)], written):
+            packed[:size] = y
+            rows[row, :size], rows[row, size:] = y, drive.rates(packed)[size:]
+        written += len(wanted)
+        state = found.y[:, -1]
+    return Solution(rows[:written], state, Outcome.COMPLETED, steps, 0, "lsoda")

@@ -1,0 +1,76 @@
+"""A run as columns over time, and one phase of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Trace:
+    """A run as columns, SI; the grid need not be even.
+
+    Attributes:
+        time: ascending [s].
+        position: stroke, positive = shorter [m]; velocity [m/s] and acceleration [m/s^2] likewise.
+        pressure: of the muscle, gauge [Pa].
+        force: of the muscle [N].
+        mass_flow: into the muscle [kg/s], negative = out.
+        contact: whether a stop is touched.
+        choked: whether, or on which side, the valve is choked; 0 = not.
+        supply_mass_flow: from the supply [kg/s]; left out = what flows into the muscle.
+        exhaust_mass_flow: to the atmosphere, positive [kg/s]; left out = what flows out of the muscle.
+
+    Raises:
+        ValueError: columns of different length, fewer than two rows, time not ascending, nan or inf.
+    """
+
+    time: Array
+    position: Array
+    velocity: Array
+    acceleration: Array
+    pressure: Array
+    force: Array
+    mass_flow: Array
+    contact: NDArray[np.bool_] = None  # type: ignore[assignment]  # always an array after construction
+    choked: NDArray[np.int_] = None  # type: ignore[assignment]
+    supply_mass_flow: Array = None  # type: ignore[assignment]
+    exhaust_mass_flow: Array = None  # type: ignore[assignment]
+
+    def __post_init__(self) -> None:
+        flow = np.asarray(self.mass_flow, dtype=np.float64)
+        absent = {
+            "contact": np.zeros(len(self.time), dtype=bool),
+            "choked": np.zeros(len(self.time), dtype=int),
+            "supply_mass_flow": np.maximum(flow, 0.0),
+            "exhaust_mass_flow": np.maximum(-flow, 0.0),
+        }
+        kinds = {"contact": np.bool_, "choked": np.int_}
+        for item in fields(self):
+            given = getattr(self, item.name)
+            column = np.asarray(absent[item.name] if given is None else given)
+            column = column.astype(kinds.get(item.name, np.float64))
+            if column.shape != (len(self.time),) or not np.isfinite(column).all():
+                raise ValueError(f"{item.name}: {len(self.time)} finite values are needed")
+            object.__setattr__(self, item.name, column)
+        if len(self.time) < 2 or not (np.diff(self.time) > 0.0).all():
+            raise ValueError("time: two or more ascending values are needed")
+
+    def window(self, start: float, end: float) -> Trace | None:
+        """The rows between two instants, with interpolated first and last rows; None when there are none."""
+        start, end = max(start, float(self.time[0])), min(end, float(self.time[-1]))
+        inner = (self.time > start) & (self.time < end)
+        if not end > start or not inner.any():
+            return None
+        times = np.concatenate([[start], self.time[inner], [end]])
+        row = np.clip(np.searchsorted(self.time, times, side="right") - 1, 0, len(self.time) - 1)
+        columns = {}
+        for item in fields(self):
+            column = getattr(self, item.name)
+            whole = column.dtype != np.float64
+            columns[item.name] = column[row] if whole else np.interp(times, self.time, column)
+        return replace(self, **columns)

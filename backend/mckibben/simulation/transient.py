@@ -1,0 +1,314 @@
+"""A drive through time: from its parts to states, outputs and phases on a time grid."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+from math import radians, sin
+
+import numpy as np
+
+from mckibben.physics import gas, ideal
+from mckibben.physics.braid import volume as braid_volume
+from mckibben.physics.drive_terms import CONSTANTS, INPUTS, OUTPUTS, Structure
+from mckibben.physics.errors import InputError
+from mckibben.physics.model import Model
+from mckibben.physics.muscle import GEOMETRY, Muscle
+from mckibben.simulation.engine import CompiledDrive, Outcome, Solution, compiled_drive, integrate
+from mckibben.simulation.segments import Segments, delayed, merged
+from mckibben.simulation.signals import Signal
+from mckibben.simulation.static import StaticModel
+
+GRAVITY = 9.80665  # m/s2
+# End stops: natural frequency of the load on them [rad/s]; critically damped, so an impact does not bounce.
+_STOP_FREQUENCY = 2000.0
+_LIGHTEST = 1e-3  # kg; a drive without any mass has no equation of motion
+TOLERANCE = 1e-5
+
+
+@dataclass(frozen=True, slots=True)
+class Valve:
+    """Sonic conductances [m^3/(s Pa)] and critical pressure ratios both ways."""
+
+    fill_conductance: float
+    exhaust_conductance: float
+    fill_ratio: float = 0.3
+    exhaust_ratio: float = 0.3
+
+
+@dataclass(frozen=True, slots=True)
+class Regulator:
+    """A pressure regulator: full-scale gauge pressure [Pa] and time constant [s] besides its conductances."""
+
+    range: float
+    time: float
+
+
+@dataclass(frozen=True, slots=True)
+class Tube:
+    """Inside diameter and length [m]."""
+
+    inside_diameter: float
+    length: float
+
+
+@dataclass(frozen=True, slots=True)
+class Load:
+    """What the muscle pulls.
+
+    Attributes:
+        mass: [kg].
+        inclination: of the way it is pulled against the horizontal [rad]; 90 degrees hangs or lifts.
+        force: external force against the pull [N], a number or a signal of time.
+        spring: stiffness against the contraction [N/m].
+        lever_ratio: stroke of the muscle per stroke of the load [-].
+    """
+
+    mass: float = 0.0
+    inclination: float = radians(90.0)
+    force: float | Signal = 0.0
+    spring: float = 0.0
+    lever_ratio: float = 1.0
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A complete drive, SI; pressures gauge.
+
+    Attributes:
+        model: the muscle with its effects.
+        valve, regulator, tube: the way of the air; a regulator takes the valve's conductances.
+        load: what is pulled.
+        command: opening of the valve, 1 fill, 0 closed, -1 exhaust; of a regulator the share of its range.
+        supply_pressure: [Pa].
+        min_contraction, max_contraction: end stops as contraction ratios.
+        start_pressure: of the muscle at t = 0 [Pa].
+        own_mass: mass of muscle and fittings that moves [kg].
+        fitting_volume: dead volume of fittings [m^3].
+    """
+
+    model: StaticModel
+    valve: Valve
+    load: Load
+    command: Signal
+    duration: float
+    supply_pressure: float
+    regulator: Regulator | None = None
+    tube: Tube | None = None
+    min_contraction: float = 0.0
+    max_contraction: float = 0.25
+    start_pressure: float = 0.0
+    own_mass: float = 0.0
+    fitting_volume: float = 0.0
+    polytropic_exponent: float = 1.2
+    ambient_pressure: float = ideal.ATMOSPHERE
+    temperature: float = 293.15
+
+    @property
+    def muscle(self) -> Muscle:
+        """Geometry of the muscle."""
+        return self.model.muscle
+
+    @property
+    def structure(self) -> Structure:
+        """What decides the equations."""
+        return Structure(self.model.effects, self.tube is not None, self.regulator is not None)
+
+
+@dataclass(frozen=True)
+class Run:
+    """A simulated drive: arrays over ``time``, SI, pressures gauge; stroke positive = shorter.
+
+    Attributes:
+        states: state name -> values.
+        outputs: name of `OUTPUTS` -> values.
+        outcome: how it ended; rows stop where a run did.
+        command: the command after all dead times.
+        wall_seconds: time of the integration.
+    """
+
+    time: np.ndarray
+    states: dict[str, np.ndarray]
+    outputs: dict[str, np.ndarray]
+    outcome: Outcome
+    command: Segments
+    drive: Drive
+    steps: int
+    engine: str
+    wall_seconds: float
+    notes: list[str] = field(default_factory=list)
+
+    @property
+    def pressure(self) -> np.ndarray:
+        """Gauge pressure in the muscle [Pa]."""
+        return self.states["pressure"] - self.drive.ambient_pressure
+
+
+def constants_of(drive: Drive, compiled: CompiledDrive) -> np.ndarray:
+    """The numbers of a run in the order of the compiled model's parameters."""
+    load, tube, rest = drive.load, drive.tube, drive.muscle.nominal_length
+    mass = max(load.mass + drive.own_mass, _LIGHTEST)
+    stop = mass * _STOP_FREQUENCY**2
+    conductance, ratio, tube_volume = 1.0, 0.5, 1.0
+    if tube is not None:
+        conductance = float(gas.tube_conductance(diameter=tube.inside_diameter, length=tube.length))
+        ratio = float(gas.tube_critical_ratio(diameter=tube.inside_diameter, length=tube.length))
+        tube_volume = np.pi / 4.0 * tube.inside_diameter**2 * tube.length
+    regulator = drive.regulator or Regulator(1.0, 1.0)
+    table = {
+        "supply_pressure": drive.supply_pressure + drive.ambient_pressure,
+        "ambient_pressure": drive.ambient_pressure,
+        "ambient_temperature": drive.temperature,
+        "fill_conductance": drive.valve.fill_conductance,
+        "fill_ratio": drive.valve.fill_ratio,
+        "exhaust_conductance": drive.valve.exhaust_conductance,
+        "exhaust_ratio": drive.valve.exhaust_ratio,
+        "regulator_range": regulator.range,
+        "regulator_time": regulator.time,
+        "tube_volume": tube_volume,
+        "tube_conductance": conductance,
+        "tube_ratio": ratio,
+        "fitting_volume": drive.fitting_volume,
+        "polytropic_exponent": drive.polytropic_exponent,
+        "mass": load.mass,
+        "own_mass": max(drive.own_mass, _LIGHTEST - load.mass),
+        "gravity": GRAVITY * sin(load.inclination),
+        "spring": load.spring,
+        "lever_ratio": load.lever_ratio,
+        "stop_low": drive.min_contraction * rest,
+        "stop_high": drive.max_contraction * rest,
+        "stop_stiffness": stop,
+        "stop_damping": 2.0 * mass * _STOP_FREQUENCY,
+    }
+    assert set(table) == set(CONSTANTS)  # noqa: S101 - a constant without a value is our own mistake
+    table |= {name: float(getattr(drive.muscle, name)) for name in GEOMETRY}
+    for effect, own in drive.model.values.items():
+        table |= {f"{effect}.{name}": value for name, value in own.items()}
+    return np.array([table[name] for name in compiled.model.parameters])
+
+
+def segments_of(drive: Drive) -> tuple[np.ndarray, np.ndarray, Segments]:
+    """Segment limits, inputs of each segment, and the command after the dead times of the effects."""
+    tube_length = drive.tube.length if drive.tube else 0.0
+    on, off = 0.0, 0.0
+    for effect in Model(drive.model.effects).effects:
+        if "command_delay" in effect.slots:
+            own = effect.call("command_delay", {"tube_length": tube_length}, drive.model.values[effect.id])
+            on, off = on + float(own[0]), off + float(own[1])
+    command = delayed(drive.command.segments(drive.duration), on, off, before=0.0)
+    force = drive.load.force
+    if isinstance(force, Signal):
+        external = force.segments(drive.duration)
+    else:
+        external = Segments(np.array([0.0, drive.duration]), np.array([float(force)]), np.zeros(1))
+    command, external = merged(command, external)
+    inputs = np.column_stack(
+        [
+            command.start_values,
+            command.slopes,
+            external.start_values,
+            external.slopes,
+            command.times[:-1],
+        ]
+    )
+    assert inputs.shape[1] == len(INPUTS)  # noqa: S101
+    return command.times, np.ascontiguousarray(inputs), command
+
+
+def start_of(drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inputs: np.ndarray) -> np.ndarray:
+    """The states at rest: the load in equilibrium between muscle, gravity and stops at the start pressure.
+
+    Raises:
+        InputError: no equilibrium short of the braid lock (the load tears the muscle off its lower stop).
+    """
+    absolute = drive.start_pressure + drive.ambient_pressure
+    initial = {
+        "stroke": 0.0,
+        "pressure": absolute,
+        "tube_pressure": absolute,
+        "regulator_pressure": absolute,
+        "gas_mass": 0.0,
+    }
+    start = np.array(
+        [initial[state.name] if state.initial is None else state.initial for state in compiled.model.states]
+    )
+    names = [state.name for state in compiled.model.states]
+    acceleration = compiled.size + OUTPUTS.index("acceleration")
+    packed = np.concatenate([start, parameters, inputs[0]])
+    if "gas_mass" in names:
+        rough = float(braid_volume(braid=drive.muscle.braid, length=drive.muscle.nominal_length))
+        packed[names.index("gas_mass")] = absolute * rough / (gas.GAS_CONSTANT * drive.temperature)
+
+    def push(stroke: float) -> float:
+        packed[names.index("stroke")] = stroke
+        return float(compiled.rates(packed)[acceleration])
+
+    rest = drive.muscle.nominal_length
+    low = max(drive.min_contraction * rest - 0.01 * rest, rest - drive.model.longest)
+    high = drive.max_contraction * rest + 0.01 * rest
+    if not push(low) >= 0.0 >= push(high):
+        raise InputError(
+            "the load has no rest position between the end stops at the start pressure",
+            field="load",
+            hint="lower the mass or the external force, or set stops.min_contraction",
+        )
+    from scipy.optimize import root_scalar
+
+    start[names.index("stroke")] = packed[names.index("stroke")] = float(
+        root_scalar(push, bracket=(low, high), xtol=1e-14).root
+    )
+    if "gas_mass" in names:
+        volume = float(compiled.rates(packed)[compiled.size + OUTPUTS.index("volume")])
+        start[names.index("gas_mass")] = absolute * volume / (gas.GAS_CONSTANT * drive.temperature)
+    return start
+
+
+def simulate(drive: Drive, *, points: int = 2001, tolerance: float = TOLERANCE, engine: str = "auto") -> Run:
+    """Run a drive from rest.
+
+    Args:
+        drive: what to run.
+        points: rows of the evenly spaced time grid.
+        tolerance: relative error per step.
+        engine: see `mckibben.simulation.engine.integrate`.
+    """
+    compiled = compiled_drive(drive.structure)
+    parameters = constants_of(drive, compiled)
+    times, inputs, command = segments_of(drive)
+    start = start_of(drive, compiled, parameters, inputs)
+    grid = np.linspace(0.0, drive.duration, points)
+    began = time.perf_counter()
+    solution = integrate(
+        compiled,
+        parameters=parameters,
+        start=start,
+        times=times,
+        inputs=inputs,
+        grid=grid,
+        tolerance=tolerance,
+        engine=engine,
+    )
+    return run_of(drive, compiled, grid, solution, command, time.perf_counter() - began)
+
+
+def run_of(
+    drive: Drive,
+    compiled: CompiledDrive,
+    grid: np.ndarray,
+    solution: Solution,
+    command: Segments,
+    wall_seconds: float,
+) -> Run:
+    """The rows of a solution by name."""
+    size = compiled.size
+    return Run(
+        grid[: len(solution.rows)],
+        {state.name: solution.rows[:, index] for index, state in enumerate(compiled.model.states)},
+        {name: solution.rows[:, size + index] for index, name in enumerate(OUTPUTS)},
+        solution.outcome,
+        command,
+        drive,
+        solution.steps,
+        solution.engine,
+        wall_seconds,
+    )

@@ -1,0 +1,118 @@
+"""axe finds nothing in both views and both themes; everything works without a pointer."""
+
+from __future__ import annotations
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Page, expect
+
+from tests.frontend.views import field, open_catalogue, open_design, redrawn, run
+
+OPENERS = {"design": open_design, "catalogue": open_catalogue}
+
+
+def violations(page: Page) -> list[str]:
+    """What axe objects to, with the first place of each."""
+    return [
+        f"{found['id']}: {found['nodes'][0]['html'][:120]}" for found in Axe().run(page).response["violations"]
+    ]
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("view", OPENERS)
+def test_axe_finds_nothing(page: Page, theme: str, view: str) -> None:
+    page.emulate_media(color_scheme="dark" if theme == "dark" else "light")
+    OPENERS[view](page)
+    expect(page.locator("html")).to_have_attribute("data-theme", theme)
+    page.evaluate("document.querySelectorAll('details').forEach((el) => { el.open = true; })")
+    for unfold in page.locator(".fold:visible").all():
+        unfold.click()
+    assert violations(page) == []
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_axe_finds_nothing_in_open_panels(page: Page, theme: str) -> None:
+    page.emulate_media(color_scheme="dark" if theme == "dark" else "light")
+    open_design(page)
+    page.locator("[data-effect] button[aria-label^='About']").first.click()
+    assert violations(page) == []
+    page.keyboard.press("Escape")
+    page.keyboard.press("?")
+    assert violations(page) == []
+    page.keyboard.press("Escape")
+    page.get_by_role("button", name="Export").click()
+    assert violations(page) == []
+
+
+def test_the_list_of_keys(page: Page) -> None:
+    open_design(page)
+    page.keyboard.press("?")
+    dialog = page.get_by_role("dialog", name="Keyboard")
+    expect(dialog).to_contain_text("Undo")
+    page.keyboard.press("Escape")
+    expect(dialog).to_be_hidden()
+
+
+def test_views_search_and_typing_by_keyboard(page: Page) -> None:
+    open_design(page)
+    page.keyboard.press("/")
+    expect(page.get_by_label("Search effects")).to_be_focused()
+    page.keyboard.type("2?")  # typed into the field: neither a view nor the list
+    expect(page.get_by_label("Search effects")).to_have_value("2?")
+    page.get_by_label("Search effects").fill("")
+    field(page, "Length").focus()
+    page.locator("body").click(position={"x": 4, "y": 400})
+    page.keyboard.press("2")
+    expect(page.get_by_role("region", name="Table of parts")).to_be_visible()
+    page.keyboard.press("1")
+    expect(page.locator("#force")).to_be_visible()
+
+
+def test_load_line_and_sliders_by_keyboard(page: Page) -> None:
+    open_design(page)
+    line = page.get_by_role("slider", name="Load line in the force plot")
+    start = float(line.get_attribute("aria-valuenow") or 0)
+    line.focus()
+    redrawn(page, lambda: page.keyboard.press("ArrowUp"))
+    assert float(line.get_attribute("aria-valuenow") or 0) > start
+    slider = page.get_by_role("slider", name="Braid angle slider")
+    before = slider.get_attribute("aria-valuetext")
+    slider.focus()
+    redrawn(page, lambda: page.keyboard.press("ArrowRight"))
+    assert slider.get_attribute("aria-valuetext") != before
+    more = page.get_by_role("button", name="Braid angle more")
+    more.focus()
+    redrawn(page, lambda: page.keyboard.press("Enter"))
+
+
+def test_focus_returns_to_the_button_of_a_closed_menu(page: Page) -> None:
+    open_design(page)
+    button = page.get_by_role("button", name="Export")
+    button.focus()
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("menuitem").first).to_be_focused()
+    page.keyboard.press("ArrowDown")
+    expect(page.get_by_role("menuitem").nth(1)).to_be_focused()
+    page.keyboard.press("Escape")
+    expect(button).to_be_focused()
+
+
+def test_every_plot_is_a_named_figure(page: Page) -> None:
+    open_design(page)
+    figures = page.get_by_role("figure")
+    assert figures.count() == 4
+    names = run(page, "return [...document.querySelectorAll('[role=figure]')].map((f) => f.ariaLabel);")
+    assert all(names)
+
+
+def test_reduced_motion_switches_transitions_off(page: Page) -> None:
+    page.emulate_media(reduced_motion="reduce")
+    open_design(page)
+    slow = run(
+        page,
+        """
+        const moves = (el) => getComputedStyle(el).transitionDuration.split(",").some((t) => parseFloat(t) > 0);
+        return [...document.querySelectorAll("*")].filter(moves).map((el) => el.className);
+        """,
+    )
+    assert slow == []

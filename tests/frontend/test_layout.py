@@ -1,0 +1,97 @@
+"""Nothing scrolls sideways, results come before inputs on a phone, targets are large enough."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.frontend.views import SIZES, open_catalogue, open_design, run
+
+OPENERS = {"design": open_design, "catalogue": open_catalogue}
+
+
+@pytest.mark.parametrize("size", SIZES, ids=str)
+@pytest.mark.parametrize("view", OPENERS)
+def test_no_sideways_scroll(page: Page, size: tuple[int, int], view: str) -> None:
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    OPENERS[view](page)
+    page.wait_for_timeout(300)  # Plotly draws again at the new size
+    wide = run(
+        page,
+        """
+        const clips = (el) => el.closest(".scroll, .plot, nav, dialog, [hidden], .unseen, .equation");
+        const out = [...document.querySelectorAll("#main *")].filter((el) =>
+          !clips(el) && el.checkVisibility() && el.getBoundingClientRect().right > innerWidth + 1);
+        return { page: document.documentElement.scrollWidth - innerWidth,
+          out: out.slice(0, 5).map((el) => el.outerHTML.slice(0, 90)) };
+        """,
+    )
+    assert wide["page"] <= 0
+    assert wide["out"] == []
+
+
+def test_results_come_before_inputs_on_a_phone(page: Page) -> None:
+    page.set_viewport_size({"width": 390, "height": 844})
+    open_design(page)
+    tops = run(
+        page,
+        """
+        return ["#force", "#rmse", "#preset"].map((s) => document.querySelector(s).getBoundingClientRect().top);
+        """,
+    )
+    assert tops == sorted(tops)
+
+
+@pytest.mark.parametrize("view", OPENERS)
+def test_targets_are_at_least_24_px(page: Page, view: str) -> None:
+    page.set_viewport_size({"width": 390, "height": 844})
+    OPENERS[view](page)
+    small = run(
+        page,
+        """
+        const all = document.querySelectorAll("button, select, input, summary, a[href], .dragline, label.switch");
+        return [...all].filter((el) => el.checkVisibility() && !el.matches(".skip, label input, .dragline"))
+          .map((el) => [el.getBoundingClientRect(), el.outerHTML.slice(0, 90)])
+          .filter(([box]) => box.width < 23.5 || box.height < 23.5).map(([, html]) => html);
+        """,
+    )
+    assert small == []
+
+
+def test_text_does_not_overlap_in_the_card_heads(page: Page) -> None:
+    for width, height in SIZES:
+        page.set_viewport_size({"width": width, "height": height})
+        open_design(page)
+        overlaps = run(
+            page,
+            """
+            const found = [];
+            for (const head of document.querySelectorAll(".card-head, .field-head, .effect-head")) {
+              const boxes = [...head.children].filter((el) => el.checkVisibility())
+                .map((el) => [el.getBoundingClientRect(), el]).filter(([b]) => b.width > 0);
+              boxes.forEach(([a, one], i) => boxes.slice(i + 1).forEach(([b]) => {
+                if (a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1)
+                  found.push(one.textContent);
+              }));
+            }
+            return found;
+            """,
+        )
+        assert overlaps == [], width
+
+
+def test_plots_follow_the_width_of_the_window(page: Page) -> None:
+    page.set_viewport_size({"width": 1440, "height": 1000})
+    open_design(page)
+    page.set_viewport_size({"width": 900, "height": 800})
+    host = page.locator("#force")
+    expect(host.locator(".main-svg").first).to_be_visible()
+    page.wait_for_timeout(300)
+    sizes = run(
+        page,
+        """
+        const host = document.querySelector("#force"), svg = host.querySelector(".main-svg");
+        return [host.clientWidth, svg.getBoundingClientRect().width];
+        """,
+    )
+    assert abs(sizes[0] - sizes[1]) <= 1

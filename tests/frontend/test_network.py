@@ -1,0 +1,86 @@
+"""What leaves the page, how soon it is there, and what happens when the server is not."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from urllib.parse import urlsplit
+
+from playwright.sync_api import Page, expect
+
+from tests.frontend.guard import PageGuard
+from tests.frontend.views import enter, open_catalogue, open_design, run
+
+APP = Path(__file__).resolve().parents[2] / "frontend" / "app"
+
+
+def test_requests_stay_on_the_origin(page: Page, server_url: str) -> None:
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
+    open_catalogue(page)
+    network = [url for url in asked if urlsplit(url).scheme not in ("data", "blob", "about")]
+    assert network
+    assert {f"{urlsplit(url).scheme}://{urlsplit(url).netloc}" for url in network} == {server_url}
+
+
+def test_no_file_of_the_frontend_names_another_origin() -> None:
+    allowed = {"http://www.w3.org/2000/svg", "http://www.w3.org/1998/Math/MathML"}
+    for path in APP.rglob("*"):
+        if path.is_file():
+            found = set(re.findall(r"https?://[^\s\"'<>)]+", path.read_text(encoding="utf-8")))
+            assert found <= allowed, path
+
+
+def test_no_effect_is_named_in_the_frontend(page: Page) -> None:
+    page.goto("/icon.svg")
+    effects = run(page, "return (await (await fetch('/api/effects')).json()).effects.map((e) => e.id);")
+    common = {"temperature"}  # also a field of the operation
+    text = "\n".join(path.read_text(encoding="utf-8") for path in APP.rglob("*.js"))
+    named = [name for name in effects if name not in common and re.search(rf"\b{name}\b", text)]
+    # A wall has a thickness whether or not an effect of that name exists.
+    assert [name for name in named if name != "wall_thickness"] == []
+
+
+def test_the_page_is_usable_before_the_plots(page: Page) -> None:
+    page.goto("/")
+    expect(page.locator("html")).to_have_attribute("data-ready", "1")
+    first_paint, usable = run(
+        page,
+        """
+        const paint = performance.getEntriesByName("first-contentful-paint")[0]?.startTime ?? 0;
+        return [paint, performance.getEntriesByName("usable")[0].startTime];
+        """,
+    )
+    assert first_paint < 1000
+    assert usable < 1000
+
+
+def test_a_server_that_is_gone_and_comes_back(page: Page, page_guard: PageGuard) -> None:
+    page_guard.allow("Failed to load resource")
+    open_design(page)
+    page.route("**/api/curves", lambda route: route.abort())
+    enter(page, "Braid angle", "24")
+    expect(page.locator(".notice")).to_contain_text("server does not answer")
+    expect(page.locator(".centre")).to_have_class(re.compile("stale"))
+    page.unroute("**/api/curves")
+    page.get_by_role("button", name="Try again").click()
+    expect(page.locator(".notice")).to_be_hidden()
+
+
+def test_nothing_to_start_with(page: Page, page_guard: PageGuard) -> None:
+    page_guard.allow("Failed to load resource")
+    page.route("**/api/**", lambda route: route.abort())
+    page.goto("/")
+    expect(page.locator(".banner")).to_contain_text("server does not answer")
+    page.unroute("**/api/**")
+    page.locator(".banner").get_by_role("button", name="Try again").click()
+    expect(page.locator(".banner")).to_be_hidden()
+    expect(page.locator("#preset option", has_text="DMSP-20")).to_be_attached()
+
+
+def test_an_answer_that_is_not_json(page: Page, page_guard: PageGuard) -> None:
+    page_guard.allow("Failed to load resource")
+    open_design(page)
+    page.route("**/api/curves", lambda route: route.fulfill(status=418, body="<html>proxy</html>"))
+    enter(page, "Braid angle", "24")
+    expect(page.locator(".notice")).to_contain_text("status 418")

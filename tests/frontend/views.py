@@ -1,0 +1,74 @@
+"""What the tests of the pages share: opening a view, waiting for a drawing, asking the page."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+from playwright.sync_api import Locator, Page, expect
+
+SIZES = ((1440, 1000), (1024, 800), (390, 844))
+REFUSED = "status of 422"  # what the console says when the server refuses an input
+
+
+def open_design(page: Page, link: str = "") -> None:
+    """The Design view with its plots drawn and the model's error known.
+
+    Args:
+        link: a hash that holds a state, with its ``#``.
+    """
+    page.goto("about:blank")  # a goto to another hash of the same page would not load it anew
+    page.goto(f"/{link}")
+    expect(page.locator("html[data-drawn]")).to_be_attached()
+
+
+def open_catalogue(page: Page) -> None:
+    """The Catalogue view with its table filled and the small plot drawn."""
+    open_design(page)
+    page.get_by_role("button", name="Catalogue", exact=True).click()
+    expect(page.get_by_role("button", name="Festo DMSP-20")).to_be_visible()
+    expect(page.locator(".detail .js-line").first).to_be_attached()
+
+
+def drawings(page: Page) -> int:
+    """How often the plots of the Design view were drawn."""
+    return int(page.locator("html").get_attribute("data-drawn") or 0)
+
+
+def redrawn(page: Page, act: Callable[[], object]) -> None:
+    """Do something and wait until the plots are drawn with its answer."""
+    with page.expect_response("**/api/curves"):
+        before = drawings(page)
+        act()
+    expect(page.locator("html")).not_to_have_attribute("data-drawn", str(before))
+
+
+def field(page: Page, name: str) -> Locator:
+    """The number field of this name, the first on the page."""
+    return page.get_by_role("textbox", name=name, exact=True).first
+
+
+def enter(page: Page, name: str, text: str) -> None:
+    """Type into a number field and take it."""
+    field(page, name).fill(text)
+    field(page, name).press("Enter")
+
+
+def rmse(page: Page) -> float:
+    """The model's error as shown, in the shown unit."""
+    text = page.locator("#rmse .rmse.first b").inner_text()
+    found = re.match(r"[\d.]+", text)
+    assert found, text
+    return float(found[0])
+
+
+def run(page: Page, script: str, argument: Any = None) -> Any:
+    """Run the body of an async function in the page; its modules are there by ``await import('/js/…')``."""
+    return page.evaluate(f"async (argument) => {{ {script} }}", argument)
+
+
+def link_of(page: Page) -> str:
+    """The hash of the address once it holds the newest state."""
+    page.wait_for_timeout(400)
+    return str(page.evaluate("location.hash"))
