@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
+
 import pytest
 from fastapi.testclient import TestClient
 
@@ -63,3 +65,22 @@ def test_limits_are_flagged(shared_client: TestClient) -> None:
     assert "over_pressure" in codes(ask(shared_client, "pressure", force=1000, contraction="20 %"))
     assert "over_contraction_limit" in codes(ask(shared_client, "contraction", force=1, pressure="6 bar"))
     assert "unverified" in codes(ask(shared_client, "contraction", force=500, pressure="6 bar"))
+
+
+def test_many_questions_at_once_give_what_they_give_one_by_one(shared_client: TestClient) -> None:
+    requests = [
+        {
+            "muscle": {"preset": ("DMSP-10", "DMSP-20", "DMSP-40")[number % 3]},
+            "effects": None if number % 2 else {},
+            "question": "contraction",
+            "force": 10 + number,
+            "pressure": "5 bar",
+        }
+        for number in range(60)
+    ]
+    one_by_one = [post(shared_client, "/api/inverse", request).content for request in requests]
+    with ThreadPoolExecutor(16) as pool:
+        at_once = list(
+            pool.map(lambda request: post(shared_client, "/api/inverse", request).content, requests)
+        )
+    assert at_once == one_by_one

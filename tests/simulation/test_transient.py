@@ -10,19 +10,10 @@ from scipy.integrate import solve_ivp
 
 from mckibben.physics import gas
 from mckibben.physics.muscle import Muscle
+from mckibben.simulation.parts import Drive, Load, Tube, Valve
 from mckibben.simulation.signals import signal_from
 from mckibben.simulation.static import StaticModel
-from mckibben.simulation.transient import (
-    GRAVITY,
-    Drive,
-    Load,
-    Tube,
-    Valve,
-    constants_of,
-    segments_of,
-    simulate,
-    start_of,
-)
+from mckibben.simulation.transient import GRAVITY, constants_of, segments_of, simulate, start_of
 
 MUSCLE = Muscle(0.8, 0.0218, radians(26.5), 0.0018, 0.02)
 EFFECTS = {"bladder_elasticity": {}, "prestress": {"force": 25.0}}

@@ -85,7 +85,7 @@ def _states(structure: Structure, model: Model) -> list[StateInfo]:
     if _heated(model):
         states.append(StateInfo("gas_mass", None, 1e-3))
     for effect in model.effects:
-        states += [StateInfo(f"{effect.id}.{s.name}", s.initial, s.scale) for s in effect.states]
+        states += [StateInfo(f"{effect.id}.{s.name}", s.initial, s.scale, s.settled) for s in effect.states]
     return states
 
 
@@ -185,18 +185,6 @@ def _equations(
     acceleration = (lever**2 * force - lever * resisting - c["spring"] * stroke - stop) / inertia
     rates |= {"stroke": speed, "speed": acceleration}
 
-    seen = {**moving, "area": state.area, "pressure_rate": pressure_rate}
-    drive = {
-        "supply_flow": flows["supply"],
-        "mass_flow": inflow,
-        "supply_pressure": c["supply_pressure"],
-        "pressure": gauge,
-        "force": force,
-        "stroke": stroke,
-        "speed": speed,
-        "gas_temperature": temperature,
-    }
-    _effect_rates(model, values, seen, drive, flows["openings"], rates)
     sensors = {
         name: model.reading(f"{name}_sensor", muscle=muscle, values=values)
         for name in ("pressure", "force", "length")
@@ -207,6 +195,19 @@ def _equations(
         # A length that reads too long is a stroke that reads too short.
         "stroke_reading": sensors["length"].scale * stroke - sensors["length"].offset,
     }
+    seen = {**moving, "area": state.area, "pressure_rate": pressure_rate}
+    drive = {
+        "supply_flow": flows["supply"],
+        "mass_flow": inflow,
+        "supply_pressure": c["supply_pressure"],
+        "pressure": gauge,
+        "force": force,
+        "stroke": stroke,
+        "speed": speed,
+        "gas_temperature": temperature,
+        **{f"instant_{name}": reading for name, reading in readings.items()},
+    }
+    _effect_rates(model, values, seen, drive, flows["openings"], rates)
     outputs = {
         "acceleration": acceleration,
         "force": force,

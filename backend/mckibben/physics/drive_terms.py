@@ -66,8 +66,12 @@ class Structure:
 
 @dataclass(frozen=True, slots=True)
 class StateInfo:
-    """A state of the drive: name ("effect.state" for effects), value at rest, and scale for error control."""
+    """A state of the drive: name ("effect.state" for effects), value at rest, and scale for error control.
+
+    A ``settled`` state starts where its rate, linear in it, is zero.
+    """
 
     name: str
     initial: float | None
     scale: float
+    settled: bool = False

@@ -31,7 +31,8 @@ class Reading(NamedTuple):
 
 
 # What a state of the drive may depend on: opening of the valve before this effect [-], mass flows [kg/s] from
-# the supply and into the muscle, pressures [Pa] (supply absolute, muscle gauge), the load's stroke and speed.
+# the supply and into the muscle, pressures [Pa] (supply absolute, muscle gauge), the load's stroke and speed,
+# and what the sensors say at once, before any effect of the reading slots.
 _DRIVE = (
     "opening",
     "supply_flow",
@@ -42,6 +43,9 @@ _DRIVE = (
     "stroke",
     "speed",
     "gas_temperature",
+    "instant_pressure_reading",
+    "instant_force_reading",
+    "instant_stroke_reading",
 )
 
 
@@ -80,7 +84,7 @@ SLOTS: dict[str, Slot] = {
     "tension": Slot(
         "any other additive tension without dissipation [N]", ("muscle", "length", "pressure"), "sum"
     ),
-    "friction": Slot("additive tension with the sign of the motion [N]", _STATE, "sum"),
+    "friction": Slot("additive tension that dissipates: friction, damping, relaxation [N]", _STATE, "sum"),
     "compliance": Slot("extension of what is in series with the muscle, per force [m/N]", (), "sum"),
     "rates": Slot(
         "rates of the effect's states in the muscle, in their order",

@@ -47,6 +47,8 @@ class Segments(NamedTuple):
 def clipped(starts: ArrayLike, values: ArrayLike, slopes: ArrayLike, *, duration: float) -> Segments:
     """Segments on [0, duration] from pieces that each last until the next one starts, the last for ever.
 
+    Pieces that only go on with the same level are joined.
+
     Args:
         starts: ascending instants [s]; before the first its start value holds. Equal ones: the last counts.
         values, slopes: value at, and rate from, each start.
@@ -58,10 +60,13 @@ def clipped(starts: ArrayLike, values: ArrayLike, slopes: ArrayLike, *, duration
     early = begin < 0.0
     level[early] -= rate[early] * begin[early]
     begin[early] = 0.0
-    begin[begin < SHORTEST] = 0.0
+    begin[begin <= SHORTEST] = 0.0
     ends = np.minimum(np.r_[begin[1:], np.inf], duration)
     kept = ends - begin > SHORTEST
-    return Segments(np.r_[begin[kept], duration], level[kept], rate[kept])
+    begin, level, rate = begin[kept], level[kept], rate[kept]
+    same = (level[1:] == level[:-1]) & (rate[1:] == 0.0) & (rate[:-1] == 0.0)
+    new = np.r_[True, ~same]
+    return Segments(np.r_[begin[new], duration], level[new], rate[new])
 
 
 def delayed(

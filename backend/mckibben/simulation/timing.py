@@ -35,6 +35,9 @@ from numpy.typing import NDArray
 from mckibben.physics.gas import ANR_DENSITY
 from mckibben.simulation.segments import Segments
 from mckibben.simulation.trace import Trace
+from mckibben.simulation.tracking import tracking
+
+__all__ = ["FIGURES", "Trace", "phases", "timing", "tracking"]
 
 MOTION_FIGURES = (
     "positioning_time", "rise_time", "delay_time", "settling_time", "average_speed", "max_speed",
@@ -65,7 +68,7 @@ def timing(
     stroke: float | None = None,
     band: float = 0.02,
 ) -> dict[str, dict[str, Any]]:
-    """The figures of both phases: ``{"extend": {...}, "retract": {...}, "notes": {"extend.rise_time": ...}}``.
+    """Figures of both phases: ``{"extend": {...}, "retract": {...}, "notes": {"extend.rise_time": why}}``.
 
     Args:
         trace: the run.

@@ -4,115 +4,26 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field
-from math import radians, sin
+from math import sin
 
 import numpy as np
 
-from mckibben.physics import gas, ideal
+from mckibben.physics import gas
 from mckibben.physics.braid import volume as braid_volume
-from mckibben.physics.drive_terms import CONSTANTS, INPUTS, OUTPUTS, Structure
+from mckibben.physics.drive_terms import CONSTANTS, INPUTS, OUTPUTS
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
-from mckibben.physics.muscle import GEOMETRY, Muscle
+from mckibben.physics.muscle import GEOMETRY
 from mckibben.simulation.engine import CompiledDrive, Outcome, Solution, compiled_drive, integrate
+from mckibben.simulation.parts import Drive, Regulator
 from mckibben.simulation.segments import Segments, delayed, merged
 from mckibben.simulation.signals import Signal
-from mckibben.simulation.static import StaticModel
 
 GRAVITY = 9.80665  # m/s2
 # End stops: natural frequency of the load on them [rad/s]; critically damped, so an impact does not bounce.
 _STOP_FREQUENCY = 2000.0
 _LIGHTEST = 1e-3  # kg; a drive without any mass has no equation of motion
 TOLERANCE = 1e-5
-
-
-@dataclass(frozen=True, slots=True)
-class Valve:
-    """Sonic conductances [m^3/(s Pa)] and critical pressure ratios both ways."""
-
-    fill_conductance: float
-    exhaust_conductance: float
-    fill_ratio: float = 0.3
-    exhaust_ratio: float = 0.3
-
-
-@dataclass(frozen=True, slots=True)
-class Regulator:
-    """A pressure regulator: full-scale gauge pressure [Pa] and time constant [s] besides its conductances."""
-
-    range: float
-    time: float
-
-
-@dataclass(frozen=True, slots=True)
-class Tube:
-    """Inside diameter and length [m]."""
-
-    inside_diameter: float
-    length: float
-
-
-@dataclass(frozen=True, slots=True)
-class Load:
-    """What the muscle pulls.
-
-    Attributes:
-        mass: [kg].
-        inclination: of the way it is pulled against the horizontal [rad]; 90 degrees hangs or lifts.
-        force: external force against the pull [N], a number or a signal of time.
-        spring: stiffness against the contraction [N/m].
-        lever_ratio: stroke of the muscle per stroke of the load [-].
-    """
-
-    mass: float = 0.0
-    inclination: float = radians(90.0)
-    force: float | Signal = 0.0
-    spring: float = 0.0
-    lever_ratio: float = 1.0
-
-
-@dataclass(frozen=True)
-class Drive:
-    """A complete drive, SI; pressures gauge.
-
-    Attributes:
-        model: the muscle with its effects.
-        valve, regulator, tube: the way of the air; a regulator takes the valve's conductances.
-        load: what is pulled.
-        command: opening of the valve, 1 fill, 0 closed, -1 exhaust; of a regulator the share of its range.
-        supply_pressure: [Pa].
-        min_contraction, max_contraction: end stops as contraction ratios.
-        start_pressure: of the muscle at t = 0 [Pa].
-        own_mass: mass of muscle and fittings that moves [kg].
-        fitting_volume: dead volume of fittings [m^3].
-    """
-
-    model: StaticModel
-    valve: Valve
-    load: Load
-    command: Signal
-    duration: float
-    supply_pressure: float
-    regulator: Regulator | None = None
-    tube: Tube | None = None
-    min_contraction: float = 0.0
-    max_contraction: float = 0.25
-    start_pressure: float = 0.0
-    own_mass: float = 0.0
-    fitting_volume: float = 0.0
-    polytropic_exponent: float = 1.2
-    ambient_pressure: float = ideal.ATMOSPHERE
-    temperature: float = 293.15
-
-    @property
-    def muscle(self) -> Muscle:
-        """Geometry of the muscle."""
-        return self.model.muscle
-
-    @property
-    def structure(self) -> Structure:
-        """What decides the equations."""
-        return Structure(self.model.effects, self.tube is not None, self.regulator is not None)
 
 
 @dataclass(frozen=True)
@@ -187,32 +98,38 @@ def constants_of(drive: Drive, compiled: CompiledDrive) -> np.ndarray:
     return np.array([table[name] for name in compiled.model.parameters])
 
 
-def segments_of(drive: Drive) -> tuple[np.ndarray, np.ndarray, Segments]:
-    """Segment limits, inputs of each segment, and the command after the dead times of the effects."""
+def dead_times(drive: Drive) -> tuple[float, float]:
+    """Dead time of opening and of closing that the effects make [s]."""
     tube_length = drive.tube.length if drive.tube else 0.0
     on, off = 0.0, 0.0
     for effect in Model(drive.model.effects).effects:
         if "command_delay" in effect.slots:
             own = effect.call("command_delay", {"tube_length": tube_length}, drive.model.values[effect.id])
             on, off = on + float(own[0]), off + float(own[1])
-    command = delayed(drive.command.segments(drive.duration), on, off, before=0.0)
+    return on, off
+
+
+def external_force(drive: Drive) -> Segments:
+    """The external force as linear segments."""
     force = drive.load.force
     if isinstance(force, Signal):
-        external = force.segments(drive.duration)
-    else:
-        external = Segments(np.array([0.0, drive.duration]), np.array([float(force)]), np.zeros(1))
-    command, external = merged(command, external)
-    inputs = np.column_stack(
-        [
-            command.start_values,
-            command.slopes,
-            external.start_values,
-            external.slopes,
-            command.times[:-1],
-        ]
-    )
-    assert inputs.shape[1] == len(INPUTS)  # noqa: S101
-    return command.times, np.ascontiguousarray(inputs), command
+        return force.segments(drive.duration)
+    return Segments(np.array([0.0, drive.duration]), np.array([float(force)]), np.zeros(1))
+
+
+def segments_of(drive: Drive) -> tuple[np.ndarray, np.ndarray, Segments]:
+    """Segment limits, inputs of each segment, and the command after the dead times of the effects."""
+    on, off = dead_times(drive)
+    command = delayed(drive.command.segments(drive.duration), on, off, before=drive.command.before)
+    command, external = merged(command, external_force(drive))
+    columns = {
+        "opening": command.start_values,
+        "opening_slope": command.slopes,
+        "external_force": external.start_values,
+        "external_force_slope": external.slopes,
+        "begin": command.times[:-1],
+    }
+    return command.times, np.column_stack([columns[name] for name in INPUTS]), command
 
 
 def start_of(drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inputs: np.ndarray) -> np.ndarray:
@@ -270,7 +187,7 @@ def simulate(drive: Drive, *, points: int = 2001, tolerance: float = TOLERANCE, 
         drive: what to run.
         points: rows of the evenly spaced time grid.
         tolerance: relative error per step.
-        engine: see `mckibben.simulation.engine.integrate`.
+        engine: see `mckibben.simulation.engine.integrate`; a controlled drive waits for the kernel.
     """
     compiled = compiled_drive(drive.structure)
     parameters = constants_of(drive, compiled)

@@ -1,0 +1,121 @@
+r"""Bouc-Wen hysteresis, normalised: A = 1 and the bound of z put to 1, because the usual set is redundant.
+
+.. math:: F = F_c\,z, \qquad
+   \dot z = \frac{1}{\varepsilon_b L_0}\Bigl[\dot L - \beta|\dot L||z|^{n-1}z - (1-\beta)\,\dot L|z|^n\Bigr]
+
+With n = 1 and :math:`\beta = 1` it is the Dahl law; a large n is bilinear. It takes work over any path from
+rest for :math:`\beta \ge 1/2`, which is the lower bound.
+"""
+
+from mckibben.physics import ops
+from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
+from mckibben.physics.muscle import Muscle
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+
+# |z|^n is taken as (z^2 + this)^(n/2), so that its derivatives by z and by n are finite at z = 0.
+_ROUNDING = 1e-12
+
+
+def friction(*, presliding: Value, force: Value) -> Value:
+    """F_c z [N], within +-F_c."""
+    return force * presliding
+
+
+def rates(
+    *,
+    velocity: Value,
+    muscle: Muscle,
+    presliding: Value,
+    break_strain: Value,
+    exponent: Value,
+    unloading_share: Value,
+) -> tuple[Value]:
+    """dz/dt [1/s]; exactly 0 at rest, and never outwards where |z| = 1."""
+    log = 0.5 * ops.log(presliding**2 + _ROUNDING)
+    opposing = ops.absolute(velocity) * ops.exp((exponent - 1.0) * log) * presliding
+    along = velocity * ops.exp(exponent * log)
+    bent = unloading_share * opposing + (1.0 - unloading_share) * along
+    return ((velocity - bent) / (break_strain * muscle.nominal_length),)
+
+
+_BOUC = Source("Wen, J. Eng. Mech. Div. ASCE 102 (1976) 249; Lin et al. 2015 for air muscles", "M")
+_RANGE = Source("1-2.5 % of the maximum force", "E")
+_WAY = Source("F_c over 15-200 kN/m for size 20: 0.1-3 mm of 300 mm", "E")
+_DEFINITION = Source("definition, by hand", "D")
+_SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
+
+EFFECT = Effect(
+    title="Bouc-Wen hysteresis",
+    family="friction",
+    type="hysteretic",
+    cause="Threads and elastomer yield gradually before they slide. A single state with a free exponent "
+    "describes how sharply the friction force bends over after a reversal.",
+    equation=r"F_{h} = F_c z,\quad \varepsilon_b L_0\,\dot z = "
+    r"\dot L-\beta|\dot L||z|^{n-1}z-(1-\beta)\dot L|z|^n",
+    parameters=(
+        Parameter("force", "F_c", "N", 10.0, 0.0, 200.0, _RANGE, "Friction after a long way.", off=0.0),
+        Parameter(
+            "break_strain",
+            r"\varepsilon_b",
+            "1",
+            0.002,
+            1.0e-4,
+            0.03,
+            _WAY,
+            "Way over which friction builds up, as a share of the nominal length.",
+            fitted=False,
+        ),
+        Parameter(
+            "exponent",
+            "n",
+            "1",
+            1.5,
+            1.0,
+            10.0,
+            _BOUC,
+            "Sharpness of the bend; large is bilinear.",
+            fitted=False,
+        ),
+        Parameter(
+            "unloading_share",
+            r"\beta",
+            "1",
+            0.5,
+            0.5,
+            1.0,
+            _BOUC,
+            "Bend of the branch after a reversal; 0.5 unloads along a straight line, 1 like Dahl.",
+            fitted=False,
+        ),
+    ),
+    slots={"friction": friction, "rates": rates},
+    states=(StateVariable("presliding", "z", "1", 1.0, "Share of full friction, positive on lengthening."),),
+    kinds=frozenset({"isobaric", "isotonic", "transient"}),
+    signature=Signature(
+        text="a loop of constant width at every pressure, with corners of adjustable sharpness",
+        direction="odd",
+        pressure_power=0.0,
+        zero_at=("no_motion",),
+        energy="dissipative",
+    ),
+    confused_with=(
+        Twin("dahl", "the branch after a reversal at fine steps; with n = 1 both are the same law"),
+        Twin("maxwell_slip", "loops within a loop: only Maxwell slip closes them"),
+        Twin("coulomb_friction", "the corners of a loop: Coulomb friction jumps at the reversal"),
+    ),
+    references=(_BOUC,),
+    examples=(
+        Example("slot:friction", 2.5, 1e-12, _DEFINITION, {"force": 10.0}, {}, {"presliding": 0.25}),
+        Example(
+            "slot:rates",
+            # (0.03 - 0.03 * 0.5^2) m/s / 0.6 mm: loading
+            37.5,
+            1e-9,
+            _DEFINITION,
+            {"break_strain": 0.002, "exponent": 2.0, "unloading_share": 0.5},
+            _SIZE_20,
+            {"velocity": 0.03, "presliding": 0.5},
+        ),
+    ),
+)

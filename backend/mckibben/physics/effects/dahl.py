@@ -1,0 +1,86 @@
+r"""Dahl friction: Coulomb friction that builds up over a short way after each reversal.
+
+With the break-away distance :math:`x_b = \varepsilon_b L_0` and the share z of full friction
+
+.. math:: F = F_c\,z, \qquad \dot z = \frac{\dot L - |\dot L|\,z}{x_b}
+
+The stiffness after a reversal is :math:`\sigma_0 = 2F_c/x_b`, from rest half of it. The law is that of Dahl
+with :math:`z_\mathrm{Dahl} = x_b z`, written so that no friction is a plain zero. Minor loops do not close.
+"""
+
+from mckibben.physics import ops
+from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
+from mckibben.physics.muscle import Muscle
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+
+
+def friction(*, presliding: Value, force: Value) -> Value:
+    """F_c z [N], within +-F_c."""
+    return force * presliding
+
+
+def rates(*, velocity: Value, muscle: Muscle, presliding: Value, break_strain: Value) -> tuple[Value]:
+    """dz/dt [1/s]: (v - |v| z)/x_b; exactly 0 at rest."""
+    return ((velocity - ops.absolute(velocity) * presliding) / (break_strain * muscle.nominal_length),)
+
+
+_DAHL = Source("Dahl, Aerospace Corp. TOR-0158(3107-18)-1 (1968); AIAA J. 14 (1976) 1675", "M")
+_RANGE = Source("1-2.5 % of the maximum force", "E")
+_WAY = Source("F_c over 15-200 kN/m for size 20: 0.1-3 mm of 300 mm", "E")
+_DEFINITION = Source("definition, by hand", "D")
+_SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
+
+EFFECT = Effect(
+    title="Dahl friction",
+    family="friction",
+    type="hysteretic",
+    cause="Threads that touch first shear elastically before they slide. The friction therefore turns over "
+    "smoothly at a reversal, along a short way of the muscle.",
+    equation=r"F_{h} = F_c\,z,\quad \dot z = \frac{\dot L-|\dot L|\,z}{\varepsilon_b L_0}",
+    parameters=(
+        Parameter("force", "F_c", "N", 10.0, 0.0, 200.0, _RANGE, "Friction after a long way.", off=0.0),
+        Parameter(
+            "break_strain",
+            r"\varepsilon_b",
+            "1",
+            0.002,
+            1.0e-4,
+            0.03,
+            _WAY,
+            "Way over which friction builds up, as a share of the nominal length.",
+            fitted=False,
+        ),
+    ),
+    slots={"friction": friction, "rates": rates},
+    states=(StateVariable("presliding", "z", "1", 1.0, "Share of full friction, positive on lengthening."),),
+    kinds=frozenset({"isobaric", "isotonic", "transient"}),
+    signature=Signature(
+        text="a loop of constant width at every pressure, with rounded corners, the same at every speed",
+        direction="odd",
+        pressure_power=0.0,
+        zero_at=("no_motion",),
+        energy="dissipative",
+    ),
+    confused_with=(
+        Twin("coulomb_friction", "the corners of a loop: Coulomb friction jumps at the reversal"),
+        Twin("maxwell_slip", "loops within a loop: only Maxwell slip closes them"),
+        Twin("bouc_wen", "the branch after a reversal at fine steps; the shapes are close relatives"),
+        Twin("viscous_damping", "three speeds over two decades: Dahl friction does not change"),
+        Twin("pressure_hysteresis", "a pressure loop at constant length: Dahl friction shows nothing"),
+    ),
+    references=(_DAHL,),
+    examples=(
+        Example("slot:friction", -7.5, 1e-12, _DEFINITION, {"force": 10.0}, {}, {"presliding": -0.75}),
+        Example(
+            "slot:rates",
+            # (-0.03 - 0.03 * 0.5) m/s / 0.6 mm
+            -75.0,
+            1e-12,
+            _DEFINITION,
+            {"break_strain": 0.002},
+            _SIZE_20,
+            {"velocity": -0.03, "presliding": 0.5},
+        ),
+    ),
+)

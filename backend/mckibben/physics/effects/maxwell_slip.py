@@ -1,0 +1,125 @@
+r"""Maxwell slip: four spring-slider cells of equal force that break loose one after the other.
+
+Cell i carries :math:`F_c/4` and slides after :math:`x_i = \varepsilon_b L_0\,\rho^{\,i-4}`, the last one after
+:math:`\varepsilon_b L_0`. With the deflection :math:`z_i` of a cell as a share of its limit
+
+.. math:: F = \frac{F_c}{4}\sum_{i=1}^4 z_i, \qquad
+   \dot z_i = \frac{\dot L}{x_i}\bigl[1 - s(z_i \operatorname{sgn}\dot L)\bigr]
+
+The saturation s is 0 up to 0.9 of the limit and a smooth step from there to 1 at the limit: a cell is exactly
+elastic before, never passes the limit, and the rate has no jump for the solver to find.
+"""
+
+from mckibben.physics import ops
+from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
+from mckibben.physics.muscle import Muscle
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+
+_CELLS = 4
+_BAND = 0.1  # share of a cell's limit over which it goes from elastic to sliding
+
+
+def friction(*, cell_1: Value, cell_2: Value, cell_3: Value, cell_4: Value, force: Value) -> Value:
+    """F_c times the mean of the cells [N], within +-F_c."""
+    return force * 0.25 * (cell_1 + cell_2 + cell_3 + cell_4)
+
+
+def _saturation(share: Value) -> Value:
+    t = ops.minimum(ops.positive_part((share - (1.0 - _BAND)) / _BAND), 1.0)
+    return t**2 * (3.0 - 2.0 * t)
+
+
+def rates(
+    *,
+    velocity: Value,
+    muscle: Muscle,
+    cell_1: Value,
+    cell_2: Value,
+    cell_3: Value,
+    cell_4: Value,
+    break_strain: Value,
+    ratio: Value,
+) -> tuple[Value, ...]:
+    """dz_i/dt [1/s] of the four cells; exactly 0 at rest."""
+    given = []
+    for index, cell in enumerate((cell_1, cell_2, cell_3, cell_4), start=1):
+        limit = break_strain * muscle.nominal_length / ratio ** (_CELLS - index)
+        along = ops.where(ops.greater(velocity, 0.0), cell, -cell)
+        given.append(velocity / limit * (1.0 - _saturation(along)))
+    return tuple(given)
+
+
+_MINH = Source("Vo-Minh, Tjahjowidodo, Ramon & Van Brussel, IEEE/ASME Trans. Mech. 16 (2011) 177", "M")
+_RANGE = Source("1-2.5 % of the maximum force", "E")
+_WAY = Source("break-away at 0.1-3 % of the nominal length", "E")
+_DEFINITION = Source("definition, by hand", "D")
+_SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
+
+EFFECT = Effect(
+    title="Maxwell-slip hysteresis",
+    family="friction",
+    type="hysteretic",
+    cause="The crossings of the braid do not slide all at once: some give way early, some late. The friction "
+    "remembers every reversal, so small loops close within large ones.",
+    equation=r"F_{h} = \frac{F_c}{4}\sum_i z_i,\quad \dot z_i = \frac{\dot L}{x_i}"
+    r"\left[1-s(z_i\operatorname{sgn}\dot L)\right],\quad x_i = \varepsilon_b L_0\,\rho^{\,i-4}",
+    parameters=(
+        Parameter("force", "F_c", "N", 10.0, 0.0, 200.0, _RANGE, "Friction after a long way.", off=0.0),
+        Parameter(
+            "break_strain",
+            r"\varepsilon_b",
+            "1",
+            0.02,
+            1.0e-3,
+            0.06,
+            _WAY,
+            "Way until the last cell slides, as a share of the nominal length.",
+            fitted=False,
+        ),
+        Parameter(
+            "ratio", r"\rho", "1", 2.5, 1.1, 5.0, _WAY, "Way of one cell over that of the one before.", fitted=False
+        ),
+    ),
+    slots={"friction": friction, "rates": rates},
+    states=tuple(
+        StateVariable(f"cell_{i}", f"z_{i}", "1", 1.0, f"Deflection of cell {i} as a share of its limit.")
+        for i in range(1, _CELLS + 1)
+    ),
+    kinds=frozenset({"isobaric", "isotonic", "transient"}),
+    signature=Signature(
+        text="a loop whose width depends on the amplitude, with small loops that close within large ones",
+        direction="odd",
+        pressure_power=0.0,
+        zero_at=("no_motion",),
+        energy="dissipative",
+    ),
+    confused_with=(
+        Twin("dahl", "loops within a loop: only Maxwell slip closes them"),
+        Twin("bouc_wen", "loops within a loop: only Maxwell slip closes them"),
+        Twin("bladder_elasticity", "both directions: the elastic force retraces, friction changes sign"),
+        Twin("coulomb_friction", "small amplitudes: the Coulomb loop keeps its full width"),
+    ),
+    references=(_MINH,),
+    examples=(
+        Example(
+            "slot:friction",
+            2.5,
+            1e-12,
+            _DEFINITION,
+            {"force": 10.0},
+            {},
+            {"cell_1": 1.0, "cell_2": 0.5, "cell_3": -0.25, "cell_4": -0.25},
+        ),
+        Example(
+            "slot:rates:2",
+            # 0.03 m/s / (6 mm / 2.5), elastic
+            12.5,
+            1e-12,
+            _DEFINITION,
+            {"break_strain": 0.02, "ratio": 2.5},
+            _SIZE_20,
+            {"velocity": 0.03},
+        ),
+    ),
+)

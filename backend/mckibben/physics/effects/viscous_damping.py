@@ -1,0 +1,117 @@
+r"""Viscous damping that may grow with pressure and differ between shortening and lengthening.
+
+.. math:: F = (c_0 + c_P P)\,r(\dot L)\,\dot L, \quad r = 1\ (\dot L<0),\quad r = r_l\ (\dot L>0)
+
+Reynolds' hand-made muscle: 1010 N s/m + 6.91e-3 N s/(m Pa) on shortening, a tenth of it on lengthening.
+"""
+
+from mckibben.physics import ops
+from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+
+
+def friction(
+    *,
+    velocity: Value,
+    pressure: Value,
+    coefficient: Value,
+    pressure_coefficient: Value,
+    lengthening_ratio: Value,
+) -> Value:
+    """(c0 + c_P P) r dL/dt [N]; 0 at rest. Below atmospheric pressure c_P adds nothing."""
+    ratio = ops.where(ops.greater(velocity, 0.0), lengthening_ratio, 1.0)
+    return (coefficient + pressure_coefficient * ops.positive_part(pressure)) * ratio * velocity
+
+
+_REYNOLDS = Source("Reynolds et al., Ann. Biomed. Eng. 31 (2003) 310, coefficients second-hand", "S2")
+_RANGE = Source("50-500 N s/m for size 20, 280-3800 N s/m hand-made at 2-6 bar", "E")
+_BY_HAND = Source("1.01 + 0.00691 P N s/mm with P = 400 kPa, times 10 mm/s", "D")
+_SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
+_HAND_MADE = {"coefficient": 1010.0, "pressure_coefficient": 6.91e-3, "lengthening_ratio": 0.074}
+
+EFFECT = Effect(
+    title="Viscous damping",
+    family="friction",
+    type="rate",
+    cause="Elastomer, lubricated threads and the wall's own flow resist fast motion. The force is lower while "
+    "the muscle shortens and higher while it lengthens, the more the faster it moves.",
+    equation=r"F_{v} = (c_0 + c_P P)\,r\,\dot L,\quad r = 1\ (\dot L<0),\ r = r_l\ (\dot L>0)",
+    parameters=(
+        Parameter(
+            "coefficient",
+            "c_0",
+            "N*s/m",
+            200.0,
+            0.0,
+            5000.0,
+            _RANGE,
+            "Damping coefficient without pressure.",
+            off=0.0,
+        ),
+        Parameter(
+            "pressure_coefficient",
+            "c_P",
+            "N*s/(m*Pa)",
+            0.0,
+            0.0,
+            2.0e-2,
+            _REYNOLDS,
+            "Growth of the damping coefficient with pressure; 6.9e-3 N s/(m Pa) in Reynolds' muscle.",
+            off=0.0,
+            fitted=False,
+        ),
+        Parameter(
+            "lengthening_ratio",
+            "r_l",
+            "1",
+            1.0,
+            0.0,
+            2.0,
+            _REYNOLDS,
+            "Damping on lengthening as a share of that on shortening; 0.07 in Reynolds' muscle.",
+            fitted=False,
+        ),
+    ),
+    slots={"friction": friction},
+    kinds=frozenset({"isobaric", "isotonic", "transient"}),
+    signature=Signature(
+        text="a loop whose width grows with the speed and vanishes for slow motion",
+        direction="odd",
+        pressure_power=0.0,
+        zero_at=("no_motion",),
+        energy="dissipative",
+    ),
+    confused_with=(
+        Twin("coulomb_friction", "three speeds over two decades: Coulomb friction does not change"),
+        Twin("pressure_friction", "three speeds at three pressures, crossed"),
+        Twin("sensor_lag", "isometric pressure steps: without motion only the sensor lags"),
+        Twin("time_skew", "swap the channels, or a tap that shows in all of them"),
+        Twin("creep", "a fast step: creep goes on for seconds after the motion has stopped"),
+    ),
+    references=(
+        _REYNOLDS,
+        Source("Serres, Reynolds et al., Comput. Methods Biomech. Biomed. Eng. 12 (2009) 423", "M"),
+    ),
+    examples=(
+        Example(
+            "force_change",
+            -37.74,
+            1e-9,
+            _BY_HAND,
+            _HAND_MADE,
+            _SIZE_20,
+            {"length": 0.28, "pressure": 4e5, "velocity": -0.01, "direction": -1.0},
+        ),
+        Example(
+            "force_change",
+            # 0.074 of 37.74 N
+            2.79276,
+            1e-9,
+            _BY_HAND,
+            _HAND_MADE,
+            _SIZE_20,
+            {"length": 0.28, "pressure": 4e5, "velocity": 0.01, "direction": 1.0},
+        ),
+    ),
+)

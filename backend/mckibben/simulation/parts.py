@@ -1,0 +1,105 @@
+"""The parts of a drive, in SI: valve, regulator, tube, load, and the drive they make with a muscle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import radians
+
+from mckibben.physics import ideal
+from mckibben.physics.drive_terms import Structure
+from mckibben.physics.muscle import Muscle
+from mckibben.simulation.control import PidController
+from mckibben.simulation.signals import Signal
+from mckibben.simulation.static import StaticModel
+
+
+@dataclass(frozen=True, slots=True)
+class Valve:
+    """Sonic conductances [m^3/(s Pa)] and critical pressure ratios both ways."""
+
+    fill_conductance: float
+    exhaust_conductance: float
+    fill_ratio: float = 0.3
+    exhaust_ratio: float = 0.3
+
+
+@dataclass(frozen=True, slots=True)
+class Regulator:
+    """A pressure regulator: full-scale gauge pressure [Pa] and time constant [s] besides its conductances."""
+
+    range: float
+    time: float
+
+
+@dataclass(frozen=True, slots=True)
+class Tube:
+    """Inside diameter and length [m]."""
+
+    inside_diameter: float
+    length: float
+
+
+@dataclass(frozen=True, slots=True)
+class Load:
+    """What the muscle pulls.
+
+    Attributes:
+        mass: [kg].
+        inclination: of the way it is pulled against the horizontal [rad]; 90 degrees hangs or lifts.
+        force: external force against the pull [N], a number or a signal of time.
+        spring: stiffness against the contraction [N/m].
+        lever_ratio: stroke of the muscle per stroke of the load [-].
+    """
+
+    mass: float = 0.0
+    inclination: float = radians(90.0)
+    force: float | Signal = 0.0
+    spring: float = 0.0
+    lever_ratio: float = 1.0
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A complete drive, SI; pressures gauge.
+
+    Attributes:
+        model: the muscle with its effects.
+        valve, regulator, tube: the way of the air; a regulator takes the valve's conductances.
+        load: what is pulled.
+        command: opening of the valve, 1 fill, 0 closed, -1 exhaust; of a regulator the share of its range.
+        supply_pressure: [Pa].
+        min_contraction, max_contraction: end stops as contraction ratios.
+        start_pressure: of the muscle at t = 0 [Pa].
+        own_mass: mass of muscle and fittings that moves [kg].
+        fitting_volume: dead volume of fittings [m^3].
+        controller, reference: a position controller that gives the command instead, and its set point [m].
+    """
+
+    model: StaticModel
+    valve: Valve
+    load: Load
+    command: Signal
+    duration: float
+    supply_pressure: float
+    regulator: Regulator | None = None
+    tube: Tube | None = None
+    min_contraction: float = 0.0
+    max_contraction: float = 0.25
+    start_pressure: float = 0.0
+    own_mass: float = 0.0
+    fitting_volume: float = 0.0
+    polytropic_exponent: float = 1.2
+    controller: PidController | None = None
+    reference: Signal | None = None
+    ambient_pressure: float = ideal.ATMOSPHERE
+    temperature: float = 293.15
+
+    @property
+    def muscle(self) -> Muscle:
+        """Geometry of the muscle."""
+        return self.model.muscle
+
+    @property
+    def structure(self) -> Structure:
+        """What decides the equations."""
+        return Structure(self.model.effects, self.tube is not None, self.regulator is not None)
