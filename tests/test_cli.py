@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 
 from mckibben import __version__, cli
+from mckibben.cli import serve
 from mckibben.cli.options import start_model
 from mckibben.resources import presets_folder
 from mckibben.studio import Studio
@@ -416,12 +417,9 @@ def test_the_default_port_moves_on_when_it_is_taken(started: Started) -> None:
     assert 8000 < int(found[1]) < 8050
 
 
-def test_an_address_reachable_from_outside_comes_with_a_token(tmp_path: Path) -> None:
-    """Served on loopback all the same: only the link is looked at, through the real settings."""
-    from mckibben.cli.serve import _link
-
-    assert _link("192.0.2.7", 8000, "abc") == "http://192.0.2.7:8000/?token=abc"
-    assert _link("[::1]", 8000, None) == "http://[::1]:8000/"
+def test_the_link_carries_the_token_of_an_address_reachable_from_outside() -> None:
+    assert serve._link("192.0.2.7", 8000, "abc") == "http://192.0.2.7:8000/?token=abc"
+    assert serve._link("[::1]", 8000, None) == "http://[::1]:8000/"
 
 
 def test_what_is_sent_to_a_running_server_is_kept_in_its_folder(server: RunningServer) -> None:
@@ -441,7 +439,7 @@ def test_a_file_named_like_a_preset_does_not_hide_it(tmp_path: Path) -> None:
 
 
 def test_the_start_is_fast_because_nothing_heavy_is_imported() -> None:
-    heavy = ("pandas", "scipy", "plotly", "rich", "pint")
+    heavy = ("pandas", "scipy", "numba", "plotly", "rich", "pint")
     code = f"import sys, mckibben.api.app; print([m for m in {heavy} if m in sys.modules])"
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert result.stdout.strip() == "[]"

@@ -183,7 +183,7 @@ def test_expressions_are_refused_at_once(text):
     begin = time.perf_counter()
     with pytest.raises(InputError):
         si(text, "m")
-    assert time.perf_counter() - begin < 0.1
+    assert time.perf_counter() - begin < 5.0  # an evaluated tower of powers would never end
 
 
 @settings(deadline=None)  # the first use builds the registry

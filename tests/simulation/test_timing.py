@@ -27,7 +27,7 @@ def grid(duration: float, count: int, *, uneven: bool = False) -> np.ndarray:
 
 
 def lift(t: np.ndarray, *, a: float, stop: float, delay: float = 0.0, bounce: float = 0.0) -> Trace:
-    """Rest, from ``delay`` on constant acceleration up to the stop; then rest, or bounces of one restitution."""
+    """Rest, from ``delay`` on constant acceleration up to the stop; then rest, or bounces."""
     fly = np.maximum(t - delay, 0.0)
     x, v = 0.5 * a * fly**2, a * fly
     acceleration, contact = np.where(fly > 0.0, a, 0.0), fly <= 0.0

@@ -13,7 +13,7 @@ from mckibben.physics.muscle import Muscle
 from mckibben.simulation.parts import Drive, Load, Tube, Valve
 from mckibben.simulation.signals import signal_from
 from mckibben.simulation.static import StaticModel
-from mckibben.simulation.transient import GRAVITY, constants_of, segments_of, simulate, start_of
+from mckibben.simulation.transient import GRAVITY, parameters_of, segments_of, simulate, start_of
 
 MUSCLE = Muscle(0.8, 0.0218, radians(26.5), 0.0018, 0.02)
 EFFECTS = {"bladder_elasticity": {}, "prestress": {"force": 25.0}}
@@ -186,7 +186,7 @@ def test_against_radau(tube):
     from mckibben.simulation.engine import compiled_drive
 
     compiled = compiled_drive(case.structure)
-    parameters = constants_of(case, compiled)
+    parameters = parameters_of(case, compiled)
     times, inputs, _ = segments_of(case)
     y = start_of(case, compiled, parameters, inputs)
     size = compiled.size

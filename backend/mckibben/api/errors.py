@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import logging
 import secrets
-from collections.abc import Sequence
 from difflib import get_close_matches
 from typing import Any
 
@@ -80,11 +79,9 @@ def unexpected_answer(error: Exception) -> JsonAnswer:
     )
 
 
-def _known_paths(app: FastAPI) -> Sequence[str]:
-    return sorted({"/", *app.openapi()["paths"]})
-
-
-def _nearest_path(path: str, known: Sequence[str]) -> str | None:
+def _nearest_path(path: str, app: FastAPI) -> str:
+    # The document takes a moment to write; what browsers ask for by themselves must not pay for that.
+    known = list(app.openapi()["paths"]) if path.startswith("/api") else []
     near = get_close_matches(path[:200], known, n=1, cutoff=0.6)
     return f"Did you mean '{near[0]}'?" if near else "The list of paths is at /openapi.json."
 
@@ -111,7 +108,7 @@ def install(app: FastAPI) -> None:
         path, hint = request.url.path, None
         message = str(error.detail)
         if error.status_code == 404:
-            message, hint = f"There is nothing at {path[:200]}.", _nearest_path(path, _known_paths(app))
+            message, hint = f"There is nothing at {path[:200]}.", _nearest_path(path, app)
         elif error.status_code == 405:
             allowed = (error.headers or {}).get("Allow", "GET")
             message, hint = f"{path[:200]} does not take {request.method}.", f"It takes {allowed}."

@@ -41,8 +41,10 @@ class DriveModel:
         parameters: constants of a run: `CONSTANTS`, geometry, "effect.parameter"; name -> symbol.
         inputs: name -> symbol of `INPUTS`.
         rates: d/dt of the states.
-        outputs: expressions of `OUTPUTS`.
+        outputs: expressions of ``output_names``, here `OUTPUTS`.
     """
+
+    output_names = OUTPUTS
 
     def __init__(self, structure: Structure) -> None:
         model = Model(structure.effects)
@@ -181,7 +183,7 @@ def _equations(
     guide = model.sum("guide", values, {"stroke": stroke, "speed": speed, "direction": -sign})
     lever = c["lever_ratio"]
     resisting = factor * (c["mass"] * c["gravity"] + external) + guide
-    stop, depth = _stops(c, stroke, speed)
+    stop, depth = end_stops(c, stroke, speed)
     acceleration = (lever**2 * force - lever * resisting - c["spring"] * stroke - stop) / inertia
     rates |= {"stroke": speed, "speed": acceleration}
 
@@ -229,7 +231,7 @@ def _equations(
     return rates, outputs
 
 
-def _stops(c: Mapping[str, Value], stroke: Value, speed: Value) -> tuple[Value, Value]:
+def end_stops(c: Mapping[str, Value], stroke: Value, speed: Value) -> tuple[Value, Value]:
     """Force of the end stops on the stroke [N], and how deep either is pressed in [m]; they never pull."""
     above = ops.positive_part(stroke - c["stop_high"])
     below = ops.positive_part(c["stop_low"] - stroke)

@@ -59,9 +59,9 @@ class StateVariable:
 class Signature:
     """How the effect shows in the residual (measured minus ideal force), in words and as checkable claims.
 
-    For an effect with states in the muscle the claims hold of a run from rest: "even" and "odd" of the mirrored
-    motion (of length, or of pressure where that drives it). An effect of the drive alone changes no force at a
-    given length and pressure, so it claims neither parity nor power nor zeros.
+    For an effect with states in the muscle the claims hold of a run from rest: "even" and "odd" of the
+    mirrored motion (of length, or of pressure where that drives it). An effect of the drive alone changes no
+    force at a given length and pressure, so it claims neither parity nor power nor zeros.
 
     Attributes:
         text: the signature in words, one sentence.
@@ -92,9 +92,9 @@ class Example:
     """A worked example: ``quantity`` of the ideal muscle with only this effect equals ``expected``.
 
     ``quantity`` is an output of `mckibben.physics.model.State` ("force", "volume", "diameter", "area") or one
-    of these with the suffix "_change": with the effect minus without. "slot:NAME" is what the effect's own slot
-    function gives, "slot:NAME:K" the K-th (from 0) of several; the state then holds what the function asks for,
-    states of the effect included, and the muscle may be empty. Everything is in SI.
+    of these with the suffix "_change": with the effect minus without. "slot:NAME" is what the effect's own
+    slot function gives, "slot:NAME:K" the K-th (from 0) of several; the state then holds what the function
+    asks for, states of the effect included, and the muscle may be empty. Everything is in SI.
     """
 
     quantity: str

@@ -138,6 +138,10 @@ class Model:
             compliance=self.sum("compliance", values, {}),
         )
 
+    def has(self, slot: str) -> bool:
+        """Whether any effect acts in a slot."""
+        return bool(self._with(slot))
+
     def _with(self, slot: str) -> list[Effect]:
         return [effect for effect in self.effects if slot in effect.slots]
 

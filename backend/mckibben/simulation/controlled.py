@@ -15,9 +15,9 @@ from mckibben.simulation.segments import Segments
 from mckibben.simulation.transient import (
     TOLERANCE,
     Run,
-    constants_of,
     dead_times,
     external_force,
+    parameters_of,
     run_of,
     start_of,
 )
@@ -45,7 +45,7 @@ def simulate_controlled(
             field="controller.sample_time",
         )
     compiled = compiled_drive(drive.structure)
-    parameters = constants_of(drive, compiled)
+    parameters = parameters_of(drive, compiled)
     external = external_force(drive)
     grid = np.linspace(0.0, drive.duration, points)
     reading = compiled.size + OUTPUTS.index("stroke_reading")

@@ -18,7 +18,9 @@ import numpy as np
 import symengine as se
 
 from mckibben.physics.drive import DriveModel
-from mckibben.physics.drive_terms import INPUTS, OUTPUTS, Structure
+from mckibben.physics.drive_terms import Structure
+from mckibben.physics.driven import DrivenModel
+from mckibben.physics.effect import Effect
 
 MAX_STEPS = 400_000
 
@@ -44,7 +46,7 @@ class Outcome(Enum):
 
 @dataclass(frozen=True)
 class CompiledDrive:
-    """A structure as machine code.
+    """A system of equations as machine code.
 
     Attributes:
         model: names of states, parameters, inputs.
@@ -53,10 +55,15 @@ class CompiledDrive:
         pointers: addresses of both functions and of their data, as the kernel wants them.
     """
 
-    model: DriveModel
+    model: DriveModel | DrivenModel
     rates: Any
     jacobian: Any
     pointers: tuple[int, int, int, int]
+
+    @property
+    def width(self) -> int:
+        """Number of outputs."""
+        return len(self.model.output_names)
 
     @property
     def size(self) -> int:
@@ -66,8 +73,18 @@ class CompiledDrive:
 
 @lru_cache(maxsize=128)
 def compiled_drive(structure: Structure) -> CompiledDrive:
-    """The compiled structure, built once (50 to 100 ms) and kept."""
-    model = DriveModel(structure)
+    """A drive's compiled equations, built once (50 to 100 ms) and kept."""
+    return compile_system(DriveModel(structure))
+
+
+@lru_cache(maxsize=128)
+def compiled_driven(effects: tuple[Effect, ...], motion: bool) -> CompiledDrive:
+    """The compiled equations of a muscle whose pressure is measured, built once and kept."""
+    return compile_system(DrivenModel(effects, motion=motion))
+
+
+def compile_system(model: DriveModel | DrivenModel) -> CompiledDrive:
+    """Machine code of a system and of its exact Jacobian."""
     states = list(model.symbols.values())
     arguments = [*states, *model.parameters.values(), *model.inputs.values()]
     matrix = se.Matrix(model.rates).jacobian(se.Matrix(states))
@@ -142,7 +159,7 @@ def integrate(
         parameters: constants of the run in the order of ``drive.model.parameters``.
         start: states at ``times[0]``.
         times: segment limits, one more than rows of ``inputs``.
-        inputs: constants of each segment in the order of `INPUTS`.
+        inputs: constants of each segment in the order of the model's inputs.
         grid: times of the rows wanted, inside the limits.
         tolerance: relative error per step; the absolute one is the state's scale times it.
         engine: "rodas", "lsoda", or "auto" for the first that is ready.
@@ -154,7 +171,7 @@ def integrate(
     absolute = tolerance * np.array([state.scale for state in drive.model.states])
     if function is None:
         return _lsoda(drive, parameters, start, times, inputs, grid, tolerance, absolute)
-    rows = np.full((len(grid), drive.size + len(OUTPUTS)), np.nan)
+    rows = np.full((len(grid), drive.size + drive.width), np.nan)
     counts = np.zeros(3, np.int64)
     end = start.copy()
     status = function(
@@ -186,10 +203,10 @@ def _lsoda(
 ) -> Solution:
     from scipy.integrate import solve_ivp
 
-    size, width = drive.size, len(OUTPUTS)
+    size, width = drive.size, drive.width
     rows = np.full((len(grid), size + width), np.nan)
     state, steps, written = start.copy(), 0, 0
-    packed = np.concatenate([start, parameters, np.zeros(len(INPUTS))])
+    packed = np.concatenate([start, parameters, np.zeros(inputs.shape[1])])
 
     def rates(_time: float, y: np.ndarray) -> np.ndarray:
         packed[:size] = y

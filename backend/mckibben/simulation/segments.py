@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 SHORTEST = 1e-12
 
 Array = NDArray[np.float64]
+Interval = tuple[float, float]
 
 
 class Segments(NamedTuple):
@@ -139,3 +140,25 @@ def merged(a: Segments, b: Segments) -> tuple[Segments, Segments]:
         return Segments(times, signal._from_piece(piece, times[:-1]), signal.slopes[piece])
 
     return on_common(a), on_common(b)
+
+
+def phases(command: Segments) -> tuple[Interval | None, Interval | None]:
+    """The first fill (command above 0) and what follows it, as (start, end) instants of the command [s].
+
+    The exhaust begins when the command of the fill ends, be it by closing or by venting, and lasts to the
+    next fill or the end. Without a fill it begins with the first negative command.
+    """
+    middle = 0.5 * (command.start_values + command.end_values)
+    duration = float(command.times[-1])
+
+    def first(holds: NDArray[np.bool_], after: float) -> float | None:
+        found = np.flatnonzero(holds & (command.times[:-1] >= after))
+        return float(command.times[found[0]]) if len(found) else None
+
+    on = first(middle > 0.0, 0.0)
+    off = first(middle < 0.0, 0.0) if on is None else first(middle <= 0.0, on)
+    fill = None if on is None else (on, duration if off is None else off)
+    if off is None:
+        return fill, None
+    again = first(middle > 0.0, off)
+    return fill, (off, duration if again is None else again)

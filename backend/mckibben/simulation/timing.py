@@ -33,7 +33,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.physics.gas import ANR_DENSITY
-from mckibben.simulation.segments import Segments
+from mckibben.simulation.segments import Interval, phases
 from mckibben.simulation.trace import Trace
 from mckibben.simulation.tracking import tracking
 
@@ -52,9 +52,8 @@ FIGURES = (*MOTION_FIGURES, *PRESSURE_FIGURES, *AIR_FIGURES)
 SMALLEST_STROKE, SMALLEST_STEP = 1e-5, 100.0
 PRESSURE_BAND = 0.01
 #: What settles only in this last share of a phase is still under way.
-_STILL_MOVING = 0.02
+_STILL_MOVING = 0.05
 
-Interval = tuple[float, float]
 Array = NDArray[np.float64]
 
 
@@ -97,28 +96,6 @@ def timing(
     return {**table, "notes": notes}
 
 
-def phases(command: Segments) -> tuple[Interval | None, Interval | None]:
-    """The first fill (command above 0) and what follows it, as (start, end) instants of the command [s].
-
-    The exhaust begins when the command of the fill ends, be it by closing or by venting, and lasts to the
-    next fill or the end. Without a fill it begins with the first negative command.
-    """
-    middle = 0.5 * (command.start_values + command.end_values)
-    duration = float(command.times[-1])
-
-    def first(holds: NDArray[np.bool_], after: float) -> float | None:
-        found = np.flatnonzero(holds & (command.times[:-1] >= after))
-        return float(command.times[found[0]]) if len(found) else None
-
-    on = first(middle > 0.0, 0.0)
-    off = first(middle < 0.0, 0.0) if on is None else first(middle <= 0.0, on)
-    fill = None if on is None else (on, duration if off is None else off)
-    if off is None:
-        return fill, None
-    again = first(middle > 0.0, off)
-    return fill, (off, duration if again is None else again)
-
-
 Figures = tuple[dict[str, float | None], dict[str, str]]
 
 
@@ -141,6 +118,12 @@ class _Phase:
         self.demanded = demanded is not None
         self.stroke = self.reached if demanded is None else demanded
         self.last = float(self.time[-1])
+        self.hit = -1  # the sample before the impact
+        self.wall: float | None = None  # travel to the stop ahead, where it is known
+        if stops is not None:
+            self.wall = (max(stops) if sign > 0.0 else -min(stops)) - sign * start
+        elif self.contact[-1] and self.reached > 0.5 * self.travel.max():
+            self.wall = self.reached
 
     def motion(self, mass: float | None) -> Figures:
         """Figures of position, speed and acceleration."""
@@ -213,7 +196,7 @@ class _Phase:
         """Figures of the air."""
         flow = self.window.supply_mass_flow if self.sign > 0.0 else self.window.exhaust_mass_flow
         mass = float(np.trapezoid(flow, self.time))
-        choked = float(np.trapezoid(self.window.choked != 0, self.time)) / self.last
+        choked = float(np.trapezoid((self.window.choked != 0) * 1.0, self.time)) / self.last
         return dict(zip(AIR_FIGURES, (mass, mass / ANR_DENSITY, choked), strict=True)), {}
 
     def _extremes(
@@ -241,15 +224,17 @@ class _Phase:
 
     def _impact(self) -> tuple[float, float] | None:
         """Instant and speed of the first impact on the stop ahead."""
-        onset = ~self.contact[:-1] & self.contact[1:] & (self.travel[1:] > 0.5 * self.travel.max())
-        found = np.flatnonzero(onset)
-        if not len(found):
+        far = self.travel[1:] > 0.5 * self.travel.max()
+        found = ~self.contact[:-1] & self.contact[1:] & far
+        width = np.diff(self.time)
+        if self.wall is not None:  # a bounce between two samples: flying on would have passed the stop
+            flown = self.travel[:-1] + width * (self.speed[:-1] + 0.5 * width * self.acceleration[:-1])
+            through = (self.travel[:-1] < self.wall) & (flown >= self.wall)
+            found |= far & through & (self.speed[:-1] > 0.0) & (self.speed[1:] <= 0.0)
+        if not found.any():
             return None
-        before = int(found[0])
-        # Where the stop is: the end of the stroke when the phase ends on it, else where it is first touched.
-        ends_there = self.contact[-1] and self.reached > 0.5 * self.travel.max()
-        level = self.reached if ends_there else float(self.travel[before + 1])
-        at = self._between(before, level)
+        self.hit = before = int(np.argmax(found))
+        at = self._between(before, float(self.travel[before + 1]) if self.wall is None else self.wall)
         speed = self.speed[before] + self.acceleration[before] * (at - self.time[before])
         return at, max(float(speed), 0.0)
 
@@ -262,24 +247,26 @@ class _Phase:
 
     def _between(self, index: int, level: float) -> float:
         """Instant between two samples at which the travel is at the level: cubic, before a stop ballistic."""
-        t, s, v = (column[index : index + 2] for column in (self.time, self.travel, self.speed))
-        width = float(t[1] - t[0])
+        pairs = (self.time, self.travel, self.speed)
+        (t0, t1), (s0, s1), (v0, v1) = (column[index : index + 2].tolist() for column in pairs)
+        width, bend = t1 - t0, float(self.acceleration[index])
+        # Into a stop the speed jumps: use the state before it only.
+        flying = index == self.hit or bool(not self.contact[index] and self.contact[index + 1])
+        rising = flying or s1 >= s0
         low, high = 0.0, 1.0
-        rising = s[1] >= s[0]
-        flying = not self.contact[index] and self.contact[index + 1]  # the speed jumps: use this side only
         for _ in range(50):
             u = 0.5 * (low + high)
+            w = 1.0 - u
             if flying:
-                here = s[0] + u * width * (v[0] + 0.5 * u * width * self.acceleration[index])
+                here = s0 + u * width * (v0 + 0.5 * u * width * bend)
             else:
-                w = 1.0 - u
-                here = w * w * (s[0] * (1 + 2 * u) + u * width * v[0])
-                here += u * u * (s[1] * (1 + 2 * w) - w * width * v[1])
+                here = w * w * (s0 * (1.0 + 2.0 * u) + u * width * v0)
+                here += u * u * (s1 * (1.0 + 2.0 * w) - w * width * v1)
             if (here < level) == rising:
                 low = u
             else:
                 high = u
-        return float(t[0]) + high * width
+        return t0 + high * width
 
     def _linear_first(self, values: Array, level: float) -> float:
         """First instant at which values that start at 0 and end above the level reach it."""

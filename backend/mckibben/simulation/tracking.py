@@ -75,12 +75,10 @@ def _lag(t: Array, r: Array, y: Array) -> float | None:
     a, b = np.interp(even, t, r), np.interp(even, t, y)
     shifts = np.arange(len(even) // 4 + 1)
     score = np.array([_correlation(a[: len(a) - k], b[k:]) for k in shifts])
-    good = np.flatnonzero(score >= score.max() - _PEAK_MARGIN)
     if not score.max() > 0.1:
         return None
-    # The first group of good shifts is one peak; its top is the answer.
-    group = np.split(good, np.flatnonzero(np.diff(good) > 1) + 1)[0]
-    best = int(group[np.argmax(score[group])])
+    tops = _tops(score)
+    best = int(np.flatnonzero(tops >= tops.max() - _PEAK_MARGIN)[0])
     if best == shifts[-1]:
         return None
 
@@ -93,6 +91,18 @@ def _lag(t: Array, r: Array, y: Array) -> float | None:
     bracket = (max(0.0, (best - 1) * step), (best + 1) * step)
     found = minimize_scalar(misfit, bounds=bracket, method="bounded", options={"xatol": 1e-6 * step})
     return 0.0 if misfit(0.0) <= found.fun and best <= 1 else float(found.x)
+
+
+def _tops(score: Array) -> Array:
+    """Height of the parabola through each local maximum and its neighbours; -inf elsewhere."""
+    tops = np.full(len(score), -np.inf)
+    left, middle, right = score[:-2], score[1:-1], score[2:]
+    peak = (middle >= left) & (middle >= right)
+    bend = np.maximum(2.0 * middle - left - right, 1e-300)
+    tops[1:-1][peak] = (middle + (left - right) ** 2 / (8.0 * bend))[peak]
+    tops[0] = score[0] if score[0] >= score[1] else -np.inf
+    tops[-1] = score[-1] if score[-1] > score[-2] else -np.inf
+    return tops
 
 
 def _correlation(a: Array, b: Array) -> float:

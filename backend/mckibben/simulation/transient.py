@@ -55,8 +55,8 @@ class Run:
         return self.states["pressure"] - self.drive.ambient_pressure
 
 
-def constants_of(drive: Drive, compiled: CompiledDrive) -> np.ndarray:
-    """The numbers of a run in the order of the compiled model's parameters."""
+def constants_of(drive: Drive) -> dict[str, float]:
+    """The numbers of a run by the names of the model's parameters."""
     load, tube, rest = drive.load, drive.tube, drive.muscle.nominal_length
     mass = max(load.mass + drive.own_mass, _LIGHTEST)
     stop = mass * _STOP_FREQUENCY**2
@@ -95,6 +95,12 @@ def constants_of(drive: Drive, compiled: CompiledDrive) -> np.ndarray:
     table |= {name: float(getattr(drive.muscle, name)) for name in GEOMETRY}
     for effect, own in drive.model.values.items():
         table |= {f"{effect}.{name}": value for name, value in own.items()}
+    return table
+
+
+def parameters_of(drive: Drive, compiled: CompiledDrive) -> np.ndarray:
+    """The numbers of a run in the order of the compiled model's parameters."""
+    table = constants_of(drive)
     return np.array([table[name] for name in compiled.model.parameters])
 
 
@@ -190,7 +196,7 @@ def simulate(drive: Drive, *, points: int = 2001, tolerance: float = TOLERANCE, 
         engine: see `mckibben.simulation.engine.integrate`; a controlled drive waits for the kernel.
     """
     compiled = compiled_drive(drive.structure)
-    parameters = constants_of(drive, compiled)
+    parameters = parameters_of(drive, compiled)
     times, inputs, command = segments_of(drive)
     start = start_of(drive, compiled, parameters, inputs)
     grid = np.linspace(0.0, drive.duration, points)

@@ -52,16 +52,21 @@ function stop(e) {
   clear(e);
 }
 
-/** @param {Effect} e */
-function run(e) {
-  clear(e);
+/** @template T @param {Effect | null} e @param {() => T} fn */
+function within(e, fn) {
   const outer = running;
   running = e;
   try {
-    e.fn();
+    return fn();
   } finally {
     running = outer;
   }
+}
+
+/** @param {Effect} e */
+function run(e) {
+  clear(e);
+  within(e, e.fn);
 }
 
 /** Runs fn now and whenever a signal it read changes; effects made inside stop before each re-run.
@@ -73,6 +78,9 @@ export function effect(fn) {
   run(e);
   return () => stop(e);
 }
+
+/** Runs fn on its own: effects made inside outlive the one that is running. @template T @param {() => T} fn */
+export const apart = (fn) => within(null, fn);
 
 /** A signal that follows others. @template T @param {() => T} fn @returns {Signal<T>} */
 export function computed(fn) {

@@ -1,6 +1,7 @@
 // @ts-check
 // The bar over every view: tabs, history, units, export, share, theme, help, status.
 import { h, icon } from "./dom.js";
+import { apart } from "./reactive.js";
 import { doc, edit, future, look, past, readDoc, redo, undo, units, view } from "./state.js";
 import { toHash } from "./link.js";
 import { loadAll, outage, presets, status } from "./store.js";
@@ -128,7 +129,7 @@ export function shell(views, help) {
   const show = () => {
     const chosen = views.find((v) => v.id === view.value) ?? views[0];
     if (!built.has(chosen.id)) {
-      const el = chosen.build();
+      const el = apart(chosen.build);
       built.set(chosen.id, el);
       main.append(el);
     }

@@ -50,7 +50,9 @@ EFFECT = Effect(
         energy="dissipative",
     ),
     confused_with=(
-        Twin("coulomb_friction", "a dummy spring for the muscle, or force sensors on both sides of the guide"),
+        Twin(
+            "coulomb_friction", "a dummy spring for the muscle, or force sensors on both sides of the guide"
+        ),
         Twin("viscous_damping", "force sensors on both sides of the guide"),
     ),
     references=(Source("Coulomb and viscous friction of a linear guide", "M"),),

@@ -1,7 +1,7 @@
 r"""Maxwell slip: four spring-slider cells of equal force that break loose one after the other.
 
-Cell i carries :math:`F_c/4` and slides after :math:`x_i = \varepsilon_b L_0\,\rho^{\,i-4}`, the last one after
-:math:`\varepsilon_b L_0`. With the deflection :math:`z_i` of a cell as a share of its limit
+Cell i carries :math:`F_c/4` and slides after :math:`x_i = \varepsilon_b L_0\,\rho^{\,i-4}`, so the last one
+after :math:`\varepsilon_b L_0`. With the deflection :math:`z_i` of a cell as a share of its limit
 
 .. math:: F = \frac{F_c}{4}\sum_{i=1}^4 z_i, \qquad
    \dot z_i = \frac{\dot L}{x_i}\bigl[1 - s(z_i \operatorname{sgn}\dot L)\bigr]
@@ -78,7 +78,15 @@ EFFECT = Effect(
             fitted=False,
         ),
         Parameter(
-            "ratio", r"\rho", "1", 2.5, 1.1, 5.0, _WAY, "Way of one cell over that of the one before.", fitted=False
+            "ratio",
+            r"\rho",
+            "1",
+            2.5,
+            1.1,
+            5.0,
+            _WAY,
+            "Way of one cell over that of the one before.",
+            fitted=False,
         ),
     ),
     slots={"friction": friction, "rates": rates},

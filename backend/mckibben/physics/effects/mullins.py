@@ -3,9 +3,9 @@ r"""Mullins effect: rubber that was once stretched further is softer below that 
 With the largest contraction :math:`\varepsilon_m` the muscle has seen,
 
 .. math:: F_{el} \to F_{el}\left[1 - d\left(1-e^{-(\varepsilon_m-\varepsilon)/\varepsilon_c}\right)\right]
-   \quad (0 \le \varepsilon < \varepsilon_m), \qquad \dot\varepsilon_m = \max(\varepsilon-\varepsilon_m,0)/\tau
+   \ (0 \le \varepsilon < \varepsilon_m), \quad \dot\varepsilon_m = \max(\varepsilon-\varepsilon_m,0)/\tau
 
-The memory follows within 2 ms, so that its rate has no jump. It never heals here; in fact over hours or days.
+The memory follows within 2 ms, so that its rate has no jump. Here it never heals, really in hours or days.
 """
 
 from mckibben.physics import ops
@@ -43,7 +43,15 @@ EFFECT = Effect(
     r"\varepsilon_m = \max_{t'\le t}\varepsilon(t')",
     parameters=(
         Parameter(
-            "loss", "d", "1", 0.1, 0.0, 0.5, _LOSS, "Share of the elastic force that is lost at most.", off=0.0
+            "loss",
+            "d",
+            "1",
+            0.1,
+            0.0,
+            0.5,
+            _LOSS,
+            "Share of the elastic force that is lost at most.",
+            off=0.0,
         ),
         Parameter(
             "strain",
@@ -69,7 +77,9 @@ EFFECT = Effect(
     ),
     confused_with=(
         Twin("creep", "wait ten minutes and repeat: creep recovers, the first-cycle loss does not"),
-        Twin("temperature", "let the muscle cool: warmth comes back with work, the first-cycle loss does not"),
+        Twin(
+            "temperature", "let the muscle cool: warmth comes back with work, the first-cycle loss does not"
+        ),
         Twin("bladder_elasticity", "compare the first cycle with the third"),
     ),
     references=(_OGDEN, Source("Mullins, Rubber Chem. Technol. 42 (1969) 339", "M")),

@@ -22,7 +22,9 @@ def rates(*, pressure_rate: Value, filling: Value, break_pressure: Value) -> tup
     return ((pressure_rate - ops.absolute(pressure_rate) * filling) / break_pressure,)
 
 
-_LOOP = Source("hysteresis of at most 2.5-3 % of the force in catalogues, a part of it at constant length", "E")
+_LOOP = Source(
+    "hysteresis of at most 2.5-3 % of the force in catalogues, a part of it at constant length", "E"
+)
 _WAY = Source("a tenth of the working pressure", "E")
 _DEFINITION = Source("definition, by hand", "D")
 

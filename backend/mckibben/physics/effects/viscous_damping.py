@@ -34,8 +34,8 @@ EFFECT = Effect(
     title="Viscous damping",
     family="friction",
     type="rate",
-    cause="Elastomer, lubricated threads and the wall's own flow resist fast motion. The force is lower while "
-    "the muscle shortens and higher while it lengthens, the more the faster it moves.",
+    cause="Elastomer, lubricated threads and the wall's own flow resist fast motion. The force is lower "
+    "while the muscle shortens and higher while it lengthens, the more the faster it moves.",
     equation=r"F_{v} = (c_0 + c_P P)\,r\,\dot L,\quad r = 1\ (\dot L<0),\ r = r_l\ (\dot L>0)",
     parameters=(
         Parameter(

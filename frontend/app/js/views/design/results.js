@@ -81,7 +81,10 @@ function verdict() {
     return h("p", { class: "muted" }, fault.value ? "No valid model yet." : "Waiting for the first curves…");
   }
   const hard = c.flags.filter((f) => f.code !== NOTE), notes = c.flags.filter((f) => f.code === NOTE);
-  const best = c.operating_points.filter((o) => o.contraction != null).at(-1);
+  const held = c.operating_points.filter((o) => o.contraction != null);
+  const sound = held.filter((o) => !o.flags.some((code) => code !== NOTE));
+  const best = sound.at(-1) ?? held.at(-1);
+  const grade = !sound.length ? "bad" : hard.length ? "warn" : "good";
   const reach = best
     ? `${withUnit(best.pressure, "pressure", units.value)} holds ${
       withUnit(best.force, "force", units.value)
@@ -92,9 +95,14 @@ function verdict() {
   return [
     h(
       "p",
-      { class: `verdict ${!best ? "bad" : hard.length ? "warn" : "good"}` },
-      icon(best && !hard.length ? "check" : "warn"),
-      h("span", null, best && !hard.length ? "Within all limits. " : "", reach),
+      { class: `verdict ${grade}` },
+      icon(grade === "good" ? "check" : "warn"),
+      h(
+        "span",
+        null,
+        { good: "Within all limits. ", warn: "", bad: best ? "Outside the limits: " : "" }[grade],
+        reach,
+      ),
     ),
     ...[...hard, ...notes].map((f) =>
       h(

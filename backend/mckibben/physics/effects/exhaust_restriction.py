@@ -1,0 +1,59 @@
+r"""Exhaust unlike the inlet, :math:`C_{ex}' = f_{ex}\,C_{ex}`: a silencer, a throttle, another port.
+
+A silencer of conductance C_s in series is about :math:`f_{ex} = 1/\sqrt{1 + (C_{ex}/C_s)^2}`.
+"""
+
+from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+
+
+def exhaust_conductance(*, conductance: Value, factor: Value) -> Value:
+    """f_ex C_ex [m^3/(s Pa)]."""
+    return factor * conductance
+
+
+_RANGE = Source("silencers and exhaust throttles 0.3-1; quick exhausts up to 2.4", "E")
+_DEFINITION = Source("definition", "D")
+
+EFFECT = Effect(
+    title="Restriction of the exhaust",
+    family="valve",
+    type="static",
+    cause="A silencer, a throttle or a smaller port holds the exhaust back. Venting takes longer than "
+    "filling, with a long tail of low pressure.",
+    equation=r"C_{ex}' = f_{ex}\,C_{ex}",
+    parameters=(
+        Parameter(
+            "factor",
+            "f_{ex}",
+            "1",
+            0.7,
+            0.05,
+            3.0,
+            _RANGE,
+            "Conductance over that without a silencer.",
+            off=1.0,
+        ),
+    ),
+    slots={"exhaust_conductance": exhaust_conductance},
+    kinds=frozenset({"transient"}),
+    signature=Signature(
+        text="venting takes longer by one factor, filling is as before",
+        direction=None,
+        pressure_power=None,
+        zero_at=(),
+        energy="dissipative",
+    ),
+    confused_with=(
+        Twin("flow_coefficient", "filling and venting: a restricted exhaust slows venting alone"),
+        Twin("tube_resistance", "filling and venting: a tube slows both"),
+        Twin("viscous_damping", "vent a rigid vessel instead of the muscle"),
+    ),
+    references=(Source("restrictions in series, ISO 6358-3", "M"),),
+    examples=(
+        Example(
+            "slot:exhaust_conductance", 7e-9, 1e-12, _DEFINITION, {"factor": 0.7}, {}, {"conductance": 1e-8}
+        ),
+    ),
+)

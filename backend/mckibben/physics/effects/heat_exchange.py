@@ -1,0 +1,72 @@
+r"""Heat exchange between gas and wall, :math:`\dot Q = h\,\pi D L\,(T_w - T)`.
+
+With this effect the chamber obeys the energy balance: h = 0 is an adiabatic chamber (exponent 1.4), a large h
+an isothermal one, and in between the exponent follows from the speed. The wall stays at ambient temperature.
+"""
+
+from mckibben.physics import ops
+from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+
+
+def heat(
+    *, length: Value, diameter: Value, gas_temperature: Value, ambient_temperature: Value, coefficient: Value
+) -> Value:
+    """h pi D L (T_w - T) [W], positive into the gas."""
+    return coefficient * ops.pi * diameter * length * (ambient_temperature - gas_temperature)
+
+
+_RANGE = Source("free to forced convection in small vessels, 20-50 W/(m2 K)", "E")
+_BY_HAND = Source("30 * pi * 0.02 * 0.3 * (293 - 333) W", "D")
+
+EFFECT = Effect(
+    title="Heat exchange with the wall",
+    family="gas",
+    type="dynamic",
+    cause="Filling warms the gas and venting cools it, and the wall takes the difference away within a "
+    "second or so. After a fast fill with the valve closed the pressure therefore drops again.",
+    equation=r"\dot Q = h\,\pi D L\,(T_w-T)",
+    parameters=(
+        Parameter(
+            "coefficient",
+            "h",
+            "W/(m2*K)",
+            30.0,
+            0.0,
+            1000.0,
+            _RANGE,
+            "Heat transfer coefficient; 0 is an adiabatic chamber.",
+            off=0.0,
+        ),
+    ),
+    slots={"heat": heat},
+    kinds=frozenset({"transient"}),
+    signature=Signature(
+        text="pressure falls towards an asymptote within seconds after a fast fill, and rises after venting",
+        direction=None,
+        pressure_power=None,
+        zero_at=(),
+        energy="dissipative",
+    ),
+    confused_with=(
+        Twin("leak", "close the valve and wait: heat exchange ends at an asymptote, a leak goes on"),
+        Twin("creep", "log the pressure: creep changes the length, not the pressure"),
+        Twin("flow_coefficient", "filling and venting: a conductance leaves no drift afterwards"),
+    ),
+    references=(
+        Source("first law of a chamber with flow", "D"),
+        Source("Richer & Hurmuzlu, J. Dyn. Syst. Meas. Control 122 (2000) 416", "M"),
+    ),
+    examples=(
+        Example(
+            "slot:heat",
+            -22.61946710584651,
+            1e-12,
+            _BY_HAND,
+            {"coefficient": 30.0},
+            {},
+            {"length": 0.3, "diameter": 0.02, "gas_temperature": 333.0, "ambient_temperature": 293.0},
+        ),
+    ),
+)

@@ -1,0 +1,92 @@
+r"""The supply gives way: its pressure falls with the flow drawn, and recovers.
+
+With the drop d below the nominal supply pressure and the flow :math:`q = \dot m/\rho_0`
+
+.. math:: p_s = p_{s,0} - d, \qquad \tau\,\dot d = R\,q - d
+
+R is the droop of the pressure regulator; a reservoir of volume :math:`V_r = \tau R_g T\rho_0/R`
+(:math:`\tau p_0/R`, 2.5 l with the defaults) makes it slow.
+"""
+
+from mckibben.physics import gas, ops
+from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+
+
+def supply(*, supply_pressure: Value, drop: Value, droop: Value) -> Value:
+    """p_s - d [Pa]."""
+    # The droop decides that the state counts, so that a supply without one is left alone exactly.
+    return supply_pressure - ops.where(ops.greater(droop, 0.0), drop, 0.0)
+
+
+def drive_rates(*, supply_flow: Value, drop: Value, droop: Value, time: Value) -> tuple[Value]:
+    """dd/dt [Pa/s]; steady at the droop times the flow, back to 0 without flow."""
+    return ((droop * supply_flow / gas.ANR_DENSITY - drop) / time,)
+
+
+_DROOP = Source("0.02-0.5 bar per l/s for small regulators", "E")
+_RESERVOIR = Source("reservoirs of 0.1-20 l behind the regulator", "E")
+_BY_HAND = Source("(2e7 * 1.185e-3/1.185 - 5e3)/0.5", "D")
+
+EFFECT = Effect(
+    title="Droop of the supply",
+    family="supply",
+    type="dynamic",
+    cause="The pressure regulator and the line before the valve pass a limited flow. While the muscle fills, "
+    "the supply pressure falls and takes a while to come back.",
+    equation=r"p_s = p_{s,0}-d,\quad \tau\,\dot d = R\,\frac{\dot m}{\rho_0}-d",
+    parameters=(
+        Parameter(
+            "droop",
+            "R",
+            "Pa*s/m3",
+            2.0e7,
+            0.0,
+            2.0e8,
+            _DROOP,
+            "Loss of supply pressure per standard flow; 0.1 bar per l/s is 1e7 Pa s/m3.",
+            off=0.0,
+        ),
+        Parameter(
+            "time",
+            r"\tau",
+            "s",
+            0.5,
+            0.01,
+            20.0,
+            _RESERVOIR,
+            "Time in which the supply falls and recovers.",
+            fitted=False,
+        ),
+    ),
+    slots={"supply": supply, "drive_rates": drive_rates},
+    states=(StateVariable("drop", "d", "Pa", 1e4, "Supply pressure below its nominal value."),),
+    kinds=frozenset({"transient"}),
+    signature=Signature(
+        text="slower filling that grows with volume and repetition, venting as before",
+        direction=None,
+        pressure_power=None,
+        zero_at=(),
+        energy="dissipative",
+    ),
+    confused_with=(
+        Twin("flow_coefficient", "log the supply pressure"),
+        Twin("exhaust_restriction", "filling and venting: a droop slows filling alone"),
+    ),
+    references=(Source("mass balance of a reservoir behind a regulator", "D"),),
+    examples=(
+        Example(
+            "slot:supply", 6.9e5, 1e-12, _BY_HAND, {"droop": 2e7}, {}, {"supply_pressure": 7e5, "drop": 1e4}
+        ),
+        Example(
+            "slot:drive_rates",
+            3e4,
+            1e-9,
+            _BY_HAND,
+            {"droop": 2e7, "time": 0.5},
+            {},
+            {"supply_flow": 1.185e-3, "drop": 5e3},
+        ),
+    ),
+)

@@ -1,0 +1,59 @@
+r"""The tube passes less than its formula says, :math:`C_t' = f_t\,C_t`: bends, fittings, a kink.
+
+It acts on drives with a tube; the conductance of the straight tube is that of `mckibben.physics.gas`.
+"""
+
+from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+
+
+def tube_conductance(*, conductance: Value, factor: Value) -> Value:
+    """f_t C_t [m^3/(s Pa)]."""
+    return factor * conductance
+
+
+_RANGE = Source("push-in fittings and bends take 10-50 %", "E")
+_DEFINITION = Source("definition", "D")
+
+EFFECT = Effect(
+    title="Resistance of the tube",
+    family="tube",
+    type="static",
+    cause="Fittings, bends and kinks narrow the tube beyond its own wall friction. The pressure in the "
+    "muscle lags behind that at the valve, the more the faster the air flows.",
+    equation=r"C_t' = f_t\,C_t",
+    parameters=(
+        Parameter(
+            "factor",
+            "f_t",
+            "1",
+            0.7,
+            0.05,
+            2.0,
+            _RANGE,
+            "Conductance over that of the straight tube.",
+            off=1.0,
+        ),
+    ),
+    slots={"tube_conductance": tube_conductance},
+    kinds=frozenset({"transient"}),
+    signature=Signature(
+        text="a pressure difference between valve and muscle that grows with the square of the flow",
+        direction=None,
+        pressure_power=None,
+        zero_at=(),
+        energy="dissipative",
+    ),
+    confused_with=(
+        Twin("flow_coefficient", "a second pressure sensor at the valve"),
+        Twin("tube_delay", "a small step: the delay stays, the pressure difference goes"),
+        Twin("dead_volume", "a second pressure sensor at the valve"),
+    ),
+    references=(Source("Beater, Pneumatic Drives (2007)", "M"),),
+    examples=(
+        Example(
+            "slot:tube_conductance", 6e-9, 1e-12, _DEFINITION, {"factor": 0.5}, {}, {"conductance": 1.2e-8}
+        ),
+    ),
+)

@@ -1,0 +1,102 @@
+"""The Catalogue view: find a part, see where its figures come from, take it into the design."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.frontend.views import enter, open_catalogue, open_design
+from tests.server import RunningServer
+
+
+def parts(page: Page) -> list[str]:
+    """The titles in the table, in order."""
+    return page.locator(".parts .part").all_inner_texts()
+
+
+def test_sort_by_any_column(page: Page) -> None:
+    open_catalogue(page)
+    page.get_by_role("button", name="F max").click()
+    forces = page.locator(".parts tbody tr td:nth-child(6)").all_inner_texts()
+    numbers = [float(text.split()[0]) for text in forces if text != "–"]
+    assert numbers == sorted(numbers)
+    expect(page.locator(".parts th[aria-sort]")).to_have_attribute("aria-sort", "ascending")
+    page.get_by_role("button", name="F max").click()
+    expect(page.locator(".parts th[aria-sort]")).to_have_attribute("aria-sort", "descending")
+    assert parts(page)[0] in ("Festo DMSP-40", "Festo MAS-40")
+
+
+def test_filter_by_kind_maker_size_and_words(page: Page) -> None:
+    open_catalogue(page)
+    total = len(parts(page))
+    enter(page, "from", "1.5 cm")
+    enter(page, "to", "25")
+    expect(page.locator(".parts .part")).to_have_count(2)
+    assert set(parts(page)) == {"Festo DMSP-20", "Festo MAS-20"}
+    page.get_by_label("Search the catalogue").fill("mas")
+    expect(page.locator(".parts .part")).to_have_count(1)
+    page.get_by_label("Search the catalogue").fill("nothing like this")
+    expect(page.locator(".empty")).to_contain_text("No part fits")
+    page.get_by_role("button", name="Clear the filter").click()
+    expect(page.locator(".parts .part")).to_have_count(total)
+    page.get_by_label("Maker").select_option("Festo")
+    assert 0 < len(parts(page)) < total
+    for kind in ("Valves", "Tubes", "Fittings", "Measurements", "Reference curves"):
+        page.get_by_role("radio", name=kind).click()
+        expect(page.locator(".parts h2")).to_have_text(kind)
+        assert parts(page)
+        expect(page.locator(".detail h2")).to_have_text(parts(page)[0])
+
+
+def test_detail_shows_unit_source_and_grade_of_each_value(page: Page) -> None:
+    open_catalogue(page)
+    page.get_by_role("button", name="Festo DMSP-20").click()
+    detail = page.locator(".detail")
+    expect(detail.locator("h2")).to_have_text("Festo DMSP-20")
+    rows = detail.locator(".values li")
+    assert rows.count() > 12
+    for row in rows.all():
+        assert row.locator("b").inner_text().strip()
+        assert len(row.locator("small.source").inner_text()) > 3
+        expect(row.locator(".grade")).to_have_count(1)
+    detail.get_by_role("button", name="unverified values").click()
+    expect(page.get_by_role("dialog", name="Unverified values")).to_contain_text("max pressure")
+    expect(detail.locator(".js-line")).to_have_count(6)
+
+
+def test_use_in_design(page: Page) -> None:
+    open_catalogue(page)
+    page.get_by_role("button", name="Festo MAS-40").click()
+    page.get_by_role("button", name="Use in design").click()
+    expect(page.locator("#preset")).to_have_value("MAS-40")
+    expect(page.locator("#force")).to_be_visible()
+    page.get_by_role("button", name="Undo: preset MAS-40").click()
+    expect(page.locator("#preset")).to_have_value("DMSP-20")
+
+
+def test_units_of_the_table(page: Page) -> None:
+    open_catalogue(page)
+    row = page.locator(".parts tr", has_text="Festo DMSP-20")
+    expect(row).to_contain_text("20 mm")
+    page.get_by_label("Units", exact=True).select_option("us")
+    expect(row).to_contain_text("0.787 in")
+
+
+@pytest.fixture
+def broken_preset(server: RunningServer) -> Iterator[str]:
+    """A user's preset file that is refused."""
+    path = server.presets / "muscles" / "broken.json"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps({"schema": 1, "kind": "muscle", "id": "broken", "title": "Broken"}))
+    yield path.name
+    path.unlink()
+
+
+def test_refused_files_are_named(page: Page, broken_preset: str) -> None:
+    open_design(page)
+    page.get_by_role("button", name="Catalogue", exact=True).click()
+    expect(page.get_by_role("region", name="Refused files")).to_contain_text(broken_preset)
+    expect(page.get_by_role("button", name="Festo DMSP-20")).to_be_visible()
