@@ -16,8 +16,8 @@ from pathlib import Path
 import pytest
 
 from mckibben import __version__, cli
-from mckibben.cli import serve
 from mckibben.cli.options import start_model
+from mckibben.cli.serve import _link
 from mckibben.resources import presets_folder
 from mckibben.studio import Studio
 from tests.server import MAIN, RunningServer
@@ -418,8 +418,8 @@ def test_the_default_port_moves_on_when_it_is_taken(started: Started) -> None:
 
 
 def test_the_link_carries_the_token_of_an_address_reachable_from_outside() -> None:
-    assert serve._link("192.0.2.7", 8000, "abc") == "http://192.0.2.7:8000/?token=abc"
-    assert serve._link("[::1]", 8000, None) == "http://[::1]:8000/"
+    assert _link("192.0.2.7", 8000, "abc") == "http://192.0.2.7:8000/?token=abc"
+    assert _link("[::1]", 8000, None) == "http://[::1]:8000/"
 
 
 def test_what_is_sent_to_a_running_server_is_kept_in_its_folder(server: RunningServer) -> None:

@@ -262,6 +262,23 @@ export interface components {
       /** With the program, or the user's own. */
       origin: "built-in" | "user";
     };
+    /** A drive document to start from; its content is checked by the API that runs it. */
+    DriveAnswer: {
+      schema: 1;
+      kind: "drive";
+      id: string;
+      title: string;
+      maker?: string;
+      description?: string;
+      references?: string[];
+      document: { [key: string]: unknown };
+      paper?: components["schemas"]["PaperFigures"] | null;
+      grounds?: { [key: string]: components["schemas"]["Ground"] };
+      /** No figure is general knowledge (M) or an estimate (E). */
+      verified: boolean;
+      /** With the program, or the user's own. */
+      origin: "built-in" | "user";
+    };
     /** One physical effect, as its file declares it. */
     EffectAnswer: {
       /** The name of the file that declares it. */
@@ -358,6 +375,7 @@ export interface components {
       maker?: string;
       description?: string;
       references?: string[];
+      effects?: { [key: string]: { [key: string]: components["schemas"]["Quantity"] } };
       data?: { [key: string]: components["schemas"]["Quantity"] };
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
@@ -386,6 +404,12 @@ export interface components {
       braid_angle: components["schemas"]["Quantity"];
       nominal_length: components["schemas"]["Quantity"];
       wall_thickness?: components["schemas"]["Quantity"] | null;
+    };
+    /** Where a value of a drive document comes from. */
+    Ground: {
+      source: string;
+      grade: "S" | "S2" | "C" | "D" | "M" | "E" | "user";
+      note?: string | null;
     };
     /** The server is up. */
     Health: {
@@ -504,12 +528,12 @@ export interface components {
       maker?: string;
       description?: string;
       references?: string[];
+      effects?: { [key: string]: { [key: string]: components["schemas"]["Quantity"] } };
       series?: string;
       geometry: components["schemas"]["Geometry"];
       tolerance?: components["schemas"]["Tolerance"];
       limits?: components["schemas"]["Limits"];
       data?: { [key: string]: components["schemas"]["Quantity"] };
-      effects?: { [key: string]: { [key: string]: components["schemas"]["Quantity"] } };
       reference_curve?: string | null;
       measurement?: string | null;
       /** No figure is general knowledge (M) or an estimate (E). */
@@ -564,12 +588,12 @@ export interface components {
       maker?: string;
       description?: string;
       references?: string[];
+      effects?: { [key: string]: { [key: string]: components["schemas"]["Quantity"] } };
       series?: string;
       geometry: components["schemas"]["Geometry"];
       tolerance?: components["schemas"]["Tolerance"];
       limits?: components["schemas"]["Limits"];
       data?: { [key: string]: components["schemas"]["Quantity"] };
-      effects?: { [key: string]: { [key: string]: components["schemas"]["Quantity"] } };
       reference_curve?: string | null;
       measurement?: string | null;
     };
@@ -613,6 +637,13 @@ export interface components {
       /** Braid diameter at the load. [m] */
       diameter: (number | null)[];
     };
+    /** What a publication prints of a drive. Attributes: figure: number of the figure. figures: "extend.rise_time" -> value; names of the timing table, or told in the description. tolerance: share by which a figure may be missed, by the same names. excluded: why a figure is not compared, by the same names. */
+    PaperFigures: {
+      figure: string;
+      figures?: { [key: string]: components["schemas"]["Quantity"] };
+      tolerance?: { [key: string]: number };
+      excluded?: { [key: string]: string };
+    };
     /** A preset file that was not loaded, and why. */
     PresetProblem: {
       file: string;
@@ -624,8 +655,8 @@ export interface components {
     };
     /** All presets of one kind, and the files that could not be loaded. */
     PresetsAnswer: {
-      kind: "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs";
-      presets: (components["schemas"]["MuscleAnswer"] | components["schemas"]["ValveAnswer"] | components["schemas"]["TubeAnswer"] | components["schemas"]["FittingAnswer"] | components["schemas"]["MeasurementPresetAnswer"] | components["schemas"]["CurvePresetAnswer"] | components["schemas"]["DesignAnswer"])[];
+      kind: "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs" | "drives";
+      presets: (components["schemas"]["MuscleAnswer"] | components["schemas"]["ValveAnswer"] | components["schemas"]["TubeAnswer"] | components["schemas"]["FittingAnswer"] | components["schemas"]["MeasurementPresetAnswer"] | components["schemas"]["CurvePresetAnswer"] | components["schemas"]["DesignAnswer"] | components["schemas"]["DriveAnswer"])[];
       problems: components["schemas"]["PresetProblem"][];
     };
     /** Which pressure gives this force at this length (or contraction)? */
@@ -651,6 +682,11 @@ export interface components {
       source: string;
       grade: "S" | "S2" | "C" | "D" | "M" | "E" | "user";
       note?: string | null;
+    };
+    /** What a pressure regulator adds to a valve: full-scale gauge pressure and time constant. */
+    RegulatorPart: {
+      range: components["schemas"]["Quantity"];
+      time: components["schemas"]["Quantity"];
     };
     /** The lattice of the braid. */
     RhombusAnswer: {
@@ -720,6 +756,7 @@ export interface components {
       maker?: string;
       description?: string;
       references?: string[];
+      effects?: { [key: string]: { [key: string]: components["schemas"]["Quantity"] } };
       data?: { [key: string]: components["schemas"]["Quantity"] };
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
@@ -733,7 +770,7 @@ export interface components {
       /** The experiment that tells the two apart. */
       separated_by: string;
     };
-    /** A valve; without ``sonic_conductance`` it cannot be simulated. */
+    /** A valve, or with ``regulator`` a pressure regulator; its conductances are needed to simulate it. */
     ValveAnswer: {
       schema: 1;
       kind: "valve";
@@ -742,8 +779,10 @@ export interface components {
       maker?: string;
       description?: string;
       references?: string[];
+      effects?: { [key: string]: { [key: string]: components["schemas"]["Quantity"] } };
       data?: { [key: string]: components["schemas"]["Quantity"] };
       function: string;
+      regulator?: components["schemas"]["RegulatorPart"] | null;
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
       /** With the program, or the user's own. */
@@ -820,7 +859,7 @@ export interface operations {
   /** All presets of a kind with unit, source and grade of each figure, and the files that were refused. */
   list_presets: {
     parameters: {
-      path: { kind: "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs" };
+      path: { kind: "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs" | "drives" };
     };
     responses: {
       200: { content: { "application/json": components["schemas"]["PresetsAnswer"] } };
@@ -854,10 +893,10 @@ export interface operations {
   /** One preset. */
   read_preset: {
     parameters: {
-      path: { kind: "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs"; preset_id: string };
+      path: { kind: "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs" | "drives"; preset_id: string };
     };
     responses: {
-      200: { content: { "application/json": components["schemas"]["MuscleAnswer"] | components["schemas"]["ValveAnswer"] | components["schemas"]["TubeAnswer"] | components["schemas"]["FittingAnswer"] | components["schemas"]["MeasurementPresetAnswer"] | components["schemas"]["CurvePresetAnswer"] | components["schemas"]["DesignAnswer"] } };
+      200: { content: { "application/json": components["schemas"]["MuscleAnswer"] | components["schemas"]["ValveAnswer"] | components["schemas"]["TubeAnswer"] | components["schemas"]["FittingAnswer"] | components["schemas"]["MeasurementPresetAnswer"] | components["schemas"]["CurvePresetAnswer"] | components["schemas"]["DesignAnswer"] | components["schemas"]["DriveAnswer"] } };
       403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };

@@ -14,7 +14,8 @@ OPENERS = {"design": open_design, "catalogue": open_catalogue}
 def violations(page: Page) -> list[str]:
     """What axe objects to, with the first place of each."""
     return [
-        f"{found['id']}: {found['nodes'][0]['html'][:120]}" for found in Axe().run(page).response["violations"]
+        f"{found['id']}: {found['nodes'][0]['html'][:120]}"
+        for found in Axe().run(page).response["violations"]
     ]
 
 
@@ -111,7 +112,8 @@ def test_reduced_motion_switches_transitions_off(page: Page) -> None:
     slow = run(
         page,
         """
-        const moves = (el) => getComputedStyle(el).transitionDuration.split(",").some((t) => parseFloat(t) > 0);
+        const times = (el) => getComputedStyle(el).transitionDuration.split(",");
+        const moves = (el) => times(el).some((time) => parseFloat(time) > 0);
         return [...document.querySelectorAll("*")].filter(moves).map((el) => el.className);
         """,
     )

@@ -53,7 +53,7 @@ def test_filter_by_kind_maker_size_and_words(page: Page) -> None:
 
 def test_detail_shows_unit_source_and_grade_of_each_value(page: Page) -> None:
     open_catalogue(page)
-    page.get_by_role("button", name="Festo DMSP-20").click()
+    page.get_by_role("button", name="Festo DMSP-20", exact=True).click()
     detail = page.locator(".detail")
     expect(detail.locator("h2")).to_have_text("Festo DMSP-20")
     rows = detail.locator(".values li")
@@ -99,4 +99,4 @@ def test_refused_files_are_named(page: Page, broken_preset: str) -> None:
     open_design(page)
     page.get_by_role("button", name="Catalogue", exact=True).click()
     expect(page.get_by_role("region", name="Refused files")).to_contain_text(broken_preset)
-    expect(page.get_by_role("button", name="Festo DMSP-20")).to_be_visible()
+    expect(page.get_by_role("button", name="Festo DMSP-20", exact=True)).to_be_visible()

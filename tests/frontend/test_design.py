@@ -6,7 +6,7 @@ import csv
 import json
 import math
 import statistics
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -14,6 +14,7 @@ from playwright.sync_api import Download, Page, expect
 
 from tests.frontend.guard import PageGuard
 from tests.frontend.views import REFUSED, drawings, enter, field, link_of, open_design, redrawn, rmse, run
+from tests.server import RunningServer
 
 
 def download(page: Page, item: str) -> Download:
@@ -298,6 +299,15 @@ def test_inverse_questions(page: Page) -> None:
     expect(card.locator(".flag.bad").first).to_be_visible()
 
 
+@pytest.fixture
+def no_presets_left(server: RunningServer) -> Iterator[None]:
+    """The server is shared by all tests: what one saves is gone before the next."""
+    yield
+    for path in server.presets.rglob("DMSP-20-mine.json"):
+        path.unlink()
+
+
+@pytest.mark.usefixtures("no_presets_left")
 def test_save_as_my_preset(page: Page, page_guard: PageGuard) -> None:
     page_guard.allow("status of 4")
     open_design(page)
@@ -371,10 +381,11 @@ def test_moved_lines_are_where_plotly_draws_them(page: Page) -> None:
     """The quick redraw of a moving slider and Plotly's own drawing of the same data agree to a pixel."""
     open_design(page)
     shapes = """
-      const d = [...document.querySelectorAll("#force .js-line, #volume .js-line")].map((p) => p.getAttribute("d"));
-      const ends = d.map((path) => path.match(/-?[\\d.]+/g).map(Number)).map((n) => [...n.slice(0, 2), ...n.slice(-2)]);
-      const dots = [...document.querySelectorAll("#force .point")].map((p) => p.getAttribute("transform"));
-      return [...ends.flat(), ...dots.flatMap((t) => t.match(/-?[\\d.]+/g).slice(0, 2).map(Number))];
+      const numbers = (text) => text.match(/-?[\\d.]+/g).map(Number);
+      const all = (what, name) => [...document.querySelectorAll(what)].map((el) => numbers(el.getAttribute(name)));
+      const ends = all("#force .js-line, #volume .js-line", "d").map((n) => [...n.slice(0, 2), ...n.slice(-2)]);
+      const dots = all("#force .point", "transform").map((n) => n.slice(0, 2));
+      return [...ends.flat(), ...dots.flat()];
     """
     redrawn(page, lambda: enter(page, "Braid angle", "26.2"))
     quick = run(page, shapes)

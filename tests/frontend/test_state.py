@@ -6,7 +6,6 @@ import base64
 import json
 import random
 import zlib
-from collections.abc import Iterator
 
 import pytest
 from playwright.sync_api import Page, expect
@@ -16,12 +15,12 @@ from tests.frontend.views import open_design, run
 
 
 @pytest.fixture
-def blank(page: Page) -> Iterator[Page]:
+def blank(page: Page) -> Page:
     """A page of the server's origin without the program: modules are imported one by one."""
     html = '<!doctype html><link rel="icon" href="data:,">'
     page.route("**/blank.html", lambda route: route.fulfill(body=html, content_type="text/html"))
     page.goto("/blank.html")
-    yield page
+    return page
 
 
 def test_effects_run_once_per_batch_and_stop(blank: Page) -> None:
@@ -284,7 +283,9 @@ def test_damaged_links_never_break_the_reader(blank: Page) -> None:
     assert outcomes.count("refused") > 250
 
 
-@pytest.mark.parametrize("link", ["#v1.damaged", packed('{"schema": 1, "design": {"load": "much"}}'), "#nonsense"])
+@pytest.mark.parametrize(
+    "link", ["#v1.damaged", packed('{"schema": 1, "design": {"load": "much"}}'), "#nonsense"]
+)
 def test_a_damaged_link_opens_the_example_and_says_why(page: Page, link: str) -> None:
     open_design(page, link)
     expect(page.locator(".status")).to_contain_text("The link cannot be read")
@@ -293,7 +294,11 @@ def test_a_damaged_link_opens_the_example_and_says_why(page: Page, link: str) ->
 
 def test_a_link_to_a_preset_that_is_gone_says_so(page: Page, page_guard: PageGuard) -> None:
     page_guard.allow("status of")
-    document = {"muscle": {"preset": "GONE-7", "form": "braid", "values": {}}, "effects": {}, "reference": None}
+    document = {
+        "muscle": {"preset": "GONE-7", "form": "braid", "values": {}},
+        "effects": {},
+        "reference": None,
+    }
     page.goto("/" + packed(json.dumps({"schema": 1, "design": document})))
     expect(page.locator(".notice")).to_contain_text("GONE-7")
     expect(page.get_by_label("Muscle preset")).to_be_visible()

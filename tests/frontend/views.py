@@ -27,7 +27,7 @@ def open_catalogue(page: Page) -> None:
     """The Catalogue view with its table filled and the small plot drawn."""
     open_design(page)
     page.get_by_role("button", name="Catalogue", exact=True).click()
-    expect(page.get_by_role("button", name="Festo DMSP-20")).to_be_visible()
+    expect(page.get_by_role("button", name="Festo DMSP-20", exact=True)).to_be_visible()
     expect(page.locator(".detail .js-line").first).to_be_attached()
 
 

@@ -1,4 +1,4 @@
-"""The claims an effect makes, as checks that evaluate them; `CHECKS` runs over every effect of a catalogue.
+"""The claims an effect makes, as checks that evaluate them; `checks_of` says which an effect is held to.
 
 "Contribution" is the force as measured, with the effect minus without; muscle and states: contract_states.py.
 """
@@ -17,6 +17,7 @@ from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.effect import KINDS, Effect
 from mckibben.physics.model import ROOM_TEMPERATURE, Model, State
 from mckibben.physics.muscle import Muscle
+from tests.physics import contract_dynamic
 from tests.physics.contract_states import (
     FORCE_SCALE,
     LENGTHS,
@@ -29,6 +30,7 @@ from tests.physics.contract_states import (
     companions,
     compiled,
     contribution,
+    acts_on_muscle,
     defaults,
     grid,
     numeric,
@@ -38,14 +40,15 @@ from tests.physics.contract_states import (
 
 
 def check_off_is_ideal(effect: Effect) -> None:
-    """At its off values the effect leaves every output as it is, to the last bit."""
+    """At its off values the effect leaves every output as it is, to the last bit, whatever its states are."""
     assert any(parameter.off is not None for parameter in effect.parameters)
     for others in ((), (default_catalogue()["bladder_elasticity"],)):
         if effect in others:
             continue
         for sign in (-1.0, 0.0, 1.0):
             state = grid(sign=sign) | {"temperature": WARM}
-            off = {**defaults(others), effect.id: effect.off}
+            states = {state.name: 0.7 * state.scale for state in effect.states}
+            off = {**defaults(others), effect.id: effect.off | states}
             got = Model((*others, effect)).evaluate(muscle=MUSCLE, values=off, **state)
             want = Model(others).evaluate(muscle=MUSCLE, values=defaults(others), **state)
             for name in State._fields:
@@ -58,6 +61,15 @@ def check_off_is_ideal(effect: Effect) -> None:
 
 def check_worked_examples(effect: Effect) -> None:
     for example in effect.examples:
+        if example.quantity.startswith("slot:"):
+            _, slot, *index = example.quantity.split(":")
+            context = {"muscle": Muscle(**example.muscle)} if example.muscle else {}
+            got = effect.call(slot, context | dict(example.state), {**effect.defaults, **example.parameters})
+            got = np.atleast_1d(got)[int(index[0]) if index else 0]
+            assert math.isclose(float(got), example.expected, rel_tol=example.tolerance, abs_tol=1e-15), (
+                f"{example.quantity}: {float(got)!r} instead of {example.expected}"
+            )
+            continue
         muscle = Muscle(**example.muscle)
         quantity = example.quantity.removesuffix("_change")
         values = {effect.id: {**effect.defaults, **example.parameters}}
@@ -75,11 +87,14 @@ def check_finite_at_all_bounds(effect: Effect) -> None:
     names, function = compiled(effects)
     others = [value for other in companions(effect) for value in other.defaults.values()]
     corners = list(product(*((p.lower, p.upper) for p in effect.parameters)))
+    memories = list(product(*((-state.scale, 0.0, state.scale) for state in effect.states)))
     motions = [(sign * SPEED, sign) for sign in (-1.0, 0.0, 1.0)]
     rows = np.array(
         [
-            (length, pressure, *motion, WARM, *MUSCLE, *others, *corner)
-            for length, pressure, motion, corner in product(LENGTHS, PRESSURES, motions, corners)
+            (length, pressure, *motion, WARM, *MUSCLE, *others, *corner, *memory)
+            for length, pressure, motion, corner, memory in product(
+                LENGTHS, PRESSURES, motions, corners, memories
+            )
         ]
     )
     results = function(rows)
@@ -99,6 +114,7 @@ def check_numbers_and_symbols_agree(effect: Effect) -> None:
     steps = {"length": 3e-7, "pressure": 10.0, "velocity": 1e-6, "temperature": 1e-3} | {
         f"{e.id}.{p.name}": 1e-6 * (p.upper - p.lower) for e in effects for p in e.parameters
     }
+    steps |= {f"{e.id}.{state.name}": 1e-6 * state.scale for e in effects for state in e.states}
     for point in random_points(effects, 12):
         result = function(np.array([point[name] for name in names]))
         here = numeric(effects, point)
@@ -203,11 +219,14 @@ def _isotonic_change(effect: Effect, *, contraction: float, pressure: float, sig
 def _shows_in(effect: Effect) -> dict[str, float]:
     """Per kind, the largest change of what it predicts, relative to its scale.
 
-    An isometric record is taken without motion, a static map and isobaric and isotonic records with a known
-    direction. A transient reveals what any of the force and length kinds reveals.
+    An isometric record is taken without motion, a static map point by point with a known direction, isobaric and
+    isotonic records in motion. A transient reveals what any of the force and length kinds reveals.
     """
     others = companions(effect)
     moving = max(np.abs(contribution(effect, **grid(sign=sign))).max() for sign in (-1.0, 1.0)) / FORCE_SCALE
+    mapped = max(
+        np.abs(contribution(effect, **grid(sign=sign) | {"velocity": 0.0})).max() for sign in (-1.0, 1.0)
+    )
     # A stretched muscle, one in the middle of its range, and one near the end of it.
     held = ((-0.005, 6e5), (0.1, 3e5), (0.22, 6e5))
     lengths = [
@@ -224,7 +243,7 @@ def _shows_in(effect: Effect) -> dict[str, float]:
         "isometric": np.abs(contribution(effect, **grid(sign=0.0))).max() / FORCE_SCALE,
         "isotonic": max(lengths) / MUSCLE.nominal_length,
         "diameter": np.abs(diameters[1] - diameters[0]).max() / MUSCLE.braid_diameter,
-        "static": moving,
+        "static": mapped / FORCE_SCALE,
     }
     return shown | {"transient": max(shown[kind] for kind in ("isobaric", "isometric", "isotonic", "static"))}
 
@@ -267,15 +286,26 @@ def check_energy(effect: Effect) -> None:
             assert np.array_equal(got.tension, Model().evaluate(muscle=MUSCLE, values={}, **at_true).tension)
 
 
-CHECKS: tuple[Callable[[Effect], None], ...] = (
-    check_off_is_ideal,
-    check_worked_examples,
+Check = Callable[[Effect], None]
+_ON_THE_MUSCLE: tuple[Check, ...] = (
     check_finite_at_all_bounds,
     check_numbers_and_symbols_agree,
     check_area_is_volume_slope,
+)
+_STATIC_CLAIMS: tuple[Check, ...] = (
     check_direction,
     check_pressure_power,
     check_zero_states,
     check_kinds,
     check_energy,
 )
+
+
+def checks_of(effect: Effect) -> tuple[Check, ...]:
+    """What an effect is held to: all the same form; its claims at rest, in a run from rest, or on the drive."""
+    common = (check_off_is_ideal, check_worked_examples)
+    if not acts_on_muscle(effect):
+        return (*common, *contract_dynamic.SLOT_CHECKS, *contract_dynamic.DRIVE_CLAIMS)
+    if not effect.states:
+        return (*common, *_ON_THE_MUSCLE, *_STATIC_CLAIMS)
+    return (*common, *_ON_THE_MUSCLE, *contract_dynamic.SLOT_CHECKS, *contract_dynamic.RUN_CLAIMS)

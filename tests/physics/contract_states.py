@@ -26,12 +26,17 @@ WARM = 333.15  # K, so that a temperature effect shows
 FORCE_SCALE = 1500.0  # N, the muscle's catalogue force
 INPUTS = ("length", "pressure", "velocity", "direction", "temperature")
 
+MUSCLE_SLOTS = frozenset(  # what `Model.evaluate` asks for
+    """pressure braid shape force_factor elastomer elastomer_factor tension friction compliance pressure_sensor
+    length_sensor force_sensor""".split()  # noqa: SIM905
+)
+
 Values = dict[str, dict[str, float]]
 
 
 def companions(effect: Effect) -> tuple[Effect, ...]:
     """What has to be there for the effect to act on: an elastomer, when it only multiplies one."""
-    only_factor = set(effect.slots) == {"elastomer_factor"}
+    only_factor = set(effect.slots) - {"rates"} == {"elastomer_factor"}
     return (default_catalogue()["bladder_elasticity"],) if only_factor else ()
 
 
@@ -44,6 +49,15 @@ def predict_force(effects: Sequence[Effect], values: Values, **state: object) ->
         temperature = state.get("temperature", ROOM_TEMPERATURE)
         return model.force(clipped=False, temperature=temperature, **flat).reshape(arrays[0].shape)
     return np.asarray(Model(effects).evaluate(muscle=MUSCLE, values=values, **state).force)
+
+
+def acts_on_muscle(effect: Effect) -> bool:
+    """Whether any of its slots is one of the muscle, and not of the drive around it."""
+    return bool(MUSCLE_SLOTS & set(effect.slots))
+
+
+def state_symbols(effects: Iterable[Effect]) -> list[str]:
+    return [f"{effect.id}.{state.name}" for effect in effects for state in effect.states]
 
 
 def defaults(effects: Iterable[Effect]) -> Values:
@@ -64,13 +78,16 @@ def grid(*, lengths: np.ndarray = LENGTHS, pressures: np.ndarray = PRESSURES, si
 
 
 def symbolic(effects: Sequence[Effect]) -> tuple[list[se.Symbol], State]:
-    """The model on symbols: the symbols (inputs, geometry, parameters, in this order) and the state."""
+    """The model on symbols: the symbols (inputs, geometry, parameters, states in this order) and its output."""
     inputs = {name: se.Symbol(name) for name in INPUTS}
     geometry = {name: se.Symbol(name) for name in GEOMETRY}
     values = {e.id: {p.name: se.Symbol(f"{e.id}.{p.name}") for p in e.parameters} for e in effects}
     parameters = [symbol for effect in effects for symbol in values[effect.id].values()]
-    state = Model(effects).evaluate(muscle=Muscle(**geometry), values=values, **inputs)
-    return [*inputs.values(), *geometry.values(), *parameters], state
+    states = {name: se.Symbol(name) for name in state_symbols(effects)}
+    for effect in effects:
+        values[effect.id] |= {state.name: states[f"{effect.id}.{state.name}"] for state in effect.states}
+    output = Model(effects).evaluate(muscle=Muscle(**geometry), values=values, **inputs)
+    return [*inputs.values(), *geometry.values(), *parameters, *states.values()], output
 
 
 def compiled(effects: Sequence[Effect]) -> tuple[list[str], Callable[[np.ndarray], np.ndarray]]:
@@ -82,7 +99,7 @@ def compiled(effects: Sequence[Effect]) -> tuple[list[str], Callable[[np.ndarray
 
 
 def numeric(effects: Sequence[Effect], point: Mapping[str, float]) -> State:
-    values = {e.id: {p.name: point[f"{e.id}.{p.name}"] for p in e.parameters} for e in effects}
+    values = {e.id: {p.name: point[f"{e.id}.{p.name}"] for p in (*e.parameters, *e.states)} for e in effects}
     muscle = Muscle(**{name: point[name] for name in GEOMETRY})
     return Model(effects).evaluate(muscle=muscle, values=values, **{name: point[name] for name in INPUTS})
 
@@ -103,6 +120,8 @@ def random_points(effects: Sequence[Effect], count: int) -> list[dict[str, float
         for effect in effects:
             for p in effect.parameters:
                 point[f"{effect.id}.{p.name}"] = random.uniform(p.lower, p.upper)
+            for state in effect.states:
+                point[f"{effect.id}.{state.name}"] = random.uniform(-state.scale, state.scale)
         points.append(point)
     return points
 

@@ -32,9 +32,13 @@ EFFECTS = list(default_catalogue().values())
 each_effect = pytest.mark.parametrize("effect", EFFECTS, ids=[effect.id for effect in EFFECTS])
 
 
-@each_effect
 @pytest.mark.parametrize(
-    "check", contract.CHECKS, ids=[c.__name__.removeprefix("check_") for c in contract.CHECKS]
+    ("effect", "check"),
+    [
+        pytest.param(effect, check, id=f"{effect.id}-{check.__name__.removeprefix('check_')}")
+        for effect in EFFECTS
+        for check in contract.checks_of(effect)
+    ],
 )
 def test_claim_holds(effect: Effect, check: Callable[[Effect], None]) -> None:
     check(effect)
@@ -85,7 +89,7 @@ def test_effect_of_a_further_folder_is_held_to_the_same(tmp_path: Path) -> None:
     (tmp_path / "shop_spring.py").write_text(source, encoding="utf-8")
     catalogue = Catalogue([tmp_path])
     assert catalogue.problems == []
-    for check in contract.CHECKS:
+    for check in contract.checks_of(catalogue["shop_spring"]):
         check(catalogue["shop_spring"])
 
 

@@ -184,6 +184,12 @@ def test_table_takes_units_jumps_and_times_before_zero():
     assert segments.end_values == pytest.approx([1.0, 0.5])
 
 
+def test_table_points_closer_than_any_valve_are_a_jump():
+    table = command({"shape": "table", "times": [0.0, 1.0, 1.0 + 1e-15], "values": [0.0, 0.0, 5.0]})
+    assert as_pieces(table.segments(2.0)) == [(0.0, 0.0), (1.0, 5.0)]
+    assert command({"shape": "chirp", "from": 0, "to": 0, "duration": 1}).segments(2.0).value(1.5) == 0.0
+
+
 def test_levels_of_another_unit_must_be_given():
     with pytest.raises(InputError, match=r"r.level is missing"):
         signal_from({"shape": "step"}, unit="m", field="r")
@@ -217,6 +223,9 @@ def test_levels_of_another_unit_must_be_given():
             "cubic",
         ),
         ({"shape": "step", "level": 2}, "command", "outside -1 to 1"),
+        ({"shape": "step", "level": 1e300}, "command.level", "1e+300"),
+        ({"shape": "sine", "frequency": 1e200}, "command.frequency", "1e+200"),
+        ({"shape": "ramp", "duration": 1e-320}, "command.duration", "shorter than 1e-09 s"),
     ],
 )
 def test_what_cannot_be_is_refused(document, field, words):
@@ -235,7 +244,7 @@ def test_a_near_miss_is_named():
     "document",
     [
         {"shape": "square", "period": "1 us"},
-        {"shape": "square", "period": 5e-324},
+        {"shape": "square", "period": "1e-8 s"},
         {"shape": "sine", "frequency": "100 kHz"},
         {"shape": "random", "hold": "1 ns"},
         {"shape": "chirp", "from": 0, "to": "1 MHz", "duration": 1},

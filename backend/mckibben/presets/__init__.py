@@ -1,4 +1,4 @@
-"""Presets: real muscles, valves, tubes, fittings, curves, measurements and designs, one JSON file each.
+"""Presets: real muscles, valves, tubes, fittings, curves, measurements, designs and drives, one JSON file each.
 
 Every physical value carries its unit, source and grade. A file that cannot be used becomes a `Problem` and
 the others still load.
@@ -8,6 +8,7 @@ from mckibben.presets.library import PresetLibrary, Problem
 from mckibben.presets.quantity import Quantity
 from mckibben.presets.schema import (
     DesignPreset,
+    DrivePreset,
     FittingPreset,
     MusclePreset,
     Preset,
@@ -19,6 +20,7 @@ from mckibben.presets.table import CurvePreset, MeasurementPreset
 __all__ = [
     "CurvePreset",
     "DesignPreset",
+    "DrivePreset",
     "FittingPreset",
     "MeasurementPreset",
     "MusclePreset",

@@ -16,6 +16,7 @@ from mckibben.physics.errors import did_you_mean
 from mckibben.presets.quantity import Finding
 from mckibben.presets.schema import (
     DesignPreset,
+    DrivePreset,
     EffectTable,
     FittingPreset,
     MusclePreset,
@@ -38,6 +39,7 @@ KINDS: dict[str, type[Preset]] = {
     "measurements": MeasurementPreset,
     "curves": CurvePreset,
     "designs": DesignPreset,
+    "drives": DrivePreset,
 }
 
 

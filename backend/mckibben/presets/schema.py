@@ -8,10 +8,12 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, PrivateAttr
 
 from mckibben.physics.errors import InputError, did_you_mean
-from mckibben.physics.parameter import Parameter
+from mckibben.physics.parameter import UNVERIFIED_GRADES, Parameter
 from mckibben.presets.quantity import (
     Expected,
     Finding,
+    Grade,
+    Note,
     Quantity,
     Strict,
     Text,
@@ -27,6 +29,8 @@ EffectTable = Mapping[str, Collection[str] | Mapping[str, Parameter]]
 Origin = Literal["built-in", "user"]
 PresetId = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9./-]{0,63}$")]
 Key = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]{0,63}$")]
+FigureName = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_.]{0,127}$")]
+Share = Annotated[float, Field(gt=0.0, le=1.0)]
 
 
 class Preset(Strict):
@@ -101,18 +105,10 @@ class Limits(Strict):
     max_nominal_length: Quantity | None = None
 
 
-class MusclePreset(Preset):
-    """A muscle: geometry, limits, catalogue data and the effects its model has by default."""
+class _WithEffects(Preset):
+    """A part whose model has effects by default."""
 
-    kind: Literal["muscle"]
-    series: Annotated[str, Field(max_length=60)] = ""
-    geometry: Geometry
-    tolerance: Tolerance = Tolerance()
-    limits: Limits = Limits()
-    data: dict[Key, Quantity] = Field(default_factory=dict)
     effects: dict[Key, dict[Key, Quantity]] = Field(default_factory=dict)
-    reference_curve: PresetId | None = None
-    measurement: PresetId | None = None
 
     _parameter_units: dict[str, dict[str, str]] = PrivateAttr(default_factory=dict)
 
@@ -144,13 +140,7 @@ class MusclePreset(Preset):
 
     def findings(self, effects: EffectTable | None = None) -> Iterator[Finding]:
         """Adds: effects and their parameters exist, with the right unit and inside their bounds."""
-        base = list(super().findings(effects))
-        yield from base
-        geometry = self.geometry
-        if not base and geometry.braid_diameter.si("m") < geometry.inside_diameter.si("m"):
-            yield Finding(
-                "geometry.braid_diameter.value", "the braid is narrower than the bore", "bore + wall"
-            )
+        yield from super().findings(effects)
         for name, table in self.effects.items():
             if effects is not None and name not in effects:
                 yield Finding(f"effects.{name}", f"there is no effect '{name}'", did_you_mean(name, effects))
@@ -158,6 +148,30 @@ class MusclePreset(Preset):
             for key, quantity in table.items():
                 known = None if effects is None else effects[name]
                 yield from _parameter_findings(f"effects.{name}.{key}", key, quantity, known)
+
+
+class MusclePreset(_WithEffects):
+    """A muscle: geometry, limits, catalogue data and the effects its model has by default."""
+
+    kind: Literal["muscle"]
+    series: Annotated[str, Field(max_length=60)] = ""
+    geometry: Geometry
+    tolerance: Tolerance = Tolerance()
+    limits: Limits = Limits()
+    data: dict[Key, Quantity] = Field(default_factory=dict)
+    reference_curve: PresetId | None = None
+    measurement: PresetId | None = None
+
+    def findings(self, effects: EffectTable | None = None) -> Iterator[Finding]:
+        """Adds: the braid lies around the bore."""
+        found = list(super().findings(effects))
+        yield from found
+        geometry = self.geometry
+        unusable = any((item.field or "").startswith("geometry.") for item in found)
+        if not unusable and geometry.braid_diameter.si("m") < geometry.inside_diameter.si("m"):
+            yield Finding(
+                "geometry.braid_diameter.value", "the braid is narrower than the bore", "bore + wall"
+            )
 
 
 def _parameter_findings(
@@ -172,15 +186,23 @@ def _parameter_findings(
         yield Finding(f"{path}.unit", f"'{quantity.unit}' is not a known unit", "e.g. 'MPa'")
 
 
-class _Part(Preset):
+class _Part(_WithEffects):
     data: dict[Key, Quantity] = Field(default_factory=dict)
 
 
+class RegulatorPart(Strict):
+    """What a pressure regulator adds to a valve: full-scale gauge pressure and time constant."""
+
+    range: Quantity
+    time: Quantity
+
+
 class ValvePreset(_Part):
-    """A valve; without ``sonic_conductance`` it cannot be simulated."""
+    """A valve, or with ``regulator`` a pressure regulator; its conductances are needed to simulate it."""
 
     kind: Literal["valve"]
     function: Annotated[str, Field(min_length=1, max_length=120)]
+    regulator: RegulatorPart | None = None
 
 
 class TubePreset(_Part):
@@ -200,3 +222,43 @@ class DesignPreset(Preset):
 
     kind: Literal["design"]
     document: dict[str, Any]
+
+
+class Ground(Strict):
+    """Where a value of a drive document comes from."""
+
+    source: Text
+    grade: Grade
+    note: Note | None = None
+
+
+class PaperFigures(Strict):
+    """What a publication prints of a drive.
+
+    Attributes:
+        figure: number of the figure.
+        figures: "extend.rise_time" -> value; names of the timing table, or told in the description.
+        tolerance: share by which a figure may be missed, by the same names.
+        excluded: why a figure is not compared, by the same names.
+    """
+
+    figure: Text
+    figures: dict[FigureName, Quantity] = Field(default_factory=dict)
+    tolerance: dict[FigureName, Share] = Field(default_factory=dict)
+    excluded: dict[FigureName, Text] = Field(default_factory=dict)
+
+
+class DrivePreset(Preset):
+    """A drive document to start from; its content is checked by the API that runs it."""
+
+    kind: Literal["drive"]
+    document: dict[str, Any]
+    paper: PaperFigures | None = None
+    grounds: dict[FigureName, Ground] = Field(default_factory=dict)
+
+    @property
+    def verified(self) -> bool:
+        """Whether no value of the document is general knowledge (M) or an estimate (E)."""
+        return super().verified and all(
+            ground.grade not in UNVERIFIED_GRADES for ground in self.grounds.values()
+        )

@@ -120,7 +120,8 @@ class PidController:
         for name in ("kp", "ki", "kd", "feed_forward"):
             gain = getattr(self, name)
             if not 0.0 <= gain <= MAX_GAIN:
-                raise InputError(f"{name}: {gain:g} 1/m is not a usable gain", field=name, hint="0 or more")
+                why = "a gain cannot be negative" if gain < 0.0 else "the gain is too large"
+                raise InputError(f"{name}: {why}", field=name, hint="0 or more")
         if self.kp == self.ki == self.kd == self.feed_forward == 0.0:
             raise InputError("all gains are zero: the controller would do nothing", field="kp")
         if not SHORTEST_SAMPLE <= self.sample_time <= LONGEST_SAMPLE:

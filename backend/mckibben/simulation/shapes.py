@@ -19,6 +19,9 @@ MAX_SEGMENTS = 100_000
 #: Largest distance of a smooth shape from its chords, as a share of the amplitude.
 SMOOTH_ERROR = 1e-4
 
+#: Beyond these a slope or a square would leave the range of numbers.
+LARGEST, SHORTEST_TIME = 1e30, 1e-9
+
 POSITIVE, NOT_NEGATIVE = "positive", "positive or zero"
 
 Pieces = tuple[Array, Array, Array]
@@ -57,10 +60,12 @@ class Signal:
             rule, value = item.metadata.get("rule"), getattr(self, item.name)
             where = self._at(item.metadata.get("name") or item.name)
             if item.metadata.get("kind") not in (None, "column", "word"):
-                require(math.isfinite(value), where, f"{where}: {value} is not a number that can be used")
+                require(abs(value) <= LARGEST, where, f"{where}: {value:g} is not a number that can be used")
             if rule:
                 good = value > 0.0 if rule == POSITIVE else value >= 0.0
                 require(good, where, f"{where}: {value:g} is not {rule}")
+                short = item.metadata["kind"] == "time" and 0.0 < value < SHORTEST_TIME and rule == POSITIVE
+                require(not short, where, f"{where}: {value:g} s is shorter than {SHORTEST_TIME:g} s")
 
     @property
     def before(self) -> float:

@@ -12,8 +12,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mckibben.physics.errors import did_you_mean
-from mckibben.simulation.segments import Array
-from mckibben.simulation.shapes import NOT_NEGATIVE, POSITIVE, SMOOTH_ERROR, Pieces, Signal, key, require
+from mckibben.simulation.segments import SHORTEST, Array
+from mckibben.simulation.shapes import (
+    LARGEST,
+    NOT_NEGATIVE,
+    POSITIVE,
+    SMOOTH_ERROR,
+    Pieces,
+    Signal,
+    key,
+    require,
+)
 
 _CHIRP_BLOCKS = 64
 
@@ -48,7 +57,7 @@ class _Smooth(Signal):
     def _pieces(self, until: float, smooth_step: float | None = None) -> Pieces:
         limits, bends = self._bends(until)
         # 1 % below the stated error: the chords' own rounding stays inside it.
-        steps = np.sqrt(8.0 * 0.99 * SMOOTH_ERROR / bends)
+        steps = np.sqrt(8.0 * 0.99 * SMOOTH_ERROR / np.maximum(bends, 1e-12))  # zero frequency: a constant
         if smooth_step is not None:
             steps = np.minimum(steps, smooth_step)
         counts = np.ceil(np.diff(limits) / steps)
@@ -95,8 +104,7 @@ class Chirp(_Smooth):
         frequency = np.interp(limits, [0.0, self.duration], [self.begin, self.end])
         fastest = np.maximum(frequency[1:], frequency[:-1])
         sweep = 2.0 * math.pi * abs(self.end - self.begin) / self.duration
-        bends = (2.0 * math.pi * fastest) ** 2 + sweep
-        return limits, np.maximum(bends, 1e-12)  # both frequencies zero: a constant
+        return limits, (2.0 * math.pi * fastest) ** 2 + sweep
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -147,9 +155,11 @@ class Table(Signal):
             column.setflags(write=False)
             object.__setattr__(self, name, column)
             where = self._at(name)
-            bad = np.flatnonzero(~np.isfinite(column))
+            bad = np.flatnonzero(~(np.abs(column) <= LARGEST))
             require(len(column) > 0, where, f"{where}: the table is empty")
-            require(not len(bad), where, f"{where}: entry {bad[:1].sum() + 1} is not a number")
+            require(
+                not len(bad), where, f"{where}: entry {bad[:1].sum() + 1} is not a number that can be used"
+            )
         where, count = self._at("times"), len(self.times)
         require(count == len(self.values), where, f"{where}: {count} times for {len(self.values)} values")
         self._check_count(count, "the table")
@@ -174,5 +184,5 @@ class Table(Signal):
         slopes = np.zeros(len(self.times))
         if self.interpolation == "linear":
             gaps = np.diff(self.times)
-            np.divide(np.diff(self.values), gaps, out=slopes[:-1], where=gaps > 0.0)
+            np.divide(np.diff(self.values), gaps, out=slopes[:-1], where=gaps > SHORTEST)
         return self.times, self.values, slopes

@@ -2,10 +2,8 @@
 // Signals and DOM building on one page: no dependency, no build.
 
 /** @typedef {{fn: () => void, deps: Set<Set<Effect>>, kids: Effect[], live: boolean}} Effect */
-/** @type {Effect | null} */
-let running = null;
-/** @type {Set<Effect>} */
-const queue = new Set();
+let running = /** @type {Effect | null} */ (null);
+const queue = /** @type {Set<Effect>} */ (new Set());
 let depth = 0;
 
 /** A value that effects follow: read `s.value`, write `s.value = x`, look without following with `s.peek()`.
@@ -14,8 +12,7 @@ export class Signal {
   /** @param {T} start */
   constructor(start) {
     this.v = start;
-    /** @type {Set<Effect>} */
-    this.subs = new Set();
+    this.subs = /** @type {Set<Effect>} */ (new Set());
   }
   get value() {
     if (running) {
@@ -37,19 +34,14 @@ export class Signal {
 /** @template T @param {T} start @returns {Signal<T>} */
 export const signal = (start) => new Signal(start);
 
-/** @param {Effect} e */
-function clear(e) {
+/** Lets go of everything the effect read and made. @param {Effect} e @param {boolean} [live] it will run again */
+function clear(e, live = false) {
+  e.live = live;
   e.deps.forEach((subs) => subs.delete(e));
   e.deps.clear();
-  e.kids.forEach(stop);
+  e.kids.forEach((kid) => clear(kid));
   e.kids = [];
   queue.delete(e);
-}
-
-/** @param {Effect} e */
-function stop(e) {
-  e.live = false;
-  clear(e);
 }
 
 /** @template T @param {Effect | null} e @param {() => T} fn */
@@ -65,7 +57,7 @@ function within(e, fn) {
 
 /** @param {Effect} e */
 function run(e) {
-  clear(e);
+  clear(e, true);
   within(e, e.fn);
 }
 
@@ -76,7 +68,7 @@ export function effect(fn) {
   const e = { fn, deps: new Set(), kids: [], live: true };
   running?.kids.push(e);
   run(e);
-  return () => stop(e);
+  return () => clear(e);
 }
 
 /** Runs fn on its own: effects made inside outlive the one that is running. @template T @param {() => T} fn */

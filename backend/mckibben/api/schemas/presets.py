@@ -10,6 +10,7 @@ from mckibben.api.schemas.common import Strict
 from mckibben.presets import (
     CurvePreset,
     DesignPreset,
+    DrivePreset,
     FittingPreset,
     MeasurementPreset,
     MusclePreset,
@@ -18,7 +19,7 @@ from mckibben.presets import (
     ValvePreset,
 )
 
-PresetKind = Literal["muscles", "valves", "tubes", "fittings", "measurements", "curves", "designs"]
+PresetKind = Literal["muscles", "valves", "tubes", "fittings", "measurements", "curves", "designs", "drives"]
 
 
 def _answer(preset: type[Preset], name: str) -> type[BaseModel]:
@@ -46,6 +47,7 @@ _ANSWERS = (
     _answer(MeasurementPreset, "MeasurementPresetAnswer"),
     _answer(CurvePreset, "CurvePresetAnswer"),
     _answer(DesignPreset, "DesignAnswer"),
+    _answer(DrivePreset, "DriveAnswer"),
 )
 PresetAnswer = Annotated[Union[_ANSWERS], Field(discriminator="kind")]  # noqa: UP007 - built from a tuple
 

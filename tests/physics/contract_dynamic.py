@@ -1,0 +1,314 @@
+"""Checks of what effects do over time: their slots outside the muscle, and claims that need a run from rest.
+
+The run drives the effect's own states by a given length and pressure over time. "Contribution" is the tension
+with the effect minus without, as in contract.py.
+"""
+
+from __future__ import annotations
+
+import inspect
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+import symengine as se
+from scipy.integrate import solve_ivp
+
+from mckibben.physics.effect import Effect
+from mckibben.physics.model import Model, State
+from mckibben.physics.slots import SLOTS
+from tests.physics.contract_states import (
+    MUSCLE,
+    MUSCLE_SLOTS,
+    SPEED,
+    companions,
+    defaults,
+    grid,
+)
+
+# What slot functions may ask for, and between which values it is tried.
+RANGES: dict[str, tuple[float, float]] = {
+    "length": (0.225, 0.309),
+    "pressure": (0.0, 8e5),
+    "velocity": (-0.5, 0.5),
+    "direction": (-1.0, 1.0),
+    "temperature": (273.15, 343.15),
+    "area": (0.0, 3e-3),
+    "pressure_rate": (-2e6, 2e6),
+    "diameter": (0.02, 0.05),
+    "gas_temperature": (230.0, 420.0),
+    "ambient_temperature": (273.15, 323.15),
+    "absolute_pressure": (0.6e5, 9e5),
+    "ambient_pressure": (0.9e5, 1.05e5),
+    "tube_length": (0.0, 10.0),
+    "opening": (-1.0, 1.0),
+    "conductance": (1e-10, 1e-7),
+    "supply_pressure": (3e5, 1.1e6),
+    "supply_flow": (-0.02, 0.02),
+    "mass_flow": (-0.02, 0.02),
+    "force": (0.0, 1500.0),
+    "stroke": (-0.01, 0.08),
+    "speed": (-1.0, 1.0),
+    "reading": (-1e5, 1e6),
+    "instant_pressure_reading": (0.0, 8e5),
+    "instant_force_reading": (-20.0, 1500.0),
+    "instant_stroke_reading": (-0.01, 0.08),
+}
+
+
+def _slots(effect: Effect) -> list[str]:
+    return [slot for slot in effect.slots if slot not in MUSCLE_SLOTS]
+
+
+def _ranges(effect: Effect, slot: str) -> dict[str, tuple[float, float]]:
+    """Range of every number the slot's function asks for."""
+    own = {p.name: (p.lower, p.upper) for p in effect.parameters}
+    own |= {state.name: (-state.scale, state.scale) for state in effect.states}
+    asked = inspect.signature(effect.slots[slot]).parameters
+    return {name: (own | RANGES)[name] for name in asked if name != "muscle"}
+
+
+def _evaluate(effect: Effect, slot: str, point: Mapping[str, object]) -> list:
+    given = effect.call(slot, {"muscle": MUSCLE}, point)
+    return list(given) if isinstance(given, tuple) else [given]
+
+
+def _compiled(effect: Effect, slot: str) -> tuple[list[str], int, Callable[[np.ndarray], np.ndarray]]:
+    """Names of the arguments, number of results, and a function giving results and all their derivatives."""
+    symbols = {name: se.Symbol(name) for name in _ranges(effect, slot)}
+    results = [se.sympify(result) for result in _evaluate(effect, slot, symbols)]
+    slopes = [result.diff(symbol) for result in results for symbol in symbols.values()]
+    return list(symbols), len(results), se.Lambdify(list(symbols.values()), results + slopes, backend="llvm")
+
+
+def check_off_leaves_slots_alone(effect: Effect) -> None:
+    """At its off values a chained slot gives back what it got, a sum 0 and a product 1, to the last bit."""
+    random = np.random.default_rng(3)
+    for slot in _slots(effect):
+        if slot in ("rates", "drive_rates"):
+            continue
+        chained = SLOTS[slot].context[0] if SLOTS[slot].combined_by == "chain" else None
+        for _ in range(20):
+            point = {name: random.uniform(*limits) for name, limits in _ranges(effect, slot).items()}
+            neutral = 1.0 if SLOTS[slot].combined_by == "product" else 0.0
+            want = point[chained] if chained else neutral
+            assert all(float(got) == want for got in _evaluate(effect, slot, point | effect.off)), slot
+
+
+def check_slots_finite_at_all_bounds(effect: Effect) -> None:
+    """Results and derivatives are finite at every corner, without motion, at empty and at full states."""
+    for slot in _slots(effect):
+        names, _, function = _compiled(effect, slot)
+        tried = [
+            (low, 0.0, high) if low < 0.0 < high else (low, high)
+            for low, high in _ranges(effect, slot).values()
+        ]
+        rows = np.array(list(product(*tried))) if names else np.zeros((1, 0))
+        assert np.isfinite(function(rows)).all(), slot
+
+
+def check_slots_agree(effect: Effect) -> None:
+    """The same numbers on numpy and on symbols, and exact derivatives."""
+    random = np.random.default_rng(5)
+    for slot in _slots(effect):
+        names, count, function = _compiled(effect, slot)
+        ranges = _ranges(effect, slot)
+        for _ in range(12):
+            point = {name: random.uniform(*limits) for name, limits in ranges.items()}
+            got = function(np.array([point[name] for name in names]))
+            here = np.array([float(value) for value in _evaluate(effect, slot, point)])
+            np.testing.assert_allclose(got[:count], here, rtol=1e-12, atol=1e-300)
+            exact = got[count:].reshape(count, len(names))
+            for column, name in enumerate(names):
+                step = 1e-6 * (ranges[name][1] - ranges[name][0])
+                up, down = (
+                    np.array(
+                        [float(v) for v in _evaluate(effect, slot, {**point, name: point[name] + h})]
+                    )
+                    for h in (step, -step)
+                )
+                slope = (up - down) / (2.0 * step)
+                rounding = 1e-14 * np.maximum(np.abs(up), np.abs(down)) / step
+                assert (np.abs(exact[:, column] - slope) <= 1e-5 * np.abs(slope) + rounding).all(), (
+                    f"{slot}: d/d {name} is {exact[:, column]}, {slope} by differences at {point}"
+                )
+
+
+def check_nothing_without_history(effect: Effect) -> None:
+    """With its states at rest it changes nothing of what the muscle does at a length and a pressure."""
+    others = companions(effect)
+    for sign in (-1.0, 0.0, 1.0):
+        state = grid(sign=sign)
+        got = Model((*others, effect)).evaluate(muscle=MUSCLE, values=defaults((*others, effect)), **state)
+        want = Model(others).evaluate(muscle=MUSCLE, values=defaults(others), **state)
+        for name in State._fields:
+            assert np.array_equal(getattr(got, name), getattr(want, name)), f"{name} differs"
+
+
+@dataclass(frozen=True)
+class Swing:
+    """Length and pressure over time: L0 (0.9 + stretch sin wt) and P + swing sin(wt + phase)."""
+
+    stretch: float = 0.0
+    swing: float = 0.0
+    mean_pressure: float = 3e5
+    phase: float = 0.0
+    period: float = 4.0
+    cycles: int = 3
+
+    def at(self, time: np.ndarray | float) -> dict[str, np.ndarray]:
+        """What slots of the muscle may ask for."""
+        w, t = 2.0 * math.pi / self.period, np.asarray(time)
+        velocity = MUSCLE.nominal_length * self.stretch * w * np.cos(w * t)
+        return {
+            "length": MUSCLE.nominal_length * (0.9 + self.stretch * np.sin(w * t)),
+            "velocity": velocity,
+            "direction": np.sign(velocity),
+            "pressure": self.mean_pressure + self.swing * np.sin(w * t + self.phase),
+            "pressure_rate": self.swing * w * np.cos(w * t + self.phase),
+        }
+
+
+def run(
+    effect: Effect,
+    at: Callable[[float], Mapping[str, object]],
+    time: np.ndarray,
+    values: Mapping[str, float] | None = None,
+    *,
+    slot: str = "rates",
+) -> dict[str, np.ndarray]:
+    """The effect's own states over time, from their start values, driven by what ``at(t)`` offers the slot."""
+    values = {**effect.defaults, **(values or {})}
+    names = [state.name for state in effect.states]
+
+    def rates(t: float, y: np.ndarray) -> list[float]:
+        given = effect.call(slot, {"muscle": MUSCLE, **at(t)}, {**values, **dict(zip(names, y, strict=True))})
+        return [float(rate) for rate in given]
+
+    solution = solve_ivp(
+        rates,
+        (time[0], time[-1]),
+        [state.initial for state in effect.states],
+        method="LSODA",
+        t_eval=time,
+        rtol=1e-8,
+        atol=np.array([1e-9 * state.scale for state in effect.states]),
+        max_step=(time[-1] - time[0]) / 300.0,
+    )
+    assert solution.success, solution.message
+    return dict(zip(names, solution.y, strict=True))
+
+
+def driven(
+    effect: Effect, swing: Swing, values: Mapping[str, float] | None = None, *, points: int = 1200
+) -> tuple[np.ndarray, np.ndarray]:
+    """Contribution to the tension [N] over a swing, and dL at the same rows, for the loop integral."""
+    time = np.linspace(0.0, swing.cycles * swing.period, swing.cycles * points + 1)
+    states = run(effect, swing.at, time, values)
+    others = companions(effect)
+    state = {name: value for name, value in swing.at(time).items() if name != "pressure_rate"}
+    own = {**effect.defaults, **(values or {}), **states}
+    with_it = Model((*others, effect)).at(
+        muscle=MUSCLE, values={**defaults(others), effect.id: own}, **state
+    )
+    without = Model(others).at(muscle=MUSCLE, values=defaults(others), **state)
+    force = np.broadcast_to(with_it.tension - without.tension, time.shape)
+    return force, np.gradient(state["length"]) * np.ones_like(time)
+
+
+STRETCHED = Swing(stretch=0.08)
+PRESSED = Swing(swing=2e5)
+_LEAST = 1e-6  # N
+
+
+def check_mirrored_motion(effect: Effect) -> None:
+    """Even: the same when every motion is mirrored. Odd: the opposite. Undeclared: neither."""
+    pairs = []
+    for swing, mirrored in ((STRETCHED, Swing(stretch=-0.08)), (PRESSED, Swing(swing=-2e5))):
+        pairs.append((driven(effect, swing)[0], driven(effect, mirrored)[0]))
+    scale = max(np.abs(force).max() for force, _ in pairs)
+    assert scale > _LEAST
+    even, odd = (
+        max(np.abs(b - side * a).max() for a, b in pairs) <= 1e-5 * scale for side in (1.0, -1.0)
+    )
+    assert (even, odd) == (effect.signature.direction == "even", effect.signature.direction == "odd")
+
+
+def check_power_over_run(effect: Effect) -> None:
+    """At constant pressure in proportion to its declared power; undeclared: to no power, or nothing at all."""
+    pressures = (1e5, 2e5, 4e5)
+    sizes = [np.abs(driven(effect, Swing(stretch=0.08, mean_pressure=p))[0]).max() for p in pressures]
+    if max(sizes) <= _LEAST:
+        assert effect.signature.pressure_power is None
+        return
+    powers = np.diff(np.log(sizes)) / np.diff(np.log(pressures))
+    if effect.signature.pressure_power is None:
+        assert np.ptp(powers) > 1e-3
+    else:
+        np.testing.assert_allclose(powers, effect.signature.pressure_power, atol=1e-6)
+
+
+def check_shows_in_runs(effect: Effect) -> None:
+    """Visible in the kinds it names, exactly invisible in others, and nothing without motion if it says so."""
+    shown = {
+        "isobaric": np.abs(driven(effect, STRETCHED)[0]).max(),
+        "isometric": np.abs(driven(effect, PRESSED)[0]).max(),
+        "isotonic": np.abs(driven(effect, Swing(stretch=-0.08, swing=2e5))[0]).max(),
+        # A map has no history (check_nothing_without_history), and no state acts on the shape.
+        "static": 0.0,
+        "diameter": 0.0,
+    }
+    shown["transient"] = max(shown.values())
+    for kind, size in shown.items():
+        assert size > _LEAST if kind in effect.kinds else size == 0.0, f"{kind}: {size} N"
+    assert ("no_motion" in effect.signature.zero_at) == (shown["isometric"] == 0.0)
+    assert set(effect.signature.zero_at) <= {"no_motion"}, "others are not checked for effects with states"
+
+
+def check_work_of_run(effect: Effect) -> None:
+    """Dissipative: no run from rest gains work, and none of its cycles. Lumped: some closed path does."""
+    works = []
+    for stretch, period, swing, phase in product((1e-3, 0.02, 0.1), (0.5, 20.0), (0.0, 2e5), (0.0, 2.0)):
+        if phase and not swing:
+            continue
+        path = Swing(stretch=stretch, period=period, swing=swing, phase=phase)
+        force, step = driven(effect, path, points=400)
+        work = force * step
+        scale = np.abs(work).sum()
+        cycles = [part.sum() for part in np.array_split(work[1:], path.cycles)]
+        works += [np.cumsum(work).min() / max(scale, 1e-12), *(cycle / max(scale, 1e-12) for cycle in cycles)]
+    if effect.signature.energy == "dissipative":
+        assert min(works) >= -1e-2
+        assert max(works) > 1e-3
+    else:
+        assert effect.signature.energy == "lumped"
+        assert min(works) < -1e-2
+
+
+def check_drive_claims(effect: Effect) -> None:
+    """No claim on the force at a length and pressure; seen over time, and by slow tests only as a reading."""
+    signature = effect.signature
+    assert (signature.direction, signature.pressure_power, signature.zero_at) == (None, None, ())
+    slots = set(effect.slots)
+    channels = {"force_reading", "pressure_reading", "stroke_reading", "skew"} & slots
+    slow = {"isobaric", "isometric", "isotonic"} if channels else {"isotonic"} if "guide" in slots else set()
+    assert effect.kinds == {"transient"} | slow
+    assert (signature.energy == "reading") == bool(channels)
+    if "guide" in slots:
+        for speed in (-1.0, -SPEED, SPEED, 1.0):
+            context = {"stroke": 0.01, "speed": speed, "direction": math.copysign(1.0, speed)}
+            assert effect.call("guide", context, effect.defaults) * speed > 0.0
+        assert signature.energy == "dissipative"
+
+
+SLOT_CHECKS = (check_off_leaves_slots_alone, check_slots_finite_at_all_bounds, check_slots_agree)
+RUN_CLAIMS = (
+    check_nothing_without_history,
+    check_mirrored_motion,
+    check_power_over_run,
+    check_shows_in_runs,
+    check_work_of_run,
+)
+DRIVE_CLAIMS = (check_nothing_without_history, check_drive_claims)
