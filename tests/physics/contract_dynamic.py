@@ -124,9 +124,7 @@ def check_slots_agree(effect: Effect) -> None:
             for column, name in enumerate(names):
                 step = 1e-6 * (ranges[name][1] - ranges[name][0])
                 up, down = (
-                    np.array(
-                        [float(v) for v in _evaluate(effect, slot, {**point, name: point[name] + h})]
-                    )
+                    np.array([float(v) for v in _evaluate(effect, slot, {**point, name: point[name] + h})])
                     for h in (step, -step)
                 )
                 slope = (up - down) / (2.0 * step)
@@ -210,9 +208,7 @@ def driven(
     others = companions(effect)
     state = {name: value for name, value in swing.at(time).items() if name != "pressure_rate"}
     own = {**effect.defaults, **(values or {}), **states}
-    with_it = Model((*others, effect)).at(
-        muscle=MUSCLE, values={**defaults(others), effect.id: own}, **state
-    )
+    with_it = Model((*others, effect)).at(muscle=MUSCLE, values={**defaults(others), effect.id: own}, **state)
     without = Model(others).at(muscle=MUSCLE, values=defaults(others), **state)
     force = np.broadcast_to(with_it.tension - without.tension, time.shape)
     return force, np.gradient(state["length"]) * np.ones_like(time)
@@ -220,7 +216,7 @@ def driven(
 
 STRETCHED = Swing(stretch=0.08)
 PRESSED = Swing(swing=2e5)
-_LEAST = 1e-6  # N
+_LEAST = 1e-6  # N, what the tolerance of a run leaves
 
 
 def check_mirrored_motion(effect: Effect) -> None:
@@ -230,9 +226,7 @@ def check_mirrored_motion(effect: Effect) -> None:
         pairs.append((driven(effect, swing)[0], driven(effect, mirrored)[0]))
     scale = max(np.abs(force).max() for force, _ in pairs)
     assert scale > _LEAST
-    even, odd = (
-        max(np.abs(b - side * a).max() for a, b in pairs) <= 1e-5 * scale for side in (1.0, -1.0)
-    )
+    even, odd = (max(np.abs(b - side * a).max() for a, b in pairs) <= 1e-5 * scale for side in (1.0, -1.0))
     assert (even, odd) == (effect.signature.direction == "even", effect.signature.direction == "odd")
 
 
@@ -251,7 +245,7 @@ def check_power_over_run(effect: Effect) -> None:
 
 
 def check_shows_in_runs(effect: Effect) -> None:
-    """Visible in the kinds it names, exactly invisible in others, and nothing without motion if it says so."""
+    """Visible in the kinds it names, invisible in all others, and nothing without motion if it says so."""
     shown = {
         "isobaric": np.abs(driven(effect, STRETCHED)[0]).max(),
         "isometric": np.abs(driven(effect, PRESSED)[0]).max(),
@@ -262,8 +256,8 @@ def check_shows_in_runs(effect: Effect) -> None:
     }
     shown["transient"] = max(shown.values())
     for kind, size in shown.items():
-        assert size > _LEAST if kind in effect.kinds else size == 0.0, f"{kind}: {size} N"
-    assert ("no_motion" in effect.signature.zero_at) == (shown["isometric"] == 0.0)
+        assert (kind in effect.kinds) == (size > _LEAST), f"{kind}: {size} N"
+    assert ("no_motion" in effect.signature.zero_at) == (shown["isometric"] <= _LEAST)
     assert set(effect.signature.zero_at) <= {"no_motion"}, "others are not checked for effects with states"
 
 
@@ -280,7 +274,7 @@ def check_work_of_run(effect: Effect) -> None:
         cycles = [part.sum() for part in np.array_split(work[1:], path.cycles)]
         works += [np.cumsum(work).min() / max(scale, 1e-12), *(cycle / max(scale, 1e-12) for cycle in cycles)]
     if effect.signature.energy == "dissipative":
-        assert min(works) >= -1e-2
+        assert min(works) >= -1e-3
         assert max(works) > 1e-3
     else:
         assert effect.signature.energy == "lumped"

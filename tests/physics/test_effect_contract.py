@@ -13,7 +13,7 @@ from latex2mathml.converter import convert
 from mckibben.physics.catalogue import BUILT_IN_FOLDER, Catalogue, default_catalogue
 from mckibben.physics.effect import Effect
 from mckibben.physics.units import si
-from tests.physics import contract
+from tests.physics import contract, contract_dynamic
 
 # Effects that exist or are planned; a twin may be named before its file is written.
 KNOWN_IDS = frozenset(  # one block of words reads better than fifty quoted lines
@@ -111,6 +111,40 @@ def test_false_claim_is_found(claim: dict, check: Callable[[Effect], None]) -> N
     lying = dataclasses.replace(honest, signature=dataclasses.replace(honest.signature, **claim))
     with pytest.raises(AssertionError):
         check(lying)
+
+
+@pytest.mark.parametrize(
+    ("effect_id", "claim", "check"),
+    [
+        ("dahl", {"direction": "even"}, contract_dynamic.check_mirrored_motion),
+        ("dahl", {"pressure_power": 1.0}, contract_dynamic.check_power_over_run),
+        ("dahl", {"zero_at": ()}, contract_dynamic.check_shows_in_runs),
+        ("dahl", {"energy": "lumped"}, contract_dynamic.check_work_of_run),
+        ("pressure_hysteresis", {"pressure_power": 0.0}, contract_dynamic.check_power_over_run),
+        ("pressure_hysteresis", {"zero_at": ("no_motion",)}, contract_dynamic.check_shows_in_runs),
+        ("pressure_hysteresis", {"energy": "dissipative"}, contract_dynamic.check_work_of_run),
+        ("leak", {"energy": "reading"}, contract_dynamic.check_drive_claims),
+        ("leak", {"direction": "odd"}, contract_dynamic.check_drive_claims),
+    ],
+)
+def test_false_claim_over_time_is_found(effect_id: str, claim: dict, check: Callable[[Effect], None]) -> None:
+    honest = default_catalogue()[effect_id]
+    check(honest)
+    lying = dataclasses.replace(honest, signature=dataclasses.replace(honest.signature, **claim))
+    with pytest.raises(AssertionError):
+        check(lying)
+
+
+def test_effect_that_is_not_off_at_its_off_values_is_found() -> None:
+    for effect_id, name in (("leak", "conductance"), ("flow_coefficient", "factor"), ("dahl", "force")):
+        honest = default_catalogue()[effect_id]
+        parameters = tuple(
+            dataclasses.replace(p, off=p.default) if p.name == name else p for p in honest.parameters
+        )
+        lying = dataclasses.replace(honest, parameters=parameters)
+        with pytest.raises(AssertionError):
+            for check in (contract.check_off_is_ideal, contract_dynamic.check_off_leaves_slots_alone):
+                check(lying)
 
 
 @pytest.mark.parametrize(

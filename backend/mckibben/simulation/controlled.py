@@ -10,6 +10,7 @@ import numpy as np
 from mckibben.physics.drive_terms import INPUTS, OUTPUTS
 from mckibben.physics.errors import InputError
 from mckibben.simulation.engine import Outcome, Solution, compiled_drive, integrate
+from mckibben.simulation.outcome import Watch
 from mckibben.simulation.parts import Drive
 from mckibben.simulation.segments import Segments
 from mckibben.simulation.transient import (
@@ -24,12 +25,19 @@ from mckibben.simulation.transient import (
 
 
 def simulate_controlled(
-    drive: Drive, *, points: int = 2001, tolerance: float = TOLERANCE, engine: str = "rodas"
+    drive: Drive,
+    *,
+    points: int = 2001,
+    grid: np.ndarray | None = None,
+    tolerance: float = TOLERANCE,
+    engine: str = "rodas",
+    watch: Watch | None = None,
 ) -> Run:
     """Run a drive whose controller follows its reference; the command is held between samples.
 
     The controller sees the stroke as its sensor reads it. A command that rises (falls) acts after the dead
-    time of opening (closing), in the order in which the commands were given.
+    time of opening (closing), in the order in which the commands were given. ``grid`` and ``watch`` as in
+    `mckibben.simulation.transient.simulate`.
 
     Raises:
         InputError: more than a million samples.
@@ -47,7 +55,8 @@ def simulate_controlled(
     compiled = compiled_drive(drive.structure)
     parameters = parameters_of(drive, compiled)
     external = external_force(drive)
-    grid = np.linspace(0.0, drive.duration, points)
+    grid = np.linspace(0.0, drive.duration, points) if grid is None else grid
+    watch = watch or Watch()
     reading = compiled.size + OUTPUTS.index("stroke_reading")
     set_points = reference.value(np.arange(samples) * period)
     delays = dead_times(drive)
@@ -59,6 +68,9 @@ def simulate_controlled(
     rows, switches, steps, rejected = [], [(0.0, active)], 0, 0
     outcome, last_command = Outcome.COMPLETED, active
     for sample in range(samples):
+        if ended := watch.ended(sample / samples):
+            outcome = ended
+            break
         now, end = sample * period, min((sample + 1) * period, drive.duration)
         measured = _measured(compiled, state, parameters, external, active, reading, now)
         command, memory = controller.step(float(set_points[sample]), measured, memory)
@@ -97,7 +109,14 @@ def simulate_controlled(
             break
     instants, values = (np.array(column) for column in zip(*switches, strict=True))
     command_shape = Segments(np.append(instants, drive.duration), values, np.zeros(len(values)))
-    solution = Solution(np.concatenate(rows), state, outcome, steps, rejected, engine)
+    solution = Solution(
+        np.concatenate(rows) if rows else np.empty((0, compiled.size + compiled.width)),
+        state,
+        outcome,
+        steps,
+        rejected,
+        engine,
+    )
     return run_of(drive, compiled, grid, solution, command_shape, time.perf_counter() - began)
 
 

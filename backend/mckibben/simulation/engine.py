@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import ctypes
 import threading
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
-from enum import Enum
 from functools import lru_cache
 from typing import Any
 
@@ -21,27 +21,11 @@ from mckibben.physics.drive import DriveModel
 from mckibben.physics.drive_terms import Structure
 from mckibben.physics.driven import DrivenModel
 from mckibben.physics.effect import Effect
+from mckibben.simulation.outcome import Outcome, Watch
+
+__all__ = ["CompiledDrive", "Outcome", "Solution", "compiled_drive", "integrate", "kernel"]
 
 MAX_STEPS = 400_000
-
-
-class Outcome(Enum):
-    """How a run ended; the value says what to do next."""
-
-    COMPLETED = "completed"
-    STUCK = (
-        "The solver needed more than 400 000 steps: the drive chatters. Shorten the duration, lower the "
-        "controller's gains, or give the load more mass."
-    )
-    DIVERGED = (
-        "The solution left what a muscle can do. Check the load against the blocked force, the end stops and "
-        "the volume of the muscle."
-    )
-
-    @property
-    def label(self) -> str:
-        """Short name for programs."""
-        return self.name.lower()
 
 
 @dataclass(frozen=True)
@@ -129,6 +113,14 @@ class _Kernel:
 kernel = _Kernel()
 
 
+class _EndedError(Exception):
+    """Leaves an integrator that cannot be told to stop."""
+
+    def __init__(self, outcome: Outcome) -> None:
+        super().__init__(outcome.label)
+        self.outcome = outcome
+
+
 @dataclass(frozen=True)
 class Solution:
     """Rows of states and outputs on the grid, the end state, and how it went."""
@@ -151,6 +143,7 @@ def integrate(
     grid: np.ndarray,
     tolerance: float,
     engine: str = "auto",
+    watch: Watch | None = None,
 ) -> Solution:
     """Integrate from ``times[0]`` to ``times[-1]``, segment by segment.
 
@@ -163,6 +156,7 @@ def integrate(
         grid: times of the rows wanted, inside the limits.
         tolerance: relative error per step; the absolute one is the state's scale times it.
         engine: "rodas", "lsoda", or "auto" for the first that is ready.
+        watch: may end LSODA early; the kernel is not asked, its steps are limited instead.
     """
     function = kernel.ready() if engine == "auto" else None
     if engine == "rodas":
@@ -170,7 +164,7 @@ def integrate(
         function = kernel.ready()
     absolute = tolerance * np.array([state.scale for state in drive.model.states])
     if function is None:
-        return _lsoda(drive, parameters, start, times, inputs, grid, tolerance, absolute)
+        return _lsoda(drive, parameters, start, times, inputs, grid, tolerance, absolute, watch or Watch())
     rows = np.full((len(grid), drive.size + drive.width), np.nan)
     counts = np.zeros(3, np.int64)
     end = start.copy()
@@ -200,6 +194,7 @@ def _lsoda(
     grid: np.ndarray,
     tolerance: float,
     absolute: np.ndarray,
+    watch: Watch,
 ) -> Solution:
     from scipy.integrate import solve_ivp
 
@@ -208,7 +203,9 @@ def _lsoda(
     state, steps, written = start.copy(), 0, 0
     packed = np.concatenate([start, parameters, np.zeros(inputs.shape[1])])
 
-    def rates(_time: float, y: np.ndarray) -> np.ndarray:
+    def rates(now: float, y: np.ndarray) -> np.ndarray:
+        if ended := watch.ended(now / times[-1]):
+            raise _EndedError(ended)
         packed[:size] = y
         return drive.rates(packed)[:size]
 
@@ -224,16 +221,22 @@ def _lsoda(
         last = segment == len(inputs) - 1
         stop = np.searchsorted(grid, finish, side="right" if last else "left")
         wanted = grid[written:stop]
-        found = solve_ivp(
-            rates,
-            (begin, finish),
-            state,
-            method="LSODA",
-            jac=jacobian,
-            t_eval=np.union1d(wanted, finish),
-            rtol=tolerance,
-            atol=absolute,
-        )
+        try:
+            # LSODA also warns of what its result says.
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                found = solve_ivp(
+                    rates,
+                    (begin, finish),
+                    state,
+                    method="LSODA",
+                    jac=jacobian,
+                    t_eval=np.union1d(wanted, finish),
+                    rtol=tolerance,
+                    atol=absolute,
+                )
+        except _EndedError as end:
+            return Solution(rows[:written], state, end.outcome, steps, 0, "lsoda")
         steps += len(found.t)
         if not found.success or not np.all(np.isfinite(found.y)):
             return Solution(rows[:written], state, Outcome.DIVERGED, steps, 0, "lsoda")

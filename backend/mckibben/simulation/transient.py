@@ -15,6 +15,7 @@ from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import GEOMETRY
 from mckibben.simulation.engine import CompiledDrive, Outcome, Solution, compiled_drive, integrate
+from mckibben.simulation.outcome import Watch
 from mckibben.simulation.parts import Drive, Regulator
 from mckibben.simulation.segments import Segments, delayed, merged
 from mckibben.simulation.signals import Signal
@@ -186,20 +187,30 @@ def start_of(drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inpu
     return start
 
 
-def simulate(drive: Drive, *, points: int = 2001, tolerance: float = TOLERANCE, engine: str = "auto") -> Run:
+def simulate(
+    drive: Drive,
+    *,
+    points: int = 2001,
+    grid: np.ndarray | None = None,
+    tolerance: float = TOLERANCE,
+    engine: str = "auto",
+    watch: Watch | None = None,
+) -> Run:
     """Run a drive from rest.
 
     Args:
         drive: what to run.
         points: rows of the evenly spaced time grid.
+        grid: ascending times of the rows instead, within the duration.
         tolerance: relative error per step.
+        watch: may end the run early.
         engine: see `mckibben.simulation.engine.integrate`; a controlled drive waits for the kernel.
     """
     compiled = compiled_drive(drive.structure)
     parameters = parameters_of(drive, compiled)
     times, inputs, command = segments_of(drive)
     start = start_of(drive, compiled, parameters, inputs)
-    grid = np.linspace(0.0, drive.duration, points)
+    grid = np.linspace(0.0, drive.duration, points) if grid is None else grid
     began = time.perf_counter()
     solution = integrate(
         compiled,
@@ -210,6 +221,7 @@ def simulate(drive: Drive, *, points: int = 2001, tolerance: float = TOLERANCE, 
         grid=grid,
         tolerance=tolerance,
         engine=engine,
+        watch=watch,
     )
     return run_of(drive, compiled, grid, solution, command, time.perf_counter() - began)
 

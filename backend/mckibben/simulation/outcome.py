@@ -1,0 +1,67 @@
+"""How a run ends, and who may end it early: the caller, or the clock."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from enum import Enum
+
+# A drive that needs longer is in trouble, or asked for more than anyone waits for.
+TIME_LIMIT = 10.0  # s
+_PROGRESS_EVERY = 0.1  # s
+
+
+class Outcome(Enum):
+    """How a run ended; the value says what to do next."""
+
+    COMPLETED = "completed"
+    STUCK = (
+        "The solver needed more than 400 000 steps: the drive chatters. Shorten the duration, lower the "
+        "controller's gains, or give the load more mass."
+    )
+    DIVERGED = (
+        "The solution left what a muscle can do. Check the load against the blocked force, the end stops and "
+        "the volume of the muscle."
+    )
+    TIMED_OUT = (
+        "The run took longer than 10 s and was stopped. Shorten the duration, sample the controller less "
+        "often, or remove the fastest effects."
+    )
+    CANCELLED = "The run was cancelled."
+
+    @property
+    def label(self) -> str:
+        """Short name for programs."""
+        return self.name.lower()
+
+
+@dataclass
+class Watch:
+    """Asked now and then by a running integration whether to go on.
+
+    Attributes:
+        cancelled: whether the caller has lost interest.
+        progress: told the share of the run that is done, a few times a second.
+        time_limit: [s] from the first question on.
+    """
+
+    cancelled: Callable[[], bool] | None = None
+    progress: Callable[[float], None] | None = None
+    time_limit: float = TIME_LIMIT
+    _began: float | None = field(default=None, init=False, repr=False)
+    _told: float = field(default=0.0, init=False, repr=False)
+
+    def ended(self, share: float) -> Outcome | None:
+        """Why the run must end now, having done this share of it; None to go on."""
+        now = time.monotonic()
+        if self._began is None:
+            self._began = self._told = now
+        if self.cancelled is not None and self.cancelled():
+            return Outcome.CANCELLED
+        if now - self._began > self.time_limit:
+            return Outcome.TIMED_OUT
+        if self.progress is not None and now - self._told > _PROGRESS_EVERY:
+            self._told = now
+            self.progress(share)
+        return None

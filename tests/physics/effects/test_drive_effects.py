@@ -1,0 +1,147 @@
+"""Valve, tube, supply, gas, load and sensors: each effect's own behaviour against closed forms."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mckibben.physics import gas
+from mckibben.physics.catalogue import default_catalogue
+from tests.physics.contract_dynamic import run
+
+CATALOGUE = default_catalogue()
+
+
+def step_response(effect_id: str, context: dict[str, float], time: np.ndarray, **values: float) -> dict:
+    return run(CATALOGUE[effect_id], lambda _: context, time, values, slot="drive_rates")
+
+
+@pytest.mark.parametrize("damping", [0.5, 0.8])
+def test_spool_step_is_that_of_a_damped_oscillator(damping: float) -> None:
+    """DC gain 1; 1 - e^{-zeta t/tau} (cos + zeta/sqrt(1 - zeta^2) sin)."""
+    time = np.linspace(0.0, 0.05, 501)
+    position = step_response("spool_lag", {"opening": 0.8}, time, time=2e-3, damping=damping)["position"]
+    root = np.sqrt(1.0 - damping**2)
+    turn = root * time / 2e-3
+    want = 1.0 - np.exp(-damping * time / 2e-3) * (np.cos(turn) + damping / root * np.sin(turn))
+    np.testing.assert_allclose(position, 0.8 * want, atol=1e-5)
+    assert position[-1] == pytest.approx(0.8, abs=1e-4)
+
+
+def test_spool_without_a_lag_is_its_command() -> None:
+    opening = CATALOGUE["spool_lag"].call("opening", {"opening": 0.7}, {"time": 0.0, "position": 0.1})
+    assert float(opening) == 0.7
+
+
+def test_deadband_is_shut_inside_and_monotone_outside() -> None:
+    commands = np.linspace(-1.0, 1.0, 2001)
+    got = CATALOGUE["valve_deadband"].call("opening", {"opening": commands}, {"half_width": 0.05})
+    assert np.array_equal(got[np.abs(commands) <= 0.05], np.zeros(101))
+    assert (np.diff(got) >= 0.0).all()
+    assert (got[0], got[-1]) == (-1.0, 1.0)
+    np.testing.assert_allclose(got, -got[::-1], atol=1e-15)
+
+
+def test_supply_droops_with_the_flow_and_comes_back() -> None:
+    """1 l/s on 0.2 bar per l/s: 0.2 bar, with the time constant; to the nominal pressure afterwards."""
+    effect, flow = CATALOGUE["supply_droop"], 1e-3 * gas.ANR_DENSITY
+    time = np.linspace(0.0, 10.0, 1001)
+    values = {"droop": 2e7, "time": 0.5}
+    drop = run(effect, lambda t: {"supply_flow": flow if t < 5.0 else 0.0}, time, values, slot="drive_rates")[
+        "drop"
+    ]
+    assert np.interp(0.5, time, drop) == pytest.approx(2e4 * (1.0 - np.exp(-1.0)), rel=1e-3)
+    assert np.interp(5.0, time, drop) == pytest.approx(2e4, rel=1e-3)
+    assert drop[-1] == pytest.approx(2e4 * np.exp(-10.0), abs=20.0)
+    supply = effect.call("supply", {"supply_pressure": 7e5}, {**values, "drop": drop})
+    assert float(supply.min()) == pytest.approx(6.8e5, rel=1e-3)
+    assert float(supply[-1]) == pytest.approx(7e5, abs=20.0)
+
+
+def test_sensor_lag_has_gain_1_and_the_width_of_a_false_loop() -> None:
+    """A ramp is read late by exactly the time constant; the other channels are read at once."""
+    effect = CATALOGUE["sensor_lag"]
+    time = np.linspace(0.0, 1.0, 501)
+
+    def ramp(t: float) -> dict[str, float]:
+        return {
+            "instant_force_reading": 300.0 * min(t, 0.5),
+            "instant_pressure_reading": 2e5,
+            "instant_stroke_reading": 0.01,
+        }
+
+    values = {"force_time": 0.02}
+    states = run(effect, ramp, time, values, slot="drive_rates")
+    assert np.interp(0.45, time, states["force_filtered"]) == pytest.approx(300.0 * (0.45 - 0.02), rel=1e-6)
+    assert states["force_filtered"][-1] == pytest.approx(150.0, rel=1e-6)
+    both = {**effect.defaults, **values, **states}
+    assert np.array_equal(effect.call("force_reading", {"reading": 1.0}, both), states["force_filtered"])
+    assert float(effect.call("pressure_reading", {"reading": 2e5}, both)[0]) == 2e5
+    assert np.array_equal(states["stroke_filtered"], np.zeros(501)), "a channel without a lag costs nothing"
+
+
+def test_leak_flows_out_and_stops_at_equal_pressures() -> None:
+    leak = CATALOGUE["leak"]
+    pressures = np.array([0.9e5, 1e5, 1.0005e5, 2e5, 7e5, 8e5])
+    flows = leak.call(
+        "leak",
+        {"absolute_pressure": pressures, "ambient_pressure": 1e5, "gas_temperature": 293.15},
+        leak.defaults,
+    )
+    assert flows[0] < 0.0
+    assert flows[1] == 0.0
+    assert (np.diff(flows) > 0.0).all()
+    assert flows[5] / flows[4] == pytest.approx(8.0 / 7.0, rel=1e-12), "choked: exponential in pressure"
+
+
+def test_closed_muscle_leaks_with_its_time_constant() -> None:
+    """Choked at constant temperature: tau = V/(C p0), p0 = rho0 R T0."""
+    leak, conductance, volume = CATALOGUE["leak"], 1e-10, 1e-4
+    p0 = gas.ANR_DENSITY * gas.GAS_CONSTANT * gas.ANR_TEMPERATURE
+    context = {"absolute_pressure": 7e5, "ambient_pressure": 1e5, "gas_temperature": 293.15}
+    flow = leak.call("leak", context, leak.defaults | {"conductance": conductance})
+    rate = gas.GAS_CONSTANT * 293.15 * flow / volume
+    assert 7e5 / rate == pytest.approx(volume / (conductance * p0), rel=1e-12)
+
+
+def test_heat_flows_from_warm_to_cold_over_the_wall() -> None:
+    heat = CATALOGUE["heat_exchange"]
+
+    def into_gas(temperature: float) -> float:
+        context = {
+            "length": 0.3,
+            "diameter": 0.02,
+            "gas_temperature": temperature,
+            "ambient_temperature": 293.0,
+        }
+        return float(heat.call("heat", context, heat.defaults))
+
+    assert into_gas(293.0) == 0.0
+    assert into_gas(350.0) < 0.0 < into_gas(250.0)
+
+
+def test_size_20_cools_within_a_second() -> None:
+    """tau = m c_v/(h A), 0.83 g of air at 7 bar over 0.019 m^2: 0.6-1.6 s for 50-20 W/(m^2 K)."""
+    heat = CATALOGUE["heat_exchange"]
+    context = {"length": 0.3, "diameter": 0.02, "gas_temperature": 294.0, "ambient_temperature": 293.0}
+    for coefficient, seconds in ((20.0, 1.6), (50.0, 0.63)):
+        loss = -float(heat.call("heat", context, {"coefficient": coefficient}))
+        assert 0.83e-3 * gas.HEAT_CAPACITY_V / loss == pytest.approx(seconds, rel=0.03)
+
+
+def test_delays() -> None:
+    tube = CATALOGUE["tube_delay"].call("command_delay", {"tube_length": 1.0}, {"factor": 1.0})
+    assert tube == pytest.approx((2.914e-3, 2.914e-3), rel=1e-3)
+    valve = CATALOGUE["valve_delay"]
+    assert valve.call("command_delay", {"tube_length": 1.0}, valve.defaults) == (0.005, 0.0075)
+
+
+def test_guide_friction_opposes_the_stroke() -> None:
+    """A band of twice the force at creeping speed, none at rest."""
+    guide = CATALOGUE["guide_friction"]
+    up, still, down = (
+        guide.call("guide", {"direction": sign, "speed": 1e-9 * sign}, {"force": 5.0, "coefficient": 10.0})
+        for sign in (1.0, 0.0, -1.0)
+    )
+    assert up - down == pytest.approx(10.0, rel=1e-6)
+    assert still == 0.0

@@ -1,0 +1,96 @@
+"""Creep and run-in: limits of fast and slow motion, superposition, relaxation, and what the rubber remembers."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mckibben.physics.catalogue import default_catalogue
+from tests.physics.contract_dynamic import Swing, driven, run
+from tests.physics.contract_states import MUSCLE
+
+CREEP = default_catalogue()["creep"]
+MULLINS = default_catalogue()["mullins"]
+
+
+def creep_force(velocity, time: np.ndarray) -> np.ndarray:
+    states = run(CREEP, lambda t: {"velocity": velocity(t)}, time, {"stiffness": 900.0, "time": 3.0})
+    return CREEP.call("friction", {}, {"stiffness": 900.0, **states})
+
+
+@pytest.mark.parametrize("frequency", [1e-3, 0.05, 1.0, 100.0])
+def test_creep_has_the_moduli_of_three_maxwell_arms(frequency: float) -> None:
+    """Storage and loss stiffness k/3 sum (w tau)^2/(1 + (w tau)^2) and k/3 sum w tau/(1 + (w tau)^2)."""
+    w, cycles = 2.0 * np.pi * frequency, max(3, int(120.0 * frequency))
+    time = np.linspace(0.0, cycles / frequency, 60 * cycles + 1)
+    force = creep_force(lambda t: 0.01 * w * np.cos(w * t), time)
+    last = slice(-61, -1)
+    sine, cosine = np.sin(w * time[last]), np.cos(w * time[last])
+    storage, loss = (2.0 * np.mean(force[last] * part) / 0.01 for part in (sine, cosine))
+    turn = w * np.array([0.3, 3.0, 30.0])
+    assert storage == pytest.approx(300.0 * (turn**2 / (1.0 + turn**2)).sum(), abs=2.0)
+    assert loss == pytest.approx(300.0 * (turn / (1.0 + turn**2)).sum(), abs=2.0)
+    assert loss > 0.0
+    if frequency == 100.0:
+        assert storage == pytest.approx(900.0, rel=0.01), "fast: all arms"
+
+
+def test_slow_motion_adds_nothing() -> None:
+    """F tends to k/3 v sum tau, which vanishes with the speed."""
+    time = np.linspace(0.0, 400.0, 401)
+    assert creep_force(lambda _: 1e-6, time)[-1] == pytest.approx(300.0 * 1e-6 * 33.3, rel=1e-4)
+
+
+def test_creep_superposes() -> None:
+    time = np.linspace(0.0, 10.0, 401)
+
+    def one(t: float) -> float:
+        return 0.01 * np.sin(t)
+
+    def two(t: float) -> float:
+        return 0.02 * np.cos(3.0 * t)
+
+    both = creep_force(lambda t: one(t) + 2.0 * two(t), time)
+    np.testing.assert_allclose(both, creep_force(one, time) + 2.0 * creep_force(two, time), atol=1e-5)
+
+
+def test_relaxation_is_monotone_and_ends_at_zero() -> None:
+    """A step of 10 mm in 10 ms: 9 N at first, falling all the time."""
+    time = np.concatenate([np.linspace(0.0, 0.01, 11), np.geomspace(0.0101, 300.0, 300)])
+    force = creep_force(lambda t: 1.0 if t < 0.01 else 0.0, time)
+    after = force[11:]
+    assert after[0] == pytest.approx(9.0, rel=0.02)
+    assert (np.diff(after) < 0.0).all()
+    assert after[-1] == pytest.approx(3.0 * np.exp(-10.0), rel=0.02)
+
+
+def test_isometric_muscle_does_not_creep() -> None:
+    force, _ = driven(CREEP, Swing(swing=2e5))
+    assert np.array_equal(force, np.zeros_like(force))
+
+
+def test_run_in_is_over_after_the_first_cycle() -> None:
+    """The first cycle differs, the second is the third; memory only grows, and stays at the largest."""
+    swing, points = Swing(stretch=0.08, cycles=3), 1200
+    force, _ = driven(MULLINS, swing, points=points)
+    first, second, third = (force[k * points : (k + 1) * points] for k in range(3))
+    assert np.abs(second - first).max() > 1.0
+    np.testing.assert_allclose(third, second, atol=0.01)
+    time = np.linspace(0.0, 12.0, 2401)
+    largest = run(MULLINS, swing.at, time)["largest"]
+    assert (np.diff(largest) >= -1e-9).all()
+    assert largest[-1] == pytest.approx(0.18, abs=1e-4)
+
+
+def test_virgin_curve_beyond_the_largest_contraction() -> None:
+    """Softer below it, by at most the loss; at and beyond it, and when stretched from new, nothing is lost."""
+    lengths = MUSCLE.nominal_length * (1.0 - np.array([-0.03, 0.0, 0.05, 0.1499, 0.15, 0.2]))
+    values = {"loss": 0.2, "strain": 0.05}
+    factor = MULLINS.call(
+        "elastomer_factor", {"muscle": MUSCLE, "length": lengths}, {**values, "largest": 0.15}
+    )
+    assert factor[:3] == pytest.approx(1.0 - 0.2 * (1.0 - np.exp([-3.0, -3.0, -2.0])), rel=1e-9)
+    assert np.array_equal(factor[4:], [1.0, 1.0])
+    assert (np.diff(factor[1:]) >= 0.0).all()
+    new = MULLINS.call("elastomer_factor", {"muscle": MUSCLE, "length": lengths}, values)
+    assert np.array_equal(new, np.ones(6))

@@ -1,0 +1,144 @@
+"""The drive's equations take every effect, alone and all at once, and stay finite and exact."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+import pytest
+import symengine as se
+
+from mckibben.physics.catalogue import default_catalogue
+from mckibben.physics.drive import DriveModel
+from mckibben.physics.drive_terms import OUTPUTS, Structure
+from mckibben.physics.effect import Effect
+from tests.physics.contract_states import MUSCLE
+
+CATALOGUE = default_catalogue()
+EFFECTS = list(CATALOGUE.values())
+PLAIN = ("speed", "pressure", "supplied", "vented", "stroke")
+
+CONSTANTS = {
+    "supply_pressure": 7e5,
+    "ambient_pressure": 1e5,
+    "ambient_temperature": 293.15,
+    "fill_conductance": 1e-8,
+    "fill_ratio": 0.3,
+    "exhaust_conductance": 1.2e-8,
+    "exhaust_ratio": 0.35,
+    "regulator_range": 6e5,
+    "regulator_time": 0.02,
+    "tube_volume": 1.2e-5,
+    "tube_conductance": 1.2e-8,
+    "tube_ratio": 0.3,
+    "fitting_volume": 2e-6,
+    "polytropic_exponent": 1.4,
+    "mass": 10.0,
+    "own_mass": 0.1,
+    "gravity": 9.80665,
+    "spring": 100.0,
+    "lever_ratio": 1.0,
+    "stop_low": 0.0,
+    "stop_high": 0.08,
+    "stop_stiffness": 1e6,
+    "stop_damping": 1e3,
+}
+INPUTS = {
+    "opening": 0.6,
+    "opening_slope": 0.0,
+    "external_force": 5.0,
+    "external_force_slope": 0.0,
+    "begin": 0.0,
+}
+STATES = {
+    "stroke": 0.03,
+    "speed": 0.2,
+    "pressure": 4e5,
+    "supplied": 1e-4,
+    "vented": 0.0,
+    "clock": 0.1,
+    "tube_pressure": 5e5,
+    "regulator_pressure": 5.5e5,
+}
+
+
+def numbers(
+    model: DriveModel, values: dict[str, dict[str, float]], *, share: float = 0.3, **changed: float
+) -> dict[se.Symbol, float]:
+    """Every symbol of the model at a plausible state; states of effects at a share of their scale."""
+    table = {**CONSTANTS, **MUSCLE._asdict()}
+    table |= {f"{effect}.{name}": value for effect, own in values.items() for name, value in own.items()}
+    # The gas at ambient temperature.
+    states = {"gas_mass": 4e5 * 1.3e-4 / (287.05 * 293.15), **STATES, **changed}
+    numbers = {symbol: table[name] for name, symbol in model.parameters.items()}
+    numbers |= {symbol: INPUTS[name] for name, symbol in model.inputs.items()}
+    for state in model.states:
+        numbers[model.symbols[state.name]] = states.get(state.name, share * state.scale)
+    return numbers
+
+
+def evaluate(expressions: list[se.Basic], at: dict[se.Symbol, float]) -> np.ndarray:
+    return se.Lambdify(list(at), expressions, backend="llvm")(np.array(list(at.values())))
+
+
+def defaults(effects: Iterable[Effect]) -> dict[str, dict[str, float]]:
+    return {effect.id: effect.defaults for effect in effects}
+
+
+def jacobian(model: DriveModel) -> list[se.Basic]:
+    return [rate.diff(symbol) for rate in model.rates for symbol in model.symbols.values()]
+
+
+@pytest.mark.parametrize("effect", EFFECTS, ids=[effect.id for effect in EFFECTS])
+def test_every_effect_alone_gives_finite_equations_that_vanish_when_off(effect: Effect) -> None:
+    without, model = DriveModel(Structure((), tube=True)), DriveModel(Structure((effect,), tube=True))
+    expressions = [*model.rates, *model.outputs, *jacobian(model)]
+    for share, speed in ((0.3, 0.2), (0.0, 0.0), (1.0, -0.5)):
+        at = numbers(model, defaults([effect]), share=share, speed=speed)
+        assert np.isfinite(evaluate(expressions, at)).all()
+
+    heated = "gas_mass" in model.symbols
+    at = numbers(model, {effect.id: effect.off}, share=0.0)
+    plain = numbers(without, {})
+    if heated:  # off is an adiabatic chamber; the plain one has the exponent 1.4 here, and its temperature
+        volume = evaluate(model.outputs, at)[OUTPUTS.index("volume")]
+        at[model.symbols["gas_mass"]] = 4e5 * volume / (287.05 * 293.15)
+    names = [state.name for state in model.states]
+    got = evaluate([model.rates[names.index(name)] for name in PLAIN] + model.outputs, at)
+    names = [state.name for state in without.states]
+    want = evaluate([without.rates[names.index(name)] for name in PLAIN] + without.outputs, plain)
+    np.testing.assert_allclose(got, want, rtol=1e-9, atol=1e-12)
+
+
+@pytest.mark.parametrize(("tube", "regulator"), [(True, False), (False, True)])
+def test_all_effects_at_once_give_a_finite_jacobian(tube: bool, regulator: bool) -> None:
+    model = DriveModel(Structure(tuple(EFFECTS), tube=tube, regulator=regulator))
+    assert len(model.rates) == len(model.states)
+    expressions = [*model.rates, *model.outputs, *jacobian(model)]
+    free = set().union(*(expression.free_symbols for expression in expressions))
+    assert free <= {*model.symbols.values(), *model.parameters.values(), *model.inputs.values()}
+    function = None
+    for share, speed in ((0.3, 0.2), (0.0, 0.0), (-1.0, -0.3)):
+        at = numbers(model, defaults(EFFECTS), share=share, speed=speed)
+        function = function or se.Lambdify(list(at), expressions, backend="llvm")
+        assert np.isfinite(function(np.array(list(at.values())))).all()
+
+
+def test_settled_states_start_where_their_rate_is_zero() -> None:
+    """Such a state of a sensor follows its reading linearly, so two values of its rate give its rest."""
+    effects = [effect for effect in EFFECTS if any(state.settled for state in effect.states)]
+    assert effects
+    model = DriveModel(Structure(tuple(effects)))
+    values = {e.id: {p.name: p.default or 0.01 for p in e.parameters} for e in effects}
+    names = [state.name for state in model.states]
+    for state in model.states:
+        if state.settled:
+            rate = model.rates[names.index(state.name)]
+            at_0, at_1, at_2 = (
+                evaluate([rate], numbers(model, values, **{state.name: value}))[0]
+                for value in (0.0, state.scale, 2.0 * state.scale)
+            )
+            assert at_2 - at_1 == pytest.approx(at_1 - at_0, rel=1e-9)
+            rest = -at_0 * state.scale / (at_1 - at_0)
+            left = evaluate([rate], numbers(model, values, **{state.name: rest}))[0]
+            assert abs(left) <= 1e-9 * abs(at_0)
