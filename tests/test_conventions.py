@@ -32,6 +32,8 @@ NOT_FORMULAS = {
     "catalogue",
     "model",
     "muscle",
+    "drive",
+    "driven",
     "__init__",
 }
 
@@ -39,6 +41,7 @@ NOT_FORMULAS = {
 ALSO_NAMES = {
     "temperature": "the channel, and the field of a request",
     "wall_thickness": "a measure of the muscle",
+    "dead_volume": "the field of a curves request",
 }
 
 MODULE_LINES = 300
@@ -76,7 +79,7 @@ def text_of(file: Path) -> str:
 def positional_arguments(file: Path) -> Iterator[str]:
     """Arguments of the module's functions that a caller could give without naming them."""
     for function in ast.parse(text_of(file)).body:
-        if isinstance(function, ast.FunctionDef):
+        if isinstance(function, ast.FunctionDef) and not function.name.startswith("_"):
             for argument in [*function.args.posonlyargs, *function.args.args]:
                 yield f"{name(file)}:{function.lineno} {function.name}: {argument.arg}"
 

@@ -211,6 +211,8 @@ export interface components {
       volume: (number | null)[];
       /** Braid diameter at the highest pressure. [m] */
       diameter: (number | null)[];
+      /** Outer diameter of the wall, which keeps its volume. [m] */
+      outer_diameter: (number | null)[];
       limits: components["schemas"]["CurveLimits"];
       characteristics: components["schemas"]["Characteristics"][];
       geometry: components["schemas"]["MuscleGeometry"];
@@ -636,6 +638,8 @@ export interface components {
       length: (number | null)[];
       /** Braid diameter at the load. [m] */
       diameter: (number | null)[];
+      /** Outer diameter of the wall at the load. [m] */
+      outer_diameter: (number | null)[];
     };
     /** What a publication prints of a drive. Attributes: figure: number of the figure. figures: "extend.rise_time" -> value; names of the timing table, or told in the description. tolerance: share by which a figure may be missed, by the same names. excluded: why a figure is not compared, by the same names. */
     PaperFigures: {

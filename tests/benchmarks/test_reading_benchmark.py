@@ -1,6 +1,6 @@
 """How long a large measurement file takes to read: one million rows of four columns.
 
-    python -m pytest tests/benchmarks --benchmark-only
+python -m pytest tests/benchmarks --benchmark-only
 """
 
 from __future__ import annotations

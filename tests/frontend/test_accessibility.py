@@ -13,10 +13,8 @@ OPENERS = {"design": open_design, "catalogue": open_catalogue}
 
 def violations(page: Page) -> list[str]:
     """What axe objects to, with the first place of each."""
-    return [
-        f"{found['id']}: {found['nodes'][0]['html'][:120]}"
-        for found in Axe().run(page).response["violations"]
-    ]
+    found = Axe().run(page).response["violations"]
+    return [f"{rule['id']}: {rule['nodes'][0]['html'][:120]}" for rule in found]
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])

@@ -382,8 +382,10 @@ def test_moved_lines_are_where_plotly_draws_them(page: Page) -> None:
     open_design(page)
     shapes = """
       const numbers = (text) => text.match(/-?[\\d.]+/g).map(Number);
-      const all = (what, name) => [...document.querySelectorAll(what)].map((el) => numbers(el.getAttribute(name)));
-      const ends = all("#force .js-line, #volume .js-line", "d").map((n) => [...n.slice(0, 2), ...n.slice(-2)]);
+      const all = (what, name) =>
+        [...document.querySelectorAll(what)].map((el) => numbers(el.getAttribute(name)));
+      const lines = all("#force .js-line, #volume .js-line", "d");
+      const ends = lines.map((n) => [...n.slice(0, 2), ...n.slice(-2)]);
       const dots = all("#force .point", "transform").map((n) => n.slice(0, 2));
       return [...ends.flat(), ...dots.flat()];
     """

@@ -10,24 +10,24 @@ from tests.frontend.views import SIZES, open_catalogue, open_design, run
 OPENERS = {"design": open_design, "catalogue": open_catalogue}
 
 
-@pytest.mark.parametrize("size", SIZES, ids=str)
+SIDEWAYS = """
+const clips = (el) => el.closest(".scroll, .plot, nav, dialog, [hidden], .unseen, .equation");
+const out = [...document.querySelectorAll("#main *")].filter((el) =>
+  !clips(el) && el.checkVisibility() && el.getBoundingClientRect().right > innerWidth + 1);
+return { page: document.documentElement.scrollWidth - innerWidth,
+  out: out.slice(0, 5).map((el) => el.outerHTML.slice(0, 90)) };
+"""
+
+
 @pytest.mark.parametrize("view", OPENERS)
-def test_no_sideways_scroll(page: Page, size: tuple[int, int], view: str) -> None:
-    page.set_viewport_size({"width": size[0], "height": size[1]})
+def test_no_sideways_scroll(page: Page, view: str) -> None:
     OPENERS[view](page)
-    page.wait_for_timeout(300)  # Plotly draws again at the new size
-    wide = run(
-        page,
-        """
-        const clips = (el) => el.closest(".scroll, .plot, nav, dialog, [hidden], .unseen, .equation");
-        const out = [...document.querySelectorAll("#main *")].filter((el) =>
-          !clips(el) && el.checkVisibility() && el.getBoundingClientRect().right > innerWidth + 1);
-        return { page: document.documentElement.scrollWidth - innerWidth,
-          out: out.slice(0, 5).map((el) => el.outerHTML.slice(0, 90)) };
-        """,
-    )
-    assert wide["page"] <= 0
-    assert wide["out"] == []
+    for width, height in SIZES:
+        page.set_viewport_size({"width": width, "height": height})
+        page.wait_for_timeout(300)  # Plotly draws again at the new size
+        wide = run(page, SIDEWAYS)
+        assert wide["page"] <= 0, width
+        assert wide["out"] == [], width
 
 
 def test_results_come_before_inputs_on_a_phone(page: Page) -> None:
@@ -60,9 +60,9 @@ def test_targets_are_at_least_24_px(page: Page, view: str) -> None:
 
 
 def test_text_does_not_overlap_in_the_card_heads(page: Page) -> None:
+    open_design(page)
     for width, height in SIZES:
         page.set_viewport_size({"width": width, "height": height})
-        open_design(page)
         overlaps = run(
             page,
             """

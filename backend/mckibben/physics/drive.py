@@ -125,7 +125,7 @@ def _equations(
     force = ops.positive_part(state.tension / yielding)
 
     # Gas.
-    volume = state.volume + c["fitting_volume"] + model.sum("dead_volume", values, {})
+    volume = state.volume + c["fitting_volume"] + model.sum("extra_volume", values, {})
     heated = _heated(model)
     temperature = (
         pressure * volume / (y["gas_mass"] * gas.GAS_CONSTANT) if heated else c["ambient_temperature"]
@@ -141,7 +141,7 @@ def _equations(
         temperature=temperature,
     )
     leak = model.sum(
-        "leak",
+        "leakage",
         values,
         {
             "absolute_pressure": pressure,
@@ -183,7 +183,7 @@ def _equations(
     guide = model.sum("guide", values, {"stroke": stroke, "speed": speed, "direction": -sign})
     lever = c["lever_ratio"]
     resisting = factor * (c["mass"] * c["gravity"] + external) + guide
-    stop, depth = end_stops(c, stroke, speed)
+    stop, depth = end_stops(constants=c, stroke=stroke, speed=speed)
     acceleration = (lever**2 * force - lever * resisting - c["spring"] * stroke - stop) / inertia
     rates |= {"stroke": speed, "speed": acceleration}
 
@@ -231,15 +231,17 @@ def _equations(
     return rates, outputs
 
 
-def end_stops(c: Mapping[str, Value], stroke: Value, speed: Value) -> tuple[Value, Value]:
+def end_stops(*, constants: Mapping[str, Value], stroke: Value, speed: Value) -> tuple[Value, Value]:
     """Force of the end stops on the stroke [N], and how deep either is pressed in [m]; they never pull."""
-    above = ops.positive_part(stroke - c["stop_high"])
-    below = ops.positive_part(c["stop_low"] - stroke)
+    above = ops.positive_part(stroke - constants["stop_high"])
+    below = ops.positive_part(constants["stop_low"] - stroke)
     high = ops.positive_part(
-        c["stop_stiffness"] * above + c["stop_damping"] * speed * ops.minimum(above / _STOP_ONSET, 1.0)
+        constants["stop_stiffness"] * above
+        + constants["stop_damping"] * speed * ops.minimum(above / _STOP_ONSET, 1.0)
     )
     low = ops.positive_part(
-        c["stop_stiffness"] * below - c["stop_damping"] * speed * ops.minimum(below / _STOP_ONSET, 1.0)
+        constants["stop_stiffness"] * below
+        - constants["stop_damping"] * speed * ops.minimum(below / _STOP_ONSET, 1.0)
     )
     return high - low, above + below
 

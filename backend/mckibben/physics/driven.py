@@ -126,7 +126,7 @@ def _equations(
         guide = model.sum("guide", values, {"stroke": stroke, "speed": speed, "direction": -direction})
         external = u["external_force"] + u["external_force_slope"] * passed
         lever = c["lever_ratio"]
-        stop, _ = end_stops(c, stroke, speed)
+        stop, _ = end_stops(constants=c, stroke=stroke, speed=speed)
         resisting = factor * (c["mass"] * c["gravity"] + external) + guide
         rates["stroke"] = speed
         rates["speed"] = (lever**2 * force - lever * resisting - c["spring"] * stroke - stop) / inertia

@@ -91,13 +91,13 @@ SLOTS: dict[str, Slot] = {
         (*_STATE, "area", "pressure_rate"),
         "concatenate",
     ),
-    "dead_volume": Slot("gas volume besides the muscle's own [m^3]", (), "sum"),
+    "extra_volume": Slot("gas volume besides the muscle's own [m^3]", (), "sum"),
     "heat": Slot(
         "heat flow into the gas [W]; makes the chamber obey the energy balance instead of a polytrope",
         ("muscle", "length", "diameter", "gas_temperature", "ambient_temperature"),
         "sum",
     ),
-    "leak": Slot(
+    "leakage": Slot(
         "mass flow out of the muscle [kg/s]",
         ("absolute_pressure", "ambient_pressure", "gas_temperature"),
         "sum",

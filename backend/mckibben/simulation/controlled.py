@@ -65,7 +65,8 @@ def simulate_controlled(
     state = start_of(drive, compiled, parameters, _inputs(active, external, 0.0))
     began = time.perf_counter()
     memory = controller.start(measurement=_measured(compiled, state, parameters, external, active, reading))
-    rows, switches, steps, rejected = [], [(0.0, active)], 0, 0
+    rows = [np.empty((0, compiled.size + compiled.width))]
+    switches, steps, rejected = [(0.0, active)], 0, 0
     outcome, last_command = Outcome.COMPLETED, active
     for sample in range(samples):
         if ended := watch.ended(sample / samples):
@@ -109,14 +110,7 @@ def simulate_controlled(
             break
     instants, values = (np.array(column) for column in zip(*switches, strict=True))
     command_shape = Segments(np.append(instants, drive.duration), values, np.zeros(len(values)))
-    solution = Solution(
-        np.concatenate(rows) if rows else np.empty((0, compiled.size + compiled.width)),
-        state,
-        outcome,
-        steps,
-        rejected,
-        engine,
-    )
+    solution = Solution(np.concatenate(rows), state, outcome, steps, rejected, engine)
     return run_of(drive, compiled, grid, solution, command_shape, time.perf_counter() - began)
 
 

@@ -60,7 +60,8 @@ def contraction_at(
             newton = length - value / slope
         inside = (newton >= low) & (newton <= high)
         following = np.where(inside, newton, 0.5 * (low + high))
-        done = ~reachable | (np.abs(following - length) < 1e-10 * rest)
+        # Newton's next error is the square of this step's share of the length.
+        done = ~reachable | (inside & (np.abs(following - length) < 1e-6 * rest))
         length = following
         if np.all(done):
             break

@@ -50,7 +50,7 @@ __all__ = [
 _SI = {"time": "s", "share": "1", "frequency": "Hz", "angle": "rad"}
 
 #: Keys that a document may use in place of a field.
-_SYNONYMS: dict[type[Signal], tuple[str, ...]] = {Square: ("amplitude",), Sine: ("period",)}
+SYNONYMS: dict[type[Signal], tuple[str, ...]] = {Square: ("amplitude",), Sine: ("period",)}
 
 #: Name in a document -> shape.
 SHAPES: dict[str, type[Signal]] = {
@@ -89,8 +89,8 @@ def signal_from(
     known = {item.metadata["name"] or item.name: item for item in fields(kind) if "kind" in item.metadata}
     given = {label: value for label, value in document.items() if label != "shape"}
     for label in given:
-        if label not in known and label not in _SYNONYMS.get(kind, ()):
-            hint = did_you_mean(_shown(label), [*known, *_SYNONYMS.get(kind, ())])
+        if label not in known and label not in SYNONYMS.get(kind, ()):
+            hint = did_you_mean(_shown(label), [*known, *SYNONYMS.get(kind, ())])
             message = f"{field}: a {name} has no '{_shown(label)}'"
             raise InputError(message, field=f"{field}.{_shown(label)}", hint=hint)
     if kind is Square:

@@ -84,7 +84,7 @@ def test_leak_flows_out_and_stops_at_equal_pressures() -> None:
     leak = CATALOGUE["leak"]
     pressures = np.array([0.9e5, 1e5, 1.0005e5, 2e5, 7e5, 8e5])
     flows = leak.call(
-        "leak",
+        "leakage",
         {"absolute_pressure": pressures, "ambient_pressure": 1e5, "gas_temperature": 293.15},
         leak.defaults,
     )
@@ -99,7 +99,7 @@ def test_closed_muscle_leaks_with_its_time_constant() -> None:
     leak, conductance, volume = CATALOGUE["leak"], 1e-10, 1e-4
     p0 = gas.ANR_DENSITY * gas.GAS_CONSTANT * gas.ANR_TEMPERATURE
     context = {"absolute_pressure": 7e5, "ambient_pressure": 1e5, "gas_temperature": 293.15}
-    flow = leak.call("leak", context, leak.defaults | {"conductance": conductance})
+    flow = leak.call("leakage", context, leak.defaults | {"conductance": conductance})
     rate = gas.GAS_CONSTANT * 293.15 * flow / volume
     assert 7e5 / rate == pytest.approx(volume / (conductance * p0), rel=1e-12)
 

@@ -81,6 +81,7 @@ def curves_of(request: CurvesOptions, start: StartModel, studio: Studio) -> Json
         "stiffness_closed": curves.stiffness_closed,
         "volume": curves.volume[top],
         "diameter": curves.diameter[top],
+        "outer_diameter": curves.outer_diameter[top],
         "limits": _limits(model, pressures),
         "characteristics": _characteristics(request, model, pressures, held.free),
         "geometry": geometry_json(start),
@@ -111,7 +112,7 @@ def _solve(request: CurvesOptions, model: StaticModel, pressures: Array, grid: A
 
 
 def _range(request: CurvesOptions, model: StaticModel, free: Array) -> Array:
-    """Contractions of the columns; unless given, from the permitted stretch to where the last curve ends."""
+    """Contractions of the columns; unless given, the permitted range, and on to where the last curve ends."""
     locked = 1.0 - model.longest / model.muscle.nominal_length
     first, last = request.contraction_from, request.contraction_to
     if first is None:
@@ -122,6 +123,7 @@ def _range(request: CurvesOptions, model: StaticModel, free: Array) -> Array:
         reached = float(np.max(free, initial=0.0, where=np.isfinite(free)))
         enough = max(first, 0.0) + 1e-3
         last = reached if reached > enough else max(_ideal_contraction(model), enough)
+        last = max(last, model.limits.max_contraction or 0.0)
     for name, value in (("contraction_from", first), ("contraction_to", last)):
         if value < locked:
             raise InputError(
@@ -269,11 +271,12 @@ def _branch(
     length = model.muscle.nominal_length * (1.0 - held)
     reached = np.isfinite(length)
     state: dict[str, Any] = {"direction": direction, "temperature": request.temperature}
-    diameter = np.full(len(grid), np.nan)
+    widths = {name: np.full(len(grid), np.nan) for name in ("diameter", "outer_diameter")}
     if reached.any():
         there = model.outputs(length=length[reached], pressure=grid[reached], **state)
-        diameter[reached] = there["diameter"]
-    return {"contraction": held, "length": length, "diameter": diameter}
+        for name, width in widths.items():
+            width[reached] = there[name]
+    return {"contraction": held, "length": length, **widths}
 
 
 def _check_fixed_length(length: float, model: StaticModel) -> None:

@@ -102,6 +102,7 @@ class OverPressureBranch(Strict):
     contraction: Series = si_field("1", "Contraction at the load.")
     length: Series = si_field("m", "Length at the load.")
     diameter: Series = si_field("m", "Braid diameter at the load.")
+    outer_diameter: Series = si_field("m", "Outer diameter of the wall at the load.")
 
 
 class ForceAtLength(Strict):
@@ -147,6 +148,7 @@ class CurvesAnswer(Strict):
     stiffness_closed: Rows = si_field("N/m", "dF/dL at constant gas mass.")
     volume: Series = si_field("m3", "Enclosed volume at the highest pressure.")
     diameter: Series = si_field("m", "Braid diameter at the highest pressure.")
+    outer_diameter: Series = si_field("m", "Outer diameter of the wall, which keeps its volume.")
     limits: CurveLimits
     characteristics: list[Characteristics]
     geometry: MuscleGeometry

@@ -238,7 +238,7 @@ def _ragged_hint(cells: int, width: int) -> str:
 def _quote_error(name: str, line: int, error: csv.Error) -> InputError:
     text = str(error)
     if "unexpected end" in text or "field larger" in text:
-        what = "a quote (\") is opened and never closed"
+        what = 'a quote (") is opened and never closed'
     else:
         what = f"the quotes are wrong: {text}"
     return InputError(

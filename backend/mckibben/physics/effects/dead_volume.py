@@ -33,7 +33,7 @@ EFFECT = Effect(
             off=0.0,
         ),
     ),
-    slots={"dead_volume": dead_volume},
+    slots={"extra_volume": dead_volume},
     kinds=frozenset({"transient"}),
     signature=Signature(
         text="pressure rises and falls more slowly in proportion, the same factor on filling and venting",
@@ -48,5 +48,5 @@ EFFECT = Effect(
         Twin("heat_exchange", "close the valve and hold the length: dead volume does not drift"),
     ),
     references=(Source("conservation of mass", "D"),),
-    examples=(Example("slot:dead_volume", 8e-6, 1e-12, _DEFINITION, {"volume": 8e-6}, {}, {}),),
+    examples=(Example("slot:extra_volume", 8e-6, 1e-12, _DEFINITION, {"volume": 8e-6}, {}, {}),),
 )

@@ -65,7 +65,7 @@ EFFECT = Effect(
             fitted=False,
         ),
     ),
-    slots={"leak": leak},
+    slots={"leakage": leak},
     kinds=frozenset({"transient"}),
     signature=Signature(
         text="pressure falls slowly and without end while the valve is closed",
@@ -82,7 +82,7 @@ EFFECT = Effect(
     references=(Source("ISO 6358", "M"),),
     examples=(
         Example(
-            "slot:leak",
+            "slot:leakage",
             8.295e-7,
             1e-9,
             _BY_HAND,
