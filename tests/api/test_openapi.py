@@ -24,6 +24,7 @@ PATHS = {
     "/api/measurements": {"put"},
     "/api/measurements/{measurement_id}": {"get"},
     "/api/comparisons": {"post"},
+    "/api/simulations": {"post"},
 }
 
 

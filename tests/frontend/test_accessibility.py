@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
-from tests.frontend.views import field, open_catalogue, open_design, redrawn, run
-
-OPENERS = {"design": open_design, "catalogue": open_catalogue}
+from tests.frontend.views import open_catalogue, open_design, redrawn, run
 
 
 def violations(page: Page) -> list[str]:
@@ -18,21 +18,14 @@ def violations(page: Page) -> list[str]:
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-@pytest.mark.parametrize("view", OPENERS)
-def test_axe_finds_nothing(page: Page, theme: str, view: str) -> None:
-    page.emulate_media(color_scheme="dark" if theme == "dark" else "light")
-    OPENERS[view](page)
+def test_axe_finds_nothing_in_the_design_view(page: Page, theme: Literal["light", "dark"]) -> None:
+    page.emulate_media(color_scheme=theme)
+    open_design(page)
     expect(page.locator("html")).to_have_attribute("data-theme", theme)
     page.evaluate("document.querySelectorAll('details').forEach((el) => { el.open = true; })")
     for unfold in page.locator(".fold:visible").all():
         unfold.click()
     assert violations(page) == []
-
-
-@pytest.mark.parametrize("theme", ["light", "dark"])
-def test_axe_finds_nothing_in_open_panels(page: Page, theme: str) -> None:
-    page.emulate_media(color_scheme="dark" if theme == "dark" else "light")
-    open_design(page)
     page.locator("[data-effect] button[aria-label^='About']").first.click()
     assert violations(page) == []
     page.keyboard.press("Escape")
@@ -43,23 +36,25 @@ def test_axe_finds_nothing_in_open_panels(page: Page, theme: str) -> None:
     assert violations(page) == []
 
 
-def test_the_list_of_keys(page: Page) -> None:
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_axe_finds_nothing_in_the_catalogue(page: Page, theme: Literal["light", "dark"]) -> None:
+    page.emulate_media(color_scheme=theme)
+    open_catalogue(page)
+    assert violations(page) == []
+
+
+def test_keys_views_search_and_typing(page: Page) -> None:
     open_design(page)
     page.keyboard.press("?")
     dialog = page.get_by_role("dialog", name="Keyboard")
     expect(dialog).to_contain_text("Undo")
     page.keyboard.press("Escape")
     expect(dialog).to_be_hidden()
-
-
-def test_views_search_and_typing_by_keyboard(page: Page) -> None:
-    open_design(page)
     page.keyboard.press("/")
     expect(page.get_by_label("Search effects")).to_be_focused()
     page.keyboard.type("2?")  # typed into the field: neither a view nor the list
     expect(page.get_by_label("Search effects")).to_have_value("2?")
     page.get_by_label("Search effects").fill("")
-    field(page, "Length").focus()
     page.locator("body").click(position={"x": 4, "y": 400})
     page.keyboard.press("2")
     expect(page.get_by_role("region", name="Table of parts")).to_be_visible()
@@ -96,17 +91,12 @@ def test_focus_returns_to_the_button_of_a_closed_menu(page: Page) -> None:
     expect(button).to_be_focused()
 
 
-def test_every_plot_is_a_named_figure(page: Page) -> None:
-    open_design(page)
-    figures = page.get_by_role("figure")
-    assert figures.count() == 4
-    names = run(page, "return [...document.querySelectorAll('[role=figure]')].map((f) => f.ariaLabel);")
-    assert all(names)
-
-
-def test_reduced_motion_switches_transitions_off(page: Page) -> None:
+def test_named_figures_and_reduced_motion(page: Page) -> None:
     page.emulate_media(reduced_motion="reduce")
     open_design(page)
+    assert page.get_by_role("figure").count() == 4
+    names = run(page, "return [...document.querySelectorAll('[role=figure]')].map((f) => f.ariaLabel);")
+    assert all(names)
     slow = run(
         page,
         """

@@ -106,17 +106,13 @@ def test_a_file_that_is_no_document_is_refused_in_words(page: Page, tmp_path: Pa
     expect(page.locator(".status")).to_contain_text("version 9")
 
 
-def test_pictures_are_saved(page: Page) -> None:
+def test_pictures_and_tables_are_saved(page: Page) -> None:
     open_design(page)
     svg = Path(download(page, "Plots as SVG").path()).read_text()
     assert svg.startswith("<svg")
     assert "Force (N)" in svg
     assert "contraction limit" in svg
     assert Path(download(page, "Plots as PNG").path()).read_bytes()[:4] == b"\x89PNG"
-
-
-def test_the_menu_of_a_plot(page: Page) -> None:
-    open_design(page)
     menu = page.get_by_role("button", name="Stiffness: save or show as table")
     menu.click()
     page.get_by_role("menuitem", name="Show as table").click()
@@ -216,6 +212,8 @@ def test_effects_come_from_the_server(page: Page) -> None:
     open_design(page)
     listed = run(page, "return (await (await fetch('/api/effects')).json()).effects.map((e) => e.title);")
     expect(page.locator("[data-effect]")).to_have_count(len(listed))
+    families = page.locator(".family > summary > span").all_inner_texts()
+    assert families[-1] == "Only over time"
     own = rmse(page)
     redrawn(page, lambda: page.get_by_role("button", name="Ideal", exact=True).click())
     expect(page.locator("[data-effect].on")).to_have_count(0)
@@ -333,9 +331,7 @@ def test_the_figures_of_the_paper(page: Page) -> None:
         assert page.locator("#force .js-line").count() >= 3
         assert page.locator("#over-pressure .js-line").count() == 2
 
-
-def test_figure_9_has_the_printed_forces(page: Page) -> None:
-    open_design(page)
+    # Figure 9 has the printed forces.
     example(page, "Figure 9:")
     rows = page.get_by_role("region", name="Characteristics per pressure").locator("tbody tr")
     assert [row.locator("td").first.inner_text() for row in rows.all()] == ["64", "193", "386"]

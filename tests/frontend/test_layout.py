@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page
 
 from tests.frontend.views import SIZES, open_catalogue, open_design, run
 
@@ -19,8 +19,32 @@ return { page: document.documentElement.scrollWidth - innerWidth,
 """
 
 
+# Whether the boxes of two neighbours in a head cross.
+OVERLAPS = """
+const found = [];
+for (const head of document.querySelectorAll(".card-head, .field-head, .effect-head")) {
+  const boxes = [...head.children].filter((el) => el.checkVisibility())
+    .map((el) => [el.getBoundingClientRect(), el]).filter(([b]) => b.width > 0);
+  boxes.forEach(([a, one], i) => boxes.slice(i + 1).forEach(([b]) => {
+    const aside = a.left > b.right - 1 || b.left > a.right - 1;
+    const above = a.top > b.bottom - 1 || b.top > a.bottom - 1;
+    if (!aside && !above) found.push(one.textContent);
+  }));
+}
+return found;
+"""
+
+TOO_SMALL = """
+const all = document.querySelectorAll("button, select, input, summary, a[href], label.switch");
+return [...all].filter((el) => el.checkVisibility() && !el.matches(".skip, label input"))
+  .map((el) => [el.getBoundingClientRect(), el.outerHTML.slice(0, 90)])
+  .filter(([box]) => box.width < 23.5 || box.height < 23.5).map(([, html]) => html);
+"""
+
+
 @pytest.mark.parametrize("view", OPENERS)
-def test_no_sideways_scroll(page: Page, view: str) -> None:
+def test_every_width(page: Page, view: str) -> None:
+    """No sideways scroll, no overlaps, targets of at least 24 px."""
     OPENERS[view](page)
     for width, height in SIZES:
         page.set_viewport_size({"width": width, "height": height})
@@ -28,11 +52,14 @@ def test_no_sideways_scroll(page: Page, view: str) -> None:
         wide = run(page, SIDEWAYS)
         assert wide["page"] <= 0, width
         assert wide["out"] == [], width
+        assert run(page, OVERLAPS) == [], width
+        assert run(page, TOO_SMALL) == [], width
 
 
-def test_results_come_before_inputs_on_a_phone(page: Page) -> None:
-    page.set_viewport_size({"width": 390, "height": 844})
+def test_results_come_before_inputs_on_a_phone_and_plots_follow_the_width(page: Page) -> None:
+    page.set_viewport_size({"width": 1440, "height": 1000})
     open_design(page)
+    page.set_viewport_size({"width": 390, "height": 844})
     tops = run(
         page,
         """
@@ -41,53 +68,6 @@ def test_results_come_before_inputs_on_a_phone(page: Page) -> None:
         """,
     )
     assert tops == sorted(tops)
-
-
-@pytest.mark.parametrize("view", OPENERS)
-def test_targets_are_at_least_24_px(page: Page, view: str) -> None:
-    page.set_viewport_size({"width": 390, "height": 844})
-    OPENERS[view](page)
-    small = run(
-        page,
-        """
-        const all = document.querySelectorAll("button, select, input, summary, a[href], label.switch");
-        return [...all].filter((el) => el.checkVisibility() && !el.matches(".skip, label input"))
-          .map((el) => [el.getBoundingClientRect(), el.outerHTML.slice(0, 90)])
-          .filter(([box]) => box.width < 23.5 || box.height < 23.5).map(([, html]) => html);
-        """,
-    )
-    assert small == []
-
-
-def test_text_does_not_overlap_in_the_card_heads(page: Page) -> None:
-    open_design(page)
-    for width, height in SIZES:
-        page.set_viewport_size({"width": width, "height": height})
-        overlaps = run(
-            page,
-            """
-            const found = [];
-            for (const head of document.querySelectorAll(".card-head, .field-head, .effect-head")) {
-              const boxes = [...head.children].filter((el) => el.checkVisibility())
-                .map((el) => [el.getBoundingClientRect(), el]).filter(([b]) => b.width > 0);
-              boxes.forEach(([a, one], i) => boxes.slice(i + 1).forEach(([b]) => {
-                const aside = a.left > b.right - 1 || b.left > a.right - 1;
-                const above = a.top > b.bottom - 1 || b.top > a.bottom - 1;
-                if (!aside && !above) found.push(one.textContent);
-              }));
-            }
-            return found;
-            """,
-        )
-        assert overlaps == [], width
-
-
-def test_plots_follow_the_width_of_the_window(page: Page) -> None:
-    page.set_viewport_size({"width": 1440, "height": 1000})
-    open_design(page)
-    page.set_viewport_size({"width": 900, "height": 800})
-    host = page.locator("#force")
-    expect(host.locator(".main-svg").first).to_be_visible()
     page.wait_for_timeout(300)
     sizes = run(
         page,

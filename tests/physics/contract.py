@@ -26,11 +26,11 @@ from tests.physics.contract_states import (
     PRESSURES,
     SPEED,
     WARM,
+    acts_on_muscle,
     closed_path,
     companions,
     compiled,
     contribution,
-    acts_on_muscle,
     defaults,
     grid,
     numeric,
@@ -219,8 +219,8 @@ def _isotonic_change(effect: Effect, *, contraction: float, pressure: float, sig
 def _shows_in(effect: Effect) -> dict[str, float]:
     """Per kind, the largest change of what it predicts, relative to its scale.
 
-    An isometric record is taken without motion, a static map point by point with a known direction, isobaric and
-    isotonic records in motion. A transient reveals what any of the force and length kinds reveals.
+    An isometric record is taken without motion, a static map point by point with a known direction, isobaric
+    and isotonic records in motion. A transient reveals what any of the force and length kinds reveals.
     """
     others = companions(effect)
     moving = max(np.abs(contribution(effect, **grid(sign=sign))).max() for sign in (-1.0, 1.0)) / FORCE_SCALE
@@ -302,7 +302,7 @@ _STATIC_CLAIMS: tuple[Check, ...] = (
 
 
 def checks_of(effect: Effect) -> tuple[Check, ...]:
-    """What an effect is held to: all the same form; its claims at rest, in a run from rest, or on the drive."""
+    """What an effect is held to: one form for all; claims at rest, in a run from rest, or on the drive."""
     common = (check_off_is_ideal, check_worked_examples)
     if not acts_on_muscle(effect):
         return (*common, *contract_dynamic.SLOT_CHECKS, *contract_dynamic.DRIVE_CLAIMS)

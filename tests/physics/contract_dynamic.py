@@ -80,7 +80,11 @@ def _compiled(effect: Effect, slot: str) -> tuple[list[str], int, Callable[[np.n
     symbols = {name: se.Symbol(name) for name in _ranges(effect, slot)}
     results = [se.sympify(result) for result in _evaluate(effect, slot, symbols)]
     slopes = [result.diff(symbol) for result in results for symbol in symbols.values()]
-    return list(symbols), len(results), se.Lambdify(list(symbols.values()), results + slopes, backend="llvm")
+    return (
+        list(symbols),
+        len(results),
+        se.Lambdify(list(symbols.values()), results + slopes, backend="llvm", cse=True),
+    )
 
 
 def check_off_leaves_slots_alone(effect: Effect) -> None:
@@ -177,7 +181,7 @@ def run(
     *,
     slot: str = "rates",
 ) -> dict[str, np.ndarray]:
-    """The effect's own states over time, from their start values, driven by what ``at(t)`` offers the slot."""
+    """The effect's own states over time, from their start values, driven by what ``at(t)`` offers."""
     values = {**effect.defaults, **(values or {})}
     names = [state.name for state in effect.states]
 
@@ -231,7 +235,7 @@ def check_mirrored_motion(effect: Effect) -> None:
 
 
 def check_power_over_run(effect: Effect) -> None:
-    """At constant pressure in proportion to its declared power; undeclared: to no power, or nothing at all."""
+    """At constant pressure in proportion to its declared power; undeclared: to none, or nothing shows."""
     pressures = (1e5, 2e5, 4e5)
     sizes = [np.abs(driven(effect, Swing(stretch=0.08, mean_pressure=p))[0]).max() for p in pressures]
     if max(sizes) <= _LEAST:

@@ -27,8 +27,8 @@ FORCE_SCALE = 1500.0  # N, the muscle's catalogue force
 INPUTS = ("length", "pressure", "velocity", "direction", "temperature")
 
 MUSCLE_SLOTS = frozenset(  # what `Model.evaluate` asks for
-    """pressure braid shape force_factor elastomer elastomer_factor tension friction compliance pressure_sensor
-    length_sensor force_sensor""".split()  # noqa: SIM905
+    """pressure braid shape force_factor elastomer elastomer_factor tension friction compliance
+    pressure_sensor length_sensor force_sensor""".split()  # noqa: SIM905
 )
 
 Values = dict[str, dict[str, float]]
@@ -78,7 +78,7 @@ def grid(*, lengths: np.ndarray = LENGTHS, pressures: np.ndarray = PRESSURES, si
 
 
 def symbolic(effects: Sequence[Effect]) -> tuple[list[se.Symbol], State]:
-    """The model on symbols: the symbols (inputs, geometry, parameters, states in this order) and its output."""
+    """The model on symbols: the symbols (inputs, geometry, parameters, states in this order), its output."""
     inputs = {name: se.Symbol(name) for name in INPUTS}
     geometry = {name: se.Symbol(name) for name in GEOMETRY}
     values = {e.id: {p.name: se.Symbol(f"{e.id}.{p.name}") for p in e.parameters} for e in effects}

@@ -11,6 +11,7 @@ import symengine as se
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.drive import DriveModel
 from mckibben.physics.drive_terms import OUTPUTS, Structure
+from mckibben.physics.driven import DrivenModel
 from mckibben.physics.effect import Effect
 from tests.physics.contract_states import MUSCLE
 
@@ -78,14 +79,14 @@ def numbers(
 
 
 def evaluate(expressions: list[se.Basic], at: dict[se.Symbol, float]) -> np.ndarray:
-    return se.Lambdify(list(at), expressions, backend="llvm")(np.array(list(at.values())))
+    return se.Lambdify(list(at), expressions, backend="llvm", cse=True)(np.array(list(at.values())))
 
 
 def defaults(effects: Iterable[Effect]) -> dict[str, dict[str, float]]:
     return {effect.id: effect.defaults for effect in effects}
 
 
-def jacobian(model: DriveModel) -> list[se.Basic]:
+def jacobian(model: DriveModel | DrivenModel) -> list[se.Basic]:
     return [rate.diff(symbol) for rate in model.rates for symbol in model.symbols.values()]
 
 
@@ -120,8 +121,22 @@ def test_all_effects_at_once_give_a_finite_jacobian(tube: bool, regulator: bool)
     function = None
     for share, speed in ((0.3, 0.2), (0.0, 0.0), (-1.0, -0.3)):
         at = numbers(model, defaults(EFFECTS), share=share, speed=speed)
-        function = function or se.Lambdify(list(at), expressions, backend="llvm")
+        function = function or se.Lambdify(list(at), expressions, backend="llvm", cse=True)
         assert np.isfinite(function(np.array(list(at.values())))).all()
+
+
+@pytest.mark.parametrize("motion", [False, True])
+def test_all_effects_at_once_with_the_muscle_measured(motion: bool) -> None:
+    model = DrivenModel(tuple(EFFECTS), motion=motion)
+    expressions = [*model.rates, *model.outputs, *jacobian(model)]
+    table = {**CONSTANTS, **MUSCLE._asdict(), "temperature": 293.15}
+    table |= {f"{effect.id}.{p.name}": p.default for effect in EFFECTS for p in effect.parameters}
+    measured = {"pressure": 3e5, "pressure_slope": 1e5, "length": 0.27, "length_slope": -0.1}
+    at = {symbol: table[name] for name, symbol in model.parameters.items()}
+    at |= {symbol: (measured | INPUTS)[name] for name, symbol in model.inputs.items()}
+    for share in (0.0, 0.3, -1.0):
+        at |= {model.symbols[s.name]: STATES.get(s.name, share * s.scale) for s in model.states}
+        assert np.isfinite(evaluate(expressions, at)).all()
 
 
 def test_settled_states_start_where_their_rate_is_zero() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import threading
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -12,15 +13,26 @@ from starlette.middleware.gzip import GZipMiddleware
 
 from mckibben import __version__
 from mckibben.api import errors, static
-from mckibben.api.routes import comparisons, curves, effects, health, inverse, measurements, presets
+from mckibben.api.routes import (
+    comparisons,
+    curves,
+    effects,
+    health,
+    inverse,
+    measurements,
+    presets,
+    simulations,
+)
 from mckibben.api.security import BodyLimitMiddleware, SecurityMiddleware
 from mckibben.api.settings import Settings
 from mckibben.api.store import MeasurementStore
 from mckibben.api.timing import TimingMiddleware
+from mckibben.simulation.engine import kernel
 from mckibben.studio import Studio
 
 # The answer to the usual curves request stays below: compressing it takes longer than computing it.
 _GZIP_FROM = 256 * 1024
+_WARM_AFTER = 1.0  # s
 
 _TAGS = [
     {"name": "health", "description": "Is the server up?"},
@@ -28,6 +40,7 @@ _TAGS = [
     {"name": "presets", "description": "Real parts, reference curves, measurements and example designs."},
     {"name": "curves", "description": "Static characteristics of a muscle."},
     {"name": "inverse", "description": "Which pressure, which contraction, which range?"},
+    {"name": "simulations", "description": "Drives through time."},
     {"name": "measurements", "description": "Measurement files."},
     {"name": "comparisons", "description": "A model beside a measurement."},
 ]
@@ -45,7 +58,10 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         # Ready when the first page asks for it, without delaying the start.
         threading.Thread(target=app.state.plotly.compressed, daemon=True).start()
+        # Importing numba takes the interpreter for half a second, which the first page needs more.
+        warming = asyncio.get_running_loop().call_later(_WARM_AFTER, kernel.warm)
         yield
+        warming.cancel()
 
     app = FastAPI(
         title="mckibben",
@@ -67,7 +83,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.effects = effects.EffectsDocument(app.state.studio.catalogue)
     app.state.plotly = static.PlotlyBundle()
     # Routes are tried in this order: the one asked at every movement of a slider first.
-    for noun in (curves, inverse, comparisons, health, effects, presets, measurements, static):
+    for noun in (curves, simulations, inverse, comparisons, health, effects, presets, measurements, static):
         app.include_router(noun.router)
     app.router.redirect_slashes = False
     app.router.default = static.frontend(settings.frontend)

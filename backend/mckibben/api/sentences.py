@@ -83,7 +83,7 @@ def _known_fields(annotations: list[Any], location: Sequence[int | str]) -> list
         name
         for annotation in annotations
         if isinstance(annotation, type) and issubclass(annotation, BaseModel)
-        for name in annotation.model_fields
+        for name in (field.alias or name for name, field in annotation.model_fields.items())
     ]
 
 

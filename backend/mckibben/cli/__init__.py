@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import os
 import sys
+from pathlib import Path
+from typing import Annotated
 
 import typer
 
@@ -129,6 +131,24 @@ def compare(
         free=free or [],
         as_json=as_json,
     )
+
+
+@app.command()
+def simulate(
+    drive: Annotated[
+        str, typer.Argument(metavar="DRIVE", help="A drive document (JSON file) or the id of a preset.")
+    ],
+    out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write the run as CSV.")] = None,
+    as_json: AsJson = False,
+    presets: PresetsFolder = None,
+    effects: EffectsFolders = None,
+    data: DataFolder = None,
+) -> None:
+    """A drive through time: timing table, trace, limits."""
+    from mckibben.cli.options import open_studio
+    from mckibben.cli.simulate import run
+
+    run(open_studio(presets, effects, data), drive=drive, out=out, as_json=as_json)
 
 
 def one_line(error: InputError) -> str:

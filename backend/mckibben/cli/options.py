@@ -177,6 +177,10 @@ def _at(source: str, field: str | None, message: str, hint: str | None) -> Input
 
 def located(field: str | None, message: str) -> str:
     """The message with its field in front, unless the message names the field already."""
-    if not field or field in message or field.rpartition(".")[2].replace("_", " ") in message:
+    if (
+        not field
+        or field in message.replace("'", "")
+        or field.rpartition(".")[2].replace("_", " ") in message
+    ):
         return message
     return f"{field}: {message}"

@@ -45,7 +45,7 @@ class DrivenModel:
     def __init__(self, effects: tuple[Effect, ...], *, motion: bool = False) -> None:
         model = Model(effects)
         own = [
-            StateInfo(f"{effect.id}.{state.name}", state.initial, state.scale)
+            StateInfo(f"{effect.id}.{state.name}", state.initial, state.scale, state.settled)
             for effect in model.effects
             if "rates" in effect.slots or _reads(effect)
             for state in effect.states
@@ -144,6 +144,7 @@ def _equations(
             )
         else:
             here = {"pressure": pressure, "force": force, "stroke": stroke, "speed": speed}
+            here |= {f"instant_{name}": value for name, value in reading.items()}
             given = effect.call("drive_rates", here, values[effect.id])
         for own, rate in zip(effect.states, given, strict=True):
             rates[f"{effect.id}.{own.name}"] = rate

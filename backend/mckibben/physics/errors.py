@@ -33,4 +33,4 @@ def did_you_mean(word: str, options: Iterable[str]) -> str | None:
     near = get_close_matches(word.lower(), by_lower, n=1, cutoff=0.6)
     if near:
         return f"Did you mean '{by_lower[near[0]]}'?"
-    return f"Known: {', '.join(known)}." if 0 < len(known) <= 40 else None
+    return f"Known: {', '.join(known)}." if 0 < len(known) <= 60 else None

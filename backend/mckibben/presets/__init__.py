@@ -1,4 +1,4 @@
-"""Presets: real muscles, valves, tubes, fittings, curves, measurements, designs and drives, one JSON file each.
+"""Presets: muscles, valves, tubes, fittings, curves, measurements, designs, drives; one JSON file each.
 
 Every physical value carries its unit, source and grade. A file that cannot be used becomes a `Problem` and
 the others still load.

@@ -35,9 +35,9 @@ def simulate_controlled(
 ) -> Run:
     """Run a drive whose controller follows its reference; the command is held between samples.
 
-    The controller sees the stroke as its sensor reads it. A command that rises (falls) acts after the dead
-    time of opening (closing), in the order in which the commands were given. ``grid`` and ``watch`` as in
-    `mckibben.simulation.transient.simulate`.
+    The controller sees the load's stroke as its sensor reads it. A command that rises (falls) acts after
+    the dead time of opening (closing), in the order in which the commands were given. ``grid`` and ``watch``
+    as in `mckibben.simulation.transient.simulate`.
 
     Raises:
         InputError: more than a million samples.
@@ -58,13 +58,15 @@ def simulate_controlled(
     grid = np.linspace(0.0, drive.duration, points) if grid is None else grid
     watch = watch or Watch()
     reading = compiled.size + OUTPUTS.index("stroke_reading")
+    lever = drive.load.lever_ratio  # the controller sees the load
     set_points = reference.value(np.arange(samples) * period)
     delays = dead_times(drive)
     pending: deque[tuple[float, float]] = deque()
     active = 0.0
     state = start_of(drive, compiled, parameters, _inputs(active, external, 0.0))
     began = time.perf_counter()
-    memory = controller.start(measurement=_measured(compiled, state, parameters, external, active, reading))
+    first = _measured(compiled, state, parameters, external, active, reading) / lever
+    memory = controller.start(measurement=first)
     rows = [np.empty((0, compiled.size + compiled.width))]
     switches, steps, rejected = [(0.0, active)], 0, 0
     outcome, last_command = Outcome.COMPLETED, active
@@ -73,7 +75,7 @@ def simulate_controlled(
             outcome = ended
             break
         now, end = sample * period, min((sample + 1) * period, drive.duration)
-        measured = _measured(compiled, state, parameters, external, active, reading, now)
+        measured = _measured(compiled, state, parameters, external, active, reading, now) / lever
         command, memory = controller.step(float(set_points[sample]), measured, memory)
         delay = delays[0] if command > last_command else delays[1]
         last_command = command

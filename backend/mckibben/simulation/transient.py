@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field
-from math import sin
+from math import sin, sqrt
 
 import numpy as np
 
-from mckibben.physics import gas
+from mckibben.physics import gas, ideal
 from mckibben.physics.braid import volume as braid_volume
 from mckibben.physics.drive_terms import CONSTANTS, INPUTS, OUTPUTS
 from mckibben.physics.errors import InputError
@@ -23,6 +23,7 @@ from mckibben.simulation.signals import Signal
 GRAVITY = 9.80665  # m/s2
 # End stops: natural frequency of the load on them [rad/s]; critically damped, so an impact does not bounce.
 _STOP_FREQUENCY = 2000.0
+_STOP_GIVE = 5e-5  # m; a light load must not let the blocked force press further into the stop
 _LIGHTEST = 1e-3  # kg; a drive without any mass has no equation of motion
 TOLERANCE = 1e-5
 
@@ -60,7 +61,8 @@ def constants_of(drive: Drive) -> dict[str, float]:
     """The numbers of a run by the names of the model's parameters."""
     load, tube, rest = drive.load, drive.tube, drive.muscle.nominal_length
     mass = max(load.mass + drive.own_mass, _LIGHTEST)
-    stop = mass * _STOP_FREQUENCY**2
+    blocked = ideal.force(braid=drive.muscle.braid, pressure=drive.supply_pressure, length=rest)
+    stop = max(mass * _STOP_FREQUENCY**2, float(blocked) / _STOP_GIVE)
     conductance, ratio, tube_volume = 1.0, 0.5, 1.0
     if tube is not None:
         conductance = float(gas.tube_conductance(diameter=tube.inside_diameter, length=tube.length))
@@ -90,7 +92,7 @@ def constants_of(drive: Drive) -> dict[str, float]:
         "stop_low": drive.min_contraction * rest,
         "stop_high": drive.max_contraction * rest,
         "stop_stiffness": stop,
-        "stop_damping": 2.0 * mass * _STOP_FREQUENCY,
+        "stop_damping": 2.0 * sqrt(mass * stop),
     }
     assert set(table) == set(CONSTANTS)  # noqa: S101 - a constant without a value is our own mistake
     table |= {name: float(getattr(drive.muscle, name)) for name in GEOMETRY}

@@ -2,7 +2,8 @@
 // Requests to the server: one JSON error shape, one request in flight per question, the latest wins.
 
 export class ApiError extends Error {
-  /** @param {string} message @param {{field?: string | null, hint?: string | null, status?: number}} [more] */
+  /** @param {string} message @param {{field?: string | null, hint?: string | null, status?: number}} [more]
+   */
   constructor(message, { field = null, hint = null, status = 0 } = {}) {
     super(message);
     this.field = field;
@@ -49,7 +50,7 @@ export const post = (path, body, signal) =>
 
 const PATIENCE_MS = 400;
 
-/** Asks with the newest body only: while one request is under way the next waits, and a newer one replaces it.
+/** Asks with the newest body only: while one request is under way the next waits; a newer one replaces it.
  * A request that takes long is aborted as soon as it is out of date.
  * @template B, A
  * @param {(body: B, signal: AbortSignal) => Promise<A>} ask

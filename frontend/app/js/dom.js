@@ -17,7 +17,7 @@ const PROPERTIES = new Set([
 ]);
 
 /** @template {keyof HTMLElementTagNameMap} K
- * @param {K} tag @param {Record<string, unknown> | null} [props] on… = listener, ref = called with the element
+ * @param {K} tag @param {Record<string, unknown> | null} [props] on… = listener, ref = gets the element
  * @param {Child[]} kids @returns {HTMLElementTagNameMap[K]} */
 export function h(tag, props, ...kids) {
   const el = document.createElement(tag);

@@ -1,14 +1,17 @@
 // @ts-check
-// Quantities: SI inside, the user's units at the edge. Reading typed units, writing numbers with sensible digits.
+// Quantities: SI inside, the user's units at the edge. Reading typed units, writing numbers with sensible
+// digits.
 
 /** @typedef {"si" | "bar" | "us"} System */
-/** @typedef {{unit: string, factor: number, offset?: number, digits: number}} Scale  SI = shown × factor + offset */
+/** SI = shown × factor + offset.
+ * @typedef {{unit: string, factor: number, offset?: number, digits: number}} Scale */
 /** @typedef {keyof typeof SCALES} Quantity */
 
 const DEG = Math.PI / 180;
-const INCH = 0.0254, LBF = 4.4482216152605, PSI = 6894.757293168;
+const INCH = 0.0254, LBF = 4.4482216152605, PSI = 6894.757293168, POUND = 0.45359237;
 
-/** @param {string} unit @param {number} factor @param {number} digits @param {number} [offset] @returns {Scale} */
+/** @param {string} unit @param {number} factor @param {number} digits @param {number} [offset]
+ * @returns {Scale} */
 const scale = (unit, factor, digits, offset = 0) => ({ unit, factor, digits, offset });
 /** @param {Scale} one */
 const same = (one) => ({ si: one, bar: one, us: one });
@@ -30,9 +33,20 @@ export const SCALES = {
   angle: same(scale("°", DEG, 2)),
   ratio: same(scale("%", 0.01, 2)),
   number: same(scale("", 1, 4)),
+  time: same(scale("s", 1, 4)),
+  lapse: same(scale("ms", 1e-3, 1)),
+  frequency: same(scale("Hz", 1, 3)),
+  mass: { si: scale("kg", 1, 3), bar: scale("kg", 1, 3), us: scale("lb", POUND, 3) },
+  speed: { si: scale("m/s", 1, 3), bar: scale("m/s", 1, 3), us: scale("in/s", INCH, 2) },
+  acceleration: { si: scale("m/s²", 1, 2), bar: scale("m/s²", 1, 2), us: scale("ft/s²", 12 * INCH, 2) },
+  conductance: same(scale("l/(s·bar)", 1e-8, 4)),
+  flow: { si: scale("g/s", 1e-3, 3), bar: scale("g/s", 1e-3, 3), us: scale("lb/min", POUND / 60, 3) },
+  air: { si: scale("g", 1e-3, 3), bar: scale("g", 1e-3, 3), us: scale("oz", POUND / 16, 4) },
+  normal: same(scale("l (ANR)", 1e-3, 3)),
 };
 
-/** Units a user may type, by the quantity they belong to. @type {Record<string, [Quantity, number, number?]>} */
+/** Units a user may type, by the quantity they belong to.
+ * @type {Record<string, [Quantity, number, number?]>} */
 const TYPED = {
   m: ["length", 1],
   cm: ["length", 1e-2],
@@ -86,6 +100,22 @@ const TYPED = {
   deg: ["angle", DEG],
   rad: ["angle", 1],
   "%": ["ratio", 0.01],
+  s: ["time", 1],
+  ms: ["lapse", 1e-3],
+  min: ["time", 60],
+  hz: ["frequency", 1],
+  khz: ["frequency", 1e3],
+  kg: ["mass", 1],
+  g: ["mass", 1e-3],
+  t: ["mass", 1e3],
+  lbm: ["mass", POUND],
+  "m/s": ["speed", 1],
+  "mm/s": ["speed", 1e-3],
+  "l/(s·bar)": ["conductance", 1e-8],
+  "l/(s*bar)": ["conductance", 1e-8],
+  "l/(min·bar)": ["conductance", 1e-8 / 60],
+  "l/(min*bar)": ["conductance", 1e-8 / 60],
+  "m3/(s*pa)": ["conductance", 1],
 };
 
 /** What the server's SI unit of a value means on screen. @type {Record<string, Quantity>} */
@@ -98,10 +128,15 @@ const OF_SI = {
   K: "temperature",
   rad: "angle",
   J: "energy",
+  s: "time",
+  kg: "mass",
+  Hz: "frequency",
+  "m/s": "speed",
 };
 
 /** The quantity of a parameter: its SI unit decides; a modulus of rubber is not shown in bar.
- * @param {string} unit @param {string} [name] @returns {Quantity | null} null = unit without a scale of its own */
+ * @param {string} unit @param {string} [name]
+ * @returns {Quantity | null} null = unit without a scale of its own */
 export function quantityOf(unit, name = "") {
   if (unit === "Pa" && /modulus|constant/.test(name)) return "modulus";
   if (unit === "1" || unit === "") return "number";
@@ -162,7 +197,8 @@ export function withUnit(si, quantity, system) {
 }
 
 /** Reads "30 cm", "6 bar", "25°", "1,5"; a bare number is in the shown unit.
- * @param {string} text @param {Scale} s @param {Quantity | null} quantity @param {string} [usual] for the example
+ * @param {string} text @param {Scale} s @param {Quantity | null} quantity
+ * @param {string} [usual] for the example
  * @returns {{value: number} | {error: string}} SI */
 export function parse(text, s, quantity, usual) {
   const tidy = text.trim().replace("−", "-").replace(/^([+-]?\d+),(\d+)(?=\D|$)/, "$1.$2");
@@ -176,11 +212,15 @@ export function parse(text, s, quantity, usual) {
   const known = TYPED[unit.toLowerCase()];
   if (!known) return { error: `The unit “${unit}” is not known here. Write for example ${example}.` };
   const [kind, factor, offset = 0] = known;
-  const wanted = quantity === "modulus" ? "pressure" : quantity;
+  const wanted = plainly(quantity);
   if (kind === "ratio" && wanted === "number") return { value: value * factor };
-  if (kind !== wanted) return { error: `“${unit}” measures ${noun(kind)}, this is ${noun(wanted)}.` };
+  if (plainly(kind) !== wanted) return { error: `“${unit}” measures ${noun(kind)}, this is ${noun(wanted)}.` };
   return { value: value * factor + offset };
 }
+
+/** What is measured, however it is shown. @param {Quantity | null} quantity */
+const plainly = (quantity) =>
+  quantity === "modulus" ? "pressure" : quantity === "lapse" ? "time" : quantity;
 
 /** @param {Quantity | null} quantity */
 function noun(quantity) {

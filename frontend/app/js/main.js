@@ -52,7 +52,7 @@ async function readLink() {
   }
 }
 
-/** The address always holds the newest document; browsers allow few changes a second, so it follows at rest. */
+/** The address always holds the newest document; it follows at rest: browsers allow few changes a second. */
 function writeLink() {
   let timer = 0, own = location.hash;
   effect(() => {

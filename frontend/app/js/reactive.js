@@ -34,7 +34,7 @@ export class Signal {
 /** @template T @param {T} start @returns {Signal<T>} */
 export const signal = (start) => new Signal(start);
 
-/** Lets go of everything the effect read and made. @param {Effect} e @param {boolean} [live] it will run again */
+/** Lets go of what the effect read and made. @param {Effect} e @param {boolean} [live] it runs again */
 function clear(e, live = false) {
   e.live = live;
   e.deps.forEach((subs) => subs.delete(e));
@@ -71,7 +71,7 @@ export function effect(fn) {
   return () => clear(e);
 }
 
-/** Runs fn on its own: effects made inside outlive the one that is running. @template T @param {() => T} fn */
+/** Effects made inside fn outlive the one that is running. @template T @param {() => T} fn */
 export const apart = (fn) => within(null, fn);
 
 /** A signal that follows others. @template T @param {() => T} fn @returns {Signal<T>} */

@@ -95,7 +95,8 @@ const exampleItems = () => {
   return designs.map((d) => ({ label: d.title, note: d.description, run: () => openExample(d) }));
 };
 
-/** @param {() => string | undefined} label @param {"undo" | "redo"} name @param {() => void} run @param {string} keys */
+/** @param {() => string | undefined} label @param {"undo" | "redo"} name @param {() => void} run
+ * @param {string} keys */
 function historyButton(label, name, run, keys) {
   const text = () => {
     const step = label();

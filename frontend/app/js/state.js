@@ -1,6 +1,7 @@
 // @ts-check
 // The one document: what undo steps through, what the link carries, what a saved file holds.
 import { batch, computed, signal } from "./reactive.js";
+import { defaultTransient, readTransient } from "./views/transient/document.js";
 
 /** @typedef {import("./types.js").Doc} Doc */
 /** @typedef {import("./types.js").Design} Design */
@@ -32,6 +33,7 @@ export const defaultDoc = () => ({
   view: "design",
   units: "bar",
   design: defaultDesign(),
+  transient: defaultTransient(),
   catalogue: {
     kind: "muscles",
     search: "",
@@ -65,7 +67,7 @@ export function preview(change) {
   doc.value = change(start);
 }
 
-/** Ends a gesture: one undo step, however many previews it had. Repeats of one label shortly after each other merge.
+/** Ends a gesture: one undo step, however many previews it had. Quick repeats of one label merge.
  * @param {string} label */
 export function commit(label) {
   const start = before;
@@ -142,11 +144,12 @@ const DESIGN_CHECKS = {
   range: (x) => x === null || (Array.isArray(x) && x.length === 2 && x.every(isNumber)),
   clipped: (x) => typeof x === "boolean",
   across: (x) => ["contraction", "length", "braid_angle"].includes(String(x)),
-  over: (x) => ["contraction", "length", "diameter", "force"].includes(String(x)),
+  over: (x) => ["contraction", "length", "diameter", "outer_diameter", "force"].includes(String(x)),
   reference: (x) => x === null || typeof x === "string",
 };
 
-/** Reads the Design part of a link or file. @param {unknown} raw @returns {Design} @throws {Error} names the key */
+/** Reads the Design part of a link or file. @param {unknown} raw @returns {Design}
+ * @throws {Error} names the key */
 export function readDesign(raw) {
   if (!isObject(raw)) throw new Error("the design is missing");
   for (const [key, value] of Object.entries(raw)) {
@@ -169,11 +172,13 @@ export function readDoc(raw) {
     view: typeof raw.view === "string" ? raw.view : start.view,
     units,
     design: readDesign(raw.design),
+    transient: readTransient(raw.transient),
     catalogue: readFilter(raw.catalogue),
   };
 }
 
-/** Anything unusable in a catalogue filter is dropped: it hides nothing. @param {unknown} raw @returns {CatalogueFilter} */
+/** Anything unusable in a catalogue filter is dropped: it hides nothing. @param {unknown} raw
+ * @returns {CatalogueFilter} */
 function readFilter(raw) {
   const start = defaultDoc().catalogue;
   if (!isObject(raw)) return start;

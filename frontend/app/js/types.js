@@ -8,7 +8,8 @@
 /** @typedef {{unit: string, values: number[]}} Column */
 /** One loose shape for presets of every kind: tables and details walk over whatever parts one has.
  * @typedef {{kind: string, id: string, title: string, maker?: string, series?: string, description?: string,
- *   function?: string, muscle?: string, geometry?: Values, limits?: Values, tolerance?: Values, data?: Values,
+ *   function?: string, muscle?: string, geometry?: Values, limits?: Values, tolerance?: Values, data?:
+ * Values,
  *   effects?: Record<string, Values>, reference_curve?: string | null, measurement?: string | null,
  *   references?: string[], verified: boolean, origin: string, data_columns?: Record<string, Column>,
  *   nominal_length?: PresetValue, excluded?: S["Exclusion"][], slack?: number[],
@@ -19,19 +20,22 @@
 /** @typedef {S["CurvesAnswer"]} Curves */
 /** @typedef {S["InverseAnswer"]} Answer */
 /** @typedef {S["ComparisonAnswer"]} Comparison */
+/** @typedef {S["SimulationAnswer"]} Run */
+/** @typedef {S["MeasurementDetail"]} Measured */
 
 /** @typedef {"braid" | "thread" | "rhombus"} Form */
 /** @typedef {{preset: string | null, form: Form, values: Record<string, number>}} Muscle */
 /** @typedef {"contraction" | "length" | "braid_angle"} Across */
-/** @typedef {"contraction" | "length" | "diameter" | "force"} Over */
+/** @typedef {"contraction" | "length" | "diameter" | "outer_diameter" | "force"} Over */
 /** The Design view's part of the document; SI throughout.
  * @typedef {{muscle: Muscle, effects: Record<string, Record<string, number>> | null, pressures: number[],
- *   load: number, direction: -1 | 0 | 1, temperature: number, dead_volume: number, fixed_length: number | null,
- *   range: [number, number] | null, clipped: boolean, across: Across, over: Over,
+ *   load: number, direction: -1 | 0 | 1, temperature: number, dead_volume: number,
+ *   fixed_length: number | null, range: [number, number] | null, clipped: boolean, across: Across,
+ *   over: Over,
  *   reference: string | null}} Design */
-/** @typedef {{kind: string, search: string, maker: string, from: number | null, to: number | null, sort: string,
- *   descending: boolean, selected: string | null}} CatalogueFilter */
+/** @typedef {{kind: string, search: string, maker: string, from: number | null, to: number | null,
+ *   sort: string, descending: boolean, selected: string | null}} CatalogueFilter */
 /** @typedef {{schema: 1, view: string, units: import("./format.js").System, design: Design,
- *   catalogue: CatalogueFilter}} Doc */
+ *   transient: import("./views/transient/document.js").Transient, catalogue: CatalogueFilter}} Doc */
 
 export {};

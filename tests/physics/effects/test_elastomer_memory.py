@@ -1,4 +1,4 @@
-"""Creep and run-in: limits of fast and slow motion, superposition, relaxation, and what the rubber remembers."""
+"""Creep and run-in: limits of fast and slow motion, superposition, relaxation, and what rubber remembers."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def creep_force(velocity, time: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("frequency", [1e-3, 0.05, 1.0, 100.0])
 def test_creep_has_the_moduli_of_three_maxwell_arms(frequency: float) -> None:
     """Storage and loss stiffness k/3 sum (w tau)^2/(1 + (w tau)^2) and k/3 sum w tau/(1 + (w tau)^2)."""
-    w, cycles = 2.0 * np.pi * frequency, max(3, int(120.0 * frequency))
+    w, cycles = 2.0 * np.pi * frequency, min(max(3, int(120.0 * frequency)), 20)
     time = np.linspace(0.0, cycles / frequency, 60 * cycles + 1)
     force = creep_force(lambda t: 0.01 * w * np.cos(w * t), time)
     last = slice(-61, -1)
@@ -83,14 +83,14 @@ def test_run_in_is_over_after_the_first_cycle() -> None:
 
 
 def test_virgin_curve_beyond_the_largest_contraction() -> None:
-    """Softer below it, by at most the loss; at and beyond it, and when stretched from new, nothing is lost."""
+    """Softer below it, by at most the loss; at and beyond it, and from new, nothing is lost."""
     lengths = MUSCLE.nominal_length * (1.0 - np.array([-0.03, 0.0, 0.05, 0.1499, 0.15, 0.2]))
     values = {"loss": 0.2, "strain": 0.05}
     factor = MULLINS.call(
         "elastomer_factor", {"muscle": MUSCLE, "length": lengths}, {**values, "largest": 0.15}
     )
     assert factor[:3] == pytest.approx(1.0 - 0.2 * (1.0 - np.exp([-3.0, -3.0, -2.0])), rel=1e-9)
-    assert np.array_equal(factor[4:], [1.0, 1.0])
+    assert factor[4:] == pytest.approx([1.0, 1.0], abs=1e-12)
     assert (np.diff(factor[1:]) >= 0.0).all()
     new = MULLINS.call("elastomer_factor", {"muscle": MUSCLE, "length": lengths}, values)
     assert np.array_equal(new, np.ones(6))

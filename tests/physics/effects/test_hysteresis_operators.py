@@ -78,7 +78,7 @@ def test_pressure_driven_loop_shows_at_constant_length() -> None:
 
 
 def test_dahl_in_closed_form() -> None:
-    """From rest F = F_c (1 - e^{-x/x_b}); after a reversal at F_1 back along F_c (-1 + (1 + F_1/F_c) e^{-x/x_b})."""
+    """From rest F = F_c (1 - e^{-x/x_b}); back from F_1 along F_c (-1 + (1 + F_1/F_c) e^{-x/x_b})."""
     values = {"force": 20.0, "break_strain": 0.002}
     way = 0.002 * MUSCLE.nominal_length
     length, force = along("dahl", [0.0, 2.0 * way, 0.0], values)
@@ -140,7 +140,10 @@ def test_maxwell_slip_branches_after_masing() -> None:
 
 @pytest.mark.parametrize("depth", [0.05, 0.3, 0.8])
 def test_maxwell_slip_closes_small_loops(depth: float) -> None:
-    """Back and forth again ends where it left, and the branch goes on as if nothing had been; Dahl drifts."""
+    """Back and forth ends where it left, and the branch goes on as if nothing had been; Dahl friction drifts.
+
+    To 3 % of the full force: the band in which a cell goes from elastic to sliding is a tenth of its way.
+    """
     turn, end = 0.6 * _LAST, 1.2 * _LAST
     way = [0.0, turn, turn - depth * _LAST, turn, end]
     gaps = {}
@@ -150,8 +153,8 @@ def test_maxwell_slip_closes_small_loops(depth: float) -> None:
         if effect_id == "maxwell_slip":
             direct_length, direct = along(effect_id, [0.0, end], values)
             went_on = np.interp(length[1200:], direct_length, direct)
-            assert np.abs(force[1200:] - went_on).max() < 0.02 * 12.0
-    assert gaps["maxwell_slip"] < 0.02
+            assert np.abs(force[1200:] - went_on).max() < 0.03 * 12.0
+    assert gaps["maxwell_slip"] < 0.03
     assert gaps["dahl"] > gaps["maxwell_slip"]
 
 

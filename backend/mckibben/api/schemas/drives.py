@@ -24,7 +24,7 @@ from mckibben.api.schemas.quantity import (
 )
 from mckibben.api.schemas.signals import Command, ForceOverTime, Reference
 from mckibben.physics.errors import InputError
-from mckibben.physics.units import MAX_TEXT_LENGTH, si
+from mckibben.physics.units import si
 
 LONGEST = 600.0  # s
 

@@ -1,18 +1,21 @@
 // @ts-check
-// One plot: a specification drawn by Plotly; when only the data changed, its lines are moved in place (patch.js).
+// One plot: a specification drawn by Plotly; when only data changed, its lines are moved in place (patch.js).
 import { palette } from "./theme.js";
 import { canPatch, patch } from "./patch.js";
 
 /** @typedef {import("./theme.js").Palette} Palette */
 /** @typedef {{title: string, range: [number, number], right?: boolean}} Axis */
-/** A line or a set of points. `axis: 2` draws against the right axis; `column` names it in the table of the plot.
+/** A line or a set of points. `axis: 2` draws against the right axis; `column` is its name in the table.
  * @typedef {{id: string, x: (number | null)[], y: (number | null)[], line?: {color: string, width?: number,
  *   dash?: string}, marker?: {size: number, symbol: string | string[], color: string | string[],
  *   edge?: string}, axis?: 2, column?: string}} Trace */
 /** @typedef {{x: [number, number] | null, y: [number, number] | null, text: string}} Zone */
 /** @typedef {{text: string, x: number, y: number, color: string}} Label */
-/** @typedef {{x: Axis, y: Axis, y2?: Axis, traces: Trace[], zones: Zone[], labels?: Label[], revision: string,
- *   level?: {y: number, text: string}}} Spec  `level`: a horizontal line that is a handle on the page */
+/** A time in which something holds, shaded by kind. @typedef {{x: [number, number], kind: string}} Band */
+/** `level`: the handle; `marks`: instants; `brush`: dragging chooses a range of x, null = all of it.
+ * @typedef {{x: Axis, y: Axis, y2?: Axis, traces: Trace[], zones: Zone[], labels?: Label[],
+ *   revision: string, level?: {y: number, text: string}, bands?: Band[], marks?: number[],
+ *   brush?: (range: [number, number] | null) => void}} Spec */
 
 const SETTLE_MS = 300;
 
@@ -67,7 +70,7 @@ export function figure(spec, p, box) {
     dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom",
     uirevision: spec.revision,
     xaxis: axisLayout(spec.x, p),
-    yaxis: axisLayout(spec.y, p),
+    yaxis: { ...axisLayout(spec.y, p), fixedrange: Boolean(spec.brush) },
     ...(spec.y2 ? { yaxis2: { ...axisLayout(spec.y2, p), overlaying: "y", side: "right" } } : {}),
     shapes: spec.zones.map((z) => ({
       type: "rect",
@@ -116,7 +119,8 @@ export class Chart {
     host.append(this.canvas, this.over);
     this.width = 0;
     this.height = 0;
-    // The size is kept, not asked for: asking would make the browser lay out the page in the middle of a redraw.
+    // The size is kept, not asked for: asking would make the browser lay out the page in the middle of a
+    // redraw.
     new ResizeObserver(([entry]) => {
       this.width = Math.round(entry.contentRect.width);
       this.height = Math.round(entry.contentRect.height);
@@ -150,13 +154,22 @@ export class Chart {
   full(fig, now) {
     const first = !this.drawnAs;
     this.drawnAs = now;
-    plotly().react(this.canvas, fig.data, fig.layout, { displayModeBar: false, doubleClick: "reset" });
-    if (first) /** @type {any} */ (this.canvas).on("plotly_relayout", () => this.after.forEach((fn) => fn()));
+    const doubleClick = this.spec?.brush ? false : "reset";
+    plotly().react(this.canvas, fig.data, fig.layout, { displayModeBar: false, doubleClick });
+    if (!first) return;
+    const canvas = /** @type {any} */ (this.canvas);
+    canvas.on("plotly_relayout", (/** @type {Record<string, number>} */ change) => {
+      this.after.forEach((fn) => fn());
+      const from = change["xaxis.range[0]"], to = change["xaxis.range[1]"];
+      if (from !== undefined) this.spec?.brush?.([from, to]);
+    });
+    canvas.on("plotly_doubleclick", () => this.spec?.brush?.(null));
   }
 
   unzoom() {
     const spec = this.spec;
     if (!spec) return;
+    if (spec.brush) return spec.brush(null);
     const y2 = spec.y2 ? { "yaxis2.range": spec.y2.range } : {};
     plotly().relayout(this.canvas, { "xaxis.range": spec.x.range, "yaxis.range": spec.y.range, ...y2 });
   }

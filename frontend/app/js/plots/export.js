@@ -30,12 +30,36 @@ async function svgOf(chart, title) {
     legend: { x: 1.1, y: 1, font: { size: 11 } },
     xaxis: { ...layout.xaxis, range: x },
     yaxis: { ...layout.yaxis, range: y },
-    shapes: spec.level ? [...layout.shapes, level(spec.level.y)] : layout.shapes,
+    shapes: [...layout.shapes, ...bands(spec), ...(spec.level ? [level(spec.level.y)] : [])],
     annotations: notes(spec),
   };
   const url = await plotly().toImage({ data, layout: full }, { format: "svg", width: WIDTH, height: HEIGHT });
   return decodeURIComponent(url.slice(url.indexOf(",") + 1));
 }
+
+/** Bands and marks, which lie under the plot on the page. @param {import("./chart.js").Spec} spec */
+const bands = (spec) => [
+  ...(spec.bands ?? []).map(({ x, kind }) => ({
+    type: "rect",
+    layer: "below",
+    yref: "paper",
+    x0: x[0],
+    x1: x[1],
+    y0: 0,
+    y1: kind === "contact" ? 0.03 : 1,
+    fillcolor: kind === "contact" ? LIGHT.soft : LIGHT.zone,
+    line: { width: 0 },
+  })),
+  ...(spec.marks ?? []).map((x) => ({
+    type: "line",
+    yref: "paper",
+    x0: x,
+    x1: x,
+    y0: 0,
+    y1: 1,
+    line: { color: LIGHT.soft, dash: "dot", width: 1 },
+  })),
+];
 
 /** @param {number} y */
 const level = (y) => ({
@@ -48,7 +72,8 @@ const level = (y) => ({
   line: { color: LIGHT.load, dash: "dash", width: 2 },
 });
 
-/** What the page writes over the plot: the load and the reasons of the shaded zones. @param {import("./chart.js").Spec} spec */
+/** What the page writes over the plot: the load and the reasons of the shaded zones.
+ * @param {import("./chart.js").Spec} spec */
 function notes(spec) {
   const common = { showarrow: false, font: { size: 11, color: LIGHT.soft } };
   const zones = spec.zones.map((zone) =>
@@ -86,7 +111,8 @@ function notes(spec) {
   return [...zones, { ...load, yanchor: "bottom" }];
 }
 
-/** @param {string} svg @param {number} width @param {number} height @returns {Promise<Blob>} at twice the size */
+/** @param {string} svg @param {number} width @param {number} height
+ * @returns {Promise<Blob>} at twice the size */
 async function pngOf(svg, width, height) {
   const image = new Image();
   image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
@@ -123,7 +149,8 @@ export async function saveSheet(charts, format, name) {
   else download(`${name}.png`, await pngOf(svg, width, height));
 }
 
-/** The lines of a plot as columns beside their x. @param {Chart} chart @returns {import("../ui/table.js").Table} */
+/** The lines of a plot as columns beside their x. @param {Chart} chart
+ * @returns {import("../ui/table.js").Table} */
 export function chartTable(chart) {
   const spec = chart.spec;
   const lines = spec?.traces.filter((t) => t.line) ?? [];

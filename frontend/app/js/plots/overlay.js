@@ -1,5 +1,6 @@
 // @ts-check
-// What lies over the plots and moves without a redraw: the linked cursor, the load line, labels of lines and zones.
+// What lies over the plots and moves without a redraw: the linked cursor, the load line, labels of lines
+// and zones.
 import { h } from "../dom.js";
 
 /** @typedef {import("./chart.js").Chart} Chart */
@@ -41,10 +42,10 @@ export function linkCursor(charts, moved) {
   }
 }
 
-/** A horizontal line that the pointer or the arrow keys move. Plotly sends no event while one of its shapes moves.
+/** A horizontal line that pointer or arrow keys move: Plotly sends no event while one of its shapes moves.
  * @param {Chart} chart
  * @param {{label: string, get: () => number, text: () => string, set: (shown: number, done: boolean) => void,
- *   step: () => number, left: () => boolean}} o `get` and `set` in shown units; `left`: the tag stands there */
+ *   step: () => number, left: () => boolean}} o in shown units; `left`: where the tag stands */
 export function dragLine(chart, o) {
   const tag = h("span", { class: "tag" });
   const line = h("div", {
@@ -101,7 +102,8 @@ export function dragLine(chart, o) {
 
 const CLEAR_PX = 15;
 
-/** Writes the name of each line beside its start, and the reason into each shaded zone. @param {Chart} chart */
+/** Writes the name of each line beside its start, and the reason into each shaded zone.
+ * @param {Chart} chart */
 export function writeLabels(chart) {
   const box = h("div", { class: "labels" });
   chart.over.prepend(box);
@@ -147,4 +149,26 @@ function zoneLabel(zone, axes) {
 function place(el, axes, x, y, more = "") {
   el.style.transform = `translate(${axes.xaxis._offset + x}px,${axes.yaxis._offset + y}px) ${more}`;
   return el;
+}
+
+/** Shades the bands of a plot behind its lines and marks its instants, without a redraw. @param {Chart} chart */
+export function drawBands(chart) {
+  const box = h("div", { class: "under", "aria-hidden": "true" });
+  chart.host.prepend(box);
+  chart.after.add(() => {
+    const axes = chart.axes, spec = chart.spec;
+    if (!axes || !spec) return;
+    const width = axes.xaxis._length;
+    const at = (/** @type {number} */ x) => Math.min(width, Math.max(0, axes.xaxis.c2p(x)));
+    const bands = (spec.bands ?? []).map(({ x, kind }) => [at(x[0]), at(x[1]), kind])
+      .filter(([from, to]) => to > from)
+      .map(([from, to, kind]) =>
+        h("i", { class: `band ${kind}`, style: `left:${from}px;width:${Math.max(1, Number(to) - Number(from))}px` })
+      );
+    const marks = (spec.marks ?? []).filter((x) => axes.xaxis.c2p(x) >= 0 && axes.xaxis.c2p(x) <= width)
+      .map((x) => h("i", { class: "mark", style: `left:${at(x)}px` }));
+    box.style.cssText = `left:${axes.xaxis._offset}px;top:${axes.yaxis._offset}px;width:${width}px;` +
+      `height:${axes.yaxis._length}px`;
+    box.replaceChildren(...bands, ...marks);
+  });
 }

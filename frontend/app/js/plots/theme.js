@@ -1,8 +1,10 @@
 // @ts-check
-// Colours of the plots, light and dark. The pressure family runs through viridis: its lightness alone tells the order.
+// Colours of the plots, light and dark. The pressure family runs through viridis: its lightness alone tells
+// the order.
 import { signal } from "../reactive.js";
 
-/** @typedef {{dark: boolean, ink: string, soft: string, grid: string, line: string, card: string, load: string,
+/** @typedef {{dark: boolean, ink: string, soft: string, grid: string, line: string, card: string,
+ *   load: string,
  *   zone: string, accent: string, second: string, pressures: [number, number, number][]}} Palette */
 
 /** @type {Palette} */

@@ -29,7 +29,8 @@ export function openDialog({ title, wide = false }, ...body) {
 }
 
 /** The body is built when the popover opens.
- * @param {HTMLElement} anchor @param {string} label @param {(close: () => void) => import("../dom.js").Child} body
+ * @param {HTMLElement} anchor @param {string} label
+ * @param {(close: () => void) => import("../dom.js").Child} body
  * @param {{role?: string, kind?: string}} [o] */
 export function openPopover(anchor, label, body, { role = "dialog", kind = "" } = {}) {
   const open = document.querySelector("[popover]:popover-open");
@@ -62,7 +63,7 @@ export function openPopover(anchor, label, body, { role = "dialog", kind = "" } 
 
 const GAP = 6, EDGE = 8;
 
-/** Beside the anchor for a long text; else below it, or above it where there is more room; never over the edge of the window.
+/** Beside the anchor for a long text; else below or above it; never over the edge of the window.
  * @param {HTMLElement} box @param {HTMLElement} anchor */
 function place(box, anchor) {
   const a = anchor.getBoundingClientRect();

@@ -6,12 +6,13 @@ import { niceStep, number, parse, toShown, toSi } from "../format.js";
 
 /** @typedef {import("../format.js").Scale} Scale */
 /** @typedef {{
- *   key: string, label: string, symbol?: import("../dom.js").Child, quantity: import("../format.js").Quantity | null,
+ *   key: string, label: string, symbol?: import("../dom.js").Child,
+ *   quantity: import("../format.js").Quantity | null,
  *   scale: () => Scale, get: () => number | null, put: (si: number, done: boolean) => void,
  *   bounds?: () => [number, number], strict?: boolean, log?: boolean, slider?: boolean,
  *   changed?: () => boolean, reset?: () => void, message?: () => string | null, hint?: string,
- *   clear?: () => void, empty?: string}} FieldOptions  `bounds` in SI: the slider's range, and with `strict` the
- *   values the model accepts; `clear` allows an empty field, which then reads `empty` */
+ *   clear?: () => void, empty?: string}} FieldOptions  `bounds` in SI: the range of the slider,
+ *   and with `strict` of what the model accepts; `clear` allows an empty field, which then reads `empty` */
 
 let count = 0;
 const STEPS = 200;

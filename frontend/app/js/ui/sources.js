@@ -36,7 +36,8 @@ export function unverifiedNote(preset) {
     h(
       "p",
       null,
-      "These values are general knowledge or estimates, not read from a data sheet. Check them before you rely on them.",
+      "These values are general knowledge or estimates, not read from a data sheet. ",
+      "Check them before you rely on them.",
     ),
     h(
       "ul",

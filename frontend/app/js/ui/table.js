@@ -50,7 +50,8 @@ export function dataTable(table, caption) {
   );
 }
 
-/** Comma-separated, "name [unit]" in the header: the form measurement files are read in. @param {Table} table */
+/** Comma-separated, "name [unit]" in the header: the form measurement files are read in.
+ * @param {Table} table */
 export function toCsv({ columns, rows }) {
   const quote = (/** @type {string} */ text) =>
     /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;

@@ -21,7 +21,8 @@ export const KIND_TITLES = {
 
 /** @type {Column} */
 const maker = { key: "maker", title: "Maker", of: (p) => p.maker };
-/** @param {string} key @param {string} title @param {"geometry" | "limits" | "data"} part @returns {Column} */
+/** @param {string} key @param {string} title @param {"geometry" | "limits" | "data"} part
+ * @returns {Column} */
 const value = (key, title, part) => ({ key, title, of: (p) => p[part]?.[key] });
 /** @param {Preset} p */
 const points = (p) => Object.values(p.data_columns ?? {})[0]?.values.length ?? 0;
@@ -65,7 +66,8 @@ export function columnsOf(kind, list) {
 }
 
 /** A value in the user's units where its unit is known, else as it is in the file.
- * @param {PresetValue} q @param {System} system @param {string} [name] @returns {{text: string, unit: string}} */
+ * @param {PresetValue} q @param {System} system @param {string} [name]
+ * @returns {{text: string, unit: string}} */
 export function shownValue(q, system, name = "") {
   const measured = quantityOfUnit(q.unit);
   const quantity = measured === "pressure" ? quantityOf("Pa", name) : measured;

@@ -1,5 +1,6 @@
 // @ts-check
-// One part in full: a small force–contraction plot for muscles, every value with unit, source and grade, references.
+// One part in full: a small force–contraction plot for muscles, every value with unit, source and grade,
+// references.
 import { h, icon } from "../../dom.js";
 import { effect } from "../../reactive.js";
 import { units } from "../../state.js";

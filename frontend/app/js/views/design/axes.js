@@ -28,7 +28,7 @@ export function shown(values, quantity, system) {
 /** @param {string} title @param {Quantity} quantity @param {System} system */
 export const axisTitle = (title, quantity, system) => `${title} (${scaleOf(quantity, system).unit})`;
 
-/** Ranges that stay put while a slider moves: a new one is taken only when the data leaves it or shrinks to half.
+/** Ranges that stay put while a slider moves: a new one is taken when the data leaves it or halves.
  * @type {Map<string, [number, number]>} */
 const kept = new Map();
 /** @param {string} key @param {number} low @param {number} high @returns {[number, number]} */
@@ -66,7 +66,8 @@ export function extent(rows) {
   return low <= high ? [low, high] : [0, 1];
 }
 
-/** Value at a contraction, read off the answer's own columns. @param {Curves} c @param {Across} across @param {number} k */
+/** Value at a contraction, read off the answer's own columns. @param {Curves} c @param {Across} across
+ * @param {number} k */
 export function acrossAt(c, across, k) {
   if (across === "contraction") return k;
   if (across === "length") return c.geometry.nominal_length * (1 - k);
@@ -115,6 +116,7 @@ export function pressureName({ system }, p) {
 export const OVER = {
   contraction: { title: "Contraction", quantity: "ratio" },
   length: { title: "Length", quantity: "length" },
-  diameter: { title: "Diameter", quantity: "length" },
+  diameter: { title: "Braid diameter", quantity: "length" },
+  outer_diameter: { title: "Outer diameter", quantity: "length" },
   force: { title: "Force", quantity: "force" },
 };

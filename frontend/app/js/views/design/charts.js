@@ -19,7 +19,7 @@ import { forceSpec, overPressureSpec, stiffnessSpec, volumeSpec } from "./specs.
 const across = computed(() => design.value.across);
 const overWhat = computed(() => design.value.over);
 
-/** Follows the answers and what is looked at, not the inputs: a plot of new inputs with old curves would be wrong.
+/** Follows the answers and what is looked at, not the inputs: new inputs with old curves would be wrong.
  * @returns {View | null} */
 const viewNow = () => {
   const answer = curves.value;
@@ -105,7 +105,8 @@ const dashLegend = (solid, dashed, coloured) =>
   );
 
 /** @template {string} T
- * @param {string} label @param {[T, string][]} options @param {() => T} get @param {(value: T) => void} set */
+ * @param {string} label @param {[T, string][]} options @param {() => T} get
+ * @param {(value: T) => void} set */
 const choice = (label, options, get, set) =>
   h("select", {
     "aria-label": label,

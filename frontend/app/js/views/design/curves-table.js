@@ -5,7 +5,8 @@ import { scaleOf, toShown } from "../../format.js";
 import { acrossAt } from "./axes.js";
 import { curves } from "./model.js";
 
-/** Every number behind the plots, one row per pressure and contraction. @returns {import("../../ui/table.js").Table} */
+/** Every number behind the plots, one row per pressure and contraction.
+ * @returns {import("../../ui/table.js").Table} */
 export function curvesTable() {
   const answer = curves.peek(), system = units.peek();
   const unit = (/** @type {import("../../format.js").Quantity} */ q) => scaleOf(q, system).unit;

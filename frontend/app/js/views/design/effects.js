@@ -1,5 +1,6 @@
 // @ts-check
-// The effects card: everything the server's catalogue holds, by family, each with a switch and its parameters.
+// The effects card: everything the server's catalogue holds, by family, each with a switch and its
+// parameters.
 import { h, icon, mathml } from "../../dom.js";
 import { computed, signal } from "../../reactive.js";
 import { commit, design, editDesign, patchDesign, preview, units } from "../../state.js";
@@ -8,41 +9,44 @@ import { number, plainScale, quantityOf, scaleOf, toShown } from "../../format.j
 import { quantityField } from "../../ui/field.js";
 import { openPopover } from "../../ui/dialog.js";
 import { effectNote } from "./effect-note.js";
-import { activeEffects, curves, messageFor, preset, presetEffects } from "./model.js";
+import { activeEffects, curves, messageFor, presetEffects } from "./model.js";
 
 /** @typedef {import("../../types.js").Effect} Effect */
 /** @typedef {import("../../types.js").Parameter} Parameter */
 /** @typedef {Record<string, Record<string, number>>} Chosen */
+/** The card of one view: the effects that come along by themselves, those that are on, the message for one,
+ * which families stand under which heading, how many are on.
+ * @typedef {{own: Signal<Chosen>, chosen: Signal<Chosen>, wanted: Signal<string>, count: () => number,
+ *   message: (key: string) => string | null, families: (all: Effect[]) => Map<string, Effect[]>,
+ *   hints?: Record<string, string>}} Panel */
+/** @template T @typedef {import("../../reactive.js").Signal<T>} Signal */
 
-const wanted = signal("");
-const chosen = computed(activeEffects);
-
-/** @param {Effect} e @param {Parameter} p what the preset gives, else the effect's default */
-const usual = (e, p) => presetEffects.value[e.id]?.[p.name] ?? p.default;
-/** @param {Effect} e @param {Parameter} p */
-const valueOf = (e, p) => chosen.value[e.id]?.[p.name] ?? usual(e, p);
+/** @param {Panel} c @param {Effect} e @param {Parameter} p what comes along, else the effect's default */
+const usual = (c, e, p) => c.own.value[e.id]?.[p.name] ?? p.default;
+/** @param {Panel} c @param {Effect} e @param {Parameter} p */
+const valueOf = (c, e, p) => c.chosen.value[e.id]?.[p.name] ?? usual(c, e, p);
 
 /** @param {Chosen} next @param {string} label */
 const choose = (next, label) => editDesign({ effects: next }, label);
 
-/** @param {Effect} e @param {boolean} on */
-function turn(e, on) {
-  const next = { ...chosen.peek() };
-  if (on) next[e.id] = { ...presetEffects.peek()[e.id] };
+/** @param {Panel} c @param {Effect} e @param {boolean} on */
+function turn(c, e, on) {
+  const next = { ...c.chosen.peek() };
+  if (on) next[e.id] = { ...c.own.peek()[e.id] };
   else delete next[e.id];
   choose(next, `${e.title} ${on ? "on" : "off"}`);
 }
 
-/** @param {Effect} e @param {Parameter} p */
-function parameterField(e, p) {
+/** @param {Panel} c @param {Effect} e @param {Parameter} p */
+function parameterField(c, e, p) {
   const quantity = quantityOf(p.unit, p.name);
   /** @param {number | null} si */
   const set = (si) => {
-    const own = { ...chosen.peek()[e.id] };
+    const own = { ...c.chosen.peek()[e.id] };
     if (si === null) delete own[p.name];
     else own[p.name] = si;
-    if (si === null && presetEffects.peek()[e.id]?.[p.name] !== undefined) own[p.name] = usual(e, p);
-    return { effects: { ...chosen.peek(), [e.id]: own } };
+    if (si === null && c.own.peek()[e.id]?.[p.name] !== undefined) own[p.name] = usual(c, e, p);
+    return { effects: { ...c.chosen.peek(), [e.id]: own } };
   };
   return quantityField({
     key: `${e.id}.${p.name}`,
@@ -52,20 +56,20 @@ function parameterField(e, p) {
     strict: true,
     scale: () => quantity ? scaleOf(quantity, units.value) : plainScale(p.unit),
     bounds: () => [p.lower, p.upper],
-    get: () => valueOf(e, p),
+    get: () => valueOf(c, e, p),
     put: (si, done) => {
       preview(patchDesign(set(si)));
       if (done) commit(`${e.title}: ${p.name.replaceAll("_", " ")}`);
     },
     changed: () =>
-      Math.abs(valueOf(e, p) - usual(e, p)) > 1e-9 * Math.max(Math.abs(p.lower), Math.abs(p.upper)),
+      Math.abs(valueOf(c, e, p) - usual(c, e, p)) > 1e-9 * Math.max(Math.abs(p.lower), Math.abs(p.upper)),
     reset: () => editDesign(set(null), `reset ${p.name.replaceAll("_", " ")}`),
-    message: () => messageFor(`${e.id}.${p.name}`),
+    message: () => c.message(`${e.id}.${p.name}`),
   });
 }
 
-/** The parameters in one line, for an effect that is folded. @param {Effect} e */
-function summary(e) {
+/** The parameters in one line, for an effect that is folded. @param {Panel} c @param {Effect} e */
+function summary(c, e) {
   return e.parameters.slice(0, 3).map((p, i) => {
     const quantity = quantityOf(p.unit, p.name);
     const s = quantity ? scaleOf(quantity, units.value) : plainScale(p.unit);
@@ -74,14 +78,14 @@ function summary(e) {
       { class: "pair" },
       i ? ", " : "",
       mathml(p.symbol_mathml),
-      ` = ${number(toShown(valueOf(e, p), s), s.digits)} ${s.unit}`,
+      ` = ${number(toShown(valueOf(c, e, p), s), s.digits)} ${s.unit}`,
     );
   });
 }
 
-/** @param {Effect} e */
-function row(e) {
-  const on = computed(() => e.id in chosen.value);
+/** @param {Panel} c @param {Effect} e */
+function row(c, e) {
+  const on = computed(() => e.id in c.chosen.value);
   const open = signal(false);
   const info = h("button", {
     type: "button",
@@ -91,7 +95,7 @@ function row(e) {
     onclick: () => openPopover(info, e.title, () => effectNote(e), { kind: "about" }),
   }, icon("info"));
   const matches = () => {
-    const words = wanted.value.trim().toLowerCase();
+    const words = c.wanted.value.trim().toLowerCase();
     return !words || [e.title, e.family, e.cause, e.id].some((text) => text.toLowerCase().includes(words));
   };
   const body = () => {
@@ -100,7 +104,7 @@ function row(e) {
       return h(
         "div",
         { class: "parameters" },
-        ...e.parameters.map((p) => parameterField(e, p)),
+        ...e.parameters.map((p) => parameterField(c, e, p)),
       );
     }
     return h("button", {
@@ -108,7 +112,7 @@ function row(e) {
       class: "summary",
       title: "Change the parameters",
       onclick: () => (open.value = true),
-    }, () => summary(e));
+    }, () => summary(c, e));
   };
   return h(
     "li",
@@ -126,7 +130,7 @@ function row(e) {
           onchange: (/** @type {Event} */ event) => {
             const want = /** @type {HTMLInputElement} */ (event.target).checked;
             open.value = want;
-            turn(e, want);
+            turn(c, e, want);
           },
         }),
         h("span", null, e.title),
@@ -145,8 +149,8 @@ function row(e) {
     ),
     body,
     () => {
-      const text = messageFor(e.id);
-      return text && !e.parameters.some((p) => messageFor(`${e.id}.${p.name}`))
+      const text = c.message(e.id);
+      return text && !e.parameters.some((p) => c.message(`${e.id}.${p.name}`))
         ? h("p", { class: "error" }, text)
         : null;
     },
@@ -154,11 +158,11 @@ function row(e) {
 }
 
 /** A family is open while one of its effects is on, until the user folds or unfolds it.
- * @param {string} family @param {Effect[]} list */
-function group(family, list) {
-  const count = computed(() => list.filter((e) => e.id in chosen.value).length);
+ * @param {Panel} c @param {string} family @param {Effect[]} list */
+function group(c, family, list) {
+  const count = computed(() => list.filter((e) => e.id in c.chosen.value).length);
   const folded = signal(/** @type {boolean | null} */ (null));
-  const open = () => wanted.value.trim() !== "" || !(folded.value ?? count.value === 0);
+  const open = () => c.wanted.value.trim() !== "" || !(folded.value ?? count.value === 0);
   const box = h(
     "details",
     { class: "family", open, onchange: () => (folded.value = false) },
@@ -173,21 +177,42 @@ function group(family, list) {
       h("span", null, family),
       h("small", null, () => `${count.value} of ${list.length}`),
     ),
-    h("ul", null, ...list.map(row)),
+    c.hints?.[family] ? h("p", { class: "hint" }, c.hints[family]) : null,
+    h("ul", null, ...list.map((e) => row(c, e))),
   );
   return box;
 }
 
-/** @param {Effect[]} all */
+/** A static test shows it. @param {Effect} e */
+export const isStatic = (e) => e.kinds.some((kind) => kind === "static" || kind === "diameter");
+
+const LATER = "Only over time";
+
+/** What moves nothing in static curves stands last, under one heading. @param {Effect[]} all */
 function byFamily(all) {
   /** @type {Map<string, Effect[]>} */
   const families = new Map();
-  for (const e of all) families.set(e.family, [...families.get(e.family) ?? [], e]);
-  return [...families].map(([family, list]) => group(family, list));
+  for (const e of [...all].sort((a, b) => Number(isStatic(b)) - Number(isStatic(a)))) {
+    const name = isStatic(e) ? e.family : LATER;
+    families.set(name, [...families.get(name) ?? [], e]);
+  }
+  return families;
 }
 
-export function effectsCard() {
-  const own = () => preset.value && Object.keys(presetEffects.value).length > 0;
+/** @type {Omit<Panel, "wanted">} */
+const OF_DESIGN = {
+  own: presetEffects,
+  chosen: computed(activeEffects),
+  count: () => Object.keys(curves.value?.model.effects ?? activeEffects()).length,
+  message: messageFor,
+  families: byFamily,
+  hints: { [LATER]: "These act while the muscle moves or fills; the curves here do not show them." },
+};
+
+export function effectsCard(panel = OF_DESIGN) {
+  /** @type {Panel} */
+  const c = { ...panel, wanted: signal("") };
+  const own = () => Object.keys(c.own.value).length > 0;
   return h(
     "section",
     { class: "card", "aria-label": "Effects" },
@@ -196,7 +221,7 @@ export function effectsCard() {
       { class: "card-head" },
       h("h2", null, "Effects"),
       h("span", { class: "muted" }, () => {
-        const n = Object.keys(curves.value?.model.effects ?? chosen.value).length;
+        const n = c.count();
         return n ? `${n} on` : "";
       }),
       h(
@@ -205,7 +230,7 @@ export function effectsCard() {
         h("button", {
           type: "button",
           title: "Switch all effects off: the ideal braid",
-          "aria-pressed": () => String(Object.keys(chosen.value).length === 0),
+          "aria-pressed": () => String(Object.keys(c.chosen.value).length === 0),
           onclick: () => choose({}, "ideal model"),
         }, "Ideal"),
         h("button", {
@@ -223,17 +248,16 @@ export function effectsCard() {
       icon("search"),
       h("input", {
         type: "search",
-        id: "effect-search",
         placeholder: "Search effects  ( / )",
         "aria-label": "Search effects",
         oninput: (
           /** @type {Event} */ e,
-        ) => (wanted.value = /** @type {HTMLInputElement} */ (e.target).value),
+        ) => (c.wanted.value = /** @type {HTMLInputElement} */ (e.target).value),
       }),
     ),
     () =>
       effects.value.length
-        ? byFamily(effects.value)
+        ? [...c.families(effects.value)].map(([family, list]) => group(c, family, list))
         : h("p", { class: "muted" }, "Loading the catalogue of effects…"),
   );
 }

@@ -10,6 +10,7 @@ export function openExample(preset) {
     edit((d) => ({ ...d, view: "design", design }), `example ${preset.title}`);
     status.value = `${preset.title}: ${preset.description}`;
   } catch (error) {
-    status.value = `The example “${preset.title}” cannot be opened: ${/** @type {Error} */ (error).message}.`;
+    const why = /** @type {Error} */ (error).message;
+    status.value = `The example “${preset.title}” cannot be opened: ${why}.`;
   }
 }

@@ -1,5 +1,6 @@
 // @ts-check
-// From the document to the server's answers: curves, errors against points, and which message belongs to which field.
+// From the document to the server's answers: curves, errors against points, and which message belongs to
+// which field.
 import { batch, computed, effect, signal } from "../../reactive.js";
 import { design } from "../../state.js";
 import { latest, post } from "../../api.js";
@@ -88,7 +89,8 @@ export function geometryValue(key) {
   return answer?.[key] ?? answer?.rhombus?.[key] ?? null;
 }
 
-/** What the preset says in each form, to mark and reset changed values. @param {string} key @returns {number | null} */
+/** What the preset says in each form, to mark and reset changed values. @param {string} key
+ * @returns {number | null} */
 export function presetValue(key) {
   const g = preset.value?.geometry;
   if (!g) return null;
@@ -155,7 +157,7 @@ export function messageFor(key) {
   return field === key || field.startsWith(`${key}.`) ? told.words : null;
 }
 
-/** The field on the page that a path of the request belongs to: "effects.a.b" → "a.b", "pressures.0" → "pressures".
+/** The field on the page that a path of the request belongs to: "effects.a.b" → "a.b".
  * @param {string} path */
 export function fieldOf(path) {
   const [part, ...rest] = path.replace(/^body\./, "").split(".");

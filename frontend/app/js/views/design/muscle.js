@@ -24,7 +24,8 @@ import {
  *   bounds: [number, number], log?: boolean, hint?: string}} Spec */
 
 const DEG = Math.PI / 180;
-/** Slider ranges span what is built; the field beside takes any value the model takes. @type {Record<string, Spec>} */
+/** Slider ranges span what is built; the field beside takes any value the model takes.
+ * @type {Record<string, Spec>} */
 const SPECS = {
   nominal_length: { label: "Length", symbol: "L₀", quantity: "length", bounds: [0.02, 10], log: true },
   braid_diameter: {
@@ -108,7 +109,8 @@ const subscript = (symbol) => {
   return below ? h("span", null, letter, h("sub", null, below)) : symbol;
 };
 
-/** The maker's range of lengths where there is one. @param {string} key @param {Spec} spec @returns {[number, number]} */
+/** The maker's range of lengths where there is one. @param {string} key @param {Spec} spec
+ * @returns {[number, number]} */
 function sliderBounds(key, spec) {
   const limits = preset.value?.limits ?? {};
   if (key !== "nominal_length" || !limits.min_nominal_length || !limits.max_nominal_length) {

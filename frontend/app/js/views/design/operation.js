@@ -104,7 +104,8 @@ function pressureEditor() {
 /** “Evenly spaced”: from, to, how many. */
 function spaced() {
   const from = signal(BAR), to = signal(6 * BAR), count = signal(6);
-  /** @param {string} label @param {typeof from} value @param {Quantity} quantity @param {[number, number]} bounds */
+  /** @param {string} label @param {typeof from} value @param {Quantity} quantity
+   * @param {[number, number]} bounds */
   const field = (label, value, quantity, bounds) =>
     quantityField({
       key: `spaced ${label}`,
@@ -148,7 +149,8 @@ function spaced() {
   return button;
 }
 
-/** @param {keyof Design & string} key @param {Partial<import("../../ui/field.js").FieldOptions> & {label: string,
+/** @param {keyof Design & string} key
+ * @param {Partial<import("../../ui/field.js").FieldOptions> & {label: string,
  *   quantity: Quantity, bounds: () => [number, number]}} o */
 const designField = (key, o) =>
   quantityField({

@@ -11,7 +11,8 @@ import { curves, fault } from "./model.js";
 /** @typedef {import("../../types.js").Curves} Curves */
 /** @typedef {[title: string, quantity: Quantity]} Column */
 
-/** @param {string} title @param {Column[]} columns @param {() => {cells: (number | null)[], mark?: string}[]} rows */
+/** @param {string} title @param {Column[]} columns
+ * @param {() => {cells: (number | null)[], mark?: string}[]} rows */
 function figures(title, columns, rows) {
   return h(
     "div",
@@ -78,7 +79,7 @@ const NOTE = "unverified";
 function verdict() {
   const c = curves.value;
   if (!c) {
-    return h("p", { class: "muted" }, fault.value ? "No valid model yet." : "Waiting for the first curves…");
+    return h("p", { class: "muted" }, fault.value ? "No valid model yet." : "Waiting for curves…");
   }
   const hard = c.flags.filter((f) => f.code !== NOTE), notes = c.flags.filter((f) => f.code === NOTE);
   const held = c.operating_points.filter((o) => o.contraction != null);

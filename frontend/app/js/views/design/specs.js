@@ -1,5 +1,6 @@
 // @ts-check
-// What each plot shows: from the server's answer to lines, points and shaded zones in the user's units. Pure functions.
+// What each plot shows: from the server's answer to lines, points and shaded zones in the user's units.
+// Pure functions.
 import { scaleOf, siOf, toShown, withUnit } from "../../format.js";
 import { pressureColour } from "../../plots/theme.js";
 import {
@@ -24,7 +25,8 @@ import {
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** @typedef {import("./axes.js").View} View */
 
-/** Contractions the maker does not allow. @param {View} v @param {[number, number]} range @returns {Zone[]} */
+/** Contractions the maker does not allow. @param {View} v @param {[number, number]} range
+ * @returns {Zone[]} */
 function limitZones(v, range) {
   const { max_contraction, max_pretension } = v.curves.limits;
   const s = scaleOf(ACROSS[v.across].quantity, v.system);
@@ -42,7 +44,8 @@ function limitZones(v, range) {
   return zones;
 }
 
-/** @param {View} v @param {Palette} p @param {"force" | "stiffness" | "stiffness_closed"} what @param {Quantity} quantity
+/** @param {View} v @param {Palette} p @param {"force" | "stiffness" | "stiffness_closed"} what
+ * @param {Quantity} quantity
  * @param {string} [dash] @returns {Trace[]} */
 function family(v, p, what, quantity, dash) {
   const x = xColumn(v);
@@ -86,7 +89,8 @@ function pointTraces(v, p, range) {
   const x = points.contraction.map((k) => toShown(acrossAt(v.curves, v.across, k), s));
   const y = shown(points.force, "force", v.system);
   const inside = x.map((at) => at >= range[0] - 1e-9 && at <= range[1] + 1e-9);
-  /** @param {boolean} excluded @param {string} id @param {string} symbol @param {number} size @returns {Trace} */
+  /** @param {boolean} excluded @param {string} id @param {string} symbol @param {number} size
+   * @returns {Trace} */
   const trace = (excluded, id, symbol, size) => {
     const keep = [...x.keys()].filter((i) => inside[i] && points.left.has(i) === excluded);
     return {
@@ -190,7 +194,7 @@ export function volumeSpec(v, p) {
       range: steadyRange(`${v.place}volume${system}`, 0, most),
     },
     y2: {
-      title: axisTitle("Diameter", "length", system),
+      title: axisTitle("Braid diameter", "length", system),
       range: steadyRange(`${v.place}diameter${system}`, 0, widest),
       right: true,
     },
@@ -221,8 +225,12 @@ export function overPressureSpec(v, p) {
   const x = shown(o?.pressure ?? [], "pressure", system);
   const filling = shown(branch("filling"), quantity, system),
     venting = shown(branch("venting"), quantity, system);
-  const dots = over === "force" ? [] : curves.operating_points;
-  const y = shown(dots.map((d) => over === "force" ? null : d[over]), quantity, system);
+  const dots = over === "force" || over === "outer_diameter" ? [] : curves.operating_points;
+  const y = shown(
+    dots.map((d) => over === "force" || over === "outer_diameter" ? null : d[over]),
+    quantity,
+    system,
+  );
   const [low, high] = extent([filling, venting, y]);
   const [first, last] = extent([x]);
   const limit = curves.limits.max_pressure;

@@ -1,0 +1,71 @@
+"""Work that takes longer than a request should block: in a thread, with progress, ended when nobody waits."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from collections.abc import AsyncIterator, Callable
+
+from fastapi import Request
+from fastapi.sse import EventSourceResponse, format_sse_event
+
+from mckibben.api.answer import to_json
+from mckibben.api.errors import input_error_answer, unexpected_answer
+from mckibben.physics.errors import InputError
+from mckibben.simulation.outcome import Watch
+
+Work = Callable[[Watch], object]
+
+_LOOK_EVERY = 0.1  # s
+
+
+def wants_events(request: Request) -> bool:
+    """Whether the caller asked for a stream of events."""
+    return "text/event-stream" in request.headers.get("accept", "")
+
+
+async def finished(request: Request, work: Work) -> object:
+    """The result of the work; it is told to stop when the caller has gone."""
+    gone = threading.Event()
+    running = asyncio.get_running_loop().run_in_executor(None, work, Watch(cancelled=gone.is_set))
+    while True:
+        done, _ = await asyncio.wait({running}, timeout=_LOOK_EVERY)
+        if done:
+            return running.result()
+        if await request.is_disconnected():
+            gone.set()
+
+
+def events(work: Work) -> EventSourceResponse:
+    """``progress`` events while the work runs, then ``done`` with its result, or ``error``."""
+    return EventSourceResponse(_events(work))
+
+
+async def _events(work: Work) -> AsyncIterator[bytes]:
+    loop = asyncio.get_running_loop()
+    shares: asyncio.Queue[float | None] = asyncio.Queue()
+    gone = threading.Event()
+
+    def tell(share: float | None) -> None:
+        # The loop may have ended before the thread.
+        if not loop.is_closed():
+            loop.call_soon_threadsafe(shares.put_nowait, share)
+
+    running = loop.run_in_executor(None, work, Watch(cancelled=gone.is_set, progress=tell))
+    running.add_done_callback(lambda _: shares.put_nowait(None))
+    try:
+        yield _event("progress", to_json({"share": 0.0}))
+        while (share := await shares.get()) is not None:
+            yield _event("progress", to_json({"share": share}))
+        try:
+            yield _event("done", to_json(running.result()))
+        except InputError as error:
+            yield _event("error", bytes(input_error_answer(error).body))
+        except Exception as error:  # the stream has begun: nobody else can answer any more
+            yield _event("error", bytes(unexpected_answer(error).body))
+    finally:
+        gone.set()
+
+
+def _event(name: str, data: bytes) -> bytes:
+    return format_sse_event(event=name, data_str=data.decode())

@@ -1,0 +1,68 @@
+// @ts-check
+// The one instant all plots, the animation and the readout show; it moves without a redraw.
+import { h } from "../../dom.js";
+import { computed, effect, signal } from "../../reactive.js";
+import { run, timeWindow } from "./model.js";
+import { rowAt } from "./specs.js";
+
+/** @typedef {import("../../plots/chart.js").Chart} Chart */
+
+/** Where the cursor was put [s]. */
+const wanted = signal(0);
+
+/** The times on screen: the window, else the whole run. @type {import("../../reactive.js").Signal<[number, number]>} */
+export const span = computed(() => timeWindow.value ?? [0, run.value?.duration ?? 1]);
+
+/** The cursor, within what is shown [s]. */
+export const cursor = computed(() => Math.min(span.value[1], Math.max(span.value[0], wanted.value)));
+
+/** The row of the run under the cursor. */
+export const row = computed(() => run.value ? rowAt(run.value.time, cursor.value) : 0);
+
+/** @param {number} t [s] */
+export const moveCursor = (t) => (wanted.value = t);
+
+/** @param {number} rows */
+export function stepCursor(rows) {
+  const time = run.peek()?.time;
+  if (!time) return;
+  moveCursor(time[Math.min(time.length - 1, Math.max(0, row.peek() + rows))]);
+}
+
+const KEYS = /** @type {Record<string, number>} */ ({ ArrowLeft: -1, ArrowRight: 1, PageUp: 20, PageDown: -20 });
+
+/** @param {KeyboardEvent} event */
+export function cursorKeys(event) {
+  if (event.ctrlKey || event.metaKey || event.altKey) return;
+  if (event.key === "Home") moveCursor(span.peek()[0]);
+  else if (event.key === "End") moveCursor(span.peek()[1]);
+  else if (event.key in KEYS) stepCursor(KEYS[event.key] * (event.shiftKey ? 10 : 1));
+  else return;
+  event.preventDefault();
+}
+
+/** A line over every plot; pointer and arrow keys move it. @param {Chart[]} charts */
+export function followTime(charts) {
+  for (const chart of charts) {
+    const line = h("div", { class: "cursor", hidden: true });
+    chart.over.append(line);
+    const show = () => {
+      const axes = chart.axes;
+      const px = axes ? axes.xaxis.c2p(cursor.value) : -1;
+      line.hidden = !axes || !run.peek() || px < -0.5 || px > axes.xaxis._length + 0.5;
+      if (line.hidden) return;
+      line.style.height = `${axes.yaxis._length}px`;
+      line.style.transform = `translate(${axes.xaxis._offset + px}px,${axes.yaxis._offset}px)`;
+    };
+    effect(show);
+    chart.after.add(show);
+    chart.host.addEventListener("pointermove", (event) => {
+      const axes = chart.axes;
+      if (!axes) return;
+      const px = event.clientX - chart.host.getBoundingClientRect().left - axes.xaxis._offset;
+      if (px >= 0 && px <= axes.xaxis._length) moveCursor(axes.xaxis.p2c(px));
+    });
+    chart.host.tabIndex = 0;
+    chart.host.addEventListener("keydown", cursorKeys);
+  }
+}

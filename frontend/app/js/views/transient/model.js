@@ -1,0 +1,253 @@
+// @ts-check
+// From the document to the server's runs: the one shown, the pinned ones, the static map behind the phase plot.
+import { batch, computed, effect, signal } from "../../reactive.js";
+import { commit, design, doc, edit, look, preview, view } from "../../state.js";
+import { ApiError, latest, post } from "../../api.js";
+import { loadKind, presets, status } from "../../store.js";
+import { muscleInput, preset, presetEffects } from "../design/model.js";
+import { at, defaultTransient, driveDocument, inSi, put, takenApart } from "./document.js";
+import { siNumber } from "./units.js";
+
+/** @typedef {import("../../types.js").Run} Run */
+/** @typedef {import("../../types.js").Curves} Curves */
+/** @typedef {import("../../types.js").Preset} Preset */
+/** @typedef {import("./document.js").Drive} Drive */
+/** @typedef {import("./document.js").Transient} Transient */
+
+const POINTS = 401, STATIC_PRESSURES = 12, STATIC_POINTS = 90;
+
+export const transient = computed(() => doc.value.transient);
+export const drive = computed(() => transient.value.drive);
+export const mode = computed(() => transient.value.mode);
+export const timeWindow = computed(() => transient.value.window);
+
+export const run = signal(/** @type {Run | null} */ (null));
+/** Why there is no new run: the plots keep the last one, dimmed. */
+export const fault = signal(/** @type {ApiError | null} */ (null));
+/** From the request to its answer [ms]. */
+export const roundTrip = signal(0);
+
+// ---- changing the document
+
+/** @param {Partial<Transient>} patch @returns {(d: import("../../types.js").Doc) => import("../../types.js").Doc} */
+export const patchTransient = (patch) => (d) => ({ ...d, transient: { ...d.transient, ...patch } });
+/** @param {Partial<Transient>} patch @param {string} label */
+export const editTransient = (patch, label) => edit(patchTransient(patch), label);
+/** What is looked at is no design decision. @param {Partial<Transient>} patch */
+export const lookTransient = (patch) => look(patchTransient(patch));
+
+/** @param {string} path @param {unknown} value undefined takes it out @param {string} label
+ * @param {boolean} [done] false while a slider still moves */
+export function setDrive(path, value, label, done = true) {
+  preview((d) => ({ ...d, transient: { ...d.transient, drive: put(d.transient.drive, path, value) } }));
+  if (done) commit(label);
+}
+
+/** A number of the drive in SI; null = not given. @param {string} path @returns {number | null} */
+export const numberAt = (path) => siNumber(at(drive.value, path));
+
+/** The preset of a part of the drive. @param {"valves" | "tubes"} kind @param {string} path */
+export const partPreset = (kind, path) =>
+  (presets.value[kind] ?? []).find((p) => p.id === at(drive.value, path)) ?? null;
+
+/** @param {Preset | null} p @returns {Record<string, Record<string, number>>} */
+const effectsOf = (p) => /** @type {any} */ (inSi(Object.fromEntries(
+  Object.entries(p?.effects ?? {}).map(([id, values]) => [
+    id,
+    Object.fromEntries(Object.entries(values).map(([key, q]) => [key, `${q.value} ${q.unit === "1" ? "" : q.unit}`])),
+  ]),
+)));
+
+/** What muscle, valve and tube bring along as long as the effects are not chosen one by one. */
+export const ownEffects = computed(() => ({
+  ...presetEffects.value,
+  ...effectsOf(partPreset("valves", "valve.preset")),
+  ...effectsOf(partPreset("tubes", "tube.preset")),
+}));
+
+/** Another valve or tube: effects chosen one by one give up those of the old part and take those of the new one.
+ * @param {"valves" | "tubes"} kind @param {string} path @param {object | undefined} part @param {string} label */
+export function changePart(kind, path, part, label) {
+  const find = (/** @type {unknown} */ id) => (presets.peek()[kind] ?? []).find((p) => p.id === id) ?? null;
+  const old = effectsOf(find(at(drive.peek(), `${path}.preset`)));
+  const next = effectsOf(find(/** @type {any} */ (part)?.preset));
+  edit((d) => {
+    const { effects } = d.design;
+    const kept = effects && Object.fromEntries(Object.entries(effects).filter(([id]) => !(id in old)));
+    const chosen = kept && { ...kept, ...next };
+    const changed = put(d.transient.drive, path, part);
+    return { ...d, design: { ...d.design, effects: chosen }, transient: { ...d.transient, drive: changed } };
+  }, label);
+}
+
+/** Whether the command is a share of a regulator's range instead of a valve opening. */
+export const regulated = computed(() =>
+  Boolean(at(drive.value, "regulator") ?? /** @type {any} */ (partPreset("valves", "valve.preset"))?.regulator)
+);
+
+// ---- scenarios
+
+export const scenarios = computed(() => presets.value.drives ?? []);
+export const scenario = computed(() => scenarios.value.find((s) => s.id === transient.value.scenario) ?? null);
+
+const start = defaultTransient().drive;
+/** What "changed" and "reset" refer to: the scenario as it was loaded, else the start of this view.
+ * @type {import("../../reactive.js").Signal<Drive>} */
+export const baseDrive = computed(() => {
+  const document = scenario.value?.document;
+  try {
+    if (document) return /** @type {Drive} */ (takenApart(document, null).transient.drive);
+  } catch {
+    // a scenario that cannot be read was never loaded
+  }
+  return start;
+});
+
+/** A whole drive document takes the place of muscle, effects and drive; one undo step.
+ * @param {Drive} document @param {string | null} id @param {string} label */
+export function openDrive(document, id, label) {
+  const { muscle, effects, transient: part } = takenApart(document, id);
+  edit((d) => ({
+    ...d,
+    view: "transient",
+    design: { ...d.design, muscle, effects, reference: "auto" },
+    transient: { ...d.transient, ...part },
+  }), label);
+}
+
+/** @param {string} id */
+export function useScenario(id) {
+  const chosen = scenarios.peek().find((s) => s.id === id);
+  if (!chosen?.document) return lookTransient({ scenario: null });
+  try {
+    openDrive(chosen.document, id, `scenario ${chosen.title}`);
+    status.value = [chosen.title, chosen.description].filter(Boolean).join(": ");
+  } catch (error) {
+    status.value = `“${chosen.title}” cannot be opened: ${/** @type {Error} */ (error).message}.`;
+  }
+}
+
+// ---- the run
+
+/** The drive as the server and the command line take it. @returns {Drive} */
+export const documentNow = () =>
+  driveDocument(transient.value, muscleInput(design.value.muscle), design.value.effects);
+
+const request = computed(() => {
+  const [from, to] = timeWindow.value ?? [null, null];
+  return JSON.stringify({ drive: documentNow(), points: POINTS, ...(to === null ? {} : { from, to }) });
+});
+
+/** @param {unknown} body @param {AbortSignal} [control] @returns {Promise<Run>} */
+export const simulate = (body, control) => post("/api/simulations", body, control);
+
+let asked = "";
+const askRun = latest(
+  async (/** @type {string} */ body, control) => {
+    const began = performance.now();
+    const answer = await simulate(JSON.parse(body), control);
+    return { answer, took: performance.now() - began };
+  },
+  ({ answer, took }) =>
+    batch(() => {
+      fault.value = null;
+      roundTrip.value = took;
+      run.value = answer;
+    }),
+  (error) => {
+    fault.value = error;
+  },
+);
+
+/** Asks once more, after the server was away. */
+export const retry = () => askRun(request.peek());
+
+/** The field of the page a path of the request belongs to. @param {string} path */
+export const fieldOf = (path) => path.replace(/^body\./, "").replace(/^drive\./, "").replace(/^effects\./, "");
+
+/** The message for a field or a part of the drive, by its path. @param {string} key */
+export function messageFor(key) {
+  const told = fault.value;
+  return told?.field && fieldOf(told.field) === key ? told.words : null;
+}
+
+// ---- pinned runs
+
+/** Answers of pinned runs by their document, as JSON. */
+export const pinRuns = signal(/** @type {Map<string, Run | ApiError>} */ (new Map()));
+/** @param {Drive} document */
+export const pinKey = (document) => JSON.stringify(document);
+
+async function runPins() {
+  for (const { drive: document } of transient.peek().pins) {
+    const key = pinKey(document);
+    if (pinRuns.peek().has(key)) continue;
+    const answer = await simulate({ drive: document, points: POINTS }).catch((error) => {
+      if (error instanceof ApiError) return error;
+      throw error;
+    });
+    pinRuns.value = new Map(pinRuns.peek()).set(key, answer);
+  }
+}
+
+// ---- the static map
+
+/** Static curves while filling and while venting, at pressures up to the supply. */
+export const statics = signal(/** @type {{filling: Curves, venting: Curves} | null} */ (null));
+const supplyPressure = computed(() => Math.max(numberAt("supply.pressure") ?? 6e5, 1e4));
+
+const staticRequest = computed(() =>
+  JSON.stringify({
+    muscle: muscleInput(design.value.muscle),
+    effects: design.value.effects,
+    pressures: Array.from({ length: STATIC_PRESSURES }, (_, i) => ((i + 1) * supplyPressure.value) / STATIC_PRESSURES),
+    points: STATIC_POINTS,
+    temperature: numberAt("gas.temperature") ?? 293.15,
+  })
+);
+
+const askStatics = latest(
+  async (/** @type {string} */ body, control) => {
+    const [filling, venting] = await Promise.all(
+      [-1, 1].map((direction) => post("/api/curves", { ...JSON.parse(body), direction }, control)),
+    );
+    return { filling, venting };
+  },
+  (answer) => {
+    statics.value = answer;
+  },
+  () => {
+    statics.value = null; // the run's own message says what is wrong with the muscle
+  },
+);
+
+/** The muscle by name and length. */
+export const muscleName = computed(() => preset.value?.title ?? "Own geometry");
+
+const shownNow = computed(() => view.value === "transient");
+let staticsAsked = "";
+const STATICS_AFTER_MS = 60;
+
+/** Starts asking; called once, when the view is built. It rests while another view is shown. */
+export function startRuns() {
+  if (!presets.peek().drives) loadKind("drives").catch(() => (status.value = "The scenarios could not be loaded."));
+  effect(() => {
+    if (!shownNow.value || request.value === asked) return;
+    asked = request.value;
+    askRun(asked);
+  });
+  let timer = 0;
+  effect(() => {
+    const body = staticRequest.value;
+    if (!shownNow.value || body === staticsAsked) return;
+    clearTimeout(timer);
+    timer = setTimeout(() => {
+      staticsAsked = body;
+      askStatics(body);
+    }, STATICS_AFTER_MS);
+  });
+  const pins = computed(() => transient.value.pins);
+  effect(() => {
+    if (shownNow.value && pins.value.length) runPins();
+  });
+}

@@ -1,0 +1,287 @@
+// @ts-check
+// The inputs of the Transient view: scenario, muscle, air supply, load, command or controller, surroundings.
+import { h, icon } from "../../dom.js";
+import { computed } from "../../reactive.js";
+import { design, units } from "../../state.js";
+import { presets } from "../../store.js";
+import { goTo } from "../../shell.js";
+import { brief, number, scaleOf, siOf, toShown, withUnit } from "../../format.js";
+import { openPopover } from "../../ui/dialog.js";
+import { unverifiedNote } from "../../ui/sources.js";
+import { effectsCard, isStatic } from "../design/effects.js";
+import { preset } from "../design/model.js";
+import { at } from "./document.js";
+import { choiceField, driveField, partMessage } from "./fields.js";
+import {
+  changePart,
+  drive,
+  editTransient,
+  fault,
+  fieldOf,
+  mode,
+  muscleName,
+  numberAt,
+  ownEffects,
+  partPreset,
+  regulated,
+  run,
+  scenario,
+  scenarios,
+
+  transient,
+  useScenario,
+} from "./model.js";
+import { signalFields } from "./signals.js";
+
+/** @typedef {import("../../types.js").Preset} Preset */
+
+const OWN = "own", NONE = "none";
+
+function scenarioField() {
+  return h(
+    "div",
+    { class: "scenario" },
+    h("select", {
+      id: "scenario",
+      "aria-label": "Scenario",
+      onchange: (/** @type {Event} */ e) => useScenario(/** @type {HTMLSelectElement} */ (e.target).value),
+    }, () => [
+      h("option", { value: "", selected: !scenario.value }, scenarios.value.length ? "Own drive" : "No scenarios here"),
+      ...scenarios.value.map((s) => h("option", { value: s.id, selected: s.id === transient.value.scenario }, s.title)),
+    ]),
+    () =>
+      scenario.value?.description ? h("p", { class: "hint" }, scenario.value.description) : null,
+    () =>
+      scenario.value
+        ? h(
+          "button",
+          { type: "button", class: "link", onclick: () => useScenario(scenario.peek()?.id ?? "") },
+          "Load it again as it was",
+        )
+        : null,
+  );
+}
+
+const lengthText = computed(() => {
+  const own = design.value.muscle.values.nominal_length;
+  const given = preset.value?.geometry?.nominal_length;
+  const length = own ?? (given ? siOf(given) : run.value?.geometry.nominal_length);
+  return length ? withUnit(length, "length", units.value) : "";
+});
+
+function muscleLine() {
+  return h(
+    "div",
+    { class: "part" },
+    h("span", null, "Muscle"),
+    h("b", { id: "drive-muscle" }, () => [muscleName.value, lengthText.value].filter(Boolean).join(" · ")),
+    h("button", { type: "button", class: "link", onclick: () => goTo("design") }, "Change in Design"),
+    h("p", { class: "error" }, () => {
+      const told = fault.value;
+      return told?.field && fieldOf(told.field).startsWith("muscle") ? told.words : "";
+    }),
+  );
+}
+
+/** @param {() => Preset | null} of */
+const doubt = (of) => () => {
+  const p = of();
+  if (!p || p.verified) return null;
+  const button = h("button", {
+    type: "button",
+    class: "badge warn",
+    "aria-expanded": "false",
+    onclick: () => openPopover(button, "Unverified values", () => unverifiedNote(p)),
+  }, icon("warn"), "unverified");
+  return button;
+};
+
+/** @param {"valves" | "tubes"} kind @returns {[string, string][]} */
+const partOptions = (kind) => (presets.value[kind] ?? []).map((p) => [p.id, p.title]);
+
+/** A valve by value starts from what the preset has. @param {string} id */
+function chooseValve(id) {
+  if (id !== OWN) return changePart("valves", "valve", { preset: id }, `valve ${id}`);
+  const answer = partPreset("valves", "valve.preset")?.data ?? {};
+  const read = (/** @type {string} */ key) => answer[key] ? siOf(answer[key]) : undefined;
+  const conductance = read("sonic_conductance") ?? 1e-8;
+  changePart("valves", "valve", {
+    sonic_conductance: conductance,
+    exhaust_conductance: read("exhaust_conductance") ?? conductance,
+    critical_pressure_ratio: read("critical_pressure_ratio") ?? 0.3,
+  }, "own valve");
+}
+
+/** @param {string} id */
+function chooseTube(id) {
+  const length = numberAt("tube.length") ?? 1;
+  if (id === NONE) return changePart("tubes", "tube", undefined, "no tube");
+  if (id !== OWN) return changePart("tubes", "tube", { preset: id, length }, `tube ${id}`);
+  const bore = partPreset("tubes", "tube.preset")?.data?.inside_diameter;
+  changePart("tubes", "tube", { inside_diameter: bore ? siOf(bore) : 4e-3, length }, "own tube");
+}
+
+const valveId = computed(() => at(drive.value, "valve.preset") ?? OWN);
+const tubeId = computed(() => at(drive.value, "tube") ? at(drive.value, "tube.preset") ?? OWN : NONE);
+const isShort = (/** @type {string} */ path) => () => numberAt(path) !== null;
+
+function supplyCard() {
+  return h(
+    "section",
+    { class: "card", "aria-label": "Air supply" },
+    h("div", { class: "card-head" }, h("h2", null, "Air supply"), doubt(() => partPreset("valves", "valve.preset"))),
+    driveField("supply.pressure"),
+    choiceField("Valve", () => [...partOptions("valves"), [OWN, "By value"]], () => valveId.value, chooseValve, "valve.preset"),
+    partMessage("valve"),
+    () => valveId.value === OWN ? valveFields() : h("details", { open: isShort("valve.sonic_conductance") }, h("summary", null, "Its flow"), ...valveFields()),
+    () => regulated.value ? [driveField("regulator.range"), driveField("regulator.time")] : null,
+    choiceField("Tube", () => [[NONE, "None"], ...partOptions("tubes"), [OWN, "By value"]], () => tubeId.value, chooseTube, "tube.preset"),
+    () => {
+      if (tubeId.value === NONE) return null;
+      return [tubeId.value === OWN ? driveField("tube.inside_diameter") : null, driveField("tube.length")];
+    },
+  );
+}
+
+const valveFields = () =>
+  ["sonic_conductance", "exhaust_conductance", "critical_pressure_ratio"].map((key) => driveField(`valve.${key}`));
+
+function loadCard() {
+  const more = () => ["load.spring", "load.lever_ratio"].some((path) => numberAt(path) !== null);
+  return h(
+    "section",
+    { class: "card", "aria-label": "Load" },
+    h("div", { class: "card-head" }, h("h2", null, "Load")),
+    partMessage("load"),
+    driveField("load.mass"),
+    driveField("load.inclination"),
+    signalFields({
+      path: "load.force",
+      quantity: "force",
+      low: () => 0,
+      high: 2000,
+      rest: () => 0,
+      full: 100,
+      constant: true,
+    }, "External force"),
+    h("details", { open: more }, h("summary", null, "Spring and lever"), driveField("load.spring"), driveField("load.lever_ratio")),
+    h("details", { open: () => numberAt("stops.min_contraction") !== null || numberAt("stops.max_contraction") !== null },
+      h("summary", null, () => {
+        const limits = run.value?.limits;
+        if (!limits) return "End stops";
+        const s = scaleOf("length", units.value), say = (/** @type {number} */ si) => number(toShown(si, s), 1);
+        return `End stops: ${say(limits.position_min)} to ${say(limits.position_max)} ${s.unit}`;
+      }),
+      driveField("stops.min_contraction"), driveField("stops.max_contraction")),
+  );
+}
+
+/** @type {["command" | "controller", string, string][]} */
+const MODES = [
+  ["command", "Command", "The valve follows a signal"],
+  ["controller", "Controller", "A PID controller moves the valve so that the position follows a signal"],
+];
+
+function commandCard() {
+  const body = () => {
+    if (mode.value === "controller") {
+      return [
+        partMessage("controller"),
+        ...["kp", "ki", "kd"].map((key) => driveField(`controller.${key}`)),
+        h("details", null, h("summary", null, "Feed forward, sampling, limits"),
+          ...["feed_forward", "derivative_filter", "sample_time", "output_min", "output_max"].map((key) => driveField(`controller.${key}`))),
+        signalFields({
+          path: "controller.reference",
+          quantity: "length",
+          low: () => 0,
+          high: Math.max(run.peek()?.limits.position_max ?? 0.05, 0.01),
+          rest: () => 0,
+          full: Number((0.6 * (run.peek()?.limits.position_max ?? 0.03)).toPrecision(2)),
+        }, "Reference"),
+      ];
+    }
+    return signalFields({
+      path: "command",
+      quantity: "ratio",
+      low: () => regulated.value ? 0 : -1,
+      high: 1,
+      rest: () => regulated.value ? 0 : -1,
+      full: 1,
+    }, "Shape");
+  };
+  return h(
+    "section",
+    { class: "card", "aria-label": "Command" },
+    h(
+      "div",
+      { class: "segments", role: "radiogroup", "aria-label": "What moves the valve" },
+      ...MODES.map(([id, label, title]) =>
+        h("button", {
+          type: "button",
+          role: "radio",
+          title,
+          "aria-checked": () => String(mode.value === id),
+          onclick: () => editTransient({ mode: id }, label.toLowerCase()),
+        }, label)
+      ),
+    ),
+    driveField("duration"),
+    body,
+    () =>
+      mode.value === "command"
+        ? h("p", { class: "hint" }, regulated.value ? "Share of the regulator’s range." : "100 % fills, 0 % is closed, −100 % vents.")
+        : null,
+  );
+}
+
+function airCard() {
+  const paths = ["gas.polytropic_exponent", "gas.temperature", "gas.dead_volume", "gas.ambient_pressure", "start_pressure"];
+  return h(
+    "section",
+    { class: "card", "aria-label": "Air and start" },
+    h("details", null, h("summary", null, () => `Air: exponent ${brief(numberAt("gas.polytropic_exponent") ?? 1.2)}, temperature, start`), ...paths.map((path) => driveField(path))),
+  );
+}
+
+/** Families with something that acts only over time first. @param {import("../../types.js").Effect[]} all */
+function families(all) {
+  const moving = new Set(all.filter((e) => !isStatic(e)).map((e) => e.family));
+  /** @type {Map<string, import("../../types.js").Effect[]>} */
+  const groups = new Map();
+  for (const e of [...all].sort((a, b) => Number(moving.has(b.family)) - Number(moving.has(a.family)))) {
+    groups.set(e.family, [...groups.get(e.family) ?? [], e]);
+  }
+  return groups;
+}
+
+/** @param {string} key @returns {string | null} */
+const effectMessage = (key) => {
+  const told = fault.value;
+  if (!told?.field) return null;
+  const field = fieldOf(told.field);
+  return field === key || field.startsWith(`${key}.`) ? told.words : null;
+};
+
+export function inputCards() {
+  return [
+    h(
+      "section",
+      { class: "card", "aria-label": "Drive" },
+      h("div", { class: "card-head" }, h("h2", null, "Drive")),
+      scenarioField(),
+      muscleLine(),
+    ),
+    commandCard(),
+    loadCard(),
+    supplyCard(),
+    airCard(),
+    effectsCard({
+      own: ownEffects,
+      chosen: computed(() => design.value.effects ?? ownEffects.value),
+      count: () => Object.keys(run.value?.model.effects ?? ownEffects.value).length,
+      message: effectMessage,
+      families,
+    }),
+  ];
+}
+
