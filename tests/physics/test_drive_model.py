@@ -139,21 +139,23 @@ def test_all_effects_at_once_with_the_muscle_measured(motion: bool) -> None:
         assert np.isfinite(evaluate(expressions, at)).all()
 
 
-def test_settled_states_start_where_their_rate_is_zero() -> None:
-    """Such a state of a sensor follows its reading linearly, so two values of its rate give its rest."""
+def test_settled_states_have_a_rest() -> None:
+    """Their rates are linear in them, so one column of differences each gives where they are zero together."""
     effects = [effect for effect in EFFECTS if any(state.settled for state in effect.states)]
     assert effects
     model = DriveModel(Structure(tuple(effects)))
-    values = {e.id: {p.name: p.default or 0.01 for p in e.parameters} for e in effects}
     names = [state.name for state in model.states]
-    for state in model.states:
-        if state.settled:
-            rate = model.rates[names.index(state.name)]
-            at_0, at_1, at_2 = (
-                evaluate([rate], numbers(model, values, **{state.name: value}))[0]
-                for value in (0.0, state.scale, 2.0 * state.scale)
-            )
-            assert at_2 - at_1 == pytest.approx(at_1 - at_0, rel=1e-9)
-            rest = -at_0 * state.scale / (at_1 - at_0)
-            left = evaluate([rate], numbers(model, values, **{state.name: rest}))[0]
-            assert abs(left) <= 1e-9 * abs(at_0)
+    settled = [state for state in model.states if state.settled]
+    rates = [model.rates[names.index(state.name)] for state in settled]
+
+    def at(values: Iterable[float]) -> np.ndarray:
+        changed = dict(zip((state.name for state in settled), values, strict=True))
+        return evaluate(rates, numbers(model, defaults(effects), **changed))
+
+    scales = np.array([state.scale for state in settled])
+    zero = at(0.0 * scales)
+    columns = np.column_stack([at(column) - zero for column in np.diag(scales)])
+    for share in (-1.0, 0.7):
+        np.testing.assert_allclose(at(share * scales), zero + share * columns.sum(axis=1), rtol=1e-9)
+    rest = scales * np.linalg.lstsq(columns, -zero, rcond=None)[0]
+    assert np.abs(at(rest)).max() <= 1e-9 * np.abs(zero).max()

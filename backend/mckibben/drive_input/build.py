@@ -58,7 +58,7 @@ def drive_of(document: DriveDocument, studio: Studio) -> GivenDrive:
         InputError: an unknown preset, effect or shape (with the nearest match), or numbers that cannot be;
             ``field`` is the path in the document.
     """
-    valve_preset = _preset(studio, "valves", document.valve and document.valve.preset, "valve.preset")
+    valve_preset = _preset(studio, "valves", document.valve.preset, "valve.preset")
     tube_preset = _preset(studio, "tubes", document.tube and document.tube.preset, "tube.preset")
     fittings = [
         _preset(studio, "fittings", name, f"fittings.{index}") for index, name in enumerate(document.fittings)

@@ -53,10 +53,8 @@ def _first(*values: float | None) -> float | None:
     return next((value for value in values if value is not None), None)
 
 
-def valve_of(given: ValveInput | None, preset: ValvePreset | None) -> Valve:
+def valve_of(given: ValveInput, preset: ValvePreset | None) -> Valve:
     """Conductances and critical ratios both ways; what is given takes the place of the preset's figures."""
-    if given is None:
-        raise InputError("valve is missing", field="valve", hint='e.g. {"preset": "MPYE-5-1/8-HF"}')
     ratio = _first(
         given.critical_pressure_ratio, _figure(preset, "critical_pressure_ratio", "1"), _DEFAULT_RATIO
     )

@@ -68,7 +68,7 @@ class Structure:
 class StateInfo:
     """A state of the drive: name ("effect.state" for effects), value at rest, and scale for error control.
 
-    A ``settled`` state starts where its rate, linear in it, is zero.
+    All ``settled`` states start together where their rates, linear in them, are zero.
     """
 
     name: str

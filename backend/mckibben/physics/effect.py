@@ -43,7 +43,8 @@ class StateVariable:
         scale: typical magnitude, for error control.
         description: what it is, one sentence.
         initial: value at the start of a run, at which the effect is at rest; static curves keep it there.
-        settled: a run starts the state where its rate is zero instead; the rate must be linear in it.
+        settled: a run starts all such states together where their rates are zero instead; the rates must be
+            linear in them.
     """
 
     name: str

@@ -63,8 +63,10 @@ EFFECT = Effect(
     ),
     slots={"opening": opening, "drive_rates": drive_rates},
     states=(
-        StateVariable("position", "x", "1", 1.0, "Opening of the spool."),
-        StateVariable("rate", r"\dot x", "1/s", 500.0, "Speed of the spool in openings per second."),
+        StateVariable("position", "x", "1", 1.0, "Opening of the spool.", settled=True),
+        StateVariable(
+            "rate", r"\dot x", "1/s", 500.0, "Speed of the spool in openings per second.", settled=True
+        ),
     ),
     order=-10,  # after the slack of its drive (-20), before the overlap of its edges (0)
     kinds=frozenset({"transient"}),

@@ -1,0 +1,50 @@
+"""An effect that names transients changes what a recorder shows of a moving drive."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from mckibben.physics.catalogue import default_catalogue
+from mckibben.physics.effect import Effect
+from mckibben.simulation.parts import Drive, Load, Tube, Valve
+from mckibben.simulation.signals import signal_from
+from mckibben.simulation.static import StaticModel
+from mckibben.simulation.transient import simulate
+from tests.physics.contract_states import MUSCLE, WARM, companions
+
+CATALOGUE = default_catalogue()
+# A skew is no part of a run: it shifts the record when that is compared (tests of driven runs).
+SHOWN = [e for e in CATALOGUE.values() if "transient" in e.kinds and "skew" not in e.slots]
+READINGS = {"force_reading": 100.0, "pressure_reading": 1e5, "stroke_reading": 0.01}
+
+
+@cache
+def record(effects: tuple[str, ...]) -> dict[str, np.ndarray]:
+    """Readings over one and a half slow cycles of a proportional valve, from stretched to nearly contracted."""
+    command = {"shape": "sine", "frequency": "0.8 Hz", "amplitude": 0.7}
+    drive = Drive(
+        model=StaticModel(MUSCLE, {effect: {} for effect in effects}),
+        valve=Valve(1.5e-8, 1.5e-8),
+        load=Load(mass=8.0),
+        command=signal_from(command, unit="1", field="command"),
+        duration=1.8,
+        supply_pressure=7e5,
+        tube=Tube(0.004, 1.0),
+        min_contraction=-0.05,
+        max_contraction=0.3,
+        temperature=WARM,
+    )
+    run = simulate(drive, points=361, tolerance=1e-7)
+    assert len(run.time) == 361, run.outcome
+    assert all(np.isfinite(values).all() for values in run.states.values())
+    return {name: run.outputs[name] / scale for name, scale in READINGS.items()}
+
+
+@pytest.mark.parametrize("effect", SHOWN, ids=[effect.id for effect in SHOWN])
+def test_readings_change(effect: Effect) -> None:
+    others = tuple(other.id for other in companions(effect))
+    plain, changed = record(others), record((*others, effect.id))
+    assert max(np.abs(changed[name] - plain[name]).max() for name in READINGS) > 1e-2
