@@ -9,10 +9,9 @@ from math import pi
 from typing import Any
 
 import numpy as np
-import pytest
 
-from mckibben.api.answers.simulations import read_document, simulation_answer
 from mckibben.api.answers.runs import grid_of
+from mckibben.api.answers.simulations import read_document, simulation_answer
 from mckibben.drive_input import drive_of
 from mckibben.physics.errors import InputError
 from mckibben.resources import presets_folder

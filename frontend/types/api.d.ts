@@ -31,6 +31,9 @@ export interface paths {
   "/api/presets/{kind}/{preset_id}": {
     get: operations["read_preset"];
   };
+  "/api/simulations": {
+    post: operations["simulate_drive"];
+  };
 }
 
 export interface components {
@@ -64,6 +67,14 @@ export interface components {
       max_work: number | null;
       /** Ideal tension of all threads at nominal length. [N] */
       thread_tension_total: number | null;
+    };
+    /** A time in which the flow of the valve does not depend on the pressure behind it. */
+    Choked: {
+      /** Start. [s] */
+      from: number;
+      /** End. [s] */
+      to: number;
+      side: "fill" | "exhaust";
     };
     /** A column of numbers in one unit. */
     Column: {
@@ -143,6 +154,122 @@ export interface components {
       force: number | string;
       /** [Pa] */
       pressure: number | string;
+    };
+    /** A sampled PID controller of the load's position; without a unit, gains are percent of full command per mm (and s). */
+    ControllerInput: {
+      type?: "pid";
+      /** Proportional gain, %/mm. [1/m] */
+      kp: number | string;
+      /** Integral gain, %/(mm s). [1/(m*s)] */
+      ki?: number | string | null;
+      /** Derivative gain, % s/mm. [s/m] */
+      kd?: number | string | null;
+      /** Command per reference, %/mm. [1/m] */
+      feed_forward?: number | string | null;
+      /** Filter of the derivative; 5 ms if left out. [s] */
+      derivative_filter?: number | string | null;
+      /** 1 ms if left out. [s] */
+      sample_time?: number | string | null;
+      /** Lowest command; -1 for a valve, 0 for a regulator. [1] */
+      output_min?: number | string | null;
+      /** Highest command; 1 if left out. [1] */
+      output_max?: number | string | null;
+      /** Position wanted, as a signal of time. [m] */
+      reference: {
+        shape: "step";
+        /** [s] */
+        at?: number | string;
+        /** [m] */
+        level: number | string;
+        /** [m] */
+        initial?: number | string;
+      } | {
+        shape: "pulse";
+        /** [m] */
+        level: number | string;
+        /** [m] */
+        initial?: number | string;
+        /** [s] */
+        on?: number | string;
+        /** [s] */
+        off: number | string;
+      } | {
+        shape: "square";
+        /** [m] */
+        level?: number | string;
+        /** [m] */
+        initial?: number | string;
+        /** [s] */
+        period?: number | string;
+        /** [1] */
+        duty?: number | string;
+        /** [m] */
+        amplitude?: number | string;
+      } | {
+        shape: "triangle";
+        /** [m] */
+        amplitude: number | string;
+        /** [s] */
+        period: number | string;
+        /** [m] */
+        offset?: number | string;
+      } | {
+        shape: "ramp";
+        /** [m] */
+        from?: number | string;
+        /** [m] */
+        to: number | string;
+        /** [s] */
+        start?: number | string;
+        /** [s] */
+        duration: number | string;
+      } | {
+        shape: "sine";
+        /** [m] */
+        amplitude?: number | string;
+        /** [m] */
+        offset?: number | string;
+        /** [Hz] */
+        frequency?: number | string;
+        /** [rad] */
+        phase?: number | string;
+        /** [s] */
+        period?: number | string;
+      } | {
+        shape: "chirp";
+        /** [m] */
+        amplitude: number | string;
+        /** [m] */
+        offset?: number | string;
+        /** [Hz] */
+        from: number | string;
+        /** [Hz] */
+        to: number | string;
+        /** [s] */
+        duration: number | string;
+      } | {
+        shape: "random";
+        /** [s] */
+        hold: number | string;
+        seed?: number;
+        /** [m] */
+        lower?: number | string;
+        /** [m] */
+        upper: number | string;
+      } | {
+        shape: "table";
+        /** [s] */
+        times: (number | string)[] | {
+          unit: string;
+          values: number[];
+        };
+        /** [m] */
+        values: (number | string)[] | {
+          unit: string;
+          values: number[];
+        };
+        interpolation?: "linear" | "hold";
+      };
     };
     /** How far two fitted parameters can stand in for each other. */
     Correlation: {
@@ -281,6 +408,142 @@ export interface components {
       /** With the program, or the user's own. */
       origin: "built-in" | "user";
     };
+    /** A complete drive. Pressures are gauge, strokes are positive when the muscle gets shorter. */
+    DriveDocument: {
+      /** Version of the document. */
+      schema?: 1;
+      /** For people. */
+      title?: string;
+      muscle: components["schemas"]["MuscleInput"];
+      effects?: { [key: string]: { [key: string]: number | string } } | null;
+      supply: components["schemas"]["SupplyInput"];
+      valve: components["schemas"]["ValveInput"];
+      regulator?: components["schemas"]["RegulatorInput"] | null;
+      /** Left out: the valve sits on the muscle. */
+      tube?: components["schemas"]["TubeInput"] | null;
+      /** Fitting presets; they add their port volumes. */
+      fittings?: string[];
+      load?: components["schemas"]["LoadInput"];
+      /** Opening of the valve: 1 fill, 0 closed, -1 exhaust; of a regulator the share of its range. What a shape leaves open, e.g. outside a pulse, is exhaust (0 for a regulator). [1] */
+      command?: {
+        shape: "step";
+        /** [s] */
+        at?: number | string;
+        /** [1] */
+        level?: number | string;
+        /** [1] */
+        initial?: number | string;
+      } | {
+        shape: "pulse";
+        /** [1] */
+        level?: number | string;
+        /** [1] */
+        initial?: number | string;
+        /** [s] */
+        on?: number | string;
+        /** [s] */
+        off: number | string;
+      } | {
+        shape: "square";
+        /** [1] */
+        level?: number | string;
+        /** [1] */
+        initial?: number | string;
+        /** [s] */
+        period?: number | string;
+        /** [1] */
+        duty?: number | string;
+        /** [1] */
+        amplitude?: number | string;
+      } | {
+        shape: "triangle";
+        /** [1] */
+        amplitude?: number | string;
+        /** [s] */
+        period: number | string;
+        /** [1] */
+        offset?: number | string;
+      } | {
+        shape: "ramp";
+        /** [1] */
+        from?: number | string;
+        /** [1] */
+        to?: number | string;
+        /** [s] */
+        start?: number | string;
+        /** [s] */
+        duration: number | string;
+      } | {
+        shape: "sine";
+        /** [1] */
+        amplitude?: number | string;
+        /** [1] */
+        offset?: number | string;
+        /** [Hz] */
+        frequency?: number | string;
+        /** [rad] */
+        phase?: number | string;
+        /** [s] */
+        period?: number | string;
+      } | {
+        shape: "chirp";
+        /** [1] */
+        amplitude?: number | string;
+        /** [1] */
+        offset?: number | string;
+        /** [Hz] */
+        from: number | string;
+        /** [Hz] */
+        to: number | string;
+        /** [s] */
+        duration: number | string;
+      } | {
+        shape: "random";
+        /** [s] */
+        hold: number | string;
+        seed?: number;
+        /** [1] */
+        lower?: number | string;
+        /** [1] */
+        upper?: number | string;
+      } | {
+        shape: "table";
+        /** [s] */
+        times: (number | string)[] | {
+          unit: string;
+          values: number[];
+        };
+        /** [1] */
+        values: (number | string)[] | {
+          unit: string;
+          values: number[];
+        };
+        interpolation?: "linear" | "hold";
+      } | null;
+      /** Gives the command instead. */
+      controller?: components["schemas"]["ControllerInput"] | null;
+      gas?: components["schemas"]["GasInput"];
+      stops?: components["schemas"]["StopsInput"];
+      /** Length of the run. [s] */
+      duration?: number | string;
+      /** Gauge pressure in the muscle at t = 0. [Pa] */
+      start_pressure?: number | string;
+    };
+    /** What the maker allows (null = not known), and the end stops. */
+    DriveLimits: {
+      /** Gauge pressure. [Pa] */
+      max_pressure: number | null;
+      /** Force. [N] */
+      max_force: number | null;
+      /** Contraction. [1] */
+      max_contraction: number | null;
+      /** Stretch beyond the nominal length. [1] */
+      max_pretension: number | null;
+      /** Lower stop as a position of the load. [m] */
+      position_min: number;
+      /** Upper stop as a position of the load. [m] */
+      position_max: number;
+    };
     /** One physical effect, as its file declares it. */
     EffectAnswer: {
       /** The name of the file that declares it. */
@@ -399,6 +662,17 @@ export interface components {
       /** While lengthening. [N] */
       venting: (number | null)[];
     };
+    /** The air and its surroundings. */
+    GasInput: {
+      /** 1 isothermal, 1.4 adiabatic. [1] */
+      polytropic_exponent?: number | string;
+      /** Of the supply and the surroundings. [K] */
+      temperature?: number | string;
+      /** Absolute pressure of the surroundings. [Pa] */
+      ambient_pressure?: number | string;
+      /** Gas volume besides muscle and tube: ports, a reservoir. [m3] */
+      dead_volume?: number | string;
+    };
     /** The muscle at rest; a wall thickness that is not known is left out. */
     Geometry: {
       inside_diameter: components["schemas"]["Quantity"];
@@ -442,6 +716,115 @@ export interface components {
       max_pretension?: components["schemas"]["Quantity"] | null;
       min_nominal_length?: components["schemas"]["Quantity"] | null;
       max_nominal_length?: components["schemas"]["Quantity"] | null;
+    };
+    /** What the muscle pulls. */
+    LoadInput: {
+      /** Mass of the load. [kg] */
+      mass?: number | string;
+      /** External force against the pull: a constant, or a signal of time. [N] */
+      force?: number | string | {
+        shape: "step";
+        /** [s] */
+        at?: number | string;
+        /** [N] */
+        level: number | string;
+        /** [N] */
+        initial?: number | string;
+      } | {
+        shape: "pulse";
+        /** [N] */
+        level: number | string;
+        /** [N] */
+        initial?: number | string;
+        /** [s] */
+        on?: number | string;
+        /** [s] */
+        off: number | string;
+      } | {
+        shape: "square";
+        /** [N] */
+        level?: number | string;
+        /** [N] */
+        initial?: number | string;
+        /** [s] */
+        period?: number | string;
+        /** [1] */
+        duty?: number | string;
+        /** [N] */
+        amplitude?: number | string;
+      } | {
+        shape: "triangle";
+        /** [N] */
+        amplitude: number | string;
+        /** [s] */
+        period: number | string;
+        /** [N] */
+        offset?: number | string;
+      } | {
+        shape: "ramp";
+        /** [N] */
+        from?: number | string;
+        /** [N] */
+        to: number | string;
+        /** [s] */
+        start?: number | string;
+        /** [s] */
+        duration: number | string;
+      } | {
+        shape: "sine";
+        /** [N] */
+        amplitude?: number | string;
+        /** [N] */
+        offset?: number | string;
+        /** [Hz] */
+        frequency?: number | string;
+        /** [rad] */
+        phase?: number | string;
+        /** [s] */
+        period?: number | string;
+      } | {
+        shape: "chirp";
+        /** [N] */
+        amplitude: number | string;
+        /** [N] */
+        offset?: number | string;
+        /** [Hz] */
+        from: number | string;
+        /** [Hz] */
+        to: number | string;
+        /** [s] */
+        duration: number | string;
+      } | {
+        shape: "random";
+        /** [s] */
+        hold: number | string;
+        seed?: number;
+        /** [N] */
+        lower?: number | string;
+        /** [N] */
+        upper: number | string;
+      } | {
+        shape: "table";
+        /** [s] */
+        times: (number | string)[] | {
+          unit: string;
+          values: number[];
+        };
+        /** [N] */
+        values: (number | string)[] | {
+          unit: string;
+          values: number[];
+        };
+        interpolation?: "linear" | "hold";
+      };
+      /** Of the way the load is pulled against the horizontal; 90 deg when left out. [rad] */
+      inclination?: number | string | null;
+      /** Hanging is 90 deg, horizontal 0 deg; a lever needs its ratio. */
+      arrangement?: "hanging" | "inclined" | "horizontal" | "lever" | null;
+      /** Spring against the contraction, at the load. [N/m] */
+      spring?: number | string;
+      /** Stroke of the muscle per stroke of the load. [1] */
+      lever_ratio?: number | string | null;
     };
     /** A measurement as it was understood. */
     MeasurementAnswer: {
@@ -641,6 +1024,15 @@ export interface components {
       /** Outer diameter of the wall at the load. [m] */
       outer_diameter: (number | null)[];
     };
+    /** A step of the reference and how far the position went beyond it. */
+    Overshoot: {
+      /** When. [s] */
+      time: number;
+      /** Signed height of the step. [m] */
+      size: number;
+      /** Share of the height. [1] */
+      overshoot: number;
+    };
     /** What a publication prints of a drive. Attributes: figure: number of the figure. figures: "extend.rise_time" -> value; names of the timing table, or told in the description. tolerance: share by which a figure may be missed, by the same names. excluded: why a figure is not compared, by the same names. */
     PaperFigures: {
       figure: string;
@@ -687,6 +1079,22 @@ export interface components {
       grade: "S" | "S2" | "C" | "D" | "M" | "E" | "user";
       note?: string | null;
     };
+    /** What the sensors say. */
+    Readings: {
+      /** Gauge pressure. [Pa] */
+      pressure: (number | null)[];
+      /** Force. [N] */
+      force: (number | null)[];
+      /** Position of the load. [m] */
+      position: (number | null)[];
+    };
+    /** Makes the valve a pressure regulator; a regulator preset has figures of its own. */
+    RegulatorInput: {
+      /** Gauge pressure at full command. [Pa] */
+      range?: number | string | null;
+      /** Time constant of the regulated pressure. [s] */
+      time?: number | string | null;
+    };
     /** What a pressure regulator adds to a valve: full-scale gauge pressure and time constant. */
     RegulatorPart: {
       range: components["schemas"]["Quantity"];
@@ -723,12 +1131,98 @@ export interface components {
       /** conservative, dissipative, lumped or reading. */
       energy: string;
     };
+    /** Columns over time, in SI; pressures gauge, positions positive = muscle shorter. */
+    SimulationAnswer: {
+      /** Instants of the rows; fewer than asked for when the run ended early. [s] */
+      time: number[];
+      /** Stroke of the load. [m] */
+      position: (number | null)[];
+      /** Of the load. [m/s] */
+      velocity: (number | null)[];
+      /** Of the load. [m/s^2] */
+      acceleration: (number | null)[];
+      /** In the muscle. [Pa] */
+      pressure: (number | null)[];
+      /** Tension of the muscle. [N] */
+      force: (number | null)[];
+      /** Into the muscle. [kg/s] */
+      mass_flow: (number | null)[];
+      /** Command as given, before dead times. [1] */
+      command: (number | null)[];
+      /** Opening of the valve after all effects. [1] */
+      opening: (number | null)[];
+      /** Set point of the controller. [m] */
+      reference: (number | null)[] | null;
+      /** From the supply. [kg/s] */
+      supply_flow: (number | null)[];
+      /** To the surroundings. [kg/s] */
+      exhaust_flow: (number | null)[];
+      /** In the tube, when there is one. [Pa] */
+      tube_pressure: (number | null)[] | null;
+      /** After the regulator, when there is one. [Pa] */
+      regulator_pressure: (number | null)[] | null;
+      /** Gas volume of the muscle with all dead volumes. [m^3] */
+      volume: (number | null)[];
+      /** Braid diameter at mid-span. [m] */
+      diameter: (number | null)[];
+      /** Of the muscle. [m] */
+      length: (number | null)[];
+      /** Of the muscle. [1] */
+      contraction: (number | null)[];
+      /** External force on the load. [N] */
+      load_force: (number | null)[];
+      /** Of the gas in the muscle. [K] */
+      temperature: (number | null)[];
+      /** Whether an end stop is touched. */
+      contact: boolean[];
+      /** Null when no effect changes what the sensors say. */
+      readings: components["schemas"]["Readings"] | null;
+      /** Within the whole run, whatever rows are asked for. */
+      choked: components["schemas"]["Choked"][];
+      timing: components["schemas"]["Timing"];
+      /** Of a controlled run. */
+      tracking: components["schemas"]["TrackingAnswer"] | null;
+      outcome: "completed" | "stuck" | "diverged" | "timed_out" | "cancelled";
+      /** What to do when the run did not complete. */
+      message: string | null;
+      /** Time of the integration in ms. */
+      wall_ms: number;
+      engine: "rodas" | "lsoda";
+      /** Steps of the integrator. */
+      steps: number;
+      flags: components["schemas"]["Flag"][];
+      /** Where -> remark; with those of timing and tracking. */
+      notes: { [key: string]: string };
+      limits: components["schemas"]["DriveLimits"];
+      geometry: components["schemas"]["MuscleGeometry"];
+      model: components["schemas"]["ModelAnswer"];
+      /** Of the whole run. [s] */
+      duration: number;
+    };
+    /** A drive, and which part of its run to answer. */
+    SimulationRequest: {
+      /** A drive document, or the id of a drive preset. */
+      drive: components["schemas"]["DriveDocument"] | string;
+      /** Rows of the answer. */
+      points?: number;
+      /** First row; 0 when left out. [s] */
+      from?: number | string | null;
+      /** Last row; the end of the run when left out. [s] */
+      to?: number | string | null;
+    };
     /** Where a figure comes from, and how sure it is. */
     SourceText: {
       /** Short source. */
       text: string;
       /** S read in the source, S2 second-hand, C computed, D derived here, M general knowledge and E estimate (both unverified), user. */
       grade: string;
+    };
+    /** End stops as contraction ratios; below 0 the muscle may be stretched. */
+    StopsInput: {
+      /** The load rests here without pressure. [1] */
+      min_contraction?: number | string;
+      /** The limit of the muscle preset when left out, else 25 %. [1] */
+      max_contraction?: number | string | null;
     };
     /** Which pressure lifts this load by this stroke? */
     StrokePressureQuestion: {
@@ -744,12 +1238,37 @@ export interface components {
       /** From the nominal length. [m] */
       stroke: number | string;
     };
+    /** The compressed-air supply. */
+    SupplyInput: {
+      /** Gauge pressure before the valve. [Pa] */
+      pressure?: number | string;
+    };
+    /** The timing table of the first fill and the exhaust after it. */
+    Timing: {
+      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], choked_share [1]. Null where it does not exist; notes say why. */
+      extend: { [key: string]: number | null };
+      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], choked_share [1]. Null where it does not exist; notes say why. */
+      retract: { [key: string]: number | null };
+      /** "extend.rise_time" -> why it is null, or what to know of it. */
+      notes: { [key: string]: string };
+    };
     /** How far (+-) a fit may free a geometry value. */
     Tolerance: {
       braid_angle?: components["schemas"]["Quantity"] | null;
       braid_diameter?: components["schemas"]["Quantity"] | null;
       nominal_length?: components["schemas"]["Quantity"] | null;
       wall_thickness?: components["schemas"]["Quantity"] | null;
+    };
+    /** How well the position follows the reference. */
+    TrackingAnswer: {
+      /** Root mean square of the error over time. [m] */
+      rms: number;
+      /** Largest error. [m] */
+      max: number;
+      /** Delay that describes the position best; null when none does. [s] */
+      lag: number | null;
+      overshoot: components["schemas"]["Overshoot"][];
+      notes: { [key: string]: string };
     };
     /** A tube; its conductance is given for ``reference_length``. */
     TubeAnswer: {
@@ -766,6 +1285,14 @@ export interface components {
       verified: boolean;
       /** With the program, or the user's own. */
       origin: "built-in" | "user";
+    };
+    /** The tube between valve and muscle. */
+    TubeInput: {
+      preset?: string | null;
+      /** [m] */
+      inside_diameter?: number | string | null;
+      /** Its length; that of the preset's figures if left out. [m] */
+      length?: number | string | null;
     };
     /** Another effect that looks alike. */
     Twin: {
@@ -791,6 +1318,20 @@ export interface components {
       verified: boolean;
       /** With the program, or the user's own. */
       origin: "built-in" | "user";
+    };
+    /** A valve preset, or its flow both ways by value; values given besides a preset take its place. */
+    ValveInput: {
+      preset?: string | null;
+      /** Conductance of filling, ISO 6358. [m^3/(s*Pa)] */
+      sonic_conductance?: number | string | null;
+      /** Conductance of venting; that of filling when left out. [m^3/(s*Pa)] */
+      exhaust_conductance?: number | string | null;
+      /** Critical pressure ratio b of filling; 0.3 when neither preset nor value says it. [1] */
+      critical_pressure_ratio?: number | string | null;
+      /** Critical pressure ratio of venting; that of filling when left out. [1] */
+      exhaust_critical_pressure_ratio?: number | string | null;
+      /** Standard nominal flow (6 to 5 bar gauge, normal litres) in place of a conductance. [m^3/s] */
+      nominal_flow?: number | string | null;
     };
     /** Which stroke is there from the preload without pressure to the load at the highest pressure? It begins venting and ends filling, whatever ``direction`` says. */
     WorkingRangeQuestion: {
@@ -915,6 +1456,19 @@ export interface operations {
       400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Position, speed, pressures, force, flows and the timing table of a drive; closing ends the run. */
+  simulate_drive: {
+    requestBody: { content: { "application/json": components["schemas"]["SimulationRequest"] } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["SimulationAnswer"]; "text/event-stream": string } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };

@@ -233,3 +233,10 @@ def test_many_requests_at_once_give_what_they_give_one_by_one(shared_client: Tes
             pool.map(lambda request: post(shared_client, "/api/curves", request).content, requests)
         )
     assert at_once == one_by_one
+
+
+def test_a_free_muscle_still_has_its_stiffness(shared_client: TestClient) -> None:
+    """At a load of zero the tension is zero up to rounding: that is balance, not slack."""
+    request = {"muscle": {"preset": "MAS-10", "nominal_length": "274 mm"}, "load": 0.0, "points": 2}
+    points = shared_client.post("/api/curves", json=request).json()["operating_points"]
+    assert all(point["stiffness"] > 1000.0 for point in points if point["contraction"] > 0.0)

@@ -56,7 +56,7 @@ def test_keys_views_search_and_typing(page: Page) -> None:
     expect(page.get_by_label("Search effects")).to_have_value("2?")
     page.get_by_label("Search effects").fill("")
     page.locator("body").click(position={"x": 4, "y": 400})
-    page.keyboard.press("2")
+    page.keyboard.press("3")
     expect(page.get_by_role("region", name="Table of parts")).to_be_visible()
     page.keyboard.press("1")
     expect(page.locator("#force")).to_be_visible()

@@ -140,7 +140,7 @@ def test_all_effects_at_once_with_the_muscle_measured(motion: bool) -> None:
 
 
 def test_settled_states_have_a_rest() -> None:
-    """Their rates are linear in them, so one column of differences each gives where they are zero together."""
+    """Their rates are linear in them, so a column of differences for each gives where all are zero."""
     effects = [effect for effect in EFFECTS if any(state.settled for state in effect.states)]
     assert effects
     model = DriveModel(Structure(tuple(effects)))

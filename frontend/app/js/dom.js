@@ -89,6 +89,9 @@ const ICONS = {
   warn: "M10 3.5 17.5 16.5h-15ZM10 8.5v3.5M10 14.2v.1",
   search: "M9 4a5 5 0 1 1 0 10A5 5 0 0 1 9 4m3.6 8.6L16.5 16.5",
   down: "m6 8 4 4 4-4",
+  play: "M7 4.5v11l8.5-5.5Z",
+  pause: "M7 5v10M13 5v10",
+  pin: "M7.5 3.5h5l-.7 5 2.7 2.5v1.5h-9V11l2.7-2.5ZM10 12.5v4.5",
 };
 
 /** @param {keyof typeof ICONS} name */

@@ -214,13 +214,14 @@ export function parse(text, s, quantity, usual) {
   const [kind, factor, offset = 0] = known;
   const wanted = plainly(quantity);
   if (kind === "ratio" && wanted === "number") return { value: value * factor };
-  if (plainly(kind) !== wanted) return { error: `“${unit}” measures ${noun(kind)}, this is ${noun(wanted)}.` };
+  if (plainly(kind) !== wanted) {
+    return { error: `“${unit}” measures ${noun(kind)}, this is ${noun(wanted)}.` };
+  }
   return { value: value * factor + offset };
 }
 
 /** What is measured, however it is shown. @param {Quantity | null} quantity */
-const plainly = (quantity) =>
-  quantity === "modulus" ? "pressure" : quantity === "lapse" ? "time" : quantity;
+const plainly = (quantity) => quantity === "modulus" ? "pressure" : quantity === "lapse" ? "time" : quantity;
 
 /** @param {Quantity | null} quantity */
 function noun(quantity) {

@@ -10,11 +10,14 @@ import { control, listenToKeys, plain, showShortcuts } from "./shortcuts.js";
 import { goTo, redoAndTell, shell, undoAndTell } from "./shell.js";
 import { designView } from "./views/design/index.js";
 import { plotlyReady } from "./views/design/charts.js";
+import { TRANSIENT_KEYS, transientView } from "./views/transient/index.js";
+import { transientExports } from "./views/transient/exports.js";
 import { catalogueView } from "./views/catalogue/index.js";
 
 /** The tabs. A new view is one line here. @type {import("./shell.js").View[]} */
 const VIEWS = [
   { id: "design", title: "Design", build: designView },
+  { id: "transient", title: "Transient", build: transientView, exports: transientExports },
   { id: "catalogue", title: "Catalogue", build: catalogueView },
 ];
 
@@ -27,6 +30,7 @@ const KEYS = [
     match: plain(String(i + 1)),
     run: () => goTo(v.id),
   })),
+  ...TRANSIENT_KEYS,
   { keys: "Ctrl Z", what: "Undo", match: control("z"), run: undoAndTell },
   { keys: "Ctrl Shift Z", what: "Redo", match: control("z", true), run: redoAndTell },
   {

@@ -13,8 +13,12 @@ import { saveSheet } from "./plots/export.js";
 import { charts } from "./views/design/charts.js";
 import { curvesTable } from "./views/design/curves-table.js";
 import { openExample } from "./views/design/examples.js";
+import { isDriveDocument } from "./views/transient/document.js";
+import { openDrive } from "./views/transient/model.js";
 
-/** @typedef {{id: string, title: string, build: () => HTMLElement}} View */
+/** `exports`: what the Export menu offers besides the document; without, that of the Design view.
+ * @typedef {{id: string, title: string, build: () => HTMLElement,
+ *   exports?: () => import("./ui/menu.js").Item[]}} View */
 
 /** @type {Record<import("./format.js").System, string>} */
 const SYSTEMS = { si: "SI", bar: "bar · mm", us: "US" };
@@ -52,8 +56,12 @@ async function openJson(file) {
   if (!file) return;
   try {
     if (file.size > 1e6) throw new Error("it is larger than any document of this program");
-    const opened = readDoc(JSON.parse(await file.text()));
-    edit(() => opened, `open ${file.name}`);
+    const raw = JSON.parse(await file.text());
+    if (isDriveDocument(raw)) openDrive(raw, null, `open ${file.name}`);
+    else {
+      const opened = readDoc(raw);
+      edit(() => opened, `open ${file.name}`);
+    }
     status.value = `Opened ${file.name}.`;
   } catch (error) {
     const why = error instanceof SyntaxError ? "it is not JSON" : /** @type {Error} */ (error).message;
@@ -76,7 +84,7 @@ async function savePlots(format) {
   }
 }
 
-const exportItems = () => [
+const designExports = () => [
   {
     label: "Curves as CSV",
     note: "all values, shown units",
@@ -84,6 +92,11 @@ const exportItems = () => [
   },
   { label: "Plots as PNG", note: "one sheet", run: () => savePlots("png") },
   { label: "Plots as SVG", note: "one sheet", run: () => savePlots("svg") },
+];
+
+/** @param {View[]} views */
+const exportItems = (views) => () => [
+  ...(views.find((v) => v.id === view.peek())?.exports ?? designExports)(),
   { heading: "Document" },
   { label: "Save JSON", note: "opens here again", run: saveJson },
   { label: "Open JSON…", run: chooseFile },
@@ -174,7 +187,7 @@ export function shell(views, help) {
     menuButton({
       label: [icon("export"), h("span", { class: "wide" }, "Export")],
       name: "Export",
-      items: exportItems,
+      items: exportItems(views),
     }),
     h(
       "button",

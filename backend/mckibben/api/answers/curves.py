@@ -215,6 +215,7 @@ def _operating_points(
             temperature=request.temperature,
             dead_volume=request.dead_volume,
             polytropic_exponent=request.polytropic_exponent,
+            clipped=False,  # in balance with the load, so never slack, not even at a load of zero
         )
         for name, values in figures.items():
             values[reached] = np.diagonal(getattr(there, name))

@@ -13,7 +13,7 @@ def command_delay(*, opening_time: Value, closing_time: Value) -> tuple[Value, V
     return opening_time, closing_time
 
 
-_PAPER = Source("the source paper: 5 ms in, 7.5 ms out; 2-15 ms over valve sizes", "S")
+_PAPER = Source("the source paper: 5 ms in, 7.5 ms out", "S")
 _DEFINITION = Source("definition", "D")
 
 EFFECT = Effect(

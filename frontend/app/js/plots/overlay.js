@@ -163,7 +163,10 @@ export function drawBands(chart) {
     const bands = (spec.bands ?? []).map(({ x, kind }) => [at(x[0]), at(x[1]), kind])
       .filter(([from, to]) => to > from)
       .map(([from, to, kind]) =>
-        h("i", { class: `band ${kind}`, style: `left:${from}px;width:${Math.max(1, Number(to) - Number(from))}px` })
+        h("i", {
+          class: `band ${kind}`,
+          style: `left:${from}px;width:${Math.max(1, Number(to) - Number(from))}px`,
+        })
       );
     const marks = (spec.marks ?? []).filter((x) => axes.xaxis.c2p(x) >= 0 && axes.xaxis.c2p(x) <= width)
       .map((x) => h("i", { class: "mark", style: `left:${at(x)}px` }));

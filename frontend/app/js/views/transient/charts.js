@@ -16,7 +16,6 @@ import { at } from "./document.js";
 import { followTime, row, span } from "./cursor.js";
 import { measured } from "./measured.js";
 import {
-
   drive,
   lookTransient,
   mode,
@@ -179,7 +178,10 @@ function phaseItems() {
   if (!answer) return rest;
   const table = phaseTable(answer, units.peek());
   return [
-    { label: "Show as table", run: () => openDialog({ title: phase.title, wide: true }, dataTable(table, phase.title)) },
+    {
+      label: "Show as table",
+      run: () => openDialog({ title: phase.title, wide: true }, dataTable(table, phase.title)),
+    },
     { label: "Save as CSV", run: () => downloadText("mckibben-run-phase.csv", toCsv(table), "text/csv") },
     ...rest,
   ];
@@ -204,7 +206,13 @@ const phaseLegend = () => {
   return h(
     "ul",
     { class: "legend" },
-    h("li", null, `${Number(from.toPrecision(3))} `, h("i", { class: "ramp", style: `background:linear-gradient(to right,${stops})` }), `${Number(to.toPrecision(3))} ${end}`),
+    h(
+      "li",
+      null,
+      `${Number(from.toPrecision(3))} `,
+      h("i", { class: "ramp", style: `background:linear-gradient(to right,${stops})` }),
+      `${Number(to.toPrecision(3))} ${end}`,
+    ),
     h("li", null, h("i", { class: "dash", style: `color:${p.soft}` }), "filling at rest"),
     h("li", null, h("i", { class: "dash", style: `color:${p.second}` }), "venting at rest"),
   );
@@ -220,7 +228,8 @@ function phasePoint() {
     dot.hidden = !axes || p == null || k == null;
     if (dot.hidden || p == null || k == null) return;
     const s = scaleOf("pressure", system);
-    const x = axes.xaxis._offset + axes.xaxis.c2p(p / s.factor), y = axes.yaxis._offset + axes.yaxis.c2p(100 * k);
+    const x = axes.xaxis._offset + axes.xaxis.c2p(p / s.factor),
+      y = axes.yaxis._offset + axes.yaxis.c2p(100 * k);
     dot.style.transform = `translate(${x}px,${y}px)`;
   };
   effect(show);
@@ -266,4 +275,3 @@ export function plotCards() {
   });
   return cards;
 }
-

@@ -29,7 +29,8 @@ export function stepCursor(rows) {
   moveCursor(time[Math.min(time.length - 1, Math.max(0, row.peek() + rows))]);
 }
 
-const KEYS = /** @type {Record<string, number>} */ ({ ArrowLeft: -1, ArrowRight: 1, PageUp: 20, PageDown: -20 });
+const KEYS =
+  /** @type {Record<string, number>} */ ({ ArrowLeft: -1, ArrowRight: 1, PageUp: 20, PageDown: -20 });
 
 /** @param {KeyboardEvent} event */
 export function cursorKeys(event) {

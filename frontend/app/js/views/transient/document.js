@@ -121,7 +121,8 @@ export function readTransient(raw) {
 
 /** A drive document of this program or of the command line, as opposed to a document of this page.
  * @param {unknown} raw @returns {raw is Drive} */
-export const isDriveDocument = (raw) => isObject(raw) && !("design" in raw) && isObject(raw.muscle) && isDrive(raw);
+export const isDriveDocument = (raw) =>
+  isObject(raw) && !("design" in raw) && isObject(raw.muscle) && isDrive(raw);
 
 /** The complete document: what the server runs and the command line takes.
  * @param {Transient} t @param {object} muscle @param {object | null} effects @returns {Drive} */
@@ -137,7 +138,15 @@ function arranged({ arrangement, ...load }) {
   return arrangement in fixed ? { inclination: fixed[arrangement], ...load } : load;
 }
 
-const GEOMETRY = ["nominal_length", "braid_diameter", "braid_angle", "thread_length", "turns", "inside_diameter", "wall_thickness"];
+const GEOMETRY = [
+  "nominal_length",
+  "braid_diameter",
+  "braid_angle",
+  "thread_length",
+  "turns",
+  "inside_diameter",
+  "wall_thickness",
+];
 
 /** A drive document taken apart: the muscle and effects for the Design view, the rest for this one.
  * @param {Drive} document @param {string | null} scenario

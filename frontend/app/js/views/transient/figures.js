@@ -12,16 +12,31 @@ import { fault, roundTrip, run } from "./model.js";
 /** The timing table, in the order an engineer reads it. @type {[string, Figure[]][]} */
 export const FIGURES = [
   ["Motion", [
-    ["positioning_time", "Positioning time", "lapse", "From switching to arrival: the impact on the stop that ends the stroke; without one, 98 % of the stroke."],
+    [
+      "positioning_time",
+      "Positioning time",
+      "lapse",
+      "From switching to arrival: the impact on the stop that ends the stroke; without one, 98 % of the stroke.",
+    ],
     ["rise_time", "Rise time", "lapse", "From 10 % to 90 % of the stroke; no dead time in it."],
     ["delay_time", "Delay time", "lapse", "From switching to 50 % of the stroke."],
     ["settling_time", "Settling time", "lapse", "From here on within 2 % of the stroke."],
     ["average_speed", "Average speed", "speed", "Stroke over positioning time."],
     ["max_speed", "Greatest speed", "speed", "The instant before an impact included."],
     ["max_speed_at", "… at", "lapse", "When, from switching."],
-    ["max_acceleration", "Greatest acceleration", "acceleration", "Positive towards shorter in both columns; impacts do not count."],
+    [
+      "max_acceleration",
+      "Greatest acceleration",
+      "acceleration",
+      "Positive towards shorter in both columns; impacts do not count.",
+    ],
     ["max_acceleration_at", "… at", "lapse", "When, from switching."],
-    ["min_acceleration", "Smallest acceleration", "acceleration", "Positive towards shorter in both columns; impacts do not count."],
+    [
+      "min_acceleration",
+      "Smallest acceleration",
+      "acceleration",
+      "Positive towards shorter in both columns; impacts do not count.",
+    ],
     ["min_acceleration_at", "… at", "lapse", "When, from switching."],
     ["end_speed", "End speed", "speed", "At the impact; without one, on arrival."],
     ["impact_energy", "Impact energy", "energy", "½ m v² of the first impact on a stop."],
@@ -30,12 +45,22 @@ export const FIGURES = [
   ["Pressure", [
     ["pressure_rise_time", "Rise time", "lapse", "From 10 % to 90 % of the change in pressure."],
     ["pressure_delay_time", "Delay time", "lapse", "From switching to 50 % of the change."],
-    ["pressure_settling_time", "Settling time", "lapse", "From here on within 1 % of the change: 99 % filled, or 1 % left."],
+    [
+      "pressure_settling_time",
+      "Settling time",
+      "lapse",
+      "From here on within 1 % of the change: 99 % filled, or 1 % left.",
+    ],
   ]],
   ["Air", [
     ["air_mass", "Air mass", "air", "Taken from the supply, or let out to the surroundings."],
     ["air_volume_anr", "Air volume", "normal", "The same at ANR: 20 °C, 1 bar absolute, 65 % humidity."],
-    ["choked_share", "Valve choked", "ratio", "Share of the phase in which the flow does not depend on the pressure behind the valve."],
+    [
+      "choked_share",
+      "Valve choked",
+      "ratio",
+      "Share of the phase in which the flow does not depend on the pressure behind the valve.",
+    ],
   ]],
 ];
 export const ALL_FIGURES = FIGURES.flatMap(([, list]) => list);
@@ -65,7 +90,13 @@ function timingTable() {
     h(
       "thead",
       null,
-      h("tr", null, h("td", null), ...PHASES.map(([, name]) => h("th", { scope: "col" }, name)), h("td", null)),
+      h(
+        "tr",
+        null,
+        h("td", null),
+        ...PHASES.map(([, name]) => h("th", { scope: "col" }, name)),
+        h("td", null),
+      ),
     ),
     ...FIGURES.map(([group, list]) =>
       h(
@@ -107,17 +138,19 @@ function reasons() {
     h(
       "ul",
       { class: "plain muted" },
-      ...[...why].map(([text, labels]) => h("li", null, `${text} (${labels.length > 4 ? `${labels.length} figures` : labels.join(", ")}).`)),
+      ...[...why].map(([text, labels]) =>
+        h("li", null, `${text} (${labels.length > 4 ? `${labels.length} figures` : labels.join(", ")}).`)
+      ),
     ),
   );
 }
 
 /** @param {string} name @param {string} value @param {string} [title] */
-const big = (name, value, title) => h("div", { class: "big", title: title ?? null }, h("span", null, name), h("b", { class: "num" }, value));
+const big = (name, value, title) =>
+  h("div", { class: "big", title: title ?? null }, h("span", null, name), h("b", { class: "num" }, value));
 
 /** Times in milliseconds below a second. @param {number | null} t */
-export const lapse = (t) =>
-  t === null ? "–" : t < 1 ? `${brief(1e3 * t)}\u00a0ms` : `${brief(t)}\u00a0s`;
+export const lapse = (t) => t === null ? "–" : t < 1 ? `${brief(1e3 * t)}\u00a0ms` : `${brief(t)}\u00a0s`;
 
 /** Air of one fill: what a full cycle takes from the supply. @param {Run} r */
 function keyFigures(r) {
@@ -135,7 +168,11 @@ function keyFigures(r) {
     "div",
     { class: "bigs", id: "key-figures" },
     ...first,
-    big("Air per cycle", withUnit(extend.air_volume_anr, "normal", system), "Taken from the supply in the first fill, at ANR"),
+    big(
+      "Air per cycle",
+      withUnit(extend.air_volume_anr, "normal", system),
+      "Taken from the supply in the first fill, at ANR",
+    ),
     big("Impact", withUnit(extend.impact_energy, "energy", system), r.timing.notes["extend.impact_energy"]),
   );
 }
@@ -164,9 +201,14 @@ function verdict() {
       "p",
       { class: `verdict ${grade}` },
       icon(grade === "good" ? "check" : "warn"),
-      h("span", null,
+      h(
+        "span",
+        null,
         OUTCOMES[r.outcome] ?? r.outcome,
-        done ? (hard.length ? " It leaves the permitted range:" : " Within all limits.") : ` It ended at ${lapse(end)}. ${r.message ?? ""}`),
+        done
+          ? (hard.length ? " It leaves the permitted range:" : " Within all limits.")
+          : ` It ended at ${lapse(end)}. ${r.message ?? ""}`,
+      ),
     ),
     keyFigures(r),
     ...hard.map((f) => h("p", { class: "flag bad" }, icon("warn"), h("span", null, f.message))),
@@ -216,7 +258,13 @@ function tracking() {
           "ul",
           { class: "plain" },
           ...t.overshoot.slice(0, 12).map((o) =>
-            h("li", null, `${withUnit(o.overshoot, "ratio", system)} at ${lapse(o.time)} (step of ${withUnit(o.size, "length", system)})`)
+            h(
+              "li",
+              null,
+              `${withUnit(o.overshoot, "ratio", system)} at ${lapse(o.time)} (step of ${
+                withUnit(o.size, "length", system)
+              })`,
+            )
           ),
         ),
       )
@@ -228,7 +276,9 @@ function tracking() {
 export function runLine() {
   const r = run.value;
   if (!r) return "";
-  return `${r.outcome === "completed" ? "Completed" : r.outcome.replace("_", " ")} in ${brief(r.wall_ms)} ms · ${r.engine} · ` +
+  return `${r.outcome === "completed" ? "Completed" : r.outcome.replace("_", " ")} in ${
+    brief(r.wall_ms)
+  } ms · ${r.engine} · ` +
     `${r.steps} steps · ${Math.round(roundTrip.value)} ms with the network`;
 }
 
@@ -239,7 +289,7 @@ export function figureCards() {
       { class: "card", "aria-label": "Run" },
       h("div", { class: "card-head" }, h("h2", null, "Run")),
       h("div", { class: "verdicts" }, verdict),
-      h("p", { class: "runline", role: "status" }, runLine),
+      h("p", { class: "runline" }, runLine),
     ),
     tracking,
     h(

@@ -23,7 +23,10 @@ async function send(file) {
   if (file.size > MOST_BYTES) return void (wrong.value = "The file is larger than 64 MB.");
   busy.value = true;
   try {
-    const response = await fetch(`/api/measurements?name=${encodeURIComponent(file.name)}`, { method: "PUT", body: file });
+    const response = await fetch(`/api/measurements?name=${encodeURIComponent(file.name)}`, {
+      method: "PUT",
+      body: file,
+    });
     const answer = await response.json();
     if (!response.ok) {
       const { message, hint, field } = answer.error ?? {};
@@ -75,10 +78,14 @@ function summary() {
         onclick: () => editTransient({ measurement: null }, "remove measured trace"),
       }, icon("close")),
     ),
-    timed && used.length
-      ? h("p", { class: "muted" }, `Dots in the plots: ${used.join(", ")}.`)
-      : h("p", { class: "error" }, timed ? "None of its columns can be laid over a run." : "It has no column of time."),
-    m.messages.length ? h("ul", { class: "plain muted" }, ...m.messages.map((text) => h("li", null, text))) : null,
+    timed && used.length ? h("p", { class: "muted" }, `Dots in the plots: ${used.join(", ")}.`) : h(
+      "p",
+      { class: "error" },
+      timed ? "None of its columns can be laid over a run." : "It has no column of time.",
+    ),
+    m.messages.length
+      ? h("ul", { class: "plain muted" }, ...m.messages.map((text) => h("li", null, text)))
+      : null,
     m.ignored.length ? h("p", { class: "muted" }, `Not used: ${m.ignored.join(", ")}.`) : null,
   ];
 }

@@ -54,7 +54,9 @@ export const partPreset = (kind, path) =>
 const effectsOf = (p) => /** @type {any} */ (inSi(Object.fromEntries(
   Object.entries(p?.effects ?? {}).map(([id, values]) => [
     id,
-    Object.fromEntries(Object.entries(values).map(([key, q]) => [key, `${q.value} ${q.unit === "1" ? "" : q.unit}`])),
+    Object.fromEntries(
+      Object.entries(values).map(([key, q]) => [key, `${q.value} ${q.unit === "1" ? "" : q.unit}`]),
+    ),
   ]),
 )));
 
@@ -82,13 +84,17 @@ export function changePart(kind, path, part, label) {
 
 /** Whether the command is a share of a regulator's range instead of a valve opening. */
 export const regulated = computed(() =>
-  Boolean(at(drive.value, "regulator") ?? /** @type {any} */ (partPreset("valves", "valve.preset"))?.regulator)
+  Boolean(
+    at(drive.value, "regulator") ?? /** @type {any} */ (partPreset("valves", "valve.preset"))?.regulator,
+  )
 );
 
 // ---- scenarios
 
 export const scenarios = computed(() => presets.value.drives ?? []);
-export const scenario = computed(() => scenarios.value.find((s) => s.id === transient.value.scenario) ?? null);
+export const scenario = computed(() =>
+  scenarios.value.find((s) => s.id === transient.value.scenario) ?? null
+);
 
 const start = defaultTransient().drive;
 /** What "changed" and "reset" refer to: the scenario as it was loaded, else the start of this view.
@@ -163,7 +169,8 @@ const askRun = latest(
 export const retry = () => askRun(request.peek());
 
 /** The field of the page a path of the request belongs to. @param {string} path */
-export const fieldOf = (path) => path.replace(/^body\./, "").replace(/^drive\./, "").replace(/^effects\./, "");
+export const fieldOf = (path) =>
+  path.replace(/^body\./, "").replace(/^drive\./, "").replace(/^effects\./, "");
 
 /** The message for a field or a part of the drive, by its path. @param {string} key */
 export function messageFor(key) {
@@ -200,7 +207,8 @@ const staticRequest = computed(() =>
   JSON.stringify({
     muscle: muscleInput(design.value.muscle),
     effects: design.value.effects,
-    pressures: Array.from({ length: STATIC_PRESSURES }, (_, i) => ((i + 1) * supplyPressure.value) / STATIC_PRESSURES),
+    pressures: Array.from({ length: STATIC_PRESSURES }, (_, i) =>
+      ((i + 1) * supplyPressure.value) / STATIC_PRESSURES),
     points: STATIC_POINTS,
     temperature: numberAt("gas.temperature") ?? 293.15,
   })
@@ -230,7 +238,9 @@ const STATICS_AFTER_MS = 60;
 
 /** Starts asking; called once, when the view is built. It rests while another view is shown. */
 export function startRuns() {
-  if (!presets.peek().drives) loadKind("drives").catch(() => (status.value = "The scenarios could not be loaded."));
+  if (!presets.peek().drives) {
+    loadKind("drives").catch(() => (status.value = "The scenarios could not be loaded."));
+  }
   effect(() => {
     if (!shownNow.value || request.value === asked) return;
     asked = request.value;

@@ -27,7 +27,6 @@ import {
   run,
   scenario,
   scenarios,
-
   transient,
   useScenario,
 } from "./model.js";
@@ -46,11 +45,16 @@ function scenarioField() {
       "aria-label": "Scenario",
       onchange: (/** @type {Event} */ e) => useScenario(/** @type {HTMLSelectElement} */ (e.target).value),
     }, () => [
-      h("option", { value: "", selected: !scenario.value }, scenarios.value.length ? "Own drive" : "No scenarios here"),
-      ...scenarios.value.map((s) => h("option", { value: s.id, selected: s.id === transient.value.scenario }, s.title)),
+      h(
+        "option",
+        { value: "", selected: !scenario.value },
+        scenarios.value.length ? "Own drive" : "No scenarios here",
+      ),
+      ...scenarios.value.map((s) =>
+        h("option", { value: s.id, selected: s.id === transient.value.scenario }, s.title)
+      ),
     ]),
-    () =>
-      scenario.value?.description ? h("p", { class: "hint" }, scenario.value.description) : null,
+    () => scenario.value?.description ? h("p", { class: "hint" }, scenario.value.description) : null,
     () =>
       scenario.value
         ? h(
@@ -87,12 +91,17 @@ function muscleLine() {
 const doubt = (of) => () => {
   const p = of();
   if (!p || p.verified) return null;
-  const button = h("button", {
-    type: "button",
-    class: "badge warn",
-    "aria-expanded": "false",
-    onclick: () => openPopover(button, "Unverified values", () => unverifiedNote(p)),
-  }, icon("warn"), "unverified");
+  const button = h(
+    "button",
+    {
+      type: "button",
+      class: "badge warn",
+      "aria-expanded": "false",
+      onclick: () => openPopover(button, "Unverified values", () => unverifiedNote(p)),
+    },
+    icon("warn"),
+    "unverified",
+  );
   return button;
 };
 
@@ -129,13 +138,36 @@ function supplyCard() {
   return h(
     "section",
     { class: "card", "aria-label": "Air supply" },
-    h("div", { class: "card-head" }, h("h2", null, "Air supply"), doubt(() => partPreset("valves", "valve.preset"))),
+    h(
+      "div",
+      { class: "card-head" },
+      h("h2", null, "Air supply"),
+      doubt(() => partPreset("valves", "valve.preset")),
+    ),
     driveField("supply.pressure"),
-    choiceField("Valve", () => [...partOptions("valves"), [OWN, "By value"]], () => valveId.value, chooseValve, "valve.preset"),
+    choiceField(
+      "Valve",
+      () => [...partOptions("valves"), [OWN, "By value"]],
+      () => valveId.value,
+      chooseValve,
+      "valve.preset",
+    ),
     partMessage("valve"),
-    () => valveId.value === OWN ? valveFields() : h("details", { open: isShort("valve.sonic_conductance") }, h("summary", null, "Its flow"), ...valveFields()),
+    () =>
+      valveId.value === OWN ? valveFields() : h(
+        "details",
+        { open: isShort("valve.sonic_conductance") },
+        h("summary", null, "Its flow"),
+        ...valveFields(),
+      ),
     () => regulated.value ? [driveField("regulator.range"), driveField("regulator.time")] : null,
-    choiceField("Tube", () => [[NONE, "None"], ...partOptions("tubes"), [OWN, "By value"]], () => tubeId.value, chooseTube, "tube.preset"),
+    choiceField(
+      "Tube",
+      () => [[NONE, "None"], ...partOptions("tubes"), [OWN, "By value"]],
+      () => tubeId.value,
+      chooseTube,
+      "tube.preset",
+    ),
     () => {
       if (tubeId.value === NONE) return null;
       return [tubeId.value === OWN ? driveField("tube.inside_diameter") : null, driveField("tube.length")];
@@ -144,7 +176,9 @@ function supplyCard() {
 }
 
 const valveFields = () =>
-  ["sonic_conductance", "exhaust_conductance", "critical_pressure_ratio"].map((key) => driveField(`valve.${key}`));
+  ["sonic_conductance", "exhaust_conductance", "critical_pressure_ratio"].map((key) =>
+    driveField(`valve.${key}`)
+  );
 
 function loadCard() {
   const more = () => ["load.spring", "load.lever_ratio"].some((path) => numberAt(path) !== null);
@@ -164,15 +198,28 @@ function loadCard() {
       full: 100,
       constant: true,
     }, "External force"),
-    h("details", { open: more }, h("summary", null, "Spring and lever"), driveField("load.spring"), driveField("load.lever_ratio")),
-    h("details", { open: () => numberAt("stops.min_contraction") !== null || numberAt("stops.max_contraction") !== null },
+    h(
+      "details",
+      { open: more },
+      h("summary", null, "Spring and lever"),
+      driveField("load.spring"),
+      driveField("load.lever_ratio"),
+    ),
+    h(
+      "details",
+      {
+        open: () => numberAt("stops.min_contraction") !== null || numberAt("stops.max_contraction") !== null,
+      },
       h("summary", null, () => {
         const limits = run.value?.limits;
         if (!limits) return "End stops";
-        const s = scaleOf("length", units.value), say = (/** @type {number} */ si) => number(toShown(si, s), 1);
+        const s = scaleOf("length", units.value),
+          say = (/** @type {number} */ si) => number(toShown(si, s), 1);
         return `End stops: ${say(limits.position_min)} to ${say(limits.position_max)} ${s.unit}`;
       }),
-      driveField("stops.min_contraction"), driveField("stops.max_contraction")),
+      driveField("stops.min_contraction"),
+      driveField("stops.max_contraction"),
+    ),
   );
 }
 
@@ -188,8 +235,14 @@ function commandCard() {
       return [
         partMessage("controller"),
         ...["kp", "ki", "kd"].map((key) => driveField(`controller.${key}`)),
-        h("details", null, h("summary", null, "Feed forward, sampling, limits"),
-          ...["feed_forward", "derivative_filter", "sample_time", "output_min", "output_max"].map((key) => driveField(`controller.${key}`))),
+        h(
+          "details",
+          null,
+          h("summary", null, "Feed forward, sampling, limits"),
+          ...["feed_forward", "derivative_filter", "sample_time", "output_min", "output_max"].map((key) =>
+            driveField(`controller.${key}`)
+          ),
+        ),
         signalFields({
           path: "controller.reference",
           quantity: "length",
@@ -229,17 +282,36 @@ function commandCard() {
     body,
     () =>
       mode.value === "command"
-        ? h("p", { class: "hint" }, regulated.value ? "Share of the regulator’s range." : "100 % fills, 0 % is closed, −100 % vents.")
+        ? h(
+          "p",
+          { class: "hint" },
+          regulated.value ? "Share of the regulator’s range." : "100 % fills, 0 % is closed, −100 % vents.",
+        )
         : null,
   );
 }
 
 function airCard() {
-  const paths = ["gas.polytropic_exponent", "gas.temperature", "gas.dead_volume", "gas.ambient_pressure", "start_pressure"];
+  const paths = [
+    "gas.polytropic_exponent",
+    "gas.temperature",
+    "gas.dead_volume",
+    "gas.ambient_pressure",
+    "start_pressure",
+  ];
   return h(
     "section",
     { class: "card", "aria-label": "Air and start" },
-    h("details", null, h("summary", null, () => `Air: exponent ${brief(numberAt("gas.polytropic_exponent") ?? 1.2)}, temperature, start`), ...paths.map((path) => driveField(path))),
+    h(
+      "details",
+      null,
+      h(
+        "summary",
+        null,
+        () => `Air: exponent ${brief(numberAt("gas.polytropic_exponent") ?? 1.2)}, temperature, start`,
+      ),
+      ...paths.map((path) => driveField(path)),
+    ),
   );
 }
 
@@ -284,4 +356,3 @@ export function inputCards() {
     }),
   ];
 }
-

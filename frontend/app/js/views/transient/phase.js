@@ -40,7 +40,10 @@ export function phaseSpec(run, statics, load, system, p) {
   const x = shown(run.pressure, "pressure", system), y = shown(run.contraction, "ratio", system);
   /** @type {import("../../plots/chart.js").Trace[]} */
   const traces = [];
-  for (const [id, color] of /** @type {["filling" | "venting", string][]} */ ([["filling", p.soft], ["venting", p.second]])) {
+  for (
+    const [id, color]
+      of /** @type {["filling" | "venting", string][]} */ ([["filling", p.soft], ["venting", p.second]])
+  ) {
     const curves = statics?.[id];
     if (!curves) continue;
     traces.push({
@@ -66,7 +69,10 @@ export function phaseSpec(run, statics, load, system, p) {
   const [low, high] = extent(traces.map((t) => t.y));
   return {
     x: { title: axisTitle("Pressure", "pressure", system), range: steadyRange(`phase p${system}`, 0, most) },
-    y: { title: axisTitle("Contraction", "ratio", system), range: steadyRange(`phase k${system}`, low, high) },
+    y: {
+      title: axisTitle("Contraction", "ratio", system),
+      range: steadyRange(`phase k${system}`, low, high),
+    },
     traces,
     zones: [],
     revision: system,
@@ -78,7 +84,10 @@ export function phaseSpec(run, statics, load, system, p) {
 export function phaseTable(run, system) {
   const s = scaleOf("pressure", system);
   return {
-    columns: [{ title: "Time", unit: "s" }, { title: "Pressure", unit: s.unit }, { title: "Contraction", unit: "%" }],
+    columns: [{ title: "Time", unit: "s" }, { title: "Pressure", unit: s.unit }, {
+      title: "Contraction",
+      unit: "%",
+    }],
     rows: run.time.map((t, i) => {
       const p = run.pressure[i], k = run.contraction[i];
       return [t, p == null ? null : toShown(p, s), k == null ? null : 100 * k];

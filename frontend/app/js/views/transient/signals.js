@@ -29,7 +29,12 @@ const AMPLITUDE = ["amplitude", "Amplitude", "value", (o) => o.full];
 /** The shapes and their fields, in the words of the drive document. @type {Record<string, [string, Row[]]>} */
 export const SHAPES = {
   step: ["Step", [["at", "At", "time", () => 0], LEVEL, INITIAL]],
-  pulse: ["Pulse", [["on", "On at", "time", () => 0], ["off", "Off at", "time", (o) => o.duration / 2], LEVEL, INITIAL]],
+  pulse: ["Pulse", [
+    ["on", "On at", "time", () => 0],
+    ["off", "Off at", "time", (o) => o.duration / 2],
+    LEVEL,
+    INITIAL,
+  ]],
   square: ["Square wave", [PERIOD, ["duty", "Duty", "share", () => 0.5], LEVEL, INITIAL]],
   triangle: ["Triangle", [AMPLITUDE, PERIOD, OFFSET]],
   ramp: ["Ramp", [
@@ -38,7 +43,12 @@ export const SHAPES = {
     ["start", "Starts at", "time", () => 0],
     ["duration", "Takes", "time", (o) => o.duration],
   ]],
-  sine: ["Sine", [AMPLITUDE, ["frequency", "Frequency", "frequency", (o) => 2 / o.duration], OFFSET, ["phase", "Phase", "angle", () => 0]]],
+  sine: ["Sine", [AMPLITUDE, ["frequency", "Frequency", "frequency", (o) => 2 / o.duration], OFFSET, [
+    "phase",
+    "Phase",
+    "angle",
+    () => 0,
+  ]]],
   chirp: ["Chirp", [
     AMPLITUDE,
     ["from", "From", "frequency", (o) => 1 / o.duration],
@@ -67,12 +77,17 @@ function reshape(s, shape) {
   if (shape === "constant") return setDrive(s.path, 0, label);
   const old = at(drive.peek(), s.path), o = startOf(s);
   if (shape === "table") {
-    return setDrive(s.path, { shape, times: [0, o.duration / 2, o.duration], values: [s.rest(), s.full, s.rest()] }, label);
+    return setDrive(s.path, {
+      shape,
+      times: [0, o.duration / 2, o.duration],
+      values: [s.rest(), s.full, s.rest()],
+    }, label);
   }
   const isShare = s.quantity === "ratio";
   const kept = typeof old === "object" && old ? old : {};
   const entries = SHAPES[shape][1].flatMap(([key, , kind, start]) => {
-    const same = kept[key] !== undefined && SHAPES[kept.shape]?.[1].some(([k, , own]) => k === key && own === kind);
+    const same = kept[key] !== undefined &&
+      SHAPES[kept.shape]?.[1].some(([k, , own]) => k === key && own === kind);
     if (same) return [[key, kept[key]]];
     return NEEDED.has(key) || (LEVELS.has(key) && !isShare) || kind === "frequency" ? [[key, start(o)]] : [];
   });
@@ -99,7 +114,9 @@ function tableField(s) {
   const scale = () => scaleOf(s.quantity, units.value);
   const text = () => {
     const { times = [], values = [] } = at(drive.value, s.path) ?? {};
-    return times.map((/** @type {number} */ t, /** @type {number} */ i) => `${number(t, 6)}  ${number(toShown(values[i], scale()), 4)}`).join("\n");
+    return times.map((/** @type {number} */ t, /** @type {number} */ i) =>
+      `${number(t, 6)}  ${number(toShown(values[i], scale()), 4)}`
+    ).join("\n");
   };
   const id = `t-${s.path.replace(/\W/g, "-")}`;
   const take = () => {
@@ -112,7 +129,11 @@ function tableField(s) {
     }
     wrong.value = "";
     const values = rows.map(([, v]) => toSi(v, scale()));
-    setDrive(s.path, { ...at(drive.peek(), s.path), times: rows.map(([t]) => t), values }, `${s.path.split(".").at(-1)} table`);
+    setDrive(
+      s.path,
+      { ...at(drive.peek(), s.path), times: rows.map(([t]) => t), values },
+      `${s.path.split(".").at(-1)} table`,
+    );
   };
   const area = h("textarea", { id, rows: 6, spellcheck: "false", onchange: take, value: text });
   return h(
@@ -120,7 +141,11 @@ function tableField(s) {
     { class: "field" },
     h("label", { for: id }, () => `Time (s) and value (${scale().unit}), a row each`),
     area,
-    h("p", { class: "error" }, () => wrong.value || messageFor(`${s.path}.times`) || messageFor(`${s.path}.values`) || ""),
+    h(
+      "p",
+      { class: "error" },
+      () => wrong.value || messageFor(`${s.path}.times`) || messageFor(`${s.path}.values`) || "",
+    ),
     choiceField(
       "Between the rows",
       () => [["linear", "straight lines"], ["hold", "hold the value"]],
@@ -145,7 +170,13 @@ export function signalFields(s, label) {
   return h(
     "div",
     { class: "signal" },
-    choiceField(label, options, () => shape.value, (next) => reshape(s, next), s.constant ? `${s.path}.shape` : s.path),
+    choiceField(
+      label,
+      options,
+      () => shape.value,
+      (next) => reshape(s, next),
+      s.constant ? `${s.path}.shape` : s.path,
+    ),
     () => {
       if (shape.value === "constant") return s.constant ? driveField(s.path) : null;
       if (shape.value === "table") return tableField(s);
@@ -156,7 +187,18 @@ export function signalFields(s, label) {
 
 /** Where the command switches [s]: the jumps of straight shapes. @param {any} signal_ @param {number} duration */
 export function switchings(signal_, duration) {
-  const { shape, at: when = 0, on = 0, off, period, duty = 0.5, times = [], hold, start = 0, duration: takes } = signal_ ?? {};
+  const {
+    shape,
+    at: when = 0,
+    on = 0,
+    off,
+    period,
+    duty = 0.5,
+    times = [],
+    hold,
+    start = 0,
+    duration: takes,
+  } = signal_ ?? {};
   const waves = (/** @type {number} */ step, /** @type {number[]} */ shares) =>
     step > 0 && duration / step <= 40
       ? Array.from({ length: Math.ceil(duration / step) }, (_, k) => shares.map((x) => (k + x) * step)).flat()

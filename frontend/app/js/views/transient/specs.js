@@ -85,11 +85,16 @@ function overTime(v, p, { key, title, quantity, lines, dots = null, within, zero
     const y = traces[i + (dots ? 1 : 0)].y;
     const k = labelRow(run, y, span);
     const value = k === null ? null : y[k];
-    return value == null || k === null ? [] : [{ text: line.label, x: run.time[k], y: value, color: line.color }];
+    return value == null || k === null
+      ? []
+      : [{ text: line.label, x: run.time[k], y: value, color: line.color }];
   });
   return {
     x: { title: "Time (s)", range: span },
-    y: { title: axisTitle(title, quantity, system), range: steadyRange(`run ${key}${system}${v.zoomed}`, low, high) },
+    y: {
+      title: axisTitle(title, quantity, system),
+      range: steadyRange(`run ${key}${system}${v.zoomed}`, low, high),
+    },
     traces,
     zones: [],
     labels: all,
@@ -140,11 +145,27 @@ export function positionSpec(v, p) {
   /** @type {Line[]} */
   const lines = [
     { id: "stop-low", name: "lower stop", values: flat(low), color: p.soft, dash: "dot", width: 1.2 },
-    { id: "stop-high", name: "upper stop", values: flat(high), color: p.soft, dash: "dot", width: 1.2, label: "stop" },
+    {
+      id: "stop-high",
+      name: "upper stop",
+      values: flat(high),
+      color: p.soft,
+      dash: "dot",
+      width: 1.2,
+      label: "stop",
+    },
     ...pinLines(v, p, "position"),
   ];
   if (run.reference) {
-    lines.push({ id: "reference", name: "reference", values: run.reference, color: p.load, dash: "dash", width: 1.6, label: "reference" });
+    lines.push({
+      id: "reference",
+      name: "reference",
+      values: run.reference,
+      color: p.load,
+      dash: "dash",
+      width: 1.6,
+      label: "reference",
+    });
   }
   lines.push({ id: "position", name: "position", values: run.position, color: p.accent });
   return overTime(v, p, {
@@ -161,16 +182,45 @@ export function pressureSpec(v, p) {
   const { run, supply } = v;
   const lines = pinLines(v, p, "pressure");
   if (supply != null) {
-    lines.push({ id: "supply", name: "supply", values: run.time.map(() => supply), color: p.soft, dash: "dot", width: 1.2, label: "supply" });
+    lines.push({
+      id: "supply",
+      name: "supply",
+      values: run.time.map(() => supply),
+      color: p.soft,
+      dash: "dot",
+      width: 1.2,
+      label: "supply",
+    });
   }
   if (run.regulator_pressure) {
-    lines.push({ id: "regulator", name: "regulator", values: run.regulator_pressure, color: p.load, dash: "dash", width: 1.5 });
+    lines.push({
+      id: "regulator",
+      name: "regulator",
+      values: run.regulator_pressure,
+      color: p.load,
+      dash: "dash",
+      width: 1.5,
+    });
   }
   if (run.tube_pressure) {
-    lines.push({ id: "tube", name: "tube", values: run.tube_pressure, color: p.second, dash: "dash", width: 1.5 });
+    lines.push({
+      id: "tube",
+      name: "tube",
+      values: run.tube_pressure,
+      color: p.second,
+      dash: "dash",
+      width: 1.5,
+    });
   }
   lines.push({ id: "muscle", name: "muscle", values: run.pressure, color: p.accent });
-  return overTime(v, p, { key: "pressure", title: "Pressure", quantity: "pressure", lines, dots: measuredColumn(v, "pressure"), zero: true });
+  return overTime(v, p, {
+    key: "pressure",
+    title: "Pressure",
+    quantity: "pressure",
+    lines,
+    dots: measuredColumn(v, "pressure"),
+    zero: true,
+  });
 }
 
 /** @param {View} v @param {Palette} p @returns {Spec} */
@@ -204,8 +254,22 @@ export function lowerSpec(v, p) {
   let lines = [];
   if (lower === "flow") {
     lines = [
-      { id: "supply", name: "from the supply", values: run.supply_flow, color: p.soft, dash: "dot", width: 1.4 },
-      { id: "exhaust", name: "to the air", values: run.exhaust_flow.map((x) => x == null ? null : -x), color: p.second, dash: "dash", width: 1.5 },
+      {
+        id: "supply",
+        name: "from the supply",
+        values: run.supply_flow,
+        color: p.soft,
+        dash: "dot",
+        width: 1.4,
+      },
+      {
+        id: "exhaust",
+        name: "to the air",
+        values: run.exhaust_flow.map((x) => x == null ? null : -x),
+        color: p.second,
+        dash: "dash",
+        width: 1.5,
+      },
       { id: "flow", name: "into the muscle", values: run.mass_flow, color: p.accent },
     ];
     return overTime(v, p, { key: lower, title: "Mass flow", quantity: "flow", lines, zero: true });
@@ -213,14 +277,37 @@ export function lowerSpec(v, p) {
   if (lower === "force") {
     lines = [{ id: "force", name: "force of the muscle", values: run.force, color: p.accent }];
     const outer = run.load_force.some((x) => x !== 0);
-    if (outer) lines.unshift({ id: "external", name: "external force", values: run.load_force, color: p.second, dash: "dash", width: 1.5 });
-    return overTime(v, p, { key: lower, title: "Force", quantity: "force", lines, dots: measuredColumn(v, "force"), zero: true });
+    if (outer) {
+      lines.unshift({
+        id: "external",
+        name: "external force",
+        values: run.load_force,
+        color: p.second,
+        dash: "dash",
+        width: 1.5,
+      });
+    }
+    return overTime(v, p, {
+      key: lower,
+      title: "Force",
+      quantity: "force",
+      lines,
+      dots: measuredColumn(v, "force"),
+      zero: true,
+    });
   }
   lines = [
     { id: "command", name: "command", values: run.command, color: p.second, dash: "dash", width: 1.5 },
     { id: "opening", name: "opening", values: run.opening, color: p.accent },
   ];
-  return overTime(v, p, { key: lower, title: "Valve", quantity: "ratio", lines, dots: measuredColumn(v, "command"), zero: true });
+  return overTime(v, p, {
+    key: lower,
+    title: "Valve",
+    quantity: "ratio",
+    lines,
+    dots: measuredColumn(v, "command"),
+    zero: true,
+  });
 }
 
 /** The legend of a plot: name, colour, dash. @param {Spec} spec */
@@ -243,4 +330,5 @@ export function rowAt(time, t) {
 }
 
 /** @param {number | null | undefined} si @param {Quantity} quantity @param {System} system */
-export const shownValue = (si, quantity, system) => si == null ? null : toShown(si, scaleOf(quantity, system));
+export const shownValue = (si, quantity, system) =>
+  si == null ? null : toShown(si, scaleOf(quantity, system));

@@ -5,7 +5,17 @@ const INCH = 0.0254, POUND = 0.45359237, LBF = 4.4482216152605;
 /** @type {Record<string, number>} */
 const FACTORS = {
   ...{ m: 1, cm: 1e-2, mm: 1e-3, um: 1e-6, µm: 1e-6, in: INCH, inch: INCH, ft: 12 * INCH },
-  ...{ Pa: 1, hPa: 100, kPa: 1e3, MPa: 1e6, GPa: 1e9, bar: 1e5, mbar: 100, psi: LBF / INCH ** 2, atm: 101325 },
+  ...{
+    Pa: 1,
+    hPa: 100,
+    kPa: 1e3,
+    MPa: 1e6,
+    GPa: 1e9,
+    bar: 1e5,
+    mbar: 100,
+    psi: LBF / INCH ** 2,
+    atm: 101325,
+  },
   ...{ N: 1, mN: 1e-3, kN: 1e3, lbf: LBF, kg: 1, g: 1e-3, t: 1e3, lb: POUND, J: 1, kJ: 1e3, W: 1, K: 1 },
   ...{ s: 1, ms: 1e-3, us: 1e-6, µs: 1e-6, min: 60, h: 3600, Hz: 1, kHz: 1e3 },
   ...{ l: 1e-3, L: 1e-3, ml: 1e-6, rad: 1, deg: Math.PI / 180, "°": Math.PI / 180, "%": 0.01, percent: 0.01 },
@@ -54,7 +64,8 @@ function factorOf(text) {
  * @param {unknown} value @returns {number | null} */
 export function siNumber(value) {
   if (typeof value === "number") return value;
-  const match = typeof value === "string" && /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*$/i.exec(value);
+  const match = typeof value === "string" &&
+    /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*$/i.exec(value);
   if (!match) return null;
   const number = Number(match[1]);
   if (match[2] === "") return number;

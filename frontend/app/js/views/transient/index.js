@@ -1,0 +1,84 @@
+// @ts-check
+// The Transient view: inputs, motion and plots, figures.
+import { h, icon } from "../../dom.js";
+import { computed } from "../../reactive.js";
+import { view } from "../../state.js";
+import { stageCard, togglePlay } from "./animation.js";
+import { plotCards } from "./charts.js";
+import { figureCards } from "./figures.js";
+import { measuredCard } from "./measured.js";
+import { fault, fieldOf, retry, run, startRuns } from "./model.js";
+import { inputCards } from "./panel.js";
+import { compareCard, pin } from "./pins.js";
+
+/** @param {string} path */
+function goToField(path) {
+  const root = document.querySelector(".transient");
+  for (let key = fieldOf(path); key; key = key.replace(/\.?[^.]*$/, "")) {
+    const box = root?.querySelector(`[data-field="${CSS.escape(key)}"]`);
+    box?.closest("details")?.setAttribute("open", "");
+    const input = box?.querySelector("input, select");
+    if (input instanceof HTMLElement) return input.focus();
+  }
+}
+
+function notice() {
+  const told = fault.value;
+  if (!told) return null;
+  const { field } = told;
+  return h(
+    "div",
+    { class: "notice bad", role: "alert" },
+    icon("warn"),
+    h("span", null, told.words, run.value ? " The plots show the last run that was possible." : ""),
+    field
+      ? h("button", { type: "button", onclick: () => goToField(field) }, "Go to the field")
+      : h("button", { type: "button", onclick: retry }, "Try again"),
+  );
+}
+
+/** A focused control keeps the space bar for itself. @param {KeyboardEvent} e */
+const free = (e) =>
+  view.peek() === "transient" && !e.ctrlKey && !e.metaKey && !e.altKey &&
+  !(/** @type {HTMLElement} */ (e.target)).closest?.("button, summary, a, input, label");
+
+/** @type {import("../../shortcuts.js").Shortcut[]} */
+export const TRANSIENT_KEYS = [
+  {
+    keys: "Space",
+    what: "Transient: play or pause the run",
+    match: (e) => e.key === " " && free(e),
+    run: togglePlay,
+  },
+  {
+    keys: "P",
+    what: "Transient: pin this run",
+    match: (e) => e.key.toLowerCase() === "p" && free(e),
+    run: pin,
+  },
+];
+
+export function transientView() {
+  const stale = computed(() => Boolean(fault.value));
+  const page = h(
+    "div",
+    { class: "transient" },
+    h("div", { class: "column inputs" }, ...inputCards()),
+    h(
+      "div",
+      { class: () => `column runs${stale.value ? " stale" : ""}` },
+      notice,
+      stageCard(),
+      ...plotCards(),
+      compareCard(),
+    ),
+    h(
+      "div",
+      { class: () => `column results${stale.value ? " stale" : ""}` },
+      ...figureCards(),
+      measuredCard(),
+    ),
+  );
+  startRuns();
+  return page;
+}

@@ -1,0 +1,42 @@
+"""An effect file in a folder of its own reaches the page: panel and curves, with no other edit."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page
+
+from tests.frontend.views import open_design, redrawn
+from tests.server import RunningServer
+
+README = Path(__file__).parents[2] / "README.md"
+
+
+@pytest.fixture(scope="session")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
+    """A server with the README's example effect in a folder of the user's."""
+    (example,) = re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), flags=re.DOTALL)
+    folder = tmp_path_factory.mktemp("new-effect")
+    (folder / "effects").mkdir()
+    strong = example.replace("5.0, 0.0, 50.0", "40.0, 0.0, 50.0")
+    (folder / "effects" / "seal_drag.py").write_text(strong, encoding="utf-8")
+    with RunningServer(folder, arguments=["--effects", str(folder / "effects")]) as running:
+        yield running
+
+
+def blocked_force(page: Page) -> int:
+    """Blocked force at the last pressure [N], as the table of characteristics shows it."""
+    row = page.locator("section", has_text="Blocked force").last.locator("tbody tr").last
+    figures = [re.sub(r"[^\d.]", "", text) for text in row.locator("td").all_inner_texts()]
+    return int(next(figure for figure in figures if len(figure) > 2 and "." not in figure))
+
+
+def test_the_example_of_the_readme_appears_and_acts(page: Page) -> None:
+    open_design(page)
+    before = blocked_force(page)
+    page.get_by_placeholder(re.compile("Search effects")).fill("seal")
+    redrawn(page, lambda: page.get_by_role("switch", name=re.compile("Seal drag")).click())
+    assert abs(before - blocked_force(page) - 40) <= 1

@@ -1,0 +1,140 @@
+"""``mckibben simulate``: JSON, table, trace, one line for whatever is wrong."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from mckibben import cli
+from mckibben.identification.read import read_measurement
+from mckibben.resources import presets_folder
+from tests.test_drive_input import CONTROLLER, EXAMPLE
+
+Run = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture(autouse=True)
+def _own_folders(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("MCKIBBEN_DATA", str(tmp_path / "data"))
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture
+def run(capsysbinary: pytest.CaptureFixture[bytes]) -> Run:
+    """Run a command line in this process: exit code, stdout, stderr."""
+
+    def call(*arguments: str) -> tuple[int, str, str]:
+        code = cli.run([*arguments])
+        captured = capsysbinary.readouterr()
+        return code, captured.out.decode(), captured.err.decode()
+
+    return call
+
+
+def write(name: str, content: object) -> str:
+    Path(name).write_text(content if isinstance(content, str) else json.dumps(content), "utf-8")
+    return name
+
+
+def test_a_document_gives_one_json_object(run: Run) -> None:
+    code, out, _ = run("simulate", write("lift.json", EXAMPLE), "--json")
+    assert code == 0
+    answer = json.loads(out)
+    assert answer["outcome"] == "completed"
+    assert len(answer["time"]) == len(answer["position"]) == 2001
+    assert answer["timing"]["extend"]["rise_time"] > 0.0
+    assert answer["position"][0] == pytest.approx(0.0, abs=1e-4)
+
+
+def test_it_agrees_with_the_kernel(run: Run) -> None:
+    # One process per run answers by LSODA, the server by the kernel.
+    from mckibben.api.answers.runs import grid_of
+    from mckibben.api.answers.simulations import read_document, simulation_answer
+    from mckibben.drive_input import drive_of
+    from mckibben.studio import Studio
+
+    answer = json.loads(run("simulate", write("lift.json", EXAMPLE), "--json")[1])
+    given = drive_of(read_document(EXAMPLE, "the drive"), Studio(presets=presets_folder()))
+    grid = grid_of(duration=4.0, begin=0.0, end=4.0, points=2001)
+    other = simulation_answer(given, grid, engine="rodas")
+    assert answer["engine"] == "lsoda"
+    assert other["engine"] == "rodas"
+    assert max(abs(a - b) for a, b in zip(answer["position"], other["position"], strict=True)) < 2e-5
+
+
+def test_the_table_shows_both_phases_and_the_outcome(run: Run) -> None:
+    code, out, err = run("simulate", write("lift.json", EXAMPLE))
+    assert code == 0
+    assert "completed" in out
+    for word in ("extend", "retract", "positioning time", "impact energy", "valve choked"):
+        assert word in out
+    assert "unverified" not in out
+    assert "MPYE" in err  # its figures are not verified
+
+
+def test_a_controlled_drive_shows_how_it_follows(run: Run) -> None:
+    code, out, _ = run("simulate", write("pid.json", {**EXAMPLE, "controller": CONTROLLER, "duration": 1}))
+    assert code == 0
+    assert "Following the reference" in out
+
+
+def test_the_trace_can_be_read_back_as_a_measurement(run: Run) -> None:
+    code, _, _ = run("simulate", write("lift.json", EXAMPLE), "--out", "trace.csv")
+    assert code == 0
+    measurement = read_measurement(Path("trace.csv").read_bytes(), "trace.csv")
+    assert measurement.kind == "transient"
+    assert measurement.rows == 2001
+    assert {"time", "command", "pressure", "displacement", "force"} <= set(measurement.columns)
+    assert measurement.conditions["muscle"] == "DMSP-20:800mm"
+    assert measurement.conditions["load_mass"] == 10.0
+    assert measurement.columns["displacement"].max() == pytest.approx(0.2, abs=2e-3)
+
+
+def test_presets_run_by_id_and_by_file(run: Run) -> None:
+    shutil.copy(presets_folder() / "drives" / "paper-step.json", "own.json")
+    by_id = json.loads(run("simulate", "paper-step", "--json")[1])
+    by_file = json.loads(run("simulate", "own.json", "--json")[1])
+    assert by_id["position"] == by_file["position"]
+
+
+REFUSED = {
+    "no such file": ("nope.json", None, ["nope.json", "No such file"]),
+    "no such preset": ("paper-stp", None, ["paper-stp", "Did you mean 'paper-step'"]),
+    "no JSON": ("bad.json", "{", ["bad.json", "line 1"]),
+    "a list": ("bad.json", [], ["bad.json", "object"]),
+    "twice": ("bad.json", '{"duration": 1, "duration": 2}', ["bad.json", "duration"]),
+    "unknown key": ("bad.json", {**EXAMPLE, "vavle": {}}, ["bad.json", "vavle", "Did you mean 'valve'"]),
+    "negative": ("bad.json", {**EXAMPLE, "load": {"mass": "-1 kg"}}, ["bad.json", "load.mass", "kg"]),
+    "unknown preset": (
+        "bad.json", {**EXAMPLE, "valve": {"preset": "MPYE"}}, ["bad.json", "valve", "MPYE", "Did you mean"]
+    ),
+    "unknown effect": (
+        "bad.json", {**EXAMPLE, "effects": {"creeep": {}}}, ["creeep", "Did you mean 'creep'"]
+    ),
+    "no equilibrium": ("bad.json", {**EXAMPLE, "load": {"force": "-1 MN"}}, ["bad.json", "load"]),
+    "another preset": ("bad.json", {"schema": 1, "kind": "valve", "id": "x"}, ["bad.json", "kind"]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_one_line_says_what_is_wrong(run: Run, name: str) -> None:
+    file, content, words = REFUSED[name]
+    if content is not None:
+        write(file, content)
+    code, out, err = run("simulate", file)
+    assert code == 2
+    assert out == ""
+    assert err.count("\n") == 1
+    assert "Traceback" not in err
+    for word in words:
+        assert word in err
+
+
+def test_a_trace_that_cannot_be_written(run: Run) -> None:
+    code, _, err = run("simulate", write("lift.json", EXAMPLE), "--out", "no/folder/trace.csv")
+    assert code == 2
+    assert "--out no/folder/trace.csv" in err
