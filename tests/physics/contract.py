@@ -16,8 +16,7 @@ from mckibben.physics import ideal
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.effect import KINDS, Effect
 from mckibben.physics.model import ROOM_TEMPERATURE, Model, State
-from mckibben.physics.muscle import Muscle
-from tests.physics import contract_dynamic
+from tests.physics import contract_dynamic, contract_slots
 from tests.physics.contract_states import (
     FORCE_SCALE,
     LENGTHS,
@@ -57,28 +56,6 @@ def check_off_is_ideal(effect: Effect) -> None:
         state = grid(sign=0.0)
         off = predict_force((effect,), {effect.id: effect.off}, **state)
         np.testing.assert_allclose(off, predict_force((), {}, **state), rtol=1e-13, atol=1e-10)
-
-
-def check_worked_examples(effect: Effect) -> None:
-    for example in effect.examples:
-        if example.quantity.startswith("slot:"):
-            _, slot, *index = example.quantity.split(":")
-            context = {"muscle": Muscle(**example.muscle)} if example.muscle else {}
-            got = effect.call(slot, context | dict(example.state), {**effect.defaults, **example.parameters})
-            got = np.atleast_1d(got)[int(index[0]) if index else 0]
-            assert math.isclose(float(got), example.expected, rel_tol=example.tolerance, abs_tol=1e-15), (
-                f"{example.quantity}: {float(got)!r} instead of {example.expected}"
-            )
-            continue
-        muscle = Muscle(**example.muscle)
-        quantity = example.quantity.removesuffix("_change")
-        values = {effect.id: {**effect.defaults, **example.parameters}}
-        got = getattr(Model([effect]).evaluate(muscle=muscle, values=values, **example.state), quantity)
-        if quantity != example.quantity:
-            got = got - getattr(Model().evaluate(muscle=muscle, values={}, **example.state), quantity)
-        assert math.isclose(float(got), example.expected, rel_tol=example.tolerance, abs_tol=1e-15), (
-            f"{example.quantity}: {float(got)!r} instead of {example.expected}"
-        )
 
 
 def check_finite_at_all_bounds(effect: Effect) -> None:
@@ -303,9 +280,9 @@ _STATIC_CLAIMS: tuple[Check, ...] = (
 
 def checks_of(effect: Effect) -> tuple[Check, ...]:
     """What an effect is held to: one form for all; claims at rest, in a run from rest, or on the drive."""
-    common = (check_off_is_ideal, check_worked_examples)
+    common = (check_off_is_ideal, contract_slots.check_worked_examples)
     if not acts_on_muscle(effect):
-        return (*common, *contract_dynamic.SLOT_CHECKS, *contract_dynamic.DRIVE_CLAIMS)
+        return (*common, *contract_slots.SLOT_CHECKS, *contract_dynamic.DRIVE_CLAIMS)
     if not effect.states:
         return (*common, *_ON_THE_MUSCLE, *_STATIC_CLAIMS)
-    return (*common, *_ON_THE_MUSCLE, *contract_dynamic.SLOT_CHECKS, *contract_dynamic.RUN_CLAIMS)
+    return (*common, *_ON_THE_MUSCLE, *contract_slots.SLOT_CHECKS, *contract_dynamic.RUN_CLAIMS)

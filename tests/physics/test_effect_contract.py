@@ -13,7 +13,7 @@ from latex2mathml.converter import convert
 from mckibben.physics.catalogue import BUILT_IN_FOLDER, Catalogue, default_catalogue
 from mckibben.physics.effect import Effect
 from mckibben.physics.units import si
-from tests.physics import contract, contract_dynamic
+from tests.physics import contract, contract_dynamic, contract_slots
 from tests.physics.contract_states import acts_on_muscle
 
 # Effects that exist or are planned; a twin may be named before its file is written.
@@ -144,7 +144,7 @@ def test_effect_that_is_not_off_at_its_off_values_is_found() -> None:
         )
         lying = dataclasses.replace(honest, parameters=parameters)
         on_muscle = acts_on_muscle(honest)
-        check = contract.check_off_is_ideal if on_muscle else contract_dynamic.check_off_leaves_slots_alone
+        check = contract.check_off_is_ideal if on_muscle else contract_slots.check_off_leaves_slots_alone
         check(honest)
         with pytest.raises(AssertionError):
             check(lying)

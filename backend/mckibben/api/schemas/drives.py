@@ -168,7 +168,7 @@ class DriveDocument(Strict):
     fittings: list[Id] = Field(
         default_factory=list, max_length=20, description="Fitting presets; they add their port volumes."
     )
-    load: LoadInput = Field(default_factory=LoadInput)
+    load: LoadInput = Field(default_factory=lambda: LoadInput.model_validate({}))
     command: Command | None = Field(
         None,
         description="Opening of the valve: 1 fill, 0 closed, -1 exhaust; of a regulator the share of its "
@@ -176,8 +176,8 @@ class DriveDocument(Strict):
         examples=[{"shape": "pulse", "on": "0 s", "off": "2 s"}],
     )
     controller: ControllerInput | None = Field(None, description="Gives the command instead.")
-    gas: GasInput = Field(default_factory=GasInput)
-    stops: StopsInput = Field(default_factory=StopsInput)
+    gas: GasInput = Field(default_factory=lambda: GasInput.model_validate({}))
+    stops: StopsInput = Field(default_factory=lambda: StopsInput.model_validate({}))
     duration: Duration = Field(4.0, description="Length of the run.")
     start_pressure: Pressure = Field(0.0, description="Gauge pressure in the muscle at t = 0.")
 

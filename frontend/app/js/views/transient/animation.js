@@ -10,7 +10,7 @@ import { numberAt, run, timeWindow } from "./model.js";
 
 /** @typedef {import("../../types.js").Run} Run */
 
-const HEIGHT = 118, LEFT = 26, RIGHT = 76, BLOCK = 46, STEPPED_MS = 250;
+const HEIGHT = 118, LEFT = 26, RIGHT = 84, BLOCK = 48, STEPPED_MS = 250;
 const SVG = "http://www.w3.org/2000/svg";
 
 /** @param {string} tag @param {Record<string, string | number>} [attributes] */
@@ -64,7 +64,7 @@ function picture() {
   const width = signal(600);
   const wall = draw("rect", { class: "wall", x: LEFT - 10, y: 12, width: 10, height: HEIGHT - 24 });
   const ghost = draw("path", { class: "ghost" }), body = draw("path", { class: "body" });
-  const rod = draw("line", { class: "rod" }), block = draw("rect", { class: "block", rx: 5 });
+  const rod = draw("line", { class: "rod" }), block = draw("rect", { class: "weight", rx: 5 });
   const mass = draw("text", { class: "mass" }), pull = draw("path", { class: "pull" });
   const pullText = draw("text", { class: "note" });
   const stops = [draw("rect", { class: "stop" }), draw("rect", { class: "stop" })];
@@ -200,6 +200,7 @@ function controls() {
         /** @type {Event} */ e,
       ) => (speed.value = Number(/** @type {HTMLSelectElement} */ (e.target).value)),
     }, ...RATES.map(([value, name]) => h("option", { value: String(value) }, name))),
+    windowFields(),
   );
 }
 
@@ -246,6 +247,6 @@ export function stageCard() {
     { class: "card stage-card", "aria-label": "Motion" },
     picture(),
     controls(),
-    h("div", { class: "line" }, h("div", { class: "values", "aria-live": "off" }, readout), windowFields()),
+    h("div", { class: "values", "aria-live": "off" }, readout),
   );
 }

@@ -49,7 +49,7 @@ const pressure = plot("pressure", "Pressure", "Pressure in muscle, tube and supp
 const speed = plot("speed", "Speed", "Speed over time");
 const acceleration = plot("acceleration", "Acceleration", "Acceleration over time");
 const lower = plot("lower", "Flow and force", "Mass flow, force or valve over time");
-const phase = plot("phase", "Pressure and contraction", "Contraction over pressure on the static map");
+const phase = plot("phase", "Phase plot", "Contraction over pressure on the static map");
 
 const overTime = [position, pressure, speed, lower, acceleration];
 /** All plots with their titles, for the export of the sheet. */
@@ -159,7 +159,7 @@ function frame(one, ...head) {
     h(
       "div",
       { class: "card-head" },
-      h("h2", null, one.title),
+      h("h2", { class: one === lower ? "unseen" : null }, one.title),
       ...head,
       menuButton({
         label: icon("more"),
@@ -213,8 +213,8 @@ const phaseLegend = () => {
       h("i", { class: "ramp", style: `background:linear-gradient(to right,${stops})` }),
       `${Number(to.toPrecision(3))} ${end}`,
     ),
-    h("li", null, h("i", { class: "dash", style: `color:${p.soft}` }), "filling at rest"),
-    h("li", null, h("i", { class: "dash", style: `color:${p.second}` }), "venting at rest"),
+    h("li", null, h("i", { class: "dash", style: `color:${p.soft}` }), "fill, static"),
+    h("li", null, h("i", { class: "dash", style: `color:${p.second}` }), "vent, static"),
   );
 };
 

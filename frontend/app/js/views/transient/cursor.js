@@ -3,7 +3,7 @@
 import { h } from "../../dom.js";
 import { computed, effect, signal } from "../../reactive.js";
 import { run, timeWindow } from "./model.js";
-import { rowAt } from "./specs.js";
+import { rowAt } from "./series.js";
 
 /** @typedef {import("../../plots/chart.js").Chart} Chart */
 

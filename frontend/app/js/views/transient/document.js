@@ -15,9 +15,9 @@ export const MOST_PINS = 4;
 
 /** @returns {Drive} a weight lifted and let down once */
 const defaultDrive = () => ({
-  supply: { pressure: 6e5 },
+  supply: { pressure: 5.5e5 },
   valve: { preset: "MPYE-5-1/8-HF" },
-  tube: { preset: "PUN-H-6x1", length: 1 },
+  tube: { preset: "PUN-H-4x0.75", length: 1 },
   load: { mass: 50 },
   command: { shape: "pulse", on: 0, off: 1 },
   controller: {
@@ -27,6 +27,7 @@ const defaultDrive = () => ({
     kd: 0.01,
     reference: { shape: "triangle", amplitude: 0.02, period: 1 },
   },
+  stops: { max_contraction: 0.15 },
   gas: { polytropic_exponent: 1.2 },
   duration: 2,
 });
@@ -84,7 +85,8 @@ export function inSi(part, key = "") {
   return GAINS.has(key) && /[a-z%]/i.test(part) ? si / PERCENT_PER_MM : si;
 }
 
-/** Only what JSON of numbers and texts can hold, and not without end. @param {unknown} x @param {number} [depth] */
+/** Only what JSON of numbers and texts can hold, and not without end.
+ * @param {unknown} x @param {number} [depth] @returns {boolean} */
 function isPlain(x, depth = 0) {
   if (x === null || typeof x === "boolean" || typeof x === "string") return true;
   if (typeof x === "number") return Number.isFinite(x);

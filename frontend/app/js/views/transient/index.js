@@ -1,6 +1,6 @@
 // @ts-check
 // The Transient view: inputs, motion and plots, figures.
-import { h, icon } from "../../dom.js";
+import { append, h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { view } from "../../state.js";
 import { stageCard, togglePlay } from "./animation.js";
@@ -60,6 +60,9 @@ export const TRANSIENT_KEYS = [
 
 export function transientView() {
   const stale = computed(() => Boolean(fault.value));
+  const results = h("div", { class: () => `column results${stale.value ? " stale" : ""}` });
+  figureCards().forEach((card) => append(results, card));
+  results.append(measuredCard());
   const page = h(
     "div",
     { class: "transient" },
@@ -72,12 +75,7 @@ export function transientView() {
       ...plotCards(),
       compareCard(),
     ),
-    h(
-      "div",
-      { class: () => `column results${stale.value ? " stale" : ""}` },
-      ...figureCards(),
-      measuredCard(),
-    ),
+    results,
   );
   startRuns();
   return page;

@@ -9,7 +9,7 @@ import { palette } from "../../plots/theme.js";
 import { spoken } from "../../ui/sources.js";
 import { at, MOST_PINS } from "./document.js";
 import { SPECS } from "./fields.js";
-import { ALL_FIGURES } from "./figures.js";
+import { ALL_FIGURES } from "./timing.js";
 import {
   documentNow,
   editTransient,

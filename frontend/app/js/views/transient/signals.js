@@ -18,7 +18,7 @@ import { drive, messageFor, numberAt, setDrive } from "./model.js";
 /** @type {Row} */
 const LEVEL = ["level", "Level", "value", (o) => o.full];
 /** @type {Row} */
-const INITIAL = ["initial", "Else", "value", (o) => o.rest];
+const INITIAL = ["initial", "Otherwise", "value", (o) => o.rest];
 /** @type {Row} */
 const PERIOD = ["period", "Period", "time", (o) => o.duration / 2];
 /** @type {Row} */

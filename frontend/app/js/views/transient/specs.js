@@ -1,7 +1,7 @@
 // @ts-check
 // What each plot over time shows: lines, bands and marks in the user's units. Pure functions.
-import { scaleOf, toShown } from "../../format.js";
 import { axisTitle, extent, shown, steadyRange } from "../design/axes.js";
+import { contacts, measuredColumn, resampled, withoutImpacts } from "./series.js";
 
 /** @typedef {import("../../plots/chart.js").Spec} Spec */
 /** @typedef {import("../../plots/chart.js").Trace} Trace */
@@ -22,39 +22,6 @@ import { axisTitle, extent, shown, steadyRange } from "../design/axes.js";
 /** Distinct from the accent and from each other, also for the colour-blind. @param {Palette} p */
 export const pinColours = (p) =>
   p.dark ? ["#c9a2ff", "#4fd1c0", "#e6c54a", "#ff8fbf"] : ["#7b3fb5", "#00776b", "#8a6a00", "#b3206e"];
-
-/** Values of a run at other times, straight between its rows; nothing outside of them.
- * @param {number[]} time @param {(number | null)[]} values @param {number[]} wanted */
-export function resampled(time, values, wanted) {
-  let k = 0;
-  return wanted.map((t) => {
-    if (t < time[0] - 1e-9 || t > time[time.length - 1] + 1e-9) return null;
-    while (k < time.length - 2 && time[k + 1] < t) k++;
-    const a = values[k], b = values[k + 1];
-    if (a == null || b == null) return null;
-    const share = (t - time[k]) / (time[k + 1] - time[k] || 1);
-    return a + (b - a) * Math.min(1, Math.max(0, share));
-  });
-}
-
-/** Intervals of the run in contact with a stop. @param {Run} run @returns {[number, number][]} */
-export function contacts({ time, contact }) {
-  /** @type {[number, number][]} */
-  const found = [];
-  contact.forEach((on, i) => {
-    if (!on) return;
-    const last = found.at(-1);
-    if (last && contact[i - 1]) last[1] = time[i];
-    else found.push([time[i], time[i]]);
-  });
-  return found.filter(([from, to]) => to > from);
-}
-
-/** The wide values of a run without what a stop adds: an impact would flatten everything else.
- * @param {Run} run @param {(number | null)[]} values */
-function withoutImpacts({ contact }, values) {
-  return values.map((v, i) => contact[i - 1] || contact[i] || contact[i + 1] ? null : v);
-}
 
 /** @param {View} v @param {Palette} p @param {{key: string, title: string, quantity: Quantity, lines: Line[],
  *   dots?: {x: number[], y: (number | null)[]} | null, within?: (number | null)[][], zero?: boolean}} o
@@ -126,18 +93,6 @@ const pinLines = (v, p, key) =>
     width: 1.3,
   }));
 
-/** @param {View} v @param {...string} names the first channel there is */
-function measuredColumn({ measured, window: [from, to] }, ...names) {
-  const time = /** @type {number[] | undefined} */ (measured?.columns.time);
-  const name = names.find((one) => measured?.columns[one]);
-  if (!measured || !time || !name) return null;
-  const y = /** @type {number[]} */ (measured.columns[name]);
-  const inside = [...time.keys()].filter((i) => time[i] >= from && time[i] <= to);
-  const step = Math.max(1, Math.ceil(inside.length / 400));
-  const kept = inside.filter((_, k) => k % step === 0);
-  return { x: kept.map((i) => time[i]), y: kept.map((i) => y[i]) };
-}
-
 /** @param {View} v @param {Palette} p @returns {Spec} */
 export function positionSpec(v, p) {
   const { run } = v, { position_min: low, position_max: high } = run.limits;
@@ -173,7 +128,7 @@ export function positionSpec(v, p) {
     title: "Position",
     quantity: "length",
     lines,
-    dots: measuredColumn(v, "displacement", "position"),
+    dots: measuredColumn(v.measured, v.window, ["displacement", "position"]),
   });
 }
 
@@ -218,7 +173,7 @@ export function pressureSpec(v, p) {
     title: "Pressure",
     quantity: "pressure",
     lines,
-    dots: measuredColumn(v, "pressure"),
+    dots: measuredColumn(v.measured, v.window, ["pressure"]),
     zero: true,
   });
 }
@@ -230,7 +185,7 @@ export const speedSpec = (v, p) =>
     title: "Speed",
     quantity: "speed",
     lines: [{ id: "velocity", name: "speed", values: v.run.velocity, color: p.accent }],
-    dots: measuredColumn(v, "velocity"),
+    dots: measuredColumn(v.measured, v.window, ["velocity"]),
     zero: true,
   });
 
@@ -256,7 +211,7 @@ export function lowerSpec(v, p) {
     lines = [
       {
         id: "supply",
-        name: "from the supply",
+        name: "supply",
         values: run.supply_flow,
         color: p.soft,
         dash: "dot",
@@ -264,13 +219,13 @@ export function lowerSpec(v, p) {
       },
       {
         id: "exhaust",
-        name: "to the air",
+        name: "exhaust",
         values: run.exhaust_flow.map((x) => x == null ? null : -x),
         color: p.second,
         dash: "dash",
         width: 1.5,
       },
-      { id: "flow", name: "into the muscle", values: run.mass_flow, color: p.accent },
+      { id: "flow", name: "muscle", values: run.mass_flow, color: p.accent },
     ];
     return overTime(v, p, { key: lower, title: "Mass flow", quantity: "flow", lines, zero: true });
   }
@@ -292,7 +247,7 @@ export function lowerSpec(v, p) {
       title: "Force",
       quantity: "force",
       lines,
-      dots: measuredColumn(v, "force"),
+      dots: measuredColumn(v.measured, v.window, ["force"]),
       zero: true,
     });
   }
@@ -305,7 +260,7 @@ export function lowerSpec(v, p) {
     title: "Valve",
     quantity: "ratio",
     lines,
-    dots: measuredColumn(v, "command"),
+    dots: measuredColumn(v.measured, v.window, ["command"]),
     zero: true,
   });
 }
@@ -317,18 +272,3 @@ export const legendOf = (spec) =>
     color: t.line?.color ?? "",
     dashed: Boolean(t.line?.dash),
   }));
-
-/** The row of a run nearest to an instant. @param {number[]} time @param {number} t */
-export function rowAt(time, t) {
-  let low = 0, high = time.length - 1;
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (time[middle] <= t) low = middle;
-    else high = middle;
-  }
-  return t - time[low] <= time[high] - t ? low : high;
-}
-
-/** @param {number | null | undefined} si @param {Quantity} quantity @param {System} system */
-export const shownValue = (si, quantity, system) =>
-  si == null ? null : toShown(si, scaleOf(quantity, system));

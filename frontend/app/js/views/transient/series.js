@@ -1,0 +1,65 @@
+// @ts-check
+// Columns of runs and of measurements: looked up, put on other times, told from impacts. Pure functions.
+
+/** @typedef {import("../../types.js").Run} Run */
+/** @typedef {import("../../types.js").Measured} Measured */
+
+const MOST_DOTS = 400;
+
+/** Values of a run at other times, straight between its rows; nothing outside of them.
+ * @param {number[]} time @param {(number | null)[]} values @param {number[]} wanted */
+export function resampled(time, values, wanted) {
+  let k = 0;
+  return wanted.map((t) => {
+    if (t < time[0] - 1e-9 || t > time[time.length - 1] + 1e-9) return null;
+    while (k < time.length - 2 && time[k + 1] < t) k++;
+    const a = values[k], b = values[k + 1];
+    if (a == null || b == null) return null;
+    const share = (t - time[k]) / (time[k + 1] - time[k] || 1);
+    return a + (b - a) * Math.min(1, Math.max(0, share));
+  });
+}
+
+/** Intervals of the run in contact with a stop. @param {Run} run @returns {[number, number][]} */
+export function contacts({ time, contact }) {
+  /** @type {[number, number][]} */
+  const found = [];
+  contact.forEach((on, i) => {
+    if (!on) return;
+    const last = found.at(-1);
+    if (last && contact[i - 1]) last[1] = time[i];
+    else found.push([time[i], time[i]]);
+  });
+  return found.filter(([from, to]) => to > from);
+}
+
+/** The wide values of a run without what a stop adds: an impact would flatten everything else.
+ * @param {Run} run @param {(number | null)[]} values */
+export function withoutImpacts({ contact }, values) {
+  return values.map((v, i) => contact[i - 1] || contact[i] || contact[i + 1] ? null : v);
+}
+
+/** The points of a measured channel within the times shown, few enough to draw.
+ * @param {Measured | null} measured @param {[number, number]} span
+ * @param {string[]} names the first channel there is */
+export function measuredColumn(measured, [from, to], names) {
+  const time = /** @type {number[] | undefined} */ (measured?.columns.time);
+  const name = names.find((one) => measured?.columns[one]);
+  if (!measured || !time || !name) return null;
+  const y = /** @type {number[]} */ (measured.columns[name]);
+  const inside = [...time.keys()].filter((i) => time[i] >= from && time[i] <= to);
+  const step = Math.max(1, Math.ceil(inside.length / MOST_DOTS));
+  const kept = inside.filter((_, k) => k % step === 0);
+  return { x: kept.map((i) => time[i]), y: kept.map((i) => y[i]) };
+}
+
+/** The row of a run nearest to an instant. @param {number[]} time @param {number} t */
+export function rowAt(time, t) {
+  let low = 0, high = time.length - 1;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (time[middle] <= t) low = middle;
+    else high = middle;
+  }
+  return t - time[low] <= time[high] - t ? low : high;
+}
