@@ -200,7 +200,7 @@ export interface components {
         /** [m] */
         initial?: number | string;
         /** [s] */
-        period?: number | string;
+        period: number | string;
         /** [1] */
         duty?: number | string;
         /** [m] */
@@ -226,7 +226,7 @@ export interface components {
       } | {
         shape: "sine";
         /** [m] */
-        amplitude?: number | string;
+        amplitude: number | string;
         /** [m] */
         offset?: number | string;
         /** [Hz] */
@@ -450,7 +450,7 @@ export interface components {
         /** [1] */
         initial?: number | string;
         /** [s] */
-        period?: number | string;
+        period: number | string;
         /** [1] */
         duty?: number | string;
         /** [1] */
@@ -747,7 +747,7 @@ export interface components {
         /** [N] */
         initial?: number | string;
         /** [s] */
-        period?: number | string;
+        period: number | string;
         /** [1] */
         duty?: number | string;
         /** [N] */
@@ -773,7 +773,7 @@ export interface components {
       } | {
         shape: "sine";
         /** [N] */
-        amplitude?: number | string;
+        amplitude: number | string;
         /** [N] */
         offset?: number | string;
         /** [Hz] */

@@ -11,9 +11,10 @@ from scipy.integrate import solve_ivp
 from mckibben.physics import gas
 from mckibben.physics.muscle import Muscle
 from mckibben.simulation.parts import Drive, Load, Tube, Valve
+from mckibben.simulation.rest import start_of
 from mckibben.simulation.signals import signal_from
 from mckibben.simulation.static import StaticModel
-from mckibben.simulation.transient import GRAVITY, parameters_of, segments_of, simulate, start_of
+from mckibben.simulation.transient import GRAVITY, parameters_of, segments_of, simulate
 
 MUSCLE = Muscle(0.8, 0.0218, radians(26.5), 0.0018, 0.02)
 EFFECTS = {"bladder_elasticity": {}, "prestress": {"force": 25.0}}
@@ -188,7 +189,7 @@ def test_against_radau(tube):
     compiled = compiled_drive(case.structure)
     parameters = parameters_of(case, compiled)
     times, inputs, _ = segments_of(case)
-    y = start_of(case, compiled, parameters, inputs)
+    y = start_of(case, compiled, parameters, inputs[0])
     size = compiled.size
     for segment, given in enumerate(inputs):
         grid = run.time[(run.time >= times[segment]) & (run.time < times[segment + 1])]

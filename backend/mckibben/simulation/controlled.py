@@ -12,6 +12,7 @@ from mckibben.physics.errors import InputError
 from mckibben.simulation.engine import Outcome, Solution, compiled_drive, integrate
 from mckibben.simulation.outcome import Watch
 from mckibben.simulation.parts import Drive
+from mckibben.simulation.rest import start_of
 from mckibben.simulation.segments import Segments
 from mckibben.simulation.transient import (
     TOLERANCE,
@@ -20,7 +21,6 @@ from mckibben.simulation.transient import (
     external_force,
     parameters_of,
     run_of,
-    start_of,
 )
 
 
@@ -63,7 +63,7 @@ def simulate_controlled(
     delays = dead_times(drive)
     pending: deque[tuple[float, float]] = deque()
     active = 0.0
-    state = start_of(drive, compiled, parameters, _inputs(active, external, 0.0))
+    state = start_of(drive, compiled, parameters, _inputs(active, external, 0.0)[0])
     began = time.perf_counter()
     first = _measured(compiled, state, parameters, external, active, reading) / lever
     memory = controller.start(measurement=first)

@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from mckibben.physics.errors import InputError
-from mckibben.physics.model import ROOM_TEMPERATURE, Model
+from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.physics.muscle import GEOMETRY
 from mckibben.simulation.engine import CompiledDrive, Outcome, compiled_driven, integrate
 from mckibben.simulation.parts import Drive
+from mckibben.simulation.rest import settle
 from mckibben.simulation.static import StaticModel
-from mckibben.simulation.transient import constants_of, external_force
+from mckibben.simulation.transient import constants_of, external_force, skewed
 
 TOLERANCE = 1e-6
 
@@ -50,7 +51,7 @@ def driven_force(
     start = np.array([state.initial or 0.0 for state in compiled.model.states])
     start[0] = time[0]
     reading = _run(compiled, table, inputs, start, time, tolerance)["force_reading"]
-    return _skewed(model, time, reading)
+    return skewed(model, time, reading)
 
 
 def driven_motion(
@@ -81,7 +82,7 @@ def driven_motion(
     start = np.array([state.initial or 0.0 for state in compiled.model.states])
     start[names.index("clock")], start[names.index("stroke")] = time[0], stroke
     found = _run(compiled, table, inputs, start, time, tolerance)
-    found["force_reading"] = _skewed(drive.model, time, found["force_reading"])
+    found["force_reading"] = skewed(drive.model, time, found["force_reading"])
     return {name: found[name] for name in ("stroke_reading", "force_reading", "stroke", "speed")}
 
 
@@ -94,12 +95,16 @@ def _run(
     tolerance: float,
 ) -> dict[str, np.ndarray]:
     model = compiled.model
+    parameters = np.array([table[name] for name in model.parameters])
+    given = np.column_stack([inputs[name] for name in model.inputs])
+    at_rest = given[0] * ~np.array([name.endswith("_slope") for name in model.inputs])
+    settle(compiled, start, parameters, at_rest)
     solution = integrate(
         compiled,
-        parameters=np.array([table[name] for name in model.parameters]),
+        parameters=parameters,
         start=start,
         times=np.ascontiguousarray(time, dtype=float),
-        inputs=np.column_stack([inputs[name] for name in model.inputs]),
+        inputs=given,
         grid=np.ascontiguousarray(time, dtype=float),
         tolerance=tolerance,
     )
@@ -118,11 +123,6 @@ def _steps(time: np.ndarray) -> np.ndarray:
     if len(time) < 2 or not np.all(steps > 0.0):
         raise InputError("the times of a record must ascend", field="time")
     return steps
-
-
-def _skewed(model: StaticModel, time: np.ndarray, reading: np.ndarray) -> np.ndarray:
-    delay = float(Model(model.effects).sum("skew", model.values, {}))
-    return np.interp(time - delay, time, reading) if delay else reading
 
 
 def _geometry(model: StaticModel) -> dict[str, float]:

@@ -9,16 +9,16 @@ from math import sin, sqrt
 import numpy as np
 
 from mckibben.physics import gas, ideal
-from mckibben.physics.braid import volume as braid_volume
 from mckibben.physics.drive_terms import CONSTANTS, INPUTS, OUTPUTS
-from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import GEOMETRY
 from mckibben.simulation.engine import CompiledDrive, Outcome, Solution, compiled_drive, integrate
 from mckibben.simulation.outcome import Watch
 from mckibben.simulation.parts import Drive, Regulator
+from mckibben.simulation.rest import start_of
 from mckibben.simulation.segments import Segments, delayed, merged
 from mckibben.simulation.signals import Signal
+from mckibben.simulation.static import StaticModel
 
 GRAVITY = 9.80665  # m/s2
 # End stops: natural frequency of the load on them [rad/s]; critically damped, so an impact does not bounce.
@@ -141,54 +141,6 @@ def segments_of(drive: Drive) -> tuple[np.ndarray, np.ndarray, Segments]:
     return command.times, np.column_stack([columns[name] for name in INPUTS]), command
 
 
-def start_of(drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inputs: np.ndarray) -> np.ndarray:
-    """The states at rest: the load in equilibrium between muscle, gravity and stops at the start pressure.
-
-    Raises:
-        InputError: no equilibrium short of the braid lock (the load tears the muscle off its lower stop).
-    """
-    absolute = drive.start_pressure + drive.ambient_pressure
-    initial = {
-        "stroke": 0.0,
-        "pressure": absolute,
-        "tube_pressure": absolute,
-        "regulator_pressure": absolute,
-        "gas_mass": 0.0,
-    }
-    start = np.array(
-        [initial[state.name] if state.initial is None else state.initial for state in compiled.model.states]
-    )
-    names = [state.name for state in compiled.model.states]
-    acceleration = compiled.size + OUTPUTS.index("acceleration")
-    packed = np.concatenate([start, parameters, inputs[0]])
-    if "gas_mass" in names:
-        rough = float(braid_volume(braid=drive.muscle.braid, length=drive.muscle.nominal_length))
-        packed[names.index("gas_mass")] = absolute * rough / (gas.GAS_CONSTANT * drive.temperature)
-
-    def push(stroke: float) -> float:
-        packed[names.index("stroke")] = stroke
-        return float(compiled.rates(packed)[acceleration])
-
-    rest = drive.muscle.nominal_length
-    low = max(drive.min_contraction * rest - 0.01 * rest, rest - drive.model.longest)
-    high = drive.max_contraction * rest + 0.01 * rest
-    if not push(low) >= 0.0 >= push(high):
-        raise InputError(
-            "the load has no rest position between the end stops at the start pressure",
-            field="load",
-            hint="lower the mass or the external force, or set stops.min_contraction",
-        )
-    from scipy.optimize import root_scalar
-
-    start[names.index("stroke")] = packed[names.index("stroke")] = float(
-        root_scalar(push, bracket=(low, high), xtol=1e-14).root
-    )
-    if "gas_mass" in names:
-        volume = float(compiled.rates(packed)[compiled.size + OUTPUTS.index("volume")])
-        start[names.index("gas_mass")] = absolute * volume / (gas.GAS_CONSTANT * drive.temperature)
-    return start
-
-
 def simulate(
     drive: Drive,
     *,
@@ -211,7 +163,10 @@ def simulate(
     compiled = compiled_drive(drive.structure)
     parameters = parameters_of(drive, compiled)
     times, inputs, command = segments_of(drive)
-    start = start_of(drive, compiled, parameters, inputs)
+    # Until t = 0 the valve was where the command starts from, not where its first segment is.
+    before = inputs[0].copy()
+    before[INPUTS.index("opening")], before[INPUTS.index("opening_slope")] = drive.command.before, 0.0
+    start = start_of(drive, compiled, parameters, before)
     grid = np.linspace(0.0, drive.duration, points) if grid is None else grid
     began = time.perf_counter()
     solution = integrate(
@@ -238,10 +193,13 @@ def run_of(
 ) -> Run:
     """The rows of a solution by name."""
     size = compiled.size
+    time_axis = grid[: len(solution.rows)]
+    outputs = {name: solution.rows[:, size + index] for index, name in enumerate(OUTPUTS)}
+    outputs["force_reading"] = skewed(drive.model, time_axis, outputs["force_reading"])
     return Run(
-        grid[: len(solution.rows)],
+        time_axis,
         {state.name: solution.rows[:, index] for index, state in enumerate(compiled.model.states)},
-        {name: solution.rows[:, size + index] for index, name in enumerate(OUTPUTS)},
+        outputs,
         solution.outcome,
         command,
         drive,
@@ -249,3 +207,9 @@ def run_of(
         solution.engine,
         wall_seconds,
     )
+
+
+def skewed(model: StaticModel, time: np.ndarray, reading: np.ndarray) -> np.ndarray:
+    """The force reading as it arrives: later than the other channels by the skew of the effects."""
+    delay = float(Model(model.effects).sum("skew", model.values, {}))
+    return np.interp(time - delay, time, reading) if delay else reading

@@ -15,6 +15,7 @@ from mckibben.physics.units import MAX_TEXT_LENGTH, si
 from mckibben.simulation.signals import MAX_SEGMENTS, SHAPES, SYNONYMS
 
 _UNITS = {"time": "s", "share": "1", "frequency": "Hz", "angle": "rad"}
+_STANDS_FOR = {"amplitude": "level", "period": "frequency"}  # a key that another one may replace
 _EXAMPLES = {"s": "0.5 s", "1": "50 %", "Hz": "2 Hz", "rad": "90 deg", "m": "20 mm", "N": "120 N"}
 
 
@@ -71,8 +72,8 @@ def _shape_schema(name: str, unit: str) -> JsonSchemaValue:
             continue
         label, default = item.metadata["name"] or item.name, item.metadata["default"]
         properties[label] = _key_schema(item.name, item.metadata["kind"], unit)
-        # A synonym may stand for a key; then neither alone is required.
-        if (default is MISSING or (default == "full" and unit != "1")) and kind not in SYNONYMS:
+        needed = default is MISSING or (default == "full" and unit != "1")
+        if needed and not any(_STANDS_FOR[synonym] == label for synonym in SYNONYMS.get(kind, ())):
             required.append(label)
     for label in SYNONYMS.get(kind, ()):
         properties[label] = _quantity("s" if label == "period" else unit)

@@ -22,6 +22,7 @@ import {
   numberAt,
   pinKey,
   pinRuns,
+  pins,
   run,
   statics,
   timeWindow,
@@ -77,7 +78,6 @@ const staticLoad = computed(() => {
 });
 
 const lowerKind = computed(() => transient.value.lower);
-const pins = computed(() => transient.value.pins);
 
 /** @returns {View | null} what the answers give, not what the inputs say: a plot never mixes the two */
 function viewNow() {

@@ -110,7 +110,6 @@ const remarks = (r) =>
     h("p", { class: "muted" }, `${where.replaceAll("_", " ")}: ${text}`)
   );
 
-/** @returns {import("../../dom.js").Child} */
 function tracking() {
   const t = run.value?.tracking;
   if (!t) return null;
@@ -162,7 +161,7 @@ export function runLine() {
     `${r.steps} steps · answer after ${Math.round(roundTrip.value)} ms`;
 }
 
-/** @returns {import("../../dom.js").Child[]} */
+/** @returns {(HTMLElement | (() => HTMLElement | null))[]} */
 export function figureCards() {
   return [
     h(

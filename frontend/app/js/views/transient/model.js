@@ -3,7 +3,7 @@
 import { batch, computed, effect, signal } from "../../reactive.js";
 import { commit, design, doc, edit, look, preview, view } from "../../state.js";
 import { ApiError, latest, post } from "../../api.js";
-import { loadKind, presets, status } from "../../store.js";
+import { presets, status } from "../../store.js";
 import { muscleInput, preset, presetEffects } from "../design/model.js";
 import { at, defaultTransient, driveDocument, inSi, put, takenApart } from "./document.js";
 import { siNumber } from "./units.js";
@@ -180,6 +180,8 @@ export function messageFor(key) {
 
 // ---- pinned runs
 
+/** @type {import("../../reactive.js").Signal<import("./document.js").Pin[]>} */
+export const pins = computed(() => transient.value.pins);
 /** Answers of pinned runs by their document, as JSON. */
 export const pinRuns = signal(/** @type {Map<string, Run | ApiError>} */ (new Map()));
 /** @param {Drive} document */
@@ -238,9 +240,6 @@ const STATICS_AFTER_MS = 60;
 
 /** Starts asking; called once, when the view is built. It rests while another view is shown. */
 export function startRuns() {
-  if (!presets.peek().drives) {
-    loadKind("drives").catch(() => (status.value = "The scenarios could not be loaded."));
-  }
   effect(() => {
     if (!shownNow.value || request.value === asked) return;
     asked = request.value;
@@ -256,7 +255,6 @@ export function startRuns() {
       askStatics(body);
     }, STATICS_AFTER_MS);
   });
-  const pins = computed(() => transient.value.pins);
   effect(() => {
     if (shownNow.value && pins.value.length) runPins();
   });

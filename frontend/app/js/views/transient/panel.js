@@ -1,20 +1,14 @@
 // @ts-check
 // The inputs of the Transient view: scenario, muscle, air supply, load, command or controller, surroundings.
-import { h, icon } from "../../dom.js";
+import { h } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { design, units } from "../../state.js";
-import { presets } from "../../store.js";
 import { goTo } from "../../shell.js";
 import { brief, number, scaleOf, siOf, toShown, withUnit } from "../../format.js";
-import { openPopover } from "../../ui/dialog.js";
-import { unverifiedNote } from "../../ui/sources.js";
 import { effectsCard, isStatic } from "../design/effects.js";
 import { preset } from "../design/model.js";
-import { at } from "./document.js";
-import { choiceField, driveField, partMessage } from "./fields.js";
+import { driveField, partMessage } from "./fields.js";
 import {
-  changePart,
-  drive,
   editTransient,
   fault,
   fieldOf,
@@ -22,7 +16,6 @@ import {
   muscleName,
   numberAt,
   ownEffects,
-  partPreset,
   regulated,
   run,
   scenario,
@@ -31,6 +24,7 @@ import {
   useScenario,
 } from "./model.js";
 import { signalFields } from "./signals.js";
+import { supplyCard } from "./supply.js";
 
 function scenarioField() {
   return h(
@@ -218,15 +212,13 @@ function airCard() {
   );
 }
 
-/** Families with something that acts only over time first. @param {import("../../types.js").Effect[]} all */
+/** The more of a family acts only over time, the higher it stands. @param {import("../../types.js").Effect[]} all */
 function families(all) {
-  const moving = new Set(all.filter((e) => !isStatic(e)).map((e) => e.family));
   /** @type {Map<string, import("../../types.js").Effect[]>} */
   const groups = new Map();
-  for (const e of [...all].sort((a, b) => Number(moving.has(b.family)) - Number(moving.has(a.family)))) {
-    groups.set(e.family, [...groups.get(e.family) ?? [], e]);
-  }
-  return groups;
+  for (const e of all) groups.set(e.family, [...groups.get(e.family) ?? [], e]);
+  const resting = (/** @type {import("../../types.js").Effect[]} */ list) => list.filter(isStatic).length / list.length;
+  return new Map([...groups].sort(([, a], [, b]) => resting(a) - resting(b)));
 }
 
 /** @param {string} key @returns {string | null} */

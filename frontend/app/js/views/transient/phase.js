@@ -21,10 +21,10 @@ export function holding(curves, { resisting, spring, ratio }, [low, high]) {
   const needed = (/** @type {number} */ k) => resisting / ratio + (spring * k * rest) / ratio ** 2;
   return curves.force.map((row) => {
     for (let i = row.length - 1; i >= 0; i--) {
-      const k = curves.contraction[i], spare = row[i] - needed(k);
+      const k = curves.contraction[i], spare = (row[i] ?? 0) - needed(k);
       if (spare < 0) continue;
       if (k >= high || i === row.length - 1) return Math.min(high, Math.max(low, k));
-      const next = curves.contraction[i + 1], short = needed(next) - row[i + 1];
+      const next = curves.contraction[i + 1], short = needed(next) - (row[i + 1] ?? 0);
       return Math.min(high, Math.max(low, k + ((next - k) * spare) / (spare + short || 1)));
     }
     return low;
@@ -36,7 +36,7 @@ export function holding(curves, { resisting, spring, ratio }, [low, high]) {
 export function phaseSpec(run, statics, load, system, p) {
   const rest = run.geometry.nominal_length;
   /** @type {[number, number]} */
-  const stops = [run.limits.position_min, run.limits.position_max].map((x) => (x * load.ratio) / rest);
+  const stops = [run.limits.position_min * load.ratio / rest, run.limits.position_max * load.ratio / rest];
   const x = shown(run.pressure, "pressure", system), y = shown(run.contraction, "ratio", system);
   /** @type {import("../../plots/chart.js").Trace[]} */
   const traces = [];

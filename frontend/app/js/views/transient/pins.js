@@ -17,6 +17,7 @@ import {
   openDrive,
   pinKey,
   pinRuns,
+  pins,
   run,
   transient,
 } from "./model.js";
@@ -28,7 +29,6 @@ import { siNumber } from "./units.js";
 /** @typedef {import("./document.js").Drive} Drive */
 /** @typedef {{name: string, drive: Drive, run: Run | null, color: string, wrong: string | null}} Column */
 
-const pins = computed(() => transient.value.pins);
 const colours = computed(() => pinColours(palette.value));
 
 /** A short name out of what makes a drive: mass, pressure, valve. @param {Drive} d */

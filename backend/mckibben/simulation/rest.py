@@ -1,0 +1,86 @@
+"""Where a run starts: everything at rest, found from the compiled equations themselves."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mckibben.physics import gas
+from mckibben.physics.braid import volume as braid_volume
+from mckibben.physics.drive_terms import OUTPUTS
+from mckibben.physics.errors import InputError
+from mckibben.simulation.engine import CompiledDrive
+from mckibben.simulation.parts import Drive
+
+
+def start_of(drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inputs: np.ndarray) -> np.ndarray:
+    """The states at rest: the load in equilibrium between muscle, gravity and stops at the start pressure.
+
+    Args:
+        drive: the drive.
+        compiled: its equations.
+        parameters: constants of the run.
+        inputs: what acted before the run, shape (inputs,).
+
+    Raises:
+        InputError: no equilibrium short of the braid lock (the load tears the muscle off its lower stop).
+    """
+    absolute = drive.start_pressure + drive.ambient_pressure
+    initial = {
+        "stroke": 0.0,
+        "pressure": absolute,
+        "tube_pressure": absolute,
+        "regulator_pressure": absolute,
+        "gas_mass": 0.0,
+    }
+    start = np.array(
+        [initial[state.name] if state.initial is None else state.initial for state in compiled.model.states]
+    )
+    names = [state.name for state in compiled.model.states]
+    acceleration = compiled.size + OUTPUTS.index("acceleration")
+    packed = np.concatenate([start, parameters, inputs])
+    if "gas_mass" in names:
+        rough = float(braid_volume(braid=drive.muscle.braid, length=drive.muscle.nominal_length))
+        packed[names.index("gas_mass")] = absolute * rough / (gas.GAS_CONSTANT * drive.temperature)
+
+    def push(stroke: float) -> float:
+        packed[names.index("stroke")] = stroke
+        return float(compiled.rates(packed)[acceleration])
+
+    rest = drive.muscle.nominal_length
+    low = max(drive.min_contraction * rest - 0.01 * rest, rest - drive.model.longest)
+    high = drive.max_contraction * rest + 0.01 * rest
+    if not push(low) >= 0.0 >= push(high):
+        raise InputError(
+            "the load has no rest position between the end stops at the start pressure",
+            field="load",
+            hint="lower the mass or the external force, or set stops.min_contraction",
+        )
+    from scipy.optimize import root_scalar
+
+    start[names.index("stroke")] = packed[names.index("stroke")] = float(
+        root_scalar(push, bracket=(low, high), xtol=1e-14).root
+    )
+    if "gas_mass" in names:
+        volume = float(compiled.rates(packed)[compiled.size + OUTPUTS.index("volume")])
+        start[names.index("gas_mass")] = absolute * volume / (gas.GAS_CONSTANT * drive.temperature)
+    settle(compiled, start, parameters, inputs)
+    return start
+
+
+def settle(compiled: CompiledDrive, start: np.ndarray, parameters: np.ndarray, inputs: np.ndarray) -> None:
+    """Put the states that start settled (a spool, a lagged reading) where their rates are zero, in place.
+
+    Their rates are linear in them. Least squares, because a lag of zero makes a rate that is always zero.
+    """
+    chosen = [index for index, state in enumerate(compiled.model.states) if state.settled]
+    if not chosen:
+        return
+    packed = np.concatenate([start, parameters, inputs])
+    zero = compiled.rates(packed)[chosen]
+    scales = np.array([compiled.model.states[index].scale for index in chosen])
+    columns = []
+    for index, scale in zip(chosen, scales, strict=True):
+        packed[index] = start[index] + scale
+        columns.append(compiled.rates(packed)[chosen] - zero)
+        packed[index] = start[index]
+    start[chosen] += scales * np.linalg.lstsq(np.column_stack(columns), -zero, rcond=None)[0]
