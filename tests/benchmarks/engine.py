@@ -44,6 +44,8 @@ DOCUMENT: dict[str, Any] = {
     "duration": "4 s",
 }  # fmt: skip
 Positions = Callable[[int, float], np.ndarray]
+# (state, segment, begin, end, instants, parameter set) -> states at the instants
+Solver = Callable[[np.ndarray, int, float, float, np.ndarray, int], np.ndarray]
 
 
 class Lift:
@@ -85,10 +87,8 @@ class Lift:
         return found
 
 
-def by_segments(
-    lift: Lift, solve: Callable[[np.ndarray, int, float, float, np.ndarray, int], np.ndarray]
-) -> Any:
-    """Positions from a solver of one segment: (state, segment, begin, end, instants, set) -> states at instants."""
+def by_segments(lift: Lift, solve: Solver) -> Callable[[int, np.ndarray], np.ndarray]:
+    """Positions of a run from a solver of one segment."""
 
     def positions(number: int, state: np.ndarray) -> np.ndarray:
         found = []
@@ -110,7 +110,7 @@ def kernel_positions(lift: Lift, engine: str) -> Positions:
             lift.compiled, parameters=lift.parameters[number], start=lift.start(number), times=lift.times,
             inputs=lift.inputs, grid=lift.grid, tolerance=tolerance, engine=engine,
         ).rows  # fmt: skip
-        return rows[:, lift.stroke]
+        return rows[:, lift.stroke].copy()  # a view would keep all rows of a thousand runs
 
     return positions
 
@@ -259,9 +259,8 @@ def throughput(lift: Lift, tolerance: float) -> None:
             began = time.perf_counter()
             list(pool.map(lambda number: positions(number, tolerance), range(len(lift.parameters))))
             took = time.perf_counter() - began
-        say(
-            f"{len(lift.parameters)} parameter sets, {threads} thread(s): {len(lift.parameters) / took:.0f} runs/s"
-        )
+        count = len(lift.parameters)
+        say(f"{count} parameter sets, {threads} thread(s): {count / took:.0f} runs/s")
 
 
 def new_combinations(studio: Studio, lift: Lift) -> None:

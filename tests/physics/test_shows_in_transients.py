@@ -16,8 +16,7 @@ from mckibben.simulation.transient import simulate
 from tests.physics.contract_states import MUSCLE, WARM, companions
 
 CATALOGUE = default_catalogue()
-# A skew is no part of a run: it shifts the record when that is compared (tests of driven runs).
-SHOWN = [e for e in CATALOGUE.values() if "transient" in e.kinds and "skew" not in e.slots]
+SHOWN = [effect for effect in CATALOGUE.values() if "transient" in effect.kinds]
 READINGS = {"force_reading": 100.0, "pressure_reading": 1e5, "stroke_reading": 0.01}
 
 

@@ -1,5 +1,5 @@
 // @ts-check
-// The muscle from the side, to scale: length, bulge, load and stops at the cursor; play, pause and a time slider.
+// The muscle from the side, to scale: length, bulge, load and stops at the cursor; play, pause, time slider.
 import { h, icon } from "../../dom.js";
 import { computed, effect, signal } from "../../reactive.js";
 import { units, view } from "../../state.js";
@@ -92,7 +92,7 @@ function picture() {
     // The load touches the upper stop with its left side, the lower one with its right side.
     const right = s.low + 12 + BLOCK, left = s.high + 12;
     for (const [stop, x] of /** @type {[Element, number][]} */ ([[stops[0], right], [stops[1], left - 4]])) {
-      for (const [key, value] of Object.entries({ x, y: y - 33, width: 4, height: 66 })) {
+      for (const [key, value] of Object.entries({ x, y: y - 29, width: 4, height: 58 })) {
         stop.setAttribute(key, String(value));
       }
     }
@@ -121,9 +121,9 @@ function picture() {
     mass.setAttribute("x", String(x + 12 + BLOCK / 2));
     mass.setAttribute("y", String(y + 4));
     block.classList.toggle("touching", Boolean(r.contact[i]));
-    pull.setAttribute("transform", `translate(${x + 27} ${y + 34})`);
-    pullText.setAttribute("x", String(x + 48));
-    pullText.setAttribute("y", String(y + 38));
+    pull.setAttribute("transform", `translate(${x + 14} ${y + 41})`);
+    pullText.setAttribute("x", String(x + 35));
+    pullText.setAttribute("y", String(y + 45));
     // What fills the muscle shows as its colour.
     const most = Math.max(1, greatest(r.pressure));
     body.style.setProperty("--full", String(Math.max(0, (r.pressure[i] ?? 0) / most)));
@@ -137,7 +137,7 @@ const speed = signal(0);
 /** Seconds of the run per second: real time, unless chosen or too long to watch. */
 const rate = computed(() => speed.value || Math.max(1, (span.value[1] - span.value[0]) / 20));
 
-/** From the cursor to the end, from the start when it stands there. Without motion where the system asks for none. */
+/** From the cursor to the end, from the start when it stands there. In steps where less motion is wanted. */
 function play() {
   const [from, to] = span.peek();
   if (cursor.peek() >= to - 1e-9) moveCursor(from);

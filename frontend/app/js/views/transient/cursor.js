@@ -10,7 +10,8 @@ import { rowAt } from "./series.js";
 /** Where the cursor was put [s]. */
 const wanted = signal(0);
 
-/** The times on screen: the window, else the whole run. @type {import("../../reactive.js").Signal<[number, number]>} */
+/** The times on screen: the window, else the whole run.
+ * @type {import("../../reactive.js").Signal<[number, number]>} */
 export const span = computed(() => timeWindow.value ?? [0, run.value?.duration ?? 1]);
 
 /** The cursor, within what is shown [s]. */

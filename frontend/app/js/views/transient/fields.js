@@ -16,7 +16,8 @@ import { baseDrive, drive, messageFor, numberAt, partPreset, regulated, run, set
 const DEG = Math.PI / 180;
 const GAIN = { quantity: /** @type {Quantity} */ ("number"), log: false };
 
-/** A figure of the chosen valve or tube. @param {"valves" | "tubes"} kind @param {string} path @param {string} key */
+/** A figure of the chosen valve or tube.
+ * @param {"valves" | "tubes"} kind @param {string} path @param {string} key */
 const figure = (kind, path, key) => () => {
   const q = partPreset(kind, path)?.data?.[key];
   return q ? siNumber(`${q.value} ${q.unit}`) ?? siOf(q) : null;
@@ -25,7 +26,8 @@ const valve = (/** @type {string} */ key) => figure("valves", "valve.preset", ke
 const tube = (/** @type {string} */ key) => figure("tubes", "tube.preset", key);
 const lowest = () => regulated.value ? 0 : -1;
 
-/** Slider ranges span what is usual; the field beside takes any value the server takes. @type {Record<string, Spec>} */
+/** Slider ranges span what is usual; the field beside takes any value the server takes.
+ * @type {Record<string, Spec>} */
 export const SPECS = {
   "supply.pressure": { label: "Supply pressure", symbol: "p_s", quantity: "pressure", bounds: [1e5, 8e5] },
   "valve.sonic_conductance": {

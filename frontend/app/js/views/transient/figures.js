@@ -175,7 +175,7 @@ export function figureCards() {
     paperCard,
     h(
       "section",
-      { class: "card", "aria-label": "Timing" },
+      { class: "card timing-card", "aria-label": "Timing" },
       h("div", { class: "card-head" }, h("h2", null, "Timing")),
       h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Timing table" }, timingTable),
       reasons,

@@ -1,5 +1,5 @@
 // @ts-check
-// From the document to the server's runs: the one shown, the pinned ones, the static map behind the phase plot.
+// From the document to the server's runs: the one shown, the pinned ones, the map behind the phase plot.
 import { batch, computed, effect, signal } from "../../reactive.js";
 import { commit, design, doc, edit, look, preview, view } from "../../state.js";
 import { ApiError, latest, post } from "../../api.js";
@@ -29,7 +29,8 @@ export const roundTrip = signal(0);
 
 // ---- changing the document
 
-/** @param {Partial<Transient>} patch @returns {(d: import("../../types.js").Doc) => import("../../types.js").Doc} */
+/** @typedef {import("../../types.js").Doc} Doc */
+/** @param {Partial<Transient>} patch @returns {(d: Doc) => Doc} */
 export const patchTransient = (patch) => (d) => ({ ...d, transient: { ...d.transient, ...patch } });
 /** @param {Partial<Transient>} patch @param {string} label */
 export const editTransient = (patch, label) => edit(patchTransient(patch), label);

@@ -217,7 +217,8 @@ function families(all) {
   /** @type {Map<string, import("../../types.js").Effect[]>} */
   const groups = new Map();
   for (const e of all) groups.set(e.family, [...groups.get(e.family) ?? [], e]);
-  const resting = (/** @type {import("../../types.js").Effect[]} */ list) => list.filter(isStatic).length / list.length;
+  const resting = (/** @type {import("../../types.js").Effect[]} */ list) =>
+    list.filter(isStatic).length / list.length;
   return new Map([...groups].sort(([, a], [, b]) => resting(a) - resting(b)));
 }
 

@@ -1,5 +1,5 @@
 // @ts-check
-// The phase plot: contraction over pressure, the run coloured by time on the static map of filling and venting.
+// The phase plot: contraction over pressure, the run coloured by time, on the static map of both directions.
 import { scaleOf, toShown } from "../../format.js";
 import { axisTitle, extent, shown, steadyRange } from "../design/axes.js";
 import { pressureColour } from "../../plots/theme.js";
@@ -8,7 +8,8 @@ import { pressureColour } from "../../plots/theme.js";
 /** @typedef {import("../../types.js").Curves} Curves */
 /** @typedef {import("../../plots/theme.js").Palette} Palette */
 /** @typedef {import("../../format.js").System} System */
-/** @typedef {{resisting: number, spring: number, ratio: number}} Load  force along the pull at rest [N], … */
+/** Force against the pull [N], spring [N/m] and lever ratio at rest.
+ * @typedef {{resisting: number, spring: number, ratio: number}} Load */
 
 const PIECES = 14;
 

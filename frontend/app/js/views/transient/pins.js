@@ -1,5 +1,5 @@
 // @ts-check
-// Pinned runs: up to four, the first is the baseline; a table of what differs, in the inputs and in the figures.
+// Pinned runs: up to four, the first is the baseline; a table of what differs in inputs and in figures.
 import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { units } from "../../state.js";

@@ -1,5 +1,5 @@
 // @ts-check
-// Quantities as drive documents write them, "6 bar" or "120 N*s/m": read into SI so that fields can show them.
+// Quantities as drive documents write them, "6 bar" or "120 N*s/m", read into SI so that fields show them.
 
 const INCH = 0.0254, POUND = 0.45359237, LBF = 4.4482216152605;
 /** @type {Record<string, number>} */
@@ -27,7 +27,7 @@ const SHIFTED = {
   degF: [5 / 9, 273.15 - (32 * 5) / 9],
 };
 
-/** The SI factor of a unit such as "l/(s*bar)"; null = a unit this page does not know. @param {string} text */
+/** The SI factor of a unit such as "l/(s*bar)"; null = not known to this page. @param {string} text */
 function factorOf(text) {
   const tokens = text.match(/[A-Za-zµ°%]+|\*\*|[()*/·^ ]|-?\d+/g) ?? [];
   if (tokens.join("") !== text) return null;
