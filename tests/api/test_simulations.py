@@ -7,6 +7,7 @@ import json
 import threading
 import time
 from collections.abc import Callable
+from contextlib import closing
 from http.client import HTTPConnection
 from typing import Any
 from urllib.parse import urlsplit
@@ -335,11 +336,9 @@ def test_an_unexpected_error_in_a_stream_tells_no_traceback(caplog: pytest.LogCa
 
 def test_the_first_run_of_a_new_process_does_not_wait_for_the_kernel(server: RunningServer) -> None:
     # Whatever the kernel does in the background, a plain run is answered by whoever is ready.
-    opened = HTTPConnection(urlsplit(server.url).netloc, timeout=30)
-    opened.request(
-        "POST", PATH, json.dumps({"drive": LIFT, "points": 401}), {"content-type": "application/json"}
-    )
-    answer = json.loads(opened.getresponse().read())
+    with closing(HTTPConnection(urlsplit(server.url).netloc, timeout=30)) as connection:
+        body = json.dumps({"drive": LIFT, "points": 401})
+        connection.request("POST", PATH, body, {"content-type": "application/json"})
+        answer = json.loads(connection.getresponse().read())
     assert answer["engine"] in ("rodas", "lsoda")
     assert answer["outcome"] == "completed"
-    opened.close()

@@ -10,7 +10,7 @@ import symengine as se
 
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.drive import DriveModel
-from mckibben.physics.drive_terms import OUTPUTS, Structure
+from mckibben.physics.drive_terms import COUNTER, OUTPUTS, Structure
 from mckibben.physics.driven import DrivenModel
 from mckibben.physics.effect import Effect
 from tests.physics.contract_states import MUSCLE
@@ -39,6 +39,7 @@ CONSTANTS = {
     "gravity": 9.80665,
     "spring": 100.0,
     "lever_ratio": 1.0,
+    "precontraction": 0.0,
     "stop_low": 0.0,
     "stop_high": 0.08,
     "stop_stiffness": 1e6,
@@ -47,6 +48,8 @@ CONSTANTS = {
 INPUTS = {
     "opening": 0.6,
     "opening_slope": 0.0,
+    "counter_opening": -0.6,
+    "counter_opening_slope": 0.0,
     "external_force": 5.0,
     "external_force_slope": 0.0,
     "begin": 0.0,
@@ -74,7 +77,8 @@ def numbers(
     numbers = {symbol: table[name] for name, symbol in model.parameters.items()}
     numbers |= {symbol: INPUTS[name] for name, symbol in model.inputs.items()}
     for state in model.states:
-        numbers[model.symbols[state.name]] = states.get(state.name, share * state.scale)
+        own = state.name.removesuffix(COUNTER)
+        numbers[model.symbols[state.name]] = states.get(own, share * state.scale)
     return numbers
 
 
@@ -111,9 +115,11 @@ def test_every_effect_alone_gives_finite_equations_that_vanish_when_off(effect: 
     np.testing.assert_allclose(got, want, rtol=1e-9, atol=1e-12)
 
 
-@pytest.mark.parametrize(("tube", "regulator"), [(True, False), (False, True)])
-def test_all_effects_at_once_give_a_finite_jacobian(tube: bool, regulator: bool) -> None:
-    model = DriveModel(Structure(tuple(EFFECTS), tube=tube, regulator=regulator))
+@pytest.mark.parametrize(
+    ("tube", "regulator", "pair"), [(True, False, False), (False, True, False), (True, False, True)]
+)
+def test_all_effects_at_once_give_a_finite_jacobian(tube: bool, regulator: bool, pair: bool) -> None:
+    model = DriveModel(Structure(tuple(EFFECTS), tube=tube, regulator=regulator, pair=pair))
     assert len(model.rates) == len(model.states)
     expressions = [*model.rates, *model.outputs, *jacobian(model)]
     free = set().union(*(expression.free_symbols for expression in expressions))

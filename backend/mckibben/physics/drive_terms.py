@@ -27,13 +27,22 @@ CONSTANTS = (
     "gravity",
     "spring",
     "lever_ratio",
+    "precontraction",
     "stop_low",
     "stop_high",
     "stop_stiffness",
     "stop_damping",
 )
 # Numbers of one segment: command and external force start at a value and change linearly from ``begin`` on.
-INPUTS = ("opening", "opening_slope", "external_force", "external_force_slope", "begin")
+INPUTS = (
+    "opening",
+    "opening_slope",
+    "counter_opening",
+    "counter_opening_slope",
+    "external_force",
+    "external_force_slope",
+    "begin",
+)
 # What a run reports besides its states.
 OUTPUTS = (
     "acceleration",
@@ -53,15 +62,28 @@ OUTPUTS = (
     "force_reading",
     "stroke_reading",
 )
+# What the second muscle of a pair adds; its states carry the suffix too.
+COUNTER = "@counter"
+COUNTER_OUTPUTS = tuple(
+    f"{name}{COUNTER}" for name in ("force", "mass_flow", "supply_flow", "exhaust_flow", "volume", "diameter")
+)
 
 
 @dataclass(frozen=True, slots=True)
 class Structure:
-    """What decides the equations: effects, a tube with its own pressure, a regulator instead of a valve."""
+    """What decides the equations.
+
+    Attributes:
+        effects: of the muscle and the drive; those of a pair are the same for both muscles.
+        tube: whether the tube has a pressure of its own.
+        regulator: whether a pressure regulator feeds the muscle instead of a valve.
+        pair: whether a second muscle with a valve of its own pulls against the first (an antagonist pair).
+    """
 
     effects: tuple[Effect, ...]
     tube: bool = False
     regulator: bool = False
+    pair: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,8 @@ from typing import Any
 import symengine as se
 
 from mckibben.physics import ops
-from mckibben.physics.drive import SIGN_SPEED, end_stops
+from mckibben.physics.chamber import sign_of
+from mckibben.physics.drive import end_stops
 from mckibben.physics.drive_terms import StateInfo
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import Model
@@ -101,7 +102,7 @@ def _equations(
     else:
         length = (u["length"] + u["length_slope"] * passed - offset) / scale
         velocity = u["length_slope"] / scale
-    direction = velocity / ops.sqrt(velocity**2 + SIGN_SPEED**2)
+    direction = sign_of(velocity)
     seen: dict[str, Any] = {
         "muscle": muscle,
         "length": length,

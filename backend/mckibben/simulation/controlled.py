@@ -9,7 +9,7 @@ import numpy as np
 
 from mckibben.physics.drive_terms import INPUTS, OUTPUTS
 from mckibben.physics.errors import InputError
-from mckibben.simulation.engine import Outcome, Solution, compiled_drive, integrate
+from mckibben.simulation.engine import CompiledDrive, Outcome, Solution, compiled_drive, integrate
 from mckibben.simulation.outcome import Watch
 from mckibben.simulation.parts import Drive
 from mckibben.simulation.rest import start_of
@@ -57,15 +57,14 @@ def simulate_controlled(
     external = external_force(drive)
     grid = np.linspace(0.0, drive.duration, points) if grid is None else grid
     watch = watch or Watch()
-    reading = compiled.size + OUTPUTS.index("stroke_reading")
     lever = drive.load.lever_ratio  # the controller sees the load
     set_points = reference.value(np.arange(samples) * period)
     delays = dead_times(drive)
     pending: deque[tuple[float, float]] = deque()
     active = 0.0
-    state = start_of(drive, compiled, parameters, _inputs(active, external, 0.0)[0])
+    state = start_of(drive, compiled, parameters, _inputs(active, drive.counter(active), external, 0.0)[0])
     began = time.perf_counter()
-    first = _measured(compiled, state, parameters, external, active, reading) / lever
+    first = _measured(compiled, state, parameters) / lever
     memory = controller.start(measurement=first)
     rows = [np.empty((0, compiled.size + compiled.width))]
     switches, steps, rejected = [(0.0, active)], 0, 0
@@ -75,7 +74,7 @@ def simulate_controlled(
             outcome = ended
             break
         now, end = sample * period, min((sample + 1) * period, drive.duration)
-        measured = _measured(compiled, state, parameters, external, active, reading, now) / lever
+        measured = _measured(compiled, state, parameters) / lever
         command, memory = controller.step(float(set_points[sample]), measured, memory)
         delay = delays[0] if command > last_command else delays[1]
         last_command = command
@@ -96,7 +95,7 @@ def simulate_controlled(
                     parameters=parameters,
                     start=state,
                     times=np.array([now, stop]),
-                    inputs=_inputs(active, external, now),
+                    inputs=_inputs(active, drive.counter(active), external, now),
                     grid=grid[lower:upper],
                     tolerance=tolerance,
                     engine=engine,
@@ -116,11 +115,13 @@ def simulate_controlled(
     return run_of(drive, compiled, grid, solution, command_shape, time.perf_counter() - began)
 
 
-def _inputs(opening: float, external: Segments, now: float) -> np.ndarray:
+def _inputs(opening: float, counter: float, external: Segments, now: float) -> np.ndarray:
     piece = int(np.clip(np.searchsorted(external.times, now, side="right") - 1, 0, len(external.slopes) - 1))
     given = {
         "opening": opening,
         "opening_slope": 0.0,
+        "counter_opening": counter,
+        "counter_opening_slope": 0.0,
         "external_force": float(external.value(now)),
         "external_force_slope": float(external.slopes[piece]),
         "begin": now,
@@ -128,14 +129,7 @@ def _inputs(opening: float, external: Segments, now: float) -> np.ndarray:
     return np.array([[given[name] for name in INPUTS]])
 
 
-def _measured(
-    compiled,
-    state: np.ndarray,
-    parameters: np.ndarray,
-    external: Segments,
-    active: float,
-    reading: int,
-    now: float = 0.0,
-) -> float:
-    packed = np.concatenate([state, parameters, _inputs(active, external, now)[0]])
-    return float(compiled.rates(packed)[reading])
+def _measured(compiled: CompiledDrive, state: np.ndarray, parameters: np.ndarray) -> float:
+    """The muscle's stroke as its sensor reads it [m]; the inputs of the run have no part in it."""
+    packed = np.concatenate([state, parameters, np.zeros(len(INPUTS))])
+    return float(compiled.rates(packed)[compiled.size + OUTPUTS.index("stroke_reading")])

@@ -72,6 +72,8 @@ class Drive:
         start_pressure: of the muscle at t = 0 [Pa].
         own_mass: mass of muscle and fittings that moves [kg].
         fitting_volume: dead volume of fittings [m^3].
+        pair: whether a second muscle pulls against the first; its command mirrors the first's (`counter`).
+        precontraction: contraction ratio of both muscles of a pair at the middle.
         controller, reference: a position controller that gives the command instead, and its set point [m].
     """
 
@@ -89,6 +91,8 @@ class Drive:
     own_mass: float = 0.0
     fitting_volume: float = 0.0
     polytropic_exponent: float = 1.2
+    pair: bool = False
+    precontraction: float = 0.0
     controller: PidController | None = None
     reference: Signal | None = None
     ambient_pressure: float = ideal.ATMOSPHERE
@@ -102,4 +106,8 @@ class Drive:
     @property
     def structure(self) -> Structure:
         """What decides the equations."""
-        return Structure(self.model.effects, self.tube is not None, self.regulator is not None)
+        return Structure(self.model.effects, self.tube is not None, self.regulator is not None, self.pair)
+
+    def counter(self, command: float) -> float:
+        """Command of the second muscle of a pair: the valve the other way, the regulator's other share."""
+        return 1.0 - command if self.regulator is not None else -command

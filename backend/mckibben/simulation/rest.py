@@ -6,7 +6,7 @@ import numpy as np
 
 from mckibben.physics import gas
 from mckibben.physics.braid import volume as braid_volume
-from mckibben.physics.drive_terms import OUTPUTS
+from mckibben.physics.drive_terms import COUNTER, OUTPUTS
 from mckibben.physics.errors import InputError
 from mckibben.simulation.engine import CompiledDrive
 from mckibben.simulation.parts import Drive
@@ -33,14 +33,18 @@ def start_of(drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inpu
         "gas_mass": 0.0,
     }
     start = np.array(
-        [initial[state.name] if state.initial is None else state.initial for state in compiled.model.states]
+        [
+            initial[state.name.removesuffix(COUNTER)] if state.initial is None else state.initial
+            for state in compiled.model.states
+        ]
     )
     names = [state.name for state in compiled.model.states]
     acceleration = compiled.size + OUTPUTS.index("acceleration")
     packed = np.concatenate([start, parameters, inputs])
-    if "gas_mass" in names:
-        rough = float(braid_volume(braid=drive.muscle.braid, length=drive.muscle.nominal_length))
-        packed[names.index("gas_mass")] = absolute * rough / (gas.GAS_CONSTANT * drive.temperature)
+    masses = [index for index, name in enumerate(names) if name.removesuffix(COUNTER) == "gas_mass"]
+    specific = absolute / (gas.GAS_CONSTANT * drive.temperature)
+    rough = float(braid_volume(braid=drive.muscle.braid, length=drive.muscle.nominal_length))
+    packed[masses] = specific * rough
 
     def push(stroke: float) -> float:
         packed[names.index("stroke")] = stroke
@@ -60,9 +64,10 @@ def start_of(drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inpu
     start[names.index("stroke")] = packed[names.index("stroke")] = float(
         root_scalar(push, bracket=(low, high), xtol=1e-14).root
     )
-    if "gas_mass" in names:
-        volume = float(compiled.rates(packed)[compiled.size + OUTPUTS.index("volume")])
-        start[names.index("gas_mass")] = absolute * volume / (gas.GAS_CONSTANT * drive.temperature)
+    found = compiled.rates(packed)[compiled.size :]
+    for index in masses:
+        output = "volume" + names[index].removeprefix("gas_mass")
+        start[index] = specific * float(found[compiled.model.output_names.index(output)])
     settle(compiled, start, parameters, inputs)
     return start
 

@@ -9,7 +9,7 @@ from math import sin, sqrt
 import numpy as np
 
 from mckibben.physics import gas, ideal
-from mckibben.physics.drive_terms import CONSTANTS, INPUTS, OUTPUTS
+from mckibben.physics.drive_terms import CONSTANTS, INPUTS
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import GEOMETRY
 from mckibben.simulation.engine import CompiledDrive, Outcome, Solution, compiled_drive, integrate
@@ -89,6 +89,7 @@ def constants_of(drive: Drive) -> dict[str, float]:
         "gravity": GRAVITY * sin(load.inclination),
         "spring": load.spring,
         "lever_ratio": load.lever_ratio,
+        "precontraction": drive.precontraction * rest,
         "stop_low": drive.min_contraction * rest,
         "stop_high": drive.max_contraction * rest,
         "stop_stiffness": stop,
@@ -130,10 +131,17 @@ def segments_of(drive: Drive) -> tuple[np.ndarray, np.ndarray, Segments]:
     """Segment limits, inputs of each segment, and the command after the dead times of the effects."""
     on, off = dead_times(drive)
     command = delayed(drive.command.segments(drive.duration), on, off, before=drive.command.before)
+    given = drive.command.segments(drive.duration)
+    mirrored = Segments(given.times, np.array([drive.counter(v) for v in given.start_values]), -given.slopes)
+    counter = delayed(mirrored, on, off, before=drive.counter(drive.command.before))
     command, external = merged(command, external_force(drive))
+    counter, _ = merged(counter, command)
+    command, external = merged(command, counter)[0], merged(external, counter)[0]
     columns = {
         "opening": command.start_values,
         "opening_slope": command.slopes,
+        "counter_opening": counter.start_values,
+        "counter_opening_slope": counter.slopes,
         "external_force": external.start_values,
         "external_force_slope": external.slopes,
         "begin": command.times[:-1],
@@ -165,7 +173,9 @@ def simulate(
     times, inputs, command = segments_of(drive)
     # Until t = 0 the valve was where the command starts from, not where its first segment is.
     before = inputs[0].copy()
-    before[INPUTS.index("opening")], before[INPUTS.index("opening_slope")] = drive.command.before, 0.0
+    held = drive.command.before
+    for name, value in (("opening", held), ("counter_opening", drive.counter(held))):
+        before[INPUTS.index(name)], before[INPUTS.index(f"{name}_slope")] = value, 0.0
     start = start_of(drive, compiled, parameters, before)
     grid = np.linspace(0.0, drive.duration, points) if grid is None else grid
     began = time.perf_counter()
@@ -194,7 +204,8 @@ def run_of(
     """The rows of a solution by name."""
     size = compiled.size
     time_axis = grid[: len(solution.rows)]
-    outputs = {name: solution.rows[:, size + index] for index, name in enumerate(OUTPUTS)}
+    names = compiled.model.output_names
+    outputs = {name: solution.rows[:, size + index] for index, name in enumerate(names)}
     outputs["force_reading"] = skewed(drive.model, time_axis, outputs["force_reading"])
     return Run(
         time_axis,

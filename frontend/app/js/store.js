@@ -22,7 +22,16 @@ effect(() => {
   if (status.value) clearing = setTimeout(() => (status.value = ""), STATUS_MS);
 });
 
-export const KINDS = ["muscles", "valves", "tubes", "fittings", "measurements", "curves", "designs", "drives"];
+export const KINDS = [
+  "muscles",
+  "valves",
+  "tubes",
+  "fittings",
+  "measurements",
+  "curves",
+  "designs",
+  "drives",
+];
 
 export const muscles = computed(() => presets.value.muscles ?? []);
 export const musclesById = computed(() => new Map(muscles.value.map((m) => [m.id, m])));

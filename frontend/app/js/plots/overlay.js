@@ -151,7 +151,7 @@ function place(el, axes, x, y, more = "") {
   return el;
 }
 
-/** Shades the bands of a plot behind its lines and marks its instants, without a redraw. @param {Chart} chart */
+/** Shades the bands of a plot behind its lines, marks its instants; no redraw. @param {Chart} chart */
 export function drawBands(chart) {
   const box = h("div", { class: "under", "aria-hidden": "true" });
   chart.host.prepend(box);

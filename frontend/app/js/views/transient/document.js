@@ -4,7 +4,7 @@
 import { siNumber } from "./units.js";
 
 /** @typedef {string | number | boolean | null} Leaf */
-/** @typedef {Record<string, any>} Drive  supply, valve, tube, load, command, controller, …; numbers in SI */
+/** Supply, valve, tube, load, command, controller, …; numbers in SI. @typedef {Record<string, any>} Drive */
 /** @typedef {{name: string, drive: Drive}} Pin  a whole drive document, muscle and effects included */
 /** @typedef {"flow" | "force" | "valve"} Lower */
 /** @typedef {{drive: Drive, mode: "command" | "controller", scenario: string | null, lower: Lower,

@@ -10,8 +10,9 @@ import { baseDrive, drive, messageFor, numberAt, partPreset, regulated, run, set
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** `usual` in SI: what holds when the document says nothing.
- * @typedef {{label: string, symbol?: string, quantity: Quantity, unit?: string, bounds: [number, number], log?: boolean,
- *   usual?: number | (() => number | null | undefined), hint?: string, empty?: string, slider?: boolean}} Spec */
+ * @typedef {{label: string, symbol?: string, quantity: Quantity, unit?: string, bounds: [number, number],
+ *   log?: boolean, usual?: number | (() => number | null | undefined), hint?: string,
+ *   slider?: boolean}} Spec */
 
 const DEG = Math.PI / 180;
 const GAIN = { quantity: /** @type {Quantity} */ ("number"), log: false };
@@ -221,7 +222,8 @@ export function driveField(path, spec = SPECS[path]) {
 export const partMessage = (path) => h("p", { class: "error" }, () => messageFor(path) ?? "");
 
 /** A choice among words in the place of a field. @template {string} T
- * @param {string} label @param {() => [T, string][]} options @param {() => T} get @param {(value: T) => void} set
+ * @param {string} label @param {() => [T, string][]} options @param {() => T} get
+ * @param {(value: T) => void} set
  * @param {string} key */
 export function choiceField(label, options, get, set, key) {
   const id = `c-${key.replace(/\W/g, "-")}`;

@@ -68,8 +68,9 @@ export const ownEffects = computed(() => ({
   ...effectsOf(partPreset("tubes", "tube.preset")),
 }));
 
-/** Another valve or tube: effects chosen one by one give up those of the old part and take those of the new one.
- * @param {"valves" | "tubes"} kind @param {string} path @param {object | undefined} part @param {string} label */
+/** Another valve or tube: effects chosen one by one give up those of the old part for those of the new one.
+ * @param {"valves" | "tubes"} kind @param {string} path @param {object | undefined} part
+ * @param {string} label */
 export function changePart(kind, path, part, label) {
   const find = (/** @type {unknown} */ id) => (presets.peek()[kind] ?? []).find((p) => p.id === id) ?? null;
   const old = effectsOf(find(at(drive.peek(), `${path}.preset`)));

@@ -212,7 +212,8 @@ function airCard() {
   );
 }
 
-/** The more of a family acts only over time, the higher it stands. @param {import("../../types.js").Effect[]} all */
+/** The more of a family acts only over time, the higher it stands.
+ * @param {import("../../types.js").Effect[]} all */
 function families(all) {
   /** @type {Map<string, import("../../types.js").Effect[]>} */
   const groups = new Map();

@@ -14,6 +14,10 @@ import { siNumber } from "./units.js";
 
 const PHASES = /** @type {Record<string, string>} */ ({ extend: "fill", retract: "vent" });
 
+/** @param {number} percent */
+const signed = (percent) =>
+  `${percent < 0 ? "−" : "+"}${Math.abs(percent).toFixed(Math.abs(percent) < 10 ? 1 : 0)} %`;
+
 /** @returns {Paper | null} */
 const paper = () => /** @type {any} */ (scenario.value)?.paper ?? null;
 
@@ -58,7 +62,7 @@ function rows() {
         h(
           "td",
           null,
-          off === null ? "" : `${off < 0 ? "−" : "+"}${Math.abs(off).toFixed(Math.abs(off) < 10 ? 1 : 0)} %`,
+          off === null ? "" : signed(off),
         ),
       ),
     ];

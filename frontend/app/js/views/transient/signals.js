@@ -9,11 +9,12 @@ import { choiceField, driveField } from "./fields.js";
 import { drive, messageFor, numberAt, setDrive } from "./model.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
-/** @typedef {{path: string, quantity: Quantity, low: () => number, high: number, rest: () => number, full: number,
- *   constant?: boolean}} Signal  `low`, `high`: slider range; `rest`, `full`: levels a shape leaves open */
+/** @typedef {{path: string, quantity: Quantity, low: () => number, high: number, rest: () => number,
+ *   full: number, constant?: boolean}} Signal  `low`, `high`: slider range; `rest`, `full`: what is left open */
 /** @typedef {"time" | "value" | "share" | "frequency" | "angle" | "seed"} Kind */
 /** @typedef {[key: string, label: string, kind: Kind, start: (o: Start) => number]} Row */
-/** What the start value of a field can depend on. @typedef {{duration: number, rest: number, full: number}} Start */
+/** What the start value of a field depends on.
+ * @typedef {{duration: number, rest: number, full: number}} Start */
 
 /** @type {Row} */
 const LEVEL = ["level", "Level", "value", (o) => o.full];
@@ -26,7 +27,8 @@ const OFFSET = ["offset", "Offset", "value", () => 0];
 /** @type {Row} */
 const AMPLITUDE = ["amplitude", "Amplitude", "value", (o) => o.full];
 
-/** The shapes and their fields, in the words of the drive document. @type {Record<string, [string, Row[]]>} */
+/** The shapes and their fields, in the words of the drive document.
+ * @type {Record<string, [string, Row[]]>} */
 export const SHAPES = {
   step: ["Step", [["at", "At", "time", () => 0], LEVEL, INITIAL]],
   pulse: ["Pulse", [
@@ -71,7 +73,8 @@ const LEVELS = new Set(["level", "amplitude", "to", "upper"]);
 /** @param {Signal} s @returns {Start} */
 const startOf = (s) => ({ duration: numberAt("duration") ?? 4, rest: s.rest(), full: s.full });
 
-/** The same signal in another shape: fields of the same name are kept. @param {Signal} s @param {string} shape */
+/** The same signal in another shape: fields of the same name are kept.
+ * @param {Signal} s @param {string} shape */
 function reshape(s, shape) {
   const label = `${s.path.split(".").at(-1)} ${shape}`;
   if (shape === "constant") return setDrive(s.path, 0, label);
@@ -124,7 +127,7 @@ function tableField(s) {
       .map((line) => line.split(/[\s;,\t]+/).map(Number));
     const bad = rows.findIndex((row) => row.length !== 2 || !row.every(Number.isFinite));
     if (bad >= 0 || !rows.length) {
-      wrong.value = `Row ${bad + 1} needs a time in s and a value in ${scale().unit}, for example “0.5  20”.`;
+      wrong.value = `Row ${bad + 1} needs a time (s) and a value (${scale().unit}), such as “0.5  20”.`;
       return;
     }
     wrong.value = "";
@@ -185,7 +188,8 @@ export function signalFields(s, label) {
   );
 }
 
-/** Where the command switches [s]: the jumps of straight shapes. @param {any} signal_ @param {number} duration */
+/** Where the command switches [s]: the jumps of straight shapes.
+ * @param {any} signal_ @param {number} duration */
 export function switchings(signal_, duration) {
   const {
     shape,

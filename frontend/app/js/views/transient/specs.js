@@ -16,8 +16,8 @@ import { contacts, measuredColumn, resampled, withoutImpacts } from "./series.js
  *   pinned: Pinned[], measured: Measured | null, switches: number[], zoomed: boolean,
  *   brush: (range: [number, number] | null) => void}} View */
 /** A column of a run as one line of a plot.
- * @typedef {{id: string, name: string, values: (number | null)[], color: string, dash?: string, width?: number,
- *   label?: string | null}} Line */
+ * @typedef {{id: string, name: string, values: (number | null)[], color: string, dash?: string,
+ *   width?: number, label?: string | null}} Line */
 
 /** Distinct from the accent and from each other, also for the colour-blind. @param {Palette} p */
 export const pinColours = (p) =>

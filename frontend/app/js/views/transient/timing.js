@@ -16,7 +16,7 @@ export const FIGURES = [
       "positioning_time",
       "Positioning time",
       "lapse",
-      "From switching to arrival: the impact on the stop that ends the stroke; without one, 98 % of the stroke.",
+      "From switching to arrival: the impact on the stop that ends the stroke, else 98 % of the stroke.",
     ],
     ["rise_time", "Rise time", "lapse", "From 10 % to 90 % of the stroke; no dead time in it."],
     ["delay_time", "Delay time", "lapse", "From switching to 50 % of the stroke."],

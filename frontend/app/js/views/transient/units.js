@@ -18,7 +18,7 @@ const FACTORS = {
   },
   ...{ N: 1, mN: 1e-3, kN: 1e3, lbf: LBF, kg: 1, g: 1e-3, t: 1e3, lb: POUND, J: 1, kJ: 1e3, W: 1, K: 1 },
   ...{ s: 1, ms: 1e-3, us: 1e-6, µs: 1e-6, min: 60, h: 3600, Hz: 1, kHz: 1e3 },
-  ...{ l: 1e-3, L: 1e-3, ml: 1e-6, rad: 1, deg: Math.PI / 180, "°": Math.PI / 180, "%": 0.01, percent: 0.01 },
+  ...{ l: 1e-3, L: 1e-3, ml: 1e-6, rad: 1, deg: Math.PI / 180, "°": Math.PI / 180, "%": 0.01 },
 };
 /** Scales with a zero of their own stand alone. @type {Record<string, [number, number]>} */
 const SHIFTED = {

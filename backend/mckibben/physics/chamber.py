@@ -1,0 +1,176 @@
+"""One muscle of a drive with its way of the air: tension, gas balance, the rates of its own states."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from mckibben.physics import gas, ops
+from mckibben.physics.flow_path import flow_path
+from mckibben.physics.model import Model, State
+from mckibben.physics.muscle import Muscle
+from mckibben.physics.ops import Value
+
+# Speed at which a friction's sign is 0.7 of full [m/s]; below, the muscle creeps instead of sticking.
+SIGN_SPEED = 1e-3
+
+
+class Motion(NamedTuple):
+    """How the contraction follows the drive's coordinate x: s = start + sense * x, sense +1 or -1."""
+
+    coordinate: Value
+    rate: Value
+    start: Value
+    sense: float
+
+
+class Side(NamedTuple):
+    """A muscle in its drive: tension [N] (never negative), volume with dead volumes [m^3], and the rest."""
+
+    force: Value
+    volume: Value
+    temperature: Value
+    gauge: Value
+    inflow: Value
+    stroke: Value
+    flows: dict[str, Any]
+    state: State
+    rates: dict[str, Value]
+    readings: dict[str, Value]
+
+
+def heated(model: Model) -> bool:
+    """Whether the gas exchanges heat, so that its chamber obeys the energy balance and keeps its mass."""
+    return model.has("heat")
+
+
+def sign_of(velocity: Value) -> Value:
+    """A smooth sign of a velocity."""
+    return velocity / ops.sqrt(velocity**2 + SIGN_SPEED**2)
+
+
+def muscle_side(
+    *,
+    tube: bool,
+    regulator: bool,
+    model: Model,
+    muscle: Muscle,
+    values: Mapping[str, Mapping[str, Value]],
+    constants: Mapping[str, Value],
+    states: Mapping[str, Value],
+    motion: Motion,
+    command: Value,
+) -> Side:
+    """The equations of one muscle.
+
+    Args:
+        tube, regulator: see `mckibben.physics.drive_terms.Structure`.
+        model, values: effects, their numbers and states.
+        muscle: geometry.
+        constants: of the drive, by name.
+        states: of this muscle, by name; absolute pressures.
+        motion: how its contraction follows the drive.
+        command: opening of its valve, or set point of its regulator.
+    """
+    pressure, ambient = states["pressure"], constants["ambient_temperature"]
+    gauge = pressure - constants["ambient_pressure"]
+    stroke = motion.start + motion.sense * motion.coordinate
+    velocity = -motion.sense * motion.rate
+    moving: dict[str, Any] = {
+        "muscle": muscle,
+        "length": muscle.nominal_length - stroke,
+        "pressure": gauge,
+        "velocity": velocity,
+        "direction": sign_of(velocity),
+        "temperature": ambient,
+    }
+    state = model.at(**{**moving, "values": values})
+    # What is in series gives way: one Newton step from the stiff rig.
+    yielding = 1.0 - state.compliance * motion.sense * state.tension.diff(motion.coordinate)
+    force = ops.positive_part(state.tension / yielding)
+    volume = state.volume + constants["fitting_volume"] + model.sum("extra_volume", values, {})
+    keeps_heat = heated(model)
+    temperature = pressure * volume / (states["gas_mass"] * gas.GAS_CONSTANT) if keeps_heat else ambient
+    flows = flow_path(
+        tube=tube,
+        regulator=regulator,
+        model=model,
+        values=values,
+        c=constants,
+        y=states,
+        command=command,
+        temperature=temperature,
+    )
+    around = {
+        "absolute_pressure": pressure,
+        "ambient_pressure": constants["ambient_pressure"],
+        "gas_temperature": temperature,
+    }
+    leak = model.sum("leakage", values, around)
+    inflow = flows["into_muscle"] - leak
+    if keeps_heat:
+        exponent: Value = gas.HEAT_CAPACITY_RATIO
+        warmed = {**moving, "diameter": state.diameter, "ambient_temperature": ambient}
+        heat = model.sum("heat", values, {**warmed, "gas_temperature": temperature})
+        entering = ops.positive_part(flows["into_muscle"]) * ambient
+        leaving = (ops.positive_part(-flows["into_muscle"]) + leak) * temperature
+        supply = (exponent - 1.0) * (heat + gas.HEAT_CAPACITY_P * (entering - leaving))
+    else:
+        exponent = constants["polytropic_exponent"]
+        supply = exponent * gas.GAS_CONSTANT * temperature * inflow
+    work = exponent * pressure * volume.diff(motion.coordinate) * motion.rate
+    pressure_rate = (supply - work) / (volume + exponent * pressure * volume.diff(pressure))
+    rates = {
+        "pressure": pressure_rate,
+        "supplied": flows["supply"],
+        "vented": flows["exhaust"] + leak,
+        **flows["rates"],
+        **({"gas_mass": inflow} if keeps_heat else {}),
+    }
+    instant = _readings(model, muscle, values, gauge=gauge, force=force, stroke=stroke)
+    drive = {
+        "supply_flow": flows["supply"],
+        "mass_flow": inflow,
+        "supply_pressure": constants["supply_pressure"],
+        "pressure": gauge,
+        "force": force,
+        "stroke": stroke,
+        "speed": motion.sense * motion.rate,
+        "gas_temperature": temperature,
+        **{f"instant_{name}": reading for name, reading in instant.items()},
+    }
+    seen = {**moving, "area": state.area, "pressure_rate": pressure_rate}
+    for effect in model.effects:
+        if not effect.states:
+            continue
+        if "rates" in effect.slots:
+            given = effect.call("rates", seen, values[effect.id])
+        else:
+            here = {**drive, "opening": flows["openings"].get(effect.id, 0.0)}
+            given = effect.call("drive_rates", here, values[effect.id])
+        for own, rate in zip(effect.states, given, strict=True):
+            rates[f"{effect.id}.{own.name}"] = rate
+    readings = {name: model.chain(name, value, values, {}, name="reading") for name, value in instant.items()}
+    return Side(force, volume, temperature, gauge, inflow, stroke, flows, state, rates, readings)
+
+
+def _readings(
+    model: Model,
+    muscle: Muscle,
+    values: Mapping[str, Mapping[str, Value]],
+    *,
+    gauge: Value,
+    force: Value,
+    stroke: Value,
+) -> dict[str, Value]:
+    """What the sensors read of a muscle, before any lag of theirs."""
+    sensor = {
+        name: model.reading(f"{name}_sensor", muscle=muscle, values=values)
+        for name in ("pressure", "force", "length")
+    }
+    return {
+        "pressure_reading": sensor["pressure"].scale * gauge + sensor["pressure"].offset,
+        "force_reading": sensor["force"].scale * force + sensor["force"].offset,
+        # A length that reads too long is a stroke that reads too short.
+        "stroke_reading": sensor["length"].scale * stroke - sensor["length"].offset,
+    }
