@@ -217,7 +217,7 @@ WRONG = [
     (["curves"], ["--muscle", "--help"]),
     (["curves", "--muscl", "DMSP-20"], ["--muscl", "--muscle"]),
     (["curve", "--muscle", "DMSP-20"], ["curve", "curves"]),
-    (["simulate", "x.json"], ["simulate"]),
+    (["size", "x.json"], ["size"]),
     (["curves", "--muscle", "DMSP-20", "--pressure", "1"], ["--pressure", "1 bar,3 bar"]),
     (["curves", "--muscle", "DMSP-20", "--pressure", "1 bar,,3 bar"], ["--pressure", "empty"]),
     (["curves", "--muscle", "DMSP-20", "--pressure", "-1 bar"], ["-1 bar", "between"]),
@@ -309,6 +309,7 @@ def test_help_lists_only_commands_that_exist(run: Run) -> None:
         "serve",
         "curves",
         "compare",
+        "simulate",
     }
 
 

@@ -39,12 +39,12 @@ class Side(NamedTuple):
     readings: dict[str, Value]
 
 
-def heated(model: Model) -> bool:
+def heated(*, model: Model) -> bool:
     """Whether the gas exchanges heat, so that its chamber obeys the energy balance and keeps its mass."""
     return model.has("heat")
 
 
-def sign_of(velocity: Value) -> Value:
+def sign_of(*, velocity: Value) -> Value:
     """A smooth sign of a velocity."""
     return velocity / ops.sqrt(velocity**2 + SIGN_SPEED**2)
 
@@ -81,7 +81,7 @@ def muscle_side(
         "length": muscle.nominal_length - stroke,
         "pressure": gauge,
         "velocity": velocity,
-        "direction": sign_of(velocity),
+        "direction": sign_of(velocity=velocity),
         "temperature": ambient,
     }
     state = model.at(**{**moving, "values": values})
@@ -89,7 +89,7 @@ def muscle_side(
     yielding = 1.0 - state.compliance * motion.sense * state.tension.diff(motion.coordinate)
     force = ops.positive_part(state.tension / yielding)
     volume = state.volume + constants["fitting_volume"] + model.sum("extra_volume", values, {})
-    keeps_heat = heated(model)
+    keeps_heat = heated(model=model)
     temperature = pressure * volume / (states["gas_mass"] * gas.GAS_CONSTANT) if keeps_heat else ambient
     flows = flow_path(
         tube=tube,

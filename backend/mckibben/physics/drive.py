@@ -149,7 +149,9 @@ class DriveModel:
         c, stroke, speed = self._constants, self.symbols["stroke"], self.symbols["speed"]
         factor = model.product("load_factor", values, {})
         inertia = factor * c["mass"] + c["own_mass"] + model.sum("inertia", values, {"muscle": muscle})
-        guide = model.sum("guide", values, {"stroke": stroke, "speed": speed, "direction": sign_of(speed)})
+        guide = model.sum(
+            "guide", values, {"stroke": stroke, "speed": speed, "direction": sign_of(velocity=speed)}
+        )
         lever = c["lever_ratio"]
         resisting = factor * (c["mass"] * c["gravity"] + external) + guide
         stop, depth = end_stops(constants=c, stroke=stroke, speed=speed)
@@ -174,7 +176,7 @@ def _side_states(structure: Structure, model: Model, suffix: str) -> list[StateI
         states.append(StateInfo("tube_pressure", None, 1e5))
     if structure.regulator:
         states.append(StateInfo("regulator_pressure", None, 1e5))
-    if heated(model):
+    if heated(model=model):
         states.append(StateInfo("gas_mass", None, 1e-3))
     for effect in model.effects:
         states += [StateInfo(f"{effect.id}.{s.name}", s.initial, s.scale, s.settled) for s in effect.states]

@@ -102,7 +102,7 @@ def _equations(
     else:
         length = (u["length"] + u["length_slope"] * passed - offset) / scale
         velocity = u["length_slope"] / scale
-    direction = sign_of(velocity)
+    direction = sign_of(velocity=velocity)
     seen: dict[str, Any] = {
         "muscle": muscle,
         "length": length,
