@@ -1,7 +1,7 @@
 // @ts-check
 // The plots: five over one time axis and the phase plot; one drawing of all of them when an answer arrives.
 import { h, icon } from "../../dom.js";
-import { computed, effect, signal } from "../../reactive.js";
+import { apart, computed, effect, signal } from "../../reactive.js";
 import { units, view } from "../../state.js";
 import { scaleOf, withUnit } from "../../format.js";
 import { Chart } from "../../plots/chart.js";
@@ -30,6 +30,7 @@ import {
 } from "./model.js";
 import { phaseSpec, phaseTable } from "./phase.js";
 import { switchings } from "./signals.js";
+import { siNumber } from "./units.js";
 import { accelerationSpec, legendOf, lowerSpec, positionSpec, pressureSpec, speedSpec } from "./specs.js";
 
 /** @typedef {import("./specs.js").View} View */
@@ -91,7 +92,7 @@ function viewNow() {
     window: span.value,
     zoomed: timeWindow.value !== null,
     lower: lowerKind.value,
-    supply: numberAt("supply.pressure"),
+    supply: siNumber(at(drive.peek(), "supply.pressure")),
     pinned: pins.value.flatMap((pin, index) => {
       const found = known.get(pinKey(pin.drive));
       return found && "time" in found ? [{ name: pin.name, run: found, index }] : [];
@@ -122,7 +123,7 @@ function drawAll() {
 
 /** The phase plot also follows the static map, which arrives on its own. */
 function drawPhase() {
-  const answer = run.value, map = statics.value, load = staticLoad.value, system = units.value;
+  const answer = run.value, map = statics.value, load = staticLoad.peek(), system = units.value;
   palette.value;
   if (answer && view.value === "transient") phase.chart.show((p) => phaseSpec(answer, map, load, system, p));
 }
@@ -233,7 +234,7 @@ function phasePoint() {
     dot.style.transform = `translate(${x}px,${y}px)`;
   };
   effect(show);
-  phase.chart.after.add(show);
+  phase.chart.after.add(() => apart(show));
 }
 
 /** The values under the cursor, in one line. */

@@ -1,7 +1,7 @@
 // @ts-check
 // The one instant all plots, the animation and the readout show; it moves without a redraw.
 import { h } from "../../dom.js";
-import { computed, effect, signal } from "../../reactive.js";
+import { apart, computed, effect, signal } from "../../reactive.js";
 import { run, timeWindow } from "./model.js";
 import { rowAt } from "./series.js";
 
@@ -57,7 +57,8 @@ export function followTime(charts) {
       line.style.transform = `translate(${axes.xaxis._offset + px}px,${axes.yaxis._offset}px)`;
     };
     effect(show);
-    chart.after.add(show);
+    // A drawing must not follow the cursor: what it calls afterwards is none of its own reading.
+    chart.after.add(() => apart(show));
     chart.host.addEventListener("pointermove", (event) => {
       const axes = chart.axes;
       if (!axes) return;

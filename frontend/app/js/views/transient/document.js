@@ -27,7 +27,7 @@ const defaultDrive = () => ({
     kd: 0.01,
     reference: { shape: "triangle", amplitude: 0.02, period: 1 },
   },
-  stops: { max_contraction: 0.15 },
+  stops: { max_contraction: 0.12 },
   gas: { polytropic_exponent: 1.2 },
   duration: 2,
 });

@@ -74,7 +74,11 @@ function verdict() {
   }
   const done = r.outcome === "completed";
   const hard = r.flags.filter((f) => f.code !== NOTE), doubts = r.flags.filter((f) => f.code === NOTE);
-  const grade = !done ? "bad" : hard.length ? "warn" : "good";
+  // A complete run in which nothing moves is no good news.
+  const still = r.timing.extend.max_speed == null && !r.tracking
+    ? r.timing.notes["extend.max_speed"] ?? null
+    : null;
+  const grade = !done ? "bad" : hard.length || still ? "warn" : "good";
   const end = r.time.at(-1) ?? 0;
   return [
     h(
@@ -86,7 +90,11 @@ function verdict() {
         null,
         OUTCOMES[r.outcome] ?? r.outcome,
         done
-          ? (hard.length ? " It leaves the permitted range:" : " Within all limits.")
+          ? hard.length
+            ? " It leaves the permitted range:"
+            : still
+            ? ` Nothing moves: ${still}.`
+            : " Within all limits."
           : ` It ended at ${lapse(end)}. ${r.message ?? ""}`,
       ),
     ),

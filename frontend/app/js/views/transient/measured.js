@@ -94,7 +94,7 @@ export function measuredCard() {
   effect(fetchColumns);
   const input = h("input", {
     type: "file",
-    class: "unseen",
+    hidden: true,
     id: "measured-file",
     accept: ".csv,.txt,.tsv,.xlsx,.mat,.tdms,text/csv",
     onchange: () => {
