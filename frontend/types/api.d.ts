@@ -708,6 +708,19 @@ export interface components {
       details: { [key: string]: number | null };
       flags: components["schemas"]["Flag"][];
     };
+    /** The pulley of an antagonist pair, and the muscle that pulls the other way. */
+    Joint: {
+      /** Of the pulley, from the middle; positive as the first muscle pulls. [rad] */
+      angle: (number | null)[];
+      /** Of both muscles on the pulley. [N*m] */
+      torque: (number | null)[];
+      /** Of the joint at constant pressures. [N*m/rad] */
+      stiffness: (number | null)[];
+      /** Tension of the second muscle. [N] */
+      counter_force: (number | null)[];
+      /** In the second muscle. [Pa] */
+      counter_pressure: (number | null)[];
+    };
     /** What the maker allows; a limit that is not known is left out. */
     Limits: {
       max_pressure?: components["schemas"]["Quantity"] | null;
@@ -819,12 +832,16 @@ export interface components {
       };
       /** Of the way the load is pulled against the horizontal; 90 deg when left out. [rad] */
       inclination?: number | string | null;
-      /** Hanging is 90 deg, horizontal 0 deg; a lever needs its ratio. */
-      arrangement?: "hanging" | "inclined" | "horizontal" | "lever" | null;
+      /** Hanging is 90 deg, horizontal 0 deg; a lever needs its ratio; an antagonist pair on a pulley needs its radius: a second, equal muscle with the mirrored command pulls the other way. */
+      arrangement?: "hanging" | "inclined" | "horizontal" | "lever" | "antagonist" | null;
       /** Spring against the contraction, at the load. [N/m] */
       spring?: number | string;
       /** Stroke of the muscle per stroke of the load. [1] */
       lever_ratio?: number | string | null;
+      /** Of an antagonist pair's pulley. [m] */
+      pulley_radius?: number | string | null;
+      /** Of both muscles of a pair at the middle; 10 % when left out. [1] */
+      precontraction?: number | string | null;
     };
     /** A measurement as it was understood. */
     MeasurementAnswer: {
@@ -1177,6 +1194,8 @@ export interface components {
       contact: boolean[];
       /** Null when no effect changes what the sensors say. */
       readings: components["schemas"]["Readings"] | null;
+      /** Of an antagonist pair. */
+      joint: components["schemas"]["Joint"] | null;
       /** Within the whole run, whatever rows are asked for. */
       choked: components["schemas"]["Choked"][];
       timing: components["schemas"]["Timing"];

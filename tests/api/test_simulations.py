@@ -342,3 +342,61 @@ def test_the_first_run_of_a_new_process_does_not_wait_for_the_kernel(server: Run
         answer = json.loads(connection.getresponse().read())
     assert answer["engine"] in ("rodas", "lsoda")
     assert answer["outcome"] == "completed"
+
+
+def test_an_antagonist_pair_turns_its_pulley(shared_client: TestClient) -> None:
+    """Fill one, vent the other from 3 bar: torque and angle the same way, stiffness of both muscles."""
+    drive = {
+        "muscle": {"preset": "DMSP-20"},
+        "supply": {"pressure": "6 bar"},
+        "valve": {"sonic_conductance": "0.2 l/(s*bar)"},
+        "load": {
+            "arrangement": "antagonist",
+            "mass": "5 kg",
+            "pulley_radius": "25 mm",
+            "precontraction": "8 %",
+        },
+        "command": {"shape": "pulse", "on": "0.2 s", "off": "0.3 s", "initial": 0.0},
+        "start_pressure": "3 bar",
+        "duration": "1 s",
+    }
+    answer = shared_client.post("/api/simulations", json={"drive": drive, "points": 101}).json()
+    assert answer["outcome"] == "completed"
+    joint = answer["joint"]
+    assert joint["angle"][0] == pytest.approx(0.0, abs=1e-6)
+    assert joint["torque"][0] == pytest.approx(0.0, abs=1e-6)
+    assert answer["contraction"][0] == pytest.approx(0.08, abs=1e-6)
+    assert max(joint["angle"]) > 0.05
+    assert answer["pressure"][-1] > 3e5 > joint["counter_pressure"][-1]
+    # At the start both muscles are equal: twice one muscle's stiffness at the radius squared.
+    curves = {"muscle": {"preset": "DMSP-20"}, "pressures": ["3 bar"], "points": 2}
+    curves |= {"contraction_from": 0.08, "contraction_to": 0.09}
+    stiffness = shared_client.post("/api/curves", json=curves).json()["stiffness"][0][0]
+    assert joint["stiffness"][0] == pytest.approx(2 * 0.025**2 * stiffness, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("load", "field"),
+    [
+        ({"arrangement": "antagonist", "mass": "5 kg"}, "drive.load.pulley_radius"),
+        ({"mass": "5 kg", "pulley_radius": "25 mm"}, "drive.load.pulley_radius"),
+        (
+            {"arrangement": "antagonist", "pulley_radius": "25 mm", "precontraction": "40 %"},
+            "drive.load.precontraction",
+        ),
+    ],
+)
+def test_a_pair_that_cannot_be_is_refused_at_its_field(
+    shared_client: TestClient, load: dict, field: str
+) -> None:
+    drive = {
+        "muscle": {"preset": "DMSP-20"},
+        "supply": {"pressure": "6 bar"},
+        "valve": {"sonic_conductance": "0.2 l/(s*bar)"},
+        "load": load,
+        "command": {"shape": "step"},
+        "duration": "1 s",
+    }
+    answer = shared_client.post("/api/simulations", json={"drive": drive})
+    assert answer.status_code == 422
+    assert answer.json()["error"]["field"] == field

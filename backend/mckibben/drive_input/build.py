@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 from mckibben.api.schemas.convert import given_muscle
 from mckibben.api.schemas.drives import ControllerInput, DriveDocument
@@ -95,6 +96,7 @@ def drive_of(document: DriveDocument, studio: Studio) -> GivenDrive:
         start_pressure=document.start_pressure,
         fitting_volume=document.gas.dead_volume + port_volume_of(fittings),
         polytropic_exponent=document.gas.polytropic_exponent,
+        **_pair(document, lowest, highest),
         controller=controller,
         reference=reference,
         ambient_pressure=document.gas.ambient_pressure,
@@ -159,6 +161,25 @@ def _check_flow(valve: Valve, command: Signal, controller: PidController | None)
                 f"valve.{name} is 0, but the command asks for this way", field=f"valve.{name}",
                 hint="e.g. '1.2 l/(s*bar)'",
             )  # fmt: skip
+
+
+_PRECONTRACTION = 0.1
+
+
+def _pair(document: DriveDocument, lowest: float, highest: float) -> dict[str, Any]:
+    """What makes an antagonist pair of a drive."""
+    load = document.load
+    if load.arrangement != "antagonist":
+        return {}
+    middle = _PRECONTRACTION if load.precontraction is None else load.precontraction
+    if not lowest < middle < highest:
+        raise InputError(
+            f"the middle at {middle * 100:.3g} % is not between the stops at {lowest * 100:.3g} % and "
+            f"{highest * 100:.3g} %",
+            field="load.precontraction",
+            hint="e.g. '10 %'",
+        )
+    return {"pair": True, "precontraction": middle, "pulley_radius": load.pulley_radius}
 
 
 def _stops(document: DriveDocument, model: StaticModel) -> tuple[float, float]:

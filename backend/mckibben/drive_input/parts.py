@@ -129,6 +129,18 @@ def port_volume_of(fittings: Sequence[Part | None]) -> float:
 def load_of(given: LoadInput) -> Load:
     """The load; its arrangement says the inclination, or asks for a lever."""
     fixed = {"hanging": radians(90.0), "horizontal": 0.0}
+    if given.arrangement == "antagonist":
+        if given.pulley_radius is None:
+            raise InputError("load.pulley_radius is missing", field="load.pulley_radius", hint="e.g. '20 mm'")
+        # A pulley turns about its own centre: without an inclination no weight pulls either way.
+        given = given.model_copy(update={"inclination": given.inclination or 0.0})
+    elif given.pulley_radius is not None or given.precontraction is not None:
+        name = "pulley_radius" if given.pulley_radius is not None else "precontraction"
+        raise InputError(
+            f"only an antagonist pair has a {name.replace('_', ' ')}",
+            field=f"load.{name}",
+            hint='"arrangement": "antagonist"',
+        )
     inclination, arrangement = given.inclination, given.arrangement
     if arrangement in fixed:
         if inclination is not None and abs(inclination - fixed[arrangement]) > 1e-3:

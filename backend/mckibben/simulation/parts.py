@@ -68,12 +68,13 @@ class Drive:
         load: what is pulled.
         command: opening of the valve, 1 fill, 0 closed, -1 exhaust; of a regulator the share of its range.
         supply_pressure: [Pa].
-        min_contraction, max_contraction: end stops as contraction ratios.
+        min_contraction, max_contraction: end stops as contraction ratios of the (first) muscle.
         start_pressure: of the muscle at t = 0 [Pa].
         own_mass: mass of muscle and fittings that moves [kg].
         fitting_volume: dead volume of fittings [m^3].
         pair: whether a second muscle pulls against the first; its command mirrors the first's (`counter`).
-        precontraction: contraction ratio of both muscles of a pair at the middle.
+        precontraction: contraction ratio of both muscles of a pair at the middle, from where strokes count.
+        pulley_radius: of a pair, from stroke to angle [m].
         controller, reference: a position controller that gives the command instead, and its set point [m].
     """
 
@@ -93,6 +94,7 @@ class Drive:
     polytropic_exponent: float = 1.2
     pair: bool = False
     precontraction: float = 0.0
+    pulley_radius: float | None = None
     controller: PidController | None = None
     reference: Signal | None = None
     ambient_pressure: float = ideal.ATMOSPHERE
@@ -107,6 +109,13 @@ class Drive:
     def structure(self) -> Structure:
         """What decides the equations."""
         return Structure(self.model.effects, self.tube is not None, self.regulator is not None, self.pair)
+
+    @property
+    def stops(self) -> tuple[float, float]:
+        """End stops as strokes of the muscle [m]; of a pair counted from the middle."""
+        rest = self.muscle.nominal_length
+        low, high = (c - self.precontraction for c in (self.min_contraction, self.max_contraction))
+        return low * rest, high * rest
 
     def counter(self, command: float) -> float:
         """Command of the second muscle of a pair: the valve the other way, the regulator's other share."""

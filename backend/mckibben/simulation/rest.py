@@ -51,8 +51,9 @@ def start_of(drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inpu
         return float(compiled.rates(packed)[acceleration])
 
     rest = drive.muscle.nominal_length
-    low = max(drive.min_contraction * rest - 0.01 * rest, rest - drive.model.longest)
-    high = drive.max_contraction * rest + 0.01 * rest
+    longest = rest * (1.0 - drive.precontraction) - drive.model.longest  # the stroke at the braid lock
+    low = max(drive.stops[0] - 0.01 * rest, longest)
+    high = drive.stops[1] + 0.01 * rest
     if not push(low) >= 0.0 >= push(high):
         raise InputError(
             "the load has no rest position between the end stops at the start pressure",

@@ -90,8 +90,8 @@ def constants_of(drive: Drive) -> dict[str, float]:
         "spring": load.spring,
         "lever_ratio": load.lever_ratio,
         "precontraction": drive.precontraction * rest,
-        "stop_low": drive.min_contraction * rest,
-        "stop_high": drive.max_contraction * rest,
+        "stop_low": drive.stops[0],
+        "stop_high": drive.stops[1],
         "stop_stiffness": stop,
         "stop_damping": 2.0 * sqrt(mass * stop),
     }

@@ -11,6 +11,7 @@ import numpy as np
 
 from mckibben.api.answers.start import Json, flag, flags_json, geometry_json, start_flags
 from mckibben.drive_input import GivenDrive
+from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.model import Model
 from mckibben.simulation.limits import Flag, FlagCode
 from mckibben.simulation.outcome import Outcome
@@ -77,6 +78,7 @@ def answer_of(given: GivenDrive, grid: Grid, run: Run) -> Json:
     rows = grid.rows[grid.rows < len(run.time)]
     lever, rest = drive.load.lever_ratio, drive.muscle.nominal_length
     stroke = run.states["stroke"]
+    contraction = stroke / rest + drive.precontraction
     trace = trace_of(run)
     reference = None if drive.reference is None else drive.reference.value(run.time)
     table = _timing(drive, trace)
@@ -101,8 +103,8 @@ def answer_of(given: GivenDrive, grid: Grid, run: Run) -> Json:
         "regulator_pressure": _plus(run.states.get("regulator_pressure"), gauge),
         "volume": out["volume"],
         "diameter": out["diameter"],
-        "length": rest - stroke,
-        "contraction": stroke / rest,
+        "length": rest * (1.0 - contraction),
+        "contraction": contraction,
         "load_force": out["external_force"],
         "temperature": out["gas_temperature"],
         "contact": out["penetration"] > 0.0,
@@ -112,10 +114,11 @@ def answer_of(given: GivenDrive, grid: Grid, run: Run) -> Json:
         **{f"timing.{name}": why for name, why in table["notes"].items()},
         **({} if follows is None else {f"tracking.{name}": why for name, why in follows["notes"].items()}),
     }
-    limits, low, high = drive.model.limits, drive.min_contraction, drive.max_contraction
+    limits, (low, high) = drive.model.limits, drive.stops
     return {
         **{name: None if column is None else column[rows] for name, column in columns.items()},
         "readings": _readings(run, rows),
+        "joint": _joint(run, rows),
         "choked": choked_intervals(run.time, _choked_side(run)),
         "timing": table,
         "tracking": follows,
@@ -131,8 +134,8 @@ def answer_of(given: GivenDrive, grid: Grid, run: Run) -> Json:
             "max_force": limits.max_force,
             "max_contraction": limits.max_contraction,
             "max_pretension": limits.max_pretension,
-            "position_min": low * rest / lever,
-            "position_max": high * rest / lever,
+            "position_min": low / lever,
+            "position_max": high / lever,
         },
         "geometry": geometry_json(given.start),
         "model": {"effects": drive.model.values},
@@ -176,8 +179,8 @@ def _timing(drive: Drive, trace: Trace | None) -> Json:
         notes = {f"{phase}.{name}": why for phase in ("extend", "retract") for name in FIGURES}
         return {"extend": empty, "retract": empty, "notes": notes}
     fill, exhaust = phases_of(drive)
-    scale = drive.muscle.nominal_length / drive.load.lever_ratio
-    stops = (drive.min_contraction * scale, drive.max_contraction * scale)
+    low, high = (stop / drive.load.lever_ratio for stop in drive.stops)
+    stops = (low, high)
     return timing(trace, fill=fill, exhaust=exhaust, mass=moving_mass(drive), stops=stops)
 
 
@@ -224,6 +227,33 @@ def _readings(run: Run, rows: Array) -> dict[str, Any] | None:
     }
 
 
+def _joint(run: Run, rows: Array) -> Json | None:
+    """Angle, torque and stiffness of a pair's pulley; the stiffness at constant pressures."""
+    drive = run.drive
+    if drive.pulley_radius is None:
+        return None
+    radius, rest = drive.pulley_radius, drive.muscle.nominal_length
+    stroke = run.states["stroke"][rows]
+    pressures = [
+        run.states[name][rows] - drive.ambient_pressure for name in ("pressure", f"pressure{COUNTER}")
+    ]
+    middle = rest * (1.0 - drive.precontraction)
+    stiffness = np.zeros(len(rows))
+    for sense, pressure in zip((1.0, -1.0), pressures, strict=True):
+        seen = drive.model.outputs(
+            length=middle - sense * stroke, pressure=pressure, temperature=drive.temperature
+        )
+        stiffness += np.where(seen["tension"] > 0.0, seen["tension_by_length"], 0.0)
+    counter = run.outputs[f"force{COUNTER}"][rows]
+    return {
+        "angle": stroke / radius,
+        "torque": radius * (run.outputs["force"][rows] - counter),
+        "stiffness": radius**2 * stiffness,
+        "counter_force": counter,
+        "counter_pressure": pressures[1],
+    }
+
+
 def _part_flags(given: GivenDrive) -> list[Json]:
     why = "from general knowledge or estimated, not read in a source"
     return [
@@ -238,7 +268,9 @@ def _crossed(run: Run) -> Iterable[Flag]:
         return
     drive = run.drive
     contraction = np.clip(
-        run.states["stroke"] / drive.muscle.nominal_length, drive.min_contraction, drive.max_contraction
+        run.states["stroke"] / drive.muscle.nominal_length + drive.precontraction,
+        drive.min_contraction,
+        drive.max_contraction,
     )
     limits = drive.model.limits
     # A stretch is told by the longest muscle, everything else by the shortest.

@@ -35,6 +35,7 @@ Ratio = Annotated[float, Quantity("1", "0.3", at_least=0.0, at_most=0.99)]
 Inclination = Annotated[float, Quantity("rad", "90 deg", at_least=-1.5707963268, at_most=1.5707963268)]
 Stiffness = Annotated[float, Quantity("N/m", "500 N/m", at_least=0.0, at_most=1e9)]
 LeverRatio = Annotated[float, Quantity("1", "0.5", above=1e-3, at_most=1e3)]
+PulleyRadius = Annotated[float, Quantity("m", "20 mm", above=1e-4, at_most=10.0)]
 Exponent = Annotated[float, Quantity("1", "1.2", at_least=1.0, at_most=1.4)]
 Duration = Annotated[float, Quantity("s", "4 s", above=0.0, at_most=LONGEST)]
 LagTime = Annotated[float, Quantity("s", "50 ms", above=1e-5, at_most=100.0)]
@@ -109,11 +110,17 @@ class LoadInput(Strict):
     inclination: Inclination | None = Field(
         None, description="Of the way the load is pulled against the horizontal; 90 deg when left out."
     )
-    arrangement: Literal["hanging", "inclined", "horizontal", "lever"] | None = Field(
-        None, description="Hanging is 90 deg, horizontal 0 deg; a lever needs its ratio."
+    arrangement: Literal["hanging", "inclined", "horizontal", "lever", "antagonist"] | None = Field(
+        None,
+        description="Hanging is 90 deg, horizontal 0 deg; a lever needs its ratio; an antagonist pair on a "
+        "pulley needs its radius: a second, equal muscle with the mirrored command pulls the other way.",
     )
     spring: Stiffness = Field(0.0, description="Spring against the contraction, at the load.")
     lever_ratio: LeverRatio | None = Field(None, description="Stroke of the muscle per stroke of the load.")
+    pulley_radius: PulleyRadius | None = Field(None, description="Of an antagonist pair's pulley.")
+    precontraction: Contraction | None = Field(
+        None, description="Of both muscles of a pair at the middle; 10 % when left out."
+    )
 
 
 class ControllerInput(Strict):

@@ -92,6 +92,16 @@ class Readings(Strict):
     position: Series = si_field("m", "Position of the load.")
 
 
+class Joint(Strict):
+    """The pulley of an antagonist pair, and the muscle that pulls the other way."""
+
+    angle: Series = si_field("rad", "Of the pulley, from the middle; positive as the first muscle pulls.")
+    torque: Series = si_field("N*m", "Of both muscles on the pulley.")
+    stiffness: Series = si_field("N*m/rad", "Of the joint at constant pressures.")
+    counter_force: Series = si_field("N", "Tension of the second muscle.")
+    counter_pressure: Series = si_field("Pa", "In the second muscle.")
+
+
 class SimulationAnswer(Strict):
     """Columns over time, in SI; pressures gauge, positions positive = muscle shorter."""
 
@@ -117,6 +127,7 @@ class SimulationAnswer(Strict):
     temperature: Series = si_field("K", "Of the gas in the muscle.")
     contact: list[bool] = Field(description="Whether an end stop is touched.")
     readings: Readings | None = Field(description="Null when no effect changes what the sensors say.")
+    joint: Joint | None = Field(description="Of an antagonist pair.")
     choked: list[Choked] = Field(description="Within the whole run, whatever rows are asked for.")
     timing: Timing
     tracking: TrackingAnswer | None = Field(description="Of a controlled run.")

@@ -94,7 +94,7 @@ function loadCard() {
       rest: () => 0,
       full: 100,
       constant: true,
-    }, "External force"),
+    }, "Force over time"),
     h(
       "details",
       { open: more },

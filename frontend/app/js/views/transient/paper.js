@@ -6,13 +6,11 @@ import { units } from "../../state.js";
 import { brief, scaleOf, toShown } from "../../format.js";
 import { at, takenApart } from "./document.js";
 import { drive, run, scenario } from "./model.js";
-import { ALL_FIGURES } from "./timing.js";
+import { ALL_FIGURES, figureName } from "./timing.js";
 import { siNumber } from "./units.js";
 
 /** @typedef {{figure?: string, figures?: Record<string, {value: number, unit: string}>,
  *   excluded?: Record<string, string>}} Paper */
-
-const PHASES = /** @type {Record<string, string>} */ ({ extend: "fill", retract: "vent" });
 
 /** @param {number} percent */
 const signed = (percent) =>
@@ -38,13 +36,12 @@ function rows() {
     const [phase, key] = path.split(".");
     const figure = ALL_FIGURES.find(([name]) => name === key);
     const theirs = siNumber(`${q.value} ${q.unit}`);
-    if (!figure || theirs === null || !(phase in PHASES)) return [];
-    const [, label, quantity] = figure;
-    const ours = r.timing[/** @type {"extend" | "retract"} */ (phase)][key];
+    if (!figure || theirs === null || !(phase === "extend" || phase === "retract")) return [];
+    const quantity = figure[2];
+    const ours = r.timing[phase][key];
     const s = quantity === "lapse" ? { unit: "ms", factor: 1e-3, digits: 1 } : scaleOf(quantity, system);
     const say = (/** @type {number | null} */ si) => si == null ? "–" : brief(toShown(si, s));
     const why = printed.excluded?.[path] ?? null;
-    const name = label.startsWith("…") ? `${ALL_FIGURES[ALL_FIGURES.indexOf(figure) - 1][1]}, when` : label;
     const off = ours == null ? null : 100 * (ours / theirs - 1);
     return [
       h(
@@ -53,7 +50,7 @@ function rows() {
         h(
           "th",
           { scope: "row", title: why },
-          `${name}, ${PHASES[phase]}`,
+          figureName(figure, phase),
           h("small", null, ` ${s.unit}`),
           why ? h("small", { class: "why" }, `Not compared: ${why}`) : null,
         ),

@@ -4,12 +4,10 @@ import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { units } from "../../state.js";
 import { ApiError } from "../../api.js";
-import { brief, number, scaleOf, toShown } from "../../format.js";
+import { number, scaleOf, toShown } from "../../format.js";
 import { palette } from "../../plots/theme.js";
-import { spoken } from "../../ui/sources.js";
+import { figureRows, inputRows } from "./compare.js";
 import { at, MOST_PINS } from "./document.js";
-import { SPECS } from "./fields.js";
-import { ALL_FIGURES } from "./timing.js";
 import {
   documentNow,
   editTransient,
@@ -24,10 +22,9 @@ import {
 import { pinColours } from "./specs.js";
 import { siNumber } from "./units.js";
 
-/** @typedef {import("../../types.js").Run} Run */
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** @typedef {import("./document.js").Drive} Drive */
-/** @typedef {{name: string, drive: Drive, run: Run | null, color: string, wrong: string | null}} Column */
+/** @typedef {import("./compare.js").Column} Column */
 
 const colours = computed(() => pinColours(palette.value));
 
@@ -56,30 +53,6 @@ export function pin() {
 /** @param {number} index */
 const unpin = (index) => editTransient({ pins: pins.peek().filter((_, i) => i !== index) }, "unpin run");
 
-/** All leaves of a document by their path. @param {any} part @param {string} [path]
- * @returns {Record<string, unknown>} */
-export function flat(part, path = "") {
-  if (typeof part !== "object" || part === null || Array.isArray(part)) return { [path]: part };
-  const kids = Object.entries(part);
-  if (!kids.length) return { [path]: "on" };
-  return Object.assign({}, ...kids.map(([key, value]) => flat(value, path ? `${path}.${key}` : key)));
-}
-
-/** @param {string} path @param {unknown} value */
-function inputText(path, value) {
-  if (value === undefined || value === null) return "–";
-  const spec = SPECS[path], si = siNumber(value);
-  if (Array.isArray(value)) return `${value.length} values`;
-  if (si === null) return String(value);
-  const guess = /** @type {Quantity} */ (spec?.quantity ??
-    (/length|diameter|thickness/.test(path) ? "length" : "number"));
-  const s = spec?.unit ? { unit: spec.unit, factor: 1, digits: 4 } : scaleOf(guess, units.value);
-  return `${number(toShown(si, s), s.digits)} ${s.unit}`.trim();
-}
-/** @param {string} path */
-const inputName = (path) =>
-  SPECS[path]?.label ?? spoken(path.replace(/^(effects|muscle)\./, "").replaceAll(".", ", "));
-
 /** @returns {Column[]} the pinned runs and the one on screen */
 function columns() {
   const known = pinRuns.value;
@@ -101,64 +74,6 @@ function columns() {
     color: palette.value.accent,
     wrong: null,
   }];
-}
-
-/** Rows of the inputs that are not the same everywhere. @param {Column[]} all */
-function inputRows(all) {
-  const flats = all.map((c) => flat(c.drive));
-  const paths = [...new Set(flats.flatMap((f) => Object.keys(f)))].filter((path) =>
-    path !== "schema" && path !== "title"
-  );
-  return paths.filter((path) => new Set(flats.map((f) => JSON.stringify(f[path] ?? null))).size > 1).map((
-    path,
-  ) => ({
-    label: inputName(path),
-    unit: "",
-    texts: flats.map((f) => inputText(path, f[path])),
-    deltas: /** @type {(number | null)[]} */ (flats.map(() => null)),
-  }));
-}
-
-/** @param {Column[]} all */
-function figureRows(all) {
-  const system = units.value;
-  /** @type {{label: string, quantity: Quantity, of: (r: Run) => number | null}[]} */
-  const rows = [
-    ...(all.some((c) => c.run?.tracking)
-      ? [
-        {
-          label: "Error, RMS",
-          quantity: /** @type {Quantity} */ ("length"),
-          of: (/** @type {Run} */ r) => r.tracking?.rms ?? null,
-        },
-        {
-          label: "Lag",
-          quantity: /** @type {Quantity} */ ("lapse"),
-          of: (/** @type {Run} */ r) => r.tracking?.lag ?? null,
-        },
-      ]
-      : []),
-    ...(/** @type {["extend" | "retract", string][]} */ ([["extend", "fill"], ["retract", "vent"]])).flatMap((
-      [phase, name],
-    ) =>
-      ALL_FIGURES.filter(([, label]) => !label.startsWith("…")).map(([key, label, quantity]) => ({
-        label: `${label}${key.startsWith("pressure") ? " of the pressure" : ""}, ${name}`,
-        quantity,
-        of: (/** @type {Run} */ r) => r.timing[phase][key] ?? null,
-      }))
-    ),
-  ];
-  return rows.map(({ label, quantity, of }) => {
-    const values = all.map((c) => c.run && of(c.run));
-    const s = quantity === "lapse" ? { unit: "ms", factor: 1e-3 } : scaleOf(quantity, system);
-    const base = values[0];
-    return {
-      label,
-      unit: s.unit,
-      texts: values.map((v) => v === null ? "–" : brief(v / s.factor)),
-      deltas: values.map((v, i) => i && v !== null && base ? v / base - 1 : null),
-    };
-  }).filter((r) => r.texts.some((text) => text !== "–"));
 }
 
 /** @param {number | null} d relative to the baseline */

@@ -97,6 +97,27 @@ function reshape(s, shape) {
   setDrive(s.path, { shape, ...Object.fromEntries(entries) }, label);
 }
 
+/** @type {Record<Kind, Quantity | null>} */
+const QUANTITIES = {
+  time: "time",
+  value: null,
+  share: "ratio",
+  frequency: "frequency",
+  angle: "angle",
+  seed: "number",
+};
+
+/** Name and quantity of a field of a signal, by its path; null = it is none.
+ * @param {string} path @param {any} given the signal @returns {{label: string, quantity: Quantity} | null} */
+export function signalField(path, given) {
+  const [, where, key] = /^(command|controller\.reference|load\.force)\.(\w+)$/.exec(path) ?? [];
+  const found = where && SHAPES[given?.shape]?.[1].find(([name]) => name === key);
+  if (!found) return null;
+  const level = where === "command" ? "ratio" : where === "load.force" ? "force" : "length";
+  const whose = where === "command" ? "Command" : where === "load.force" ? "External force" : "Reference";
+  return { label: `${whose}: ${found[1].toLowerCase()}`, quantity: QUANTITIES[found[2]] ?? level };
+}
+
 /** @param {Signal} s @param {Row} row */
 function field(s, [key, label, kind, start]) {
   /** @type {Record<Kind, {quantity: Quantity, bounds: [number, number], log?: boolean}>} */

@@ -65,6 +65,16 @@ export const FIGURES = [
 ];
 export const ALL_FIGURES = FIGURES.flatMap(([, list]) => list);
 
+/** @type {Record<string, string>} */
+const WAYS = { extend: "fill", retract: "vent" };
+
+/** A figure by its whole name, outside of the table. @param {Figure} figure @param {string} phase */
+export function figureName(figure, phase) {
+  const [key, label] = figure;
+  const of = label.startsWith("…") ? `${ALL_FIGURES[ALL_FIGURES.indexOf(figure) - 1][1]}, when` : label;
+  return `${of}${key.startsWith("pressure") ? " of the pressure" : ""}, ${WAYS[phase]}`;
+}
+
 /** @type {["extend" | "retract", string][]} */
 const PHASES = [["extend", "Fill"], ["retract", "Vent"]];
 
