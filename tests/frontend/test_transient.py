@@ -1,4 +1,4 @@
-"""The Transient view: a drive through time, from a changed mass to a pinned difference and an exported file."""
+"""The Transient view: a drive through time, from a changed mass to a pinned difference and a saved file."""
 
 from __future__ import annotations
 
@@ -329,7 +329,8 @@ SIDEWAYS = """
 const clips = (el) => el.closest(".scroll, .plot, nav, dialog, [hidden], .unseen, .stage");
 const out = [...document.querySelectorAll("#main *")].filter((el) =>
   !clips(el) && el.checkVisibility() && el.getBoundingClientRect().right > innerWidth + 1);
-const small = [...document.querySelectorAll("button, select, input, summary, a[href], label.switch, textarea")]
+const targets = "button, select, input, summary, a[href], label.switch, textarea";
+const small = [...document.querySelectorAll(targets)]
   .filter((el) => el.checkVisibility() && !el.matches(".skip, .unseen, label input"))
   .map((el) => [el.getBoundingClientRect(), el.outerHTML.slice(0, 90)])
   .filter(([box]) => box.width < 23.5 || box.height < 23.5).map(([, html]) => html);

@@ -63,6 +63,9 @@ class DriveModel:
         ]
         for suffix in suffixes:
             self.states += _side_states(structure, model, suffix)
+        # Nothing depends on these, so they come last: the integrator then has less to solve.
+        for suffix in suffixes:
+            self.states += [StateInfo(f"{name}{suffix}", 0.0, 1e-3) for name in ("supplied", "vented")]
         self.symbols = {state.name: se.Symbol(f"y_{state.name}") for state in self.states}
         constants = {name: se.Symbol(name) for name in CONSTANTS}
         geometry = {name: se.Symbol(name) for name in GEOMETRY}
@@ -167,11 +170,7 @@ class DriveModel:
 
 
 def _side_states(structure: Structure, model: Model, suffix: str) -> list[StateInfo]:
-    states = [
-        StateInfo("pressure", None, 1e5),
-        StateInfo("supplied", 0.0, 1e-3),
-        StateInfo("vented", 0.0, 1e-3),
-    ]
+    states = [StateInfo("pressure", None, 1e5)]
     if structure.tube:
         states.append(StateInfo("tube_pressure", None, 1e5))
     if structure.regulator:

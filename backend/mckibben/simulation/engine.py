@@ -37,12 +37,14 @@ class CompiledDrive:
         rates: packed inputs -> rates and outputs.
         jacobian: packed inputs -> rates and Jacobian by rows.
         pointers: addresses of both functions and of their data, as the kernel wants them.
+        dynamic: number of leading states that some rate depends on; the rest are mere integrals.
     """
 
     model: DriveModel | DrivenModel
     rates: Any
     jacobian: Any
     pointers: tuple[int, int, int, int]
+    dynamic: int
 
     @property
     def width(self) -> int:
@@ -79,7 +81,10 @@ def compile_system(model: DriveModel | DrivenModel) -> CompiledDrive:
         address, data = function.as_ctypes()
         pointers += [ctypes.cast(address, ctypes.c_void_p).value or 0, data.value or 0]
     first, first_data, second, second_data = pointers
-    return CompiledDrive(model, rates, jacobian, (first, first_data, second, second_data))
+    size = len(states)
+    used = [any(matrix[row, column] != 0 for row in range(size)) for column in range(size)]
+    dynamic = max((column + 1 for column in range(size) if used[column]), default=1)
+    return CompiledDrive(model, rates, jacobian, (first, first_data, second, second_data), dynamic)
 
 
 class _Kernel:
@@ -180,6 +185,7 @@ def integrate(
         rows,
         counts,
         MAX_STEPS,
+        drive.dynamic,
     )
     outcome = {0: Outcome.COMPLETED, 2: Outcome.STUCK}.get(int(status), Outcome.DIVERGED)
     return Solution(rows[: counts[2]], end, outcome, int(counts[0]), int(counts[1]), "rodas")

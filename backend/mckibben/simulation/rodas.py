@@ -48,7 +48,7 @@ _call: Any = intrinsic(_call_at)
 @njit(inline="always")
 def _factorise(matrix: np.ndarray, pivots: np.ndarray) -> bool:
     """LU factors in place with row pivoting; the diagonal holds reciprocals. False when singular."""
-    n = matrix.shape[0]
+    n = pivots.shape[0]
     for k in range(n):
         best, row = abs(matrix[k, k]), k
         for i in range(k + 1, n):
@@ -73,8 +73,8 @@ def _factorise(matrix: np.ndarray, pivots: np.ndarray) -> bool:
 
 @njit(inline="always")
 def _solve(matrix: np.ndarray, pivots: np.ndarray, vector: np.ndarray) -> None:
-    """Solve with the factors of `_factorise`, in place."""
-    n = matrix.shape[0]
+    """Solve with the factors of `_factorise`, in place; further rows of the vector are left alone."""
+    n = pivots.shape[0]
     for k in range(n):
         row = pivots[k]
         if row != k:
@@ -116,7 +116,7 @@ _D3 = np.array(
 )
 _SIGNATURE = (
     "int64(int64,int64,int64,int64,float64[::1],float64[::1],float64[::1],float64[:,::1],"
-    "float64[::1],float64,float64[::1],float64[:,::1],int64[::1],int64)"
+    "float64[::1],float64,float64[::1],float64[:,::1],int64[::1],int64,int64)"
 )
 
 
@@ -136,6 +136,7 @@ def rodas4(
     out: np.ndarray,
     counts: np.ndarray,
     max_steps: int,
+    dynamic: int,
 ) -> int:
     """Integrate segment by segment and write states and outputs on a grid.
 
@@ -151,6 +152,8 @@ def rodas4(
         out: shape (grid, states + outputs).
         counts: accepted and rejected steps, and the number of grid rows written, are put here.
         max_steps: give up after this many accepted and rejected steps.
+        dynamic: how many leading states any rate depends on; the others are integrals of them, whose share of
+            each linear system is a sum instead of an elimination.
 
     Returns:
         a `Status`.
@@ -162,8 +165,8 @@ def rodas4(
     point = np.zeros(n)
     values = np.zeros(max(width, n))
     both = np.zeros(n + n * n)
-    matrix = np.zeros((n, n))
-    pivots = np.zeros(n, np.int64)
+    matrix = np.zeros((dynamic, dynamic))
+    pivots = np.zeros(dynamic, np.int64)
     packed = np.empty(n + fixed + inputs.shape[1])
     packed[n : n + fixed] = parameters
     at_packed, at_values, at_both = packed.ctypes.data, values.ctypes.data, both.ctypes.data
@@ -187,8 +190,8 @@ def rodas4(
                 packed[:n] = state
                 _call(jacobian, at_both, at_packed, jacobian_data)
                 fresh = False
-            for i in range(n):
-                for j in range(n):
+            for i in range(dynamic):
+                for j in range(dynamic):
                     matrix[i, j] = -both[n + i * n + j]
                 matrix[i, i] += 1.0 / (_GAMMA * h)
             solvable = _factorise(matrix, pivots)
@@ -213,6 +216,11 @@ def rodas4(
                             total += _C[k, j] * stage[j, i]
                         residual[i] = values[i] + total / h
                 _solve(matrix, pivots, residual)
+                for i in range(dynamic, n):
+                    total = residual[i]
+                    for j in range(dynamic):
+                        total += both[n + i * n + j] * residual[j]
+                    residual[i] = _GAMMA * h * total
                 stage[k] = residual
             error = 0.0
             for i in range(n):

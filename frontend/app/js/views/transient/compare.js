@@ -1,6 +1,6 @@
 // @ts-check
-// Runs beside each other: which inputs differ, and by how much the figures do. Rows of texts, the first column
-// is the baseline.
+// Runs beside each other: which inputs differ, and by how much the figures do. The first column is the
+// baseline.
 import { units } from "../../state.js";
 import { effectsById } from "../../store.js";
 import { brief, number, plainScale, quantityOf, scaleOf, toShown } from "../../format.js";

@@ -10,7 +10,7 @@ import { drive, messageFor, numberAt, setDrive } from "./model.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** @typedef {{path: string, quantity: Quantity, low: () => number, high: number, rest: () => number,
- *   full: number, constant?: boolean}} Signal  `low`, `high`: slider range; `rest`, `full`: what is left open */
+ *   full: number, constant?: boolean}} Signal  `low`, `high`: slider; `rest`, `full`: what is left open */
 /** @typedef {"time" | "value" | "share" | "frequency" | "angle" | "seed"} Kind */
 /** @typedef {[key: string, label: string, kind: Kind, start: (o: Start) => number]} Row */
 /** What the start value of a field depends on.
