@@ -243,3 +243,17 @@ def test_lever_halves_the_force_and_doubles_the_way():
     # Reflected to the muscle: M/r^2 = 32 kg, but the weight is m g/r = 16 g instead of 32 g.
     assert geared.states["stroke"][-1] == pytest.approx(direct.states["stroke"][-1], abs=1e-4)
     assert np.max(geared.states["stroke"]) > np.max(direct.states["stroke"])
+
+
+def test_an_evacuated_vessel_fills_to_gamma_times_the_supply_temperature():
+    # First law of a rigid adiabatic vessel: m c_v T = m c_p T_s, whatever the valve does on the way.
+    rigid = drive(
+        model=StaticModel(MUSCLE, {**EFFECTS, "heat_exchange": {"coefficient": 0.0}}),
+        load=Load(mass=8.0, force=1e5),
+        max_contraction=0.01,
+        start_pressure=-0.999999 * ATMOSPHERE,
+        duration=1.0,
+    )
+    run = simulate(rigid, points=101, tolerance=1e-9, engine="rodas")
+    assert run.pressure[-1] == pytest.approx(6e5, rel=1e-3)
+    assert run.outputs["gas_temperature"][-1] == pytest.approx(1.4 * 293.15, rel=2e-4)  # the stop gives way by a hair
