@@ -444,3 +444,37 @@ def test_the_start_is_fast_because_nothing_heavy_is_imported() -> None:
     code = f"import sys, mckibben.api.app; print([m for m in {heavy} if m in sys.modules])"
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert result.stdout.strip() == "[]"
+
+
+def test_compare_takes_muscle_and_effects_of_a_drive_document(run: Run, tmp_path: Path) -> None:
+    """Figures of an independent fit of the map at 296 mm: 1.26 % of full scale at its three parameters."""
+    drive = tmp_path / "drive.json"
+    muscle = {"preset": "DMSP-20", "nominal_length": "296 mm", "braid_angle": "26.67 deg"}
+    effects = {"bladder_elasticity": {"shear_modulus": 464.7e3}, "prestress": {"force": "109.5 N"}}
+    drive.write_text(json.dumps({"schema": 1, "muscle": muscle, "effects": effects}), encoding="utf-8")
+    code, out, _ = run("compare", "martens-dmsp-20-300", "--drive", str(drive), "--json")
+    assert code == 0
+    assert json.loads(out)["nrmse_percent"] == pytest.approx(1.26, abs=0.01)
+    # The model of an answer alone: the muscle is the option's.
+    drive.write_text(json.dumps({"effects": effects}), encoding="utf-8")
+    named = ("--drive", str(drive), "--muscle", "DMSP-20:296mm", "--json")
+    code, out, _ = run("compare", "martens-dmsp-20-300", *named)
+    assert json.loads(out)["parameters"]["prestress"]["force"]["value"] == pytest.approx(109.5)
+
+
+@pytest.mark.parametrize(
+    ("document", "word"),
+    [
+        ("[]", "an object"),
+        ('{"effect": {}}', "'effects'"),
+        ('{"effects": []}', "effects must"),
+        ("{", "JSON"),
+    ],
+)
+def test_a_drive_document_that_cannot_be_is_refused(
+    run: Run, tmp_path: Path, document: str, word: str
+) -> None:
+    (tmp_path / "drive.json").write_text(document, encoding="utf-8")
+    line = refused(run("compare", "martens-dmsp-20-300", "--drive", "drive.json", "--muscle", "DMSP-20"))
+    assert "drive.json" in line
+    assert word in line

@@ -25,6 +25,7 @@ def run(
     muscle: str,
     ideal: bool,
     effects: Sequence[str],
+    drive: str,
     fit: bool,
     free: Sequence[str],
     as_json: bool,
@@ -39,9 +40,7 @@ def run(
             raise InputError(f"--free {name}: there is no such geometry", hint=did_you_mean(name, GEOMETRY))
     points = joined([_read(name, studio) for name in files])
     named = str(points.measurement.conditions.get("muscle", ""))
-    if not muscle and not named:
-        raise InputError("--muscle is missing", hint="e.g. --muscle DMSP-20:300mm")
-    start = start_model(studio, muscle or named, ideal=ideal, effects=effects)
+    start = start_model(studio, muscle, ideal=ideal, effects=effects, drive=drive, named=named)
     answer = comparison_answer(studio, start, points, fit=fit, free=free)
     if as_json:
         write_json(answer)

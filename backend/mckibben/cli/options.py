@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, cast
 
 import typer
 
@@ -91,8 +91,19 @@ def open_studio(presets: Path | None, effects: Sequence[Path] | None, data: Path
     return studio
 
 
-def start_model(studio: Studio, muscle: str, *, ideal: bool, effects: Sequence[str]) -> StartModel:
+def start_model(
+    studio: Studio,
+    muscle: str,
+    *,
+    ideal: bool,
+    effects: Sequence[str],
+    drive: str = "",
+    named: str = "",
+) -> StartModel:
     """The muscle of ``--muscle`` with the effects of ``--ideal`` or ``--effect``.
+
+    A drive document gives what the options do not: its muscle, and the effects of its model. The muscle that
+    a measurement names comes last.
 
     Raises:
         InputError: names the file or option, what is wrong and what would be right.
@@ -104,16 +115,42 @@ def start_model(studio: Studio, muscle: str, *, ideal: bool, effects: Sequence[s
             raise InputError(
                 f"--effect {effect}: there is no such effect", hint=did_you_mean(effect, studio.catalogue)
             )
-    chosen = {} if ideal else {effect: {} for effect in effects} or None
+    document = _drive_document(drive) if drive else {}
+    chosen: Effects | None = {} if ideal else {effect: {} for effect in effects} or None
+    if chosen is None and "effects" in document:
+        chosen = cast(Effects, document["effects"])
+    if not muscle and "muscle" in document:
+        return _start_of_input(studio, document["muscle"], chosen, drive)
+    muscle = muscle or named
     name, separator, length = muscle.partition(":")
     if not name:
-        raise InputError("--muscle is empty", hint="e.g. --muscle DMSP-20:300mm")
+        raise InputError("--muscle is missing", hint="e.g. --muscle DMSP-20:300mm")
     if _is_file(muscle, studio):
         return _start_of_file(studio, Path(muscle), chosen)
     document: dict[str, object] = {"preset": name}
     if separator:
         document["nominal_length"] = length
     return _start_of_input(studio, document, chosen, f"--muscle {muscle}")
+
+
+def _drive_document(path: str) -> dict[str, object]:
+    """The parts of a drive document; in that of a mere model stand ``effects`` (and ``muscle``) only."""
+    from mckibben.api.schemas.drives import DriveDocument
+    from mckibben.presets.reading import BadDocumentError, read_file
+
+    try:
+        document = read_file(Path(path), follow_links=True)
+    except BadDocumentError as bad:
+        raise InputError(f"{path}: {bad.findings[0].message}", hint=bad.findings[0].hint) from bad
+    if not isinstance(document, dict):
+        raise InputError(f"{path}: a drive document is an object", hint='{"muscle": {...}, "effects": {...}}')
+    known = {field.alias or name for name, field in DriveDocument.model_fields.items()}
+    for key in document:
+        if key not in known:
+            raise InputError(f"{path}: {key} is not a known field", hint=did_you_mean(key, known))
+    if not isinstance(document.get("effects", {}), dict):
+        raise InputError(f"{path}: effects must be an object", hint='{"<effect id>": {}}')
+    return document
 
 
 def _is_file(muscle: str, studio: Studio) -> bool:

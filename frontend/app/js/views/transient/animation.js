@@ -248,5 +248,13 @@ export function stageCard() {
     picture(),
     controls(),
     h("div", { class: "values", "aria-live": "off" }, readout),
+    h(
+      "ul",
+      { class: "legend key" },
+      h("li", null, h("i", { class: "hatch" }), "on a stop"),
+      h("li", null, h("i", { class: "fill" }), "choked filling"),
+      h("li", null, h("i", { class: "exhaust" }), "choked venting"),
+      h("li", null, h("i", { class: "switch" }), "switching"),
+    ),
   );
 }
