@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Page
+from playwright.sync_api import Page, expect
 
-from tests.frontend.views import open_design, redrawn
+from tests.frontend.views import redrawn
 from tests.server import RunningServer
 
 README = Path(__file__).parents[2] / "README.md"
@@ -34,8 +34,9 @@ def blocked_force(page: Page) -> int:
     return int(next(figure for figure in figures if len(figure) > 2 and "." not in figure))
 
 
-def test_the_example_of_the_readme_appears_and_acts(page: Page) -> None:
-    open_design(page)
+def test_the_example_of_the_readme_appears_and_acts(page: Page, server: RunningServer) -> None:
+    page.goto(f"{server.url}/")  # in full: the base URL is that of the other tests' server
+    expect(page.locator("html[data-drawn]")).to_be_attached()
     before = blocked_force(page)
     page.get_by_placeholder(re.compile("Search effects")).fill("seal")
     redrawn(page, lambda: page.get_by_role("switch", name=re.compile("Seal drag")).click())
