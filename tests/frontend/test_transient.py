@@ -119,8 +119,29 @@ def test_a_scenario_brings_its_drive_and_the_printed_figures(page: Page) -> None
     expect(page.locator("#drive-muscle")).to_contain_text("300 mm")
 
 
-def test_every_scenario_runs(page: Page) -> None:
+def test_units_of_drive_documents_are_read_and_every_scenario_runs(page: Page) -> None:
     open_transient(page)
+    texts = [
+        "6 bar",
+        "120 N*s/m",
+        "1.2 l/(s*bar)",
+        "20 degC",
+        "90 deg",
+        "35.6 ms",
+        "25.2 kN/m",
+        "3",
+        "6 stone",
+    ]
+    read = run(
+        page,
+        """
+        const { siNumber } = await import("/js/views/transient/units.js");
+        return argument.map(siNumber);
+        """,
+        texts,
+    )
+    assert read[-1] is None
+    assert read[:-1] == pytest.approx([6e5, 120, 1.2e-8, 293.15, 1.5707963267949, 0.0356, 25200, 3])
     offered = page.locator("#scenario option")
     expect(offered).not_to_have_count(1)
     for scenario in [option.get_attribute("value") or "" for option in offered.all()][1:]:

@@ -17,9 +17,11 @@ async function svgOf(chart, title) {
   const { data, layout } = figure(spec, LIGHT, { width: WIDTH, height: HEIGHT, font: FONT });
   const x = chart.axes?.xaxis.range ?? spec.x.range, y = chart.axes?.yaxis.range ?? spec.y.range;
   const names = new Map((spec.labels ?? []).map((l) => [l.color, l.text]));
+  const told = new Set(); // a line drawn in pieces is told once
   for (const t of /** @type {any[]} */ (data)) {
     t.name = names.get(t.line?.color) ?? t.name;
-    t.showlegend = t.mode === "lines" || t.uid === "points";
+    t.showlegend = !told.has(t.name) && (t.mode === "lines" || t.uid === "points");
+    told.add(t.name);
   }
   const full = {
     ...layout,

@@ -254,7 +254,7 @@ export function stageCard() {
       h("li", null, h("i", { class: "hatch" }), "on a stop"),
       h("li", null, h("i", { class: "fill" }), "choked filling"),
       h("li", null, h("i", { class: "exhaust" }), "choked venting"),
-      h("li", null, h("i", { class: "switch" }), "switching"),
+      h("li", null, h("i", { class: "instant" }), "switching"),
     ),
   );
 }

@@ -43,7 +43,7 @@ function keyFigures(r) {
       withUnit(extend.impact_energy, "energy", system),
       r.timing.notes["extend.impact_energy"],
     ),
-    extend.air_volume_anr == null
+    r.tracking || extend.air_volume_anr == null
       ? big(
         "Air of the run",
         withUnit(airOf(r), "normal", system),

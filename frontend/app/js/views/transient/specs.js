@@ -119,7 +119,6 @@ export function positionSpec(v, p) {
       color: p.load,
       dash: "dash",
       width: 1.6,
-      label: "reference",
     });
   }
   lines.push({ id: "position", name: "position", values: run.position, color: p.accent });
