@@ -256,4 +256,5 @@ def test_an_evacuated_vessel_fills_to_gamma_times_the_supply_temperature():
     )
     run = simulate(rigid, points=101, tolerance=1e-9, engine="rodas")
     assert run.pressure[-1] == pytest.approx(6e5, rel=1e-3)
-    assert run.outputs["gas_temperature"][-1] == pytest.approx(1.4 * 293.15, rel=2e-4)  # the stop gives way by a hair
+    # The stop gives way by a hair, so the gas does a little work.
+    assert run.outputs["gas_temperature"][-1] == pytest.approx(1.4 * 293.15, rel=2e-4)
