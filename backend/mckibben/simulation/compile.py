@@ -62,6 +62,7 @@ class CompiledState:
         symbols = [*inputs.values(), *geometry.values(), *parameters.values()]
         self._function = se.Lambdify(symbols, outputs, backend="llvm", cse=True)
         self._width = len(symbols)
+        self.compliant = model.has("compliance")
 
     def pack(self, muscle: Muscle, values: Mapping[str, Mapping[str, float]]) -> np.ndarray:
         """Geometry and parameters in the order of `constants`."""
@@ -76,9 +77,11 @@ class CompiledState:
 
         ``inputs`` holds every name of `INPUTS`, as numbers or arrays that broadcast to one dimension.
         """
-        rows = np.empty((max(np.size(inputs[name]) for name in INPUTS), self._width))
-        for index, name in enumerate(INPUTS):
-            rows[:, index] = inputs[name]
+        columns = [inputs[name] for name in INPUTS]
+        sizes = [1 if isinstance(column, int | float) else np.size(column) for column in columns]
+        rows = np.empty((max(sizes), self._width))
+        for index, column in enumerate(columns):
+            rows[:, index] = column
         rows[:, len(INPUTS) :] = constants
         return np.ascontiguousarray(self._function(rows).T)
 

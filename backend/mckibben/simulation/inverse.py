@@ -52,19 +52,20 @@ def contraction_at(
 
     reachable = excess(high)[0] >= 0.0
     length = np.full(len(pressures), rest)
-    for _ in range(_STEPS):
-        value, slope = excess(length)
-        high = np.where(value >= 0.0, length, high)
-        low = np.where(value < 0.0, length, low)
-        with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for _ in range(_STEPS):
+            value, slope = excess(length)
+            above = value >= 0.0
+            high = np.where(above, length, high)
+            low = np.where(above, low, length)
             newton = length - value / slope
-        inside = (newton >= low) & (newton <= high)
-        following = np.where(inside, newton, 0.5 * (low + high))
-        # Newton's next error is the square of this step's share of the length.
-        done = ~reachable | (inside & (np.abs(following - length) < 1e-6 * rest))
-        length = following
-        if np.all(done):
-            break
+            inside = (newton >= low) & (newton <= high)
+            following = np.where(inside, newton, 0.5 * (low + high))
+            # Newton's next error is the square of this step's share of the length.
+            done = ~reachable | (inside & (np.abs(following - length) < 1e-6 * rest))
+            length = following
+            if done.all():
+                break
     return np.where(reachable, 1.0 - length / rest, np.nan)
 
 

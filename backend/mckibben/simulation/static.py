@@ -182,7 +182,7 @@ def settle(
     """Outputs with the series compliance solved for, and the raw rows beyond `OUTPUTS` (gradients)."""
     rows = compiled(constants, **state)
     out = dict(zip(OUTPUTS, rows, strict=False))
-    if not np.any(out["compliance"]):
+    if not (compiled.compliant and np.any(out["compliance"])):
         return out, rows[len(OUTPUTS) :]
     target = out["length"]  # true length of muscle and series spring together
     reading = np.broadcast_to(np.asarray(state["length"], dtype=float), target.shape).copy()
