@@ -13,11 +13,22 @@ from fastapi.testclient import TestClient
 
 from mckibben.api.app import create_app
 from mckibben.api.settings import Settings
+from mckibben.simulation.engine import kernel
 
 URL = "http://127.0.0.1:8000"
 CSV = b"# kind: static\npressure_bar;length_mm;force_N\n" + b"".join(
     f"{p};{length};{100 * p + length / 10:.1f}\n".encode() for p in (1, 2, 3) for length in (280, 290, 300)
 )
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _kernel_is_ready() -> None:
+    """Nothing is imported in the background while a test runs.
+
+    ``warnings.catch_warnings`` is not safe between threads: what FastAPI silences while it builds a route
+    could come out as an error of the test.
+    """
+    kernel.warm().join()
 
 
 @pytest.fixture
