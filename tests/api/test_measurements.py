@@ -5,14 +5,17 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
+import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 from httpx2 import Response
 
+from mckibben.api.answers.measured import Points, joined
 from mckibben.api.app import create_app
-from mckibben.api.schemas.measurements import MeasurementAnswer, MeasurementDetail
+from mckibben.api.schemas.measurements import MeasurementAnswer, MeasurementDetail, PreviewAnswer
 from mckibben.api.settings import Settings
 from mckibben.api.store import clean_name
+from mckibben.identification.measurement import build
 from tests.api.conftest import CSV, URL, assert_error
 
 ID = hashlib.sha256(CSV).hexdigest()
@@ -148,3 +151,80 @@ def test_a_folder_that_cannot_be_written_is_said(tmp_path: Path) -> None:
     with TestClient(create_app(Settings(data=tmp_path / "data")), base_url=URL) as client:
         error = assert_error(upload(client), 409)
     assert "--data" in error["hint"]
+
+
+def test_every_row_is_accounted_for(client: TestClient) -> None:
+    text = "pressure_bar;length_mm;force_N\n" + "".join(
+        f"{p};{length};{max(0, 100 * p - length)}\n" for p in (1, 2, 3) for length in (180, 220, 300)
+    )
+    body = upload(client, text.encode()).json()
+    assert body["excluded"] == {"slack": 6}
+    assert (body["rows"], body["usable_rows"], body["skipped"]) == (9, 3, {})
+    assert body["segments"]["signal"] == "length"
+    columns = client.get(f"/api/measurements/{body['id']}").json()["columns"]
+    assert sum(columns["usable"]) == 3
+    assert {"slack", "sweep", "cycle", "motion"} <= set(columns)
+
+
+def preview(client: TestClient, content: bytes, **query: str) -> Response:
+    """POST a file for a look."""
+    return client.post("/api/measurements/preview", params={"name": "run1.csv", **query}, content=content)
+
+
+def test_a_preview_says_what_the_file_is_and_keeps_nothing(client: TestClient, settings: Settings) -> None:
+    response = preview(client, CSV)
+    PreviewAnswer.model_validate_json(response.content)
+    body = response.json()
+    assert [column["channel"] for column in body["columns"]] == ["pressure", "length", "force"]
+    assert body["sample"][0] == ["1", "280", "128.0"]
+    assert (body["rows"], body["valid_rows"], body["kind"]) == (9, 9, "static")
+    assert body["problem"] is None
+    assert body["measurement"]["id"] == ID
+    assert "pressure" in [choice["name"] for choice in body["channel_choices"]]
+    assert not settings.data.exists()
+
+
+def test_a_preview_leads_to_the_mapping_that_is_sent(client: TestClient) -> None:
+    content = CSV.replace(b"pressure_bar", b"druck") + b"4;oops;1\n"
+    body = preview(client, content).json()
+    assert body["columns"][0]["channel"] is None
+    assert body["skipped"] == [{"reason": "not a number", "rows": 1, "first": "row 12, column 'length_mm'"}]
+    mapping = '{"columns": {"druck": {"channel": "pressure", "unit": "bar"}}, "bad_rows": "%s"}'
+    body = preview(client, content, mapping=mapping % "refuse").json()
+    PreviewAnswer.model_validate(body)
+    assert body["only_bad_rows"]
+    assert "row 12" in body["problem"]["message"]
+    skip = mapping % "skip"
+    body = preview(client, content, mapping=skip).json()
+    assert body["problem"] is None
+    sent = client.put("/api/measurements", params={"name": "run1.csv", "mapping": skip}, content=content)
+    assert sent.json() == body["measurement"]
+    assert sent.json()["id"] != hashlib.sha256(content).hexdigest()
+    assert client.get(f"/api/measurements/{sent.json()['id']}").json()["rows"] == 9
+
+
+def test_a_preview_of_no_table_is_refused(client: TestClient) -> None:
+    assert "row 1" in assert_error(preview(client, b""), 422)["message"]
+    assert_error(preview(client, CSV, mapping="{"), 422, field="mapping")
+    assert_error(preview(client, CSV, mapping='{"knd": "static"}'), 422, field="mapping.knd")
+
+
+def test_a_preview_takes_as_much_as_an_upload(client: TestClient) -> None:
+    assert preview(client, CSV + b"1;280;1\n" * 200_000).json()["rows"] == 200_009
+
+
+def test_joined_files_keep_what_is_known_of_each() -> None:
+    rows = {"pressure": np.full(40, 1e5), "length": 0.3 - 1e-3 * np.arange(40), "force": 1.0 + np.arange(40)}
+    bad = np.arange(40) < 5
+    parts = [
+        build(
+            rows, name=name, id="0" * 64, kind="isobaric", excluded_rows={"force stuck": bad}, skipped=skipped
+        )
+        for name, skipped in (("a.csv", {"not a number": 2}), ("b.csv", {}))
+    ]
+    together = joined([Points(part) for part in parts])
+    measurement = together.measurement
+    assert together.left_out == {"not a number": 2}
+    assert measurement.starts == (0, 40)
+    assert dict(measurement.exclusions) == {"force stuck": 10}
+    assert np.flatnonzero(np.diff(measurement.segments.sweep)).tolist() == [39]

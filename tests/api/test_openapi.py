@@ -22,6 +22,7 @@ PATHS = {
     "/api/curves": {"post"},
     "/api/inverse": {"post"},
     "/api/measurements": {"put"},
+    "/api/measurements/preview": {"post"},
     "/api/measurements/{measurement_id}": {"get"},
     "/api/comparisons": {"post"},
     "/api/simulations": {"post"},

@@ -273,7 +273,9 @@ def test_a_watch_ends_by_the_clock_and_by_the_caller() -> None:
 
 def test_a_run_that_is_stopped_ends_with_a_name_and_what_there_is(shared_client: TestClient) -> None:
     studio = shared_client.app.state.studio  # type: ignore[attr-defined]
-    given = drive_of(read_document(CONTROLLED, "the drive"), studio)
+    # 400 000 samples take half a second at least.
+    sampled = {**CONTROLLED, "controller": {**CONTROLLED["controller"], "sample_time": "10 us"}}
+    given = drive_of(read_document(sampled, "the drive"), studio)
     grid = grid_of(duration=4.0, begin=0.0, end=4.0, points=401)
     for limit in (0.0, 0.05):
         answer = simulation_answer(given, grid, Watch(time_limit=limit))

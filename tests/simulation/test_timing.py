@@ -77,7 +77,7 @@ def test_constant_acceleration_up_to_a_stop(uneven, stops):
     assert figures["positioning_time"] == pytest.approx(delay + at(1.0), abs=1e-6)
     assert figures["rise_time"] == pytest.approx(at(0.9) - at(0.1), abs=1e-6)
     assert figures["delay_time"] == pytest.approx(delay + at(0.5), abs=1e-6)
-    assert figures["settling_time"] == pytest.approx(delay + at(0.98), abs=1e-6)
+    assert figures["settling_time"] == pytest.approx(delay + at(0.95), abs=1e-6)
     assert figures["average_speed"] == pytest.approx(stop / (delay + at(1.0)), rel=1e-5)
     assert figures["max_speed"] == figures["end_speed"] == pytest.approx(np.sqrt(2 * a * stop), rel=1e-5)
     assert figures["max_speed_at"] == figures["positioning_time"]
@@ -128,9 +128,9 @@ def test_bounces_move_the_settling_and_nothing_else(bounce, a):
     for name in ("positioning_time", "rise_time", "delay_time", "max_speed", "end_speed", "impact_energy"):
         assert figures[name] == pytest.approx(quiet[name], rel=1e-3)
     height = 0.2 * bounce**2
-    if height > 0.02 * 0.2 * 1.05:
+    if height > 0.05 * 0.2 * 1.05:
         assert figures["settling_time"] > quiet["positioning_time"]
-    elif height < 0.02 * 0.2 * 0.95:
+    elif height < 0.05 * 0.2 * 0.95:
         assert figures["settling_time"] <= quiet["positioning_time"]
 
 
@@ -144,7 +144,7 @@ def test_exponential_approach(uneven):
     figures, notes = extend(run, mass=3.0)
     assert figures["rise_time"] == pytest.approx(np.log(9.0) * tau, rel=1e-4)
     assert figures["delay_time"] == pytest.approx(np.log(2.0) * tau, rel=1e-4)
-    assert figures["settling_time"] == pytest.approx(np.log(50.0) * tau, rel=1e-3)
+    assert figures["settling_time"] == pytest.approx(np.log(20.0) * tau, rel=1e-3)
     assert figures["positioning_time"] == pytest.approx(figures["settling_time"])
     assert figures["impact_energy"] == 0.0
     assert "no stop" in notes["extend.impact_energy"]
@@ -162,8 +162,23 @@ def test_overshoot_of_a_damped_oscillation():
     figures, _ = extend(trace(t, stroke * y, stroke * v, stroke * np.gradient(v, t)))
     assert figures["overshoot"] == pytest.approx(np.exp(-damping * np.pi / w), rel=1e-3)
     assert figures["positioning_time"] < np.pi / w < figures["settling_time"]
-    outside = t[np.abs(y - 1.0) > 0.02][-1]
+    outside = t[np.abs(y - 1.0) > 0.05][-1]
     assert figures["settling_time"] == pytest.approx(outside, abs=1.1e-3)
+
+
+def test_a_swing_within_the_band_is_settled():
+    # Arrives at 0.2 s and goes on swinging by 3 % of the stroke below the end, undamped.
+    w, stroke = 25.0, 0.2
+    t = grid(2.0, 4001)
+    late = t - 0.2
+    x = np.where(late < 0.0, stroke * t / 0.2, stroke * (1.0 - 0.015 * (1.0 - np.cos(w * late))))
+    v = np.where(late < 0.0, stroke / 0.2, -stroke * 0.015 * w * np.sin(w * late))
+    run = trace(t, x, v, np.gradient(v, t))
+    usual, _ = extend(run, stroke=stroke)
+    assert usual["settling_time"] == pytest.approx(0.95 * 0.2, abs=1e-3)
+    narrow, _ = extend(run, stroke=stroke, band=0.02)
+    # The last swing leaves 2 % at most one period before the end.
+    assert narrow["settling_time"] is None or narrow["settling_time"] > 2.0 - 2.0 * np.pi / w
 
 
 def test_a_stroke_that_is_not_reached_has_no_arrival():

@@ -23,7 +23,7 @@ from mckibben.api.settings import LOOPBACK_NAMES, Settings, is_every_interface
 
 JSON_LIMIT = 1_000_000
 UPLOAD_LIMIT = 64_000_000
-UPLOAD_PATH = "/api/measurements"
+UPLOADS = frozenset({("PUT", "/api/measurements"), ("POST", "/api/measurements/preview")})
 
 CONTENT_SECURITY_POLICY = (
     "default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; object-src 'none'; "
@@ -179,7 +179,7 @@ class BodyLimitMiddleware:
         if scope["type"] != "http":
             await self.app(scope, receive, send)
             return
-        limit = UPLOAD_LIMIT if scope["method"] == "PUT" and scope["path"] == UPLOAD_PATH else JSON_LIMIT
+        limit = UPLOAD_LIMIT if (scope["method"], scope["path"]) in UPLOADS else JSON_LIMIT
         message = f"The body is larger than {limit // 1_000_000} MB."
         declared = Headers(scope=scope).get("content-length", "0")
         if not (declared.isascii() and declared.isdigit()):

@@ -15,13 +15,19 @@ _UNDETERMINED = 1e10  # condition number of the scaled normal matrix beyond whic
 
 @dataclass(frozen=True, slots=True)
 class Free:
-    """A free parameter: name, start, bounds, SI unit."""
+    """A free parameter: name, start, bounds, SI unit, and the value at which it does nothing."""
 
     name: str
     start: float
     lower: float
     upper: float
     unit: str
+    off: float | None = None
+
+    @property
+    def typical(self) -> float:
+        """A magnitude that matters: a hundredth of the range between the bounds."""
+        return 0.01 * (self.upper - self.lower)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +62,8 @@ def least_squares_fit(
     *,
     starts: int = 4,
     seed: int = 0,
+    tolerance: float = 1e-12,
+    evaluations: int = 200,
 ) -> FitResult:
     """Minimise the sum of squared residuals over the free parameters within their bounds.
 
@@ -65,6 +73,8 @@ def least_squares_fit(
         free: at least one free parameter.
         starts: the given start and ``starts - 1`` random ones inside the bounds; the best end wins.
         seed: of the random starts, so that a fit is repeatable.
+        tolerance: relative change of the sum of squares, of the numbers and of the gradient that ends it.
+        evaluations: most evaluations of each start.
 
     Standard errors assume independent residuals of equal size; they come from the exact Jacobian at the end.
     A parameter at a bound has none, nor has one that the data cannot tell from the others.
@@ -84,11 +94,11 @@ def least_squares_fit(
             start,
             jac=derivatives,
             bounds=(lower, upper),
-            x_scale=span,
-            xtol=1e-12,
-            ftol=1e-12,
-            gtol=1e-12,
-            max_nfev=200,
+            x_scale="jac",
+            xtol=tolerance,
+            ftol=tolerance,
+            gtol=tolerance,
+            max_nfev=evaluations,
         )
         if best is None or found.cost < best.cost * (1.0 - 1e-9):
             best = found

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.identification.derivative import noise_of, smoothed
 from mckibben.physics.errors import InputError
 
 Array = NDArray[np.float64]
@@ -18,10 +19,20 @@ STROKES = ("length", "contraction", "displacement")
 
 _GRAIN = 0.01  # of the range: two readings nearer than this are the same level
 _MANY = 25  # levels from which the finer axis of a grid is a sweep rather than a map
+_MANY_EXTREMES = 200_000  # walked one by one
 
 
 def detect_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float | str]) -> str:
-    """The kind of a measurement that does not say it.
+    """The kind of a measurement that does not say it; see :func:`explain_kind`.
+
+    Raises:
+        InputError: no kind can be made of the columns.
+    """
+    return explain_kind(columns, conditions)[0]
+
+
+def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float | str]) -> tuple[str, str]:
+    """(kind, why) of a measurement that does not say it.
 
     In this order, "stroke" being length, contraction or displacement:
 
@@ -42,17 +53,19 @@ def detect_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float |
     pressure, force = columns.get("pressure"), columns.get("force")
     timed = "time" in columns
     if timed and "command" in columns and (pressure is not None or stroke is not None):
-        return "transient"
+        return "transient", "a valve command over time"
     if force is not None and pressure is not None and stroke is not None:
         if timed and "load_mass" in conditions:
-            return "transient"
+            return "transient", "force, pressure and stroke over time with a load mass"
         return _force_kind(pressure, stroke, force, swept=timed or "direction" in columns)
     if "diameter" in columns and (pressure is not None or stroke is not None):
-        return "diameter"
+        return "diameter", "a diameter beside pressure or stroke"
     if pressure is not None and stroke is not None:
-        return "transient" if timed else "isotonic"
+        return (
+            ("transient", "pressure and stroke over time") if timed else ("isotonic", "strokes at pressures")
+        )
     if timed and (pressure is not None or stroke is not None):
-        return "transient"
+        return "transient", f"{'pressure' if stroke is None else 'stroke'} over time"
     raise InputError(
         f"no kind of measurement can be made of the columns {', '.join(columns)}",
         field="columns",
@@ -60,20 +73,25 @@ def detect_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float |
     )
 
 
-def _force_kind(pressure: Array, stroke: Array, force: Array, *, swept: bool) -> str:
+def _force_kind(pressure: Array, stroke: Array, force: Array, *, swept: bool) -> tuple[str, str]:
     if np.any(force) and _held(force) and not _held(pressure) and not _held_stroke(stroke):
-        return "isotonic"
+        return "isotonic", "the force is held while pressure and stroke vary"
     if _held(pressure) != _held_stroke(stroke):
-        return "isobaric" if _held(pressure) else "isometric"
+        if _held(pressure):
+            return "isobaric", "the pressure is held throughout"
+        return "isometric", "the stroke is held throughout"
     all_pressures, held_pressures = _steps(pressure)
     all_strokes, held_strokes = _steps(stroke)
+    seen = f"{held_pressures} levels of pressure, {held_strokes} of stroke"
     if not swept and all_pressures * all_strokes <= 1.5 * len(force):
         few, many = sorted((all_pressures, all_strokes))
         if many < max(_MANY, 4 * few):
-            return "static"
+            return "static", f"a filled grid: {seen}"
     if 2 * held_pressures <= held_strokes:
-        return "isobaric"
-    return "isometric" if 2 * held_strokes <= held_pressures else "static"
+        return "isobaric", f"few pressures are held: {seen}"
+    if 2 * held_strokes <= held_pressures:
+        return "isometric", f"few strokes are held: {seen}"
+    return "static", f"neither pressure nor stroke is held: {seen}"
 
 
 def _held(values: Array) -> bool:
@@ -131,10 +149,25 @@ def _levels(values: Array) -> NDArray[np.int64]:
 
 
 def _turns(values: Array) -> NDArray[np.bool_]:
-    """Whether a new sweep begins after each row but the last: at an extreme left by 10 % of the range."""
-    threshold = 0.1 * np.ptp(values)
+    """Whether a new sweep begins after each row but the last: at an extreme left by 10 % of the range.
+
+    A signal so noisy that noise alone could do that is smoothed first.
+    """
+    calm, threshold = smoothed(values, noise=noise_of(values), swing=0.1 * float(np.ptp(values)))
+    return turning_points(calm, threshold=threshold)
+
+
+def turning_points(values: Array, *, threshold: float) -> NDArray[np.bool_]:
+    """Whether the signal turns after each row but the last: at an extreme that it leaves by the threshold.
+
+    A hysteresis filter: swings smaller than the threshold are no turns, whatever their number. Only local
+    extremes are walked; of a long signal only the lowest and highest rows of short blocks, which lets a
+    swing shorter than a block escape.
+    """
     turns = np.zeros(len(values) - 1, bool)
     extremes = np.flatnonzero(np.diff(np.sign(np.diff(values)))) + 1
+    if len(extremes) > _MANY_EXTREMES:
+        extremes = _block_extremes(values, -(-2 * len(values) // _MANY_EXTREMES))
     low = high = (float(values[0]), 0)
     rising: bool | None = None
     for index in (*extremes.tolist(), len(values) - 1):
@@ -149,3 +182,12 @@ def _turns(values: Array) -> NDArray[np.bool_]:
                 turns[low[1]] = True
             rising, high = True, point
     return turns
+
+
+def _block_extremes(values: Array, size: int) -> NDArray[np.intp]:
+    """Rows of the lowest and the highest value of each block, ascending."""
+    whole = len(values) // size * size
+    blocks = values[:whole].reshape(-1, size)
+    first = np.arange(0, whole, size)
+    rest = np.arange(whole, len(values))
+    return np.unique(np.concatenate([first + blocks.argmin(1), first + blocks.argmax(1), rest]))

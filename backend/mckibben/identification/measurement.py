@@ -6,14 +6,25 @@ Every reader ends in :func:`build`, so a file, a preset and a test give the same
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.identification.kind import FORCE_KINDS, KINDS, STROKES, Array, detect_kind, group_rows
+from mckibben.identification.kind import (
+    FORCE_KINDS,
+    KINDS,
+    STROKES,
+    Array,
+    detect_kind,
+    explain_kind,
+    group_rows,
+)
+from mckibben.identification.saturation import unusable_rows
+from mckibben.identification.segments import Segments, segments_of
 from mckibben.physics.errors import InputError, did_you_mean
 
 __all__ = [
@@ -56,6 +67,12 @@ class Measurement:
             numbers, ``muscle``, ``sample`` and everything else as text.
         slack: bool array, shape (rows,): rows of "no pulling force"; their force is not a measured 0 N.
         messages: what was assumed while reading.
+        excluded_rows: reason -> bool array, shape (rows,), of rows whose values are not what was to be
+            measured (a saturated or stuck sensor); slack is not among them.
+        skipped: reason -> rows of the file that could not be read and are not among ``rows``.
+        starts: first row of each file of a joined measurement; nothing is continuous across it.
+        kind_reason: why this kind was detected, empty when the file said it.
+        segmented: segments known from the rows these were made of.
     """
 
     name: str
@@ -68,6 +85,35 @@ class Measurement:
     conditions: Mapping[str, float | str]
     slack: NDArray[np.bool_]
     messages: tuple[str, ...]
+    excluded_rows: Mapping[str, NDArray[np.bool_]] = field(default_factory=dict)
+    skipped: Mapping[str, int] = field(default_factory=dict)
+    starts: tuple[int, ...] = (0,)
+    kind_reason: str = ""
+    segmented: Segments | None = None
+
+    @cached_property
+    def usable(self) -> NDArray[np.bool_]:
+        """Rows that hold what was to be measured, shape (rows,): neither slack nor excluded."""
+        result = ~self.slack
+        for rows in self.excluded_rows.values():
+            result &= ~rows
+        result.flags.writeable = False
+        return result
+
+    @cached_property
+    def exclusions(self) -> Mapping[str, int]:
+        """Reason -> how many rows are not usable; a row counts once, under the first reason that holds."""
+        counts, seen = {}, np.zeros(self.rows, bool)
+        for reason, rows in {"slack": self.slack, **self.excluded_rows}.items():
+            if count := int(np.count_nonzero(rows & ~seen)):
+                counts[reason] = count
+            seen |= rows
+        return MappingProxyType(counts)
+
+    @cached_property
+    def segments(self) -> Segments:
+        """Sweeps, cycles, directions and speeds, found when first asked for."""
+        return self.segmented or segments_of(self.columns, self.kind, starts=self.starts)
 
     @property
     def rows(self) -> int:
@@ -91,6 +137,9 @@ def build(
     conditions: Mapping[str, float | str] | None = None,
     marked_slack: NDArray[np.bool_] | None = None,
     messages: Iterable[str] = (),
+    excluded_rows: Mapping[str, NDArray[np.bool_]] | None = None,
+    skipped: Mapping[str, int] | None = None,
+    starts: tuple[int, ...] = (0,),
 ) -> Measurement:
     """A Measurement from SI columns of equal length: detects the kind, groups the rows, finds slack rows.
 
@@ -104,16 +153,19 @@ def build(
         conditions: see :class:`Measurement`.
         marked_slack: rows the source marks as "no pulling force".
         messages: what the reader assumed.
+        excluded_rows: rows known not to hold what was to be measured; None = find them.
+        skipped: rows of the source that could not be read.
+        starts: see :class:`Measurement`.
 
     Raises:
         InputError: unknown kind, a kind whose channels are missing, channels no kind can be made of.
     """
     conditions = dict(conditions or {})
     notes = list(messages)
-    detected = kind is None
+    detected, why = kind is None, ""
     if kind is None:
         try:
-            kind = detect_kind(columns, conditions)
+            kind, why = explain_kind(columns, conditions)
         except InputError as error:
             raise InputError(f"{name}: {error}", field=error.field, hint=error.hint) from error
         notes.append(f"kind detected: {kind}")
@@ -129,6 +181,12 @@ def build(
             slack |= exact_zero
     if slack.any():
         notes.append(f"{np.count_nonzero(slack)} of {rows} rows hold no pulling force (slack)")
+    if excluded_rows is None:
+        excluded_rows = unusable_rows(table, kind, slack=slack)
+    notes += [
+        f"{np.count_nonzero(bad)} of {rows} rows are excluded: {reason}"
+        for reason, bad in excluded_rows.items()
+    ]
     channels = []
     for channel, values in table.items():
         unit = CHANNEL_UNITS[channel]
@@ -140,11 +198,12 @@ def build(
     table["group"] = labels
     notes.append(f"grouped {rule}")
     table = {channel: values.view() for channel, values in table.items()}  # the caller's stay writable
-    for values in (*table.values(), slack):
+    for values in (*table.values(), slack, *excluded_rows.values()):
         values.flags.writeable = False  # a cached measurement is shared between requests
     return Measurement(
         name, id, kind, detected, MappingProxyType(table), tuple(channels), tuple(ignored),
-        MappingProxyType(conditions), slack, tuple(notes),
+        MappingProxyType(conditions), slack, tuple(notes), MappingProxyType(dict(excluded_rows)),
+        MappingProxyType(dict(skipped or {})), starts, why,
     )  # fmt: skip
 
 

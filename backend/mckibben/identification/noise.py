@@ -2,37 +2,47 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from mckibben.identification.predict import Task
+if TYPE_CHECKING:
+    from mckibben.identification.subjects.subject import Channel, Subject
 
 _SHORTEST_SWEEP = 8  # rows; fewer leave too few differences
 _CHI2_MEDIAN = 0.4549364231195724  # median of chi squared with one degree of freedom
+_TRIMMED = 0.9  # share of the smallest squares that is averaged where the median is an exact zero
 
 
-def noise_floor(task: Task, residual: np.ndarray) -> float | None:
-    r"""Standard deviation of the noise, from third differences of the residual inside each sweep.
+def noise_floor(values: np.ndarray, sweeps: Sequence[np.ndarray]) -> float | None:
+    r"""Standard deviation of the noise, from third differences inside each sweep.
 
-    The third difference of white noise has variance :math:`20\sigma^2`, that of a smooth residual is small;
-    the median of its square is robust against the few steps that are not smooth. Sweeps are the groups, or
-    for a map the lines of equal length, whichever are longer. None when no sweep has eight rows.
+    The third difference of white noise has variance :math:`20\sigma^2`, that of a smooth signal is small; the
+    median of its square is robust against the few steps that are not smooth. Where more than half of the
+    differences are exactly zero (a coarse converter), the mean of the smaller nine tenths is taken.
+
+    Args:
+        values: a residual or a smooth signal.
+        sweeps: indices of the rows of each sweep, in order.
+
+    Returns:
+        None when no sweep has eight rows.
     """
-    third = [np.diff(sweep, 3) for sweep in _sweeps(task, residual) if len(sweep) >= _SHORTEST_SWEEP]
+    third = [np.diff(values[rows], 3) for rows in sweeps if len(rows) >= _SHORTEST_SWEEP]
     if not third:
         return None
-    return float(np.sqrt(np.median(np.concatenate(third) ** 2) / (20.0 * _CHI2_MEDIAN)))
+    squares = np.concatenate(third) ** 2
+    middle = float(np.median(squares)) / _CHI2_MEDIAN
+    if middle == 0.0:
+        kept = np.sort(squares)[: max(1, int(_TRIMMED * len(squares)))]
+        middle = float(np.mean(kept))
+    return float(np.sqrt(middle / 20.0))
 
 
-def _sweeps(task: Task, residual: np.ndarray) -> list[np.ndarray]:
-    by_group = [residual[task.groups == label] for label in np.unique(task.groups)]
-    if "length" not in task.state:
-        return by_group
-    lengths = np.round(task.state["length"], 6)
-    levels = np.unique(lengths)
-    if len(levels) >= len(by_group):
-        return by_group
-    lines = []
-    for level in levels:
-        chosen = lengths == level
-        lines.append(residual[chosen][np.argsort(task.state["pressure"][chosen], kind="stable")])
-    return lines
+def channel_noise(subject: Subject, values: np.ndarray, channel: Channel) -> float | None:
+    """`noise_floor` of one channel of stacked values."""
+    rows = np.arange(len(values))[channel.rows]
+    inside = np.zeros(len(values), bool)
+    inside[rows] = True
+    return noise_floor(values, [sweep[inside[sweep]] for sweep in subject.sweeps])

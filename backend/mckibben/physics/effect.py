@@ -192,6 +192,10 @@ class Effect:
         """Values at which the effect vanishes (parameters without an off value keep their default)."""
         return {p.name: p.default if p.off is None else p.off for p in self.parameters}
 
+    def wanted(self, slot: str) -> tuple[str, ...]:
+        """Names of what the slot's function asks for."""
+        return self._wanted[slot]
+
     def parameter(self, name: str) -> Parameter:
         """The parameter of that name; KeyError when there is none."""
         return {parameter.name: parameter for parameter in self.parameters}[name]

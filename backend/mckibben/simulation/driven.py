@@ -38,6 +38,26 @@ def driven_force(
     Raises:
         InputError: times that do not ascend, or an effect whose memory diverges on this record.
     """
+    found = driven_states(
+        model, time=time, pressure=pressure, length=length, temperature=temperature, tolerance=tolerance
+    )
+    return skewed(model, time, found["force_reading"])
+
+
+def driven_states(
+    model: StaticModel,
+    *,
+    time: np.ndarray,
+    pressure: np.ndarray,
+    length: np.ndarray,
+    temperature: float = ROOM_TEMPERATURE,
+    tolerance: float = TOLERANCE,
+) -> dict[str, np.ndarray]:
+    """What `driven_force` integrates: each state ("effect.state") and reading at each time of the record.
+
+    Raises:
+        InputError: as there.
+    """
     compiled = compiled_driven(model.effects, motion=False)
     table = {"temperature": temperature, **_geometry(model), **_named(model)}
     steps = _steps(time)
@@ -50,8 +70,7 @@ def driven_force(
     }
     start = np.array([state.initial or 0.0 for state in compiled.model.states])
     start[0] = time[0]
-    reading = _run(compiled, table, inputs, start, time, tolerance)["force_reading"]
-    return skewed(model, time, reading)
+    return _run(compiled, table, inputs, start, time, tolerance)
 
 
 def driven_motion(

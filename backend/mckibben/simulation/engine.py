@@ -6,85 +6,40 @@ background, then cached on disk); until then the same compiled functions run und
 
 from __future__ import annotations
 
-import ctypes
 import threading
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
-import symengine as se
 
-from mckibben.physics.drive import DriveModel
-from mckibben.physics.drive_terms import Structure
-from mckibben.physics.driven import DrivenModel
-from mckibben.physics.effect import Effect
 from mckibben.simulation.outcome import Outcome, Watch
+from mckibben.simulation.system import CompiledDrive, compile_system, compiled_drive, compiled_driven
 
-__all__ = ["CompiledDrive", "Outcome", "Solution", "compiled_drive", "integrate", "kernel"]
+__all__ = [
+    "FIRST_STEP",
+    "MAX_STEPS",
+    "CompiledDrive",
+    "Outcome",
+    "Solution",
+    "compile_system",
+    "compiled_drive",
+    "compiled_driven",
+    "integrate",
+    "kernel",
+    "outcome_of",
+]
 
 MAX_STEPS = 400_000
+FIRST_STEP = 1e-4  # s
 
 
-@dataclass(frozen=True)
-class CompiledDrive:
-    """A system of equations as machine code.
+class Kernels(NamedTuple):
+    """What `mckibben.simulation.kernels` compiles: a free run, and one under a sampled controller."""
 
-    Attributes:
-        model: names of states, parameters, inputs.
-        rates: packed inputs -> rates and outputs.
-        jacobian: packed inputs -> rates and Jacobian by rows.
-        pointers: addresses of both functions and of their data, as the kernel wants them.
-        dynamic: number of leading states that some rate depends on; the rest are mere integrals.
-    """
-
-    model: DriveModel | DrivenModel
-    rates: Any
-    jacobian: Any
-    pointers: tuple[int, int, int, int]
-    dynamic: int
-
-    @property
-    def width(self) -> int:
-        """Number of outputs."""
-        return len(self.model.output_names)
-
-    @property
-    def size(self) -> int:
-        """Number of states."""
-        return len(self.model.states)
-
-
-@lru_cache(maxsize=128)
-def compiled_drive(structure: Structure) -> CompiledDrive:
-    """A drive's compiled equations, built once (50 to 100 ms) and kept."""
-    return compile_system(DriveModel(structure))
-
-
-@lru_cache(maxsize=128)
-def compiled_driven(effects: tuple[Effect, ...], motion: bool) -> CompiledDrive:
-    """The compiled equations of a muscle whose pressure is measured, built once and kept."""
-    return compile_system(DrivenModel(effects, motion=motion))
-
-
-def compile_system(model: DriveModel | DrivenModel) -> CompiledDrive:
-    """Machine code of a system and of its exact Jacobian."""
-    states = list(model.symbols.values())
-    arguments = [*states, *model.parameters.values(), *model.inputs.values()]
-    matrix = se.Matrix(model.rates).jacobian(se.Matrix(states))
-    rates = se.Lambdify(arguments, [*model.rates, *model.outputs], backend="llvm", cse=True)
-    jacobian = se.Lambdify(arguments, [*model.rates, *matrix], backend="llvm", cse=True)
-    pointers: list[int] = []
-    for function in (rates, jacobian):
-        address, data = function.as_ctypes()
-        pointers += [ctypes.cast(address, ctypes.c_void_p).value or 0, data.value or 0]
-    first, first_data, second, second_data = pointers
-    size = len(states)
-    used = [any(matrix[row, column] != 0 for row in range(size)) for column in range(size)]
-    dynamic = max((column + 1 for column in range(size) if used[column]), default=1)
-    return CompiledDrive(model, rates, jacobian, (first, first_data, second, second_data), dynamic)
+    free: Callable[..., int]
+    sampled: Callable[..., int]
 
 
 class _Kernel:
@@ -93,7 +48,7 @@ class _Kernel:
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._thread: threading.Thread | None = None
-        self._function: Callable[..., int] | None = None
+        self._function: Kernels | None = None
 
     def warm(self) -> threading.Thread:
         """Start getting the kernel ready; returns the thread that does it."""
@@ -103,16 +58,17 @@ class _Kernel:
                 self._thread.start()
             return self._thread
 
-    def ready(self) -> Callable[..., int] | None:
+    def ready(self) -> Kernels | None:
         """The kernel, or None while it is not ready."""
         if self._function is None:
             self.warm()
         return self._function
 
     def _load(self) -> None:
-        from mckibben.simulation.rodas import rodas4  # numba: 0.6 s cached, 5 s the first time ever
+        # numba: 0.6 s cached, 5 s the first time ever
+        from mckibben.simulation.kernels import rodas4, rodas4_sampled
 
-        self._function = rodas4
+        self._function = Kernels(rodas4, rodas4_sampled)
 
 
 kernel = _Kernel()
@@ -128,7 +84,7 @@ class _EndedError(Exception):
 
 @dataclass(frozen=True)
 class Solution:
-    """Rows of states and outputs on the grid, the end state, and how it went."""
+    """Rows of states and outputs on the grid, the end state, how it went, and the step to go on with."""
 
     rows: np.ndarray
     end: np.ndarray
@@ -136,6 +92,7 @@ class Solution:
     steps: int
     rejected: int
     engine: str
+    next_step: float = FIRST_STEP
 
 
 def integrate(
@@ -149,6 +106,7 @@ def integrate(
     tolerance: float,
     engine: str = "auto",
     watch: Watch | None = None,
+    first_step: float = FIRST_STEP,
 ) -> Solution:
     """Integrate from ``times[0]`` to ``times[-1]``, segment by segment.
 
@@ -162,38 +120,45 @@ def integrate(
         tolerance: relative error per step; the absolute one is the state's scale times it.
         engine: "rodas", "lsoda", or "auto" for the first that is ready.
         watch: may end LSODA early; the kernel is not asked, its steps are limited instead.
+        first_step: that the kernel tries [s].
     """
-    function = kernel.ready() if engine == "auto" else None
+    kernels = kernel.ready() if engine == "auto" else None
     if engine == "rodas":
         kernel.warm().join()
-        function = kernel.ready()
-    absolute = tolerance * np.array([state.scale for state in drive.model.states])
-    if function is None:
-        return _lsoda(drive, parameters, start, times, inputs, grid, tolerance, absolute, watch or Watch())
-    rows = np.full((len(grid), drive.size + drive.width), np.nan)
+        kernels = kernel.ready()
+    absolute = tolerance * drive.scales
+    constants = drive.codes.constants(parameters)
+    if kernels is None:
+        return _lsoda(drive, constants, start, times, inputs, grid, tolerance, absolute, watch or Watch())
+    rows = np.empty((len(grid), drive.size + drive.width))
     counts = np.zeros(3, np.int64)
-    end = start.copy()
-    status = function(
-        *drive.pointers,
-        parameters,
+    end, step = start.copy(), np.array([first_step])
+    status = kernels.free(
+        *drive.codes.given,
+        constants,
         end,
         times,
         inputs,
+        step,
         grid,
         tolerance,
         absolute,
         rows,
         counts,
         MAX_STEPS,
-        drive.dynamic,
     )
-    outcome = {0: Outcome.COMPLETED, 2: Outcome.STUCK}.get(int(status), Outcome.DIVERGED)
-    return Solution(rows[: counts[2]], end, outcome, int(counts[0]), int(counts[1]), "rodas")
+    steps, rejected, written = (int(count) for count in counts)
+    return Solution(rows[:written], end, outcome_of(status), steps, rejected, "rodas", float(step[0]))
+
+
+def outcome_of(status: int) -> Outcome:
+    """What a status of the kernel means."""
+    return {0: Outcome.COMPLETED, 2: Outcome.STUCK}.get(int(status), Outcome.DIVERGED)
 
 
 def _lsoda(
     drive: CompiledDrive,
-    parameters: np.ndarray,
+    constants: np.ndarray,
     start: np.ndarray,
     times: np.ndarray,
     inputs: np.ndarray,
@@ -207,23 +172,23 @@ def _lsoda(
     size, width = drive.size, drive.width
     rows = np.full((len(grid), size + width), np.nan)
     state, steps, written = start.copy(), 0, 0
-    packed = np.concatenate([start, parameters, np.zeros(inputs.shape[1])])
+    packed = np.concatenate([start, constants, np.zeros(inputs.shape[1])])
 
     def rates(now: float, y: np.ndarray) -> np.ndarray:
         if ended := watch.ended(now / times[-1]):
             raise _EndedError(ended)
         packed[:size] = y
-        return drive.rates(packed)[:size]
+        return drive.codes.rates(packed)[:size]
 
     def jacobian(_time: float, y: np.ndarray) -> np.ndarray:
         packed[:size] = y
-        return drive.jacobian(packed)[size:].reshape(size, size)
+        return drive.dense(drive.codes.jacobian(packed))
 
     for segment, given in enumerate(inputs):
         begin, finish = times[segment], times[segment + 1]
         if not finish > begin:
             continue
-        packed[size + len(parameters) :] = given
+        packed[size + len(constants) :] = given
         last = segment == len(inputs) - 1
         stop = np.searchsorted(grid, finish, side="right" if last else "left")
         wanted = grid[written:stop]
@@ -248,7 +213,7 @@ def _lsoda(
             return Solution(rows[:written], state, Outcome.DIVERGED, steps, 0, "lsoda")
         for row, y in enumerate(found.y.T[: len(wanted)], written):
             packed[:size] = y
-            rows[row, :size], rows[row, size:] = y, drive.rates(packed)[size:]
+            rows[row, :size], rows[row, size:] = y, drive.codes.rates(packed)[size:]
         written += len(wanted)
         state = found.y[:, -1]
     return Solution(rows[:written], state, Outcome.COMPLETED, steps, 0, "lsoda")

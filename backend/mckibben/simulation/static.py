@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from math import isfinite
 from typing import Any, NamedTuple
 
@@ -70,8 +71,25 @@ class StaticModel:
                         field=f"muscle.{needed}",
                         hint="e.g. '1.8 mm'",
                     )
-        self._compiled = compiled_state(self.effects)
-        self._constants = self._compiled.pack(muscle, self.values)
+
+    @classmethod
+    def of(
+        cls, muscle: Muscle, effects: tuple[Effect, ...], values: Mapping[str, Mapping[str, float]]
+    ) -> StaticModel:
+        """A model of effects and complete values that are known to be right, as a fit tries them."""
+        model = cls.__new__(cls)
+        model.muscle, model.limits = muscle, Limits()
+        model.effects = effects
+        model.values = {effect.id: dict(values[effect.id]) for effect in effects}
+        return model
+
+    @cached_property
+    def _compiled(self) -> CompiledState:
+        return compiled_state(self.effects)
+
+    @cached_property
+    def _constants(self) -> np.ndarray:
+        return self._compiled.pack(self.muscle, self.values)
 
     @property
     def longest(self) -> float:

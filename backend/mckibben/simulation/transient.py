@@ -167,7 +167,7 @@ def simulate(
         grid: ascending times of the rows instead, within the duration.
         tolerance: relative error per step.
         watch: may end the run early.
-        engine: see `mckibben.simulation.engine.integrate`; a controlled drive waits for the kernel.
+        engine: see `mckibben.simulation.engine.integrate`.
     """
     compiled = compiled_drive(drive.structure)
     parameters = parameters_of(drive, compiled)
@@ -224,4 +224,4 @@ def run_of(
 def skewed(model: StaticModel, time: np.ndarray, reading: np.ndarray) -> np.ndarray:
     """The force reading as it arrives: later than the other channels by the skew of the effects."""
     delay = float(Model(model.effects).sum("skew", model.values, {}))
-    return np.interp(time - delay, time, reading) if delay else reading
+    return np.interp(time - delay, time, reading) if delay and len(time) else reading

@@ -21,20 +21,32 @@ const sentence = (text) =>
   String(text).replace(/^[a-z]/, (c) => c.toUpperCase()).replace(/([^.!?:])$/, "$1.");
 
 /** @param {string} path @param {RequestInit} [init] */
-async function request(path, init) {
-  let response;
+async function reach(path, init) {
   try {
-    response = await fetch(path, init);
+    return await fetch(path, init);
   } catch (error) {
     if (init?.signal?.aborted) throw error;
     throw new ApiError("The server does not answer. Is “mckibben serve” still running?");
   }
+}
+
+/** @param {Response} response */
+async function answerOf(response) {
   const body = await response.json().catch(() => null);
   if (response.ok && body) return body;
-  const told = body?.error;
-  const message = told?.message ?? `The server answered with status ${response.status}.`;
-  throw new ApiError(message, { field: told?.field, hint: told?.hint, status: response.status });
+  throw told(body, response.status);
 }
+
+/** The server's one shape of an error. @param {any} body @param {number} status */
+const told = (body, status) =>
+  new ApiError(body?.error?.message ?? `The server answered with status ${status}.`, {
+    field: body?.error?.field,
+    hint: body?.error?.hint,
+    status,
+  });
+
+/** @param {string} path @param {RequestInit} [init] */
+const request = async (path, init) => answerOf(await reach(path, init));
 
 /** @param {string} path */
 export const get = (path) => request(path);
@@ -47,6 +59,61 @@ export const post = (path, body, signal) =>
     body: JSON.stringify(body),
     signal,
   });
+
+/** Sends a file as it is. @param {"PUT" | "POST"} method @param {string} path @param {Blob} file
+ * @param {AbortSignal} [signal] */
+export const sendFile = (method, path, file, signal) => request(path, { method, body: file, signal });
+
+/** The text of an answer that is no JSON. @param {string} path @param {unknown} body */
+export async function postForText(path, body) {
+  const response = await reach(path, {
+    method: "POST",
+    headers: { "content-type": "application/json" },
+    body: JSON.stringify(body),
+  });
+  return response.ok ? response.text() : answerOf(response);
+}
+
+/** One event of a stream: its name and its data. @param {string} text
+ * @returns {{event: string, data: any} | null} */
+function readEvent(text) {
+  /** @type {Record<string, string>} */
+  const parts = {};
+  for (const line of text.split(/\r?\n/)) {
+    const [, key, value] = /^(\w+): ?(.*)$/.exec(line) ?? [];
+    if (key) parts[key] = key in parts ? `${parts[key]}\n${value}` : value;
+  }
+  return parts.data === undefined ? null : { event: parts.event ?? "message", data: JSON.parse(parts.data) };
+}
+
+/** Long work: the answer comes as events, the last of which is “done”.
+ * @param {string} path @param {unknown} body @param {(event: string, data: any) => void} seen
+ * @param {AbortSignal} signal ends the work on the server too
+ * @returns {Promise<any>} the data of “done” */
+export async function follow(path, body, seen, signal) {
+  const response = await reach(path, {
+    method: "POST",
+    headers: { "content-type": "application/json", accept: "text/event-stream" },
+    body: JSON.stringify(body),
+    signal,
+  });
+  if (!response.headers.get("content-type")?.startsWith("text/event-stream")) return answerOf(response);
+  const reader = /** @type {ReadableStream<Uint8Array<ArrayBuffer>>} */ (response.body)
+    .pipeThrough(new TextDecoderStream()).getReader();
+  let rest = "";
+  for (;;) {
+    const { done, value } = await reader.read();
+    const blocks = (rest + (value ?? "")).split(/\r?\n\r?\n/);
+    rest = blocks.pop() ?? "";
+    for (const block of blocks) {
+      const found = readEvent(block);
+      if (found?.event === "done") return found.data;
+      if (found?.event === "error") throw told(found.data.error ? found.data : { error: found.data }, 422);
+      if (found) seen(found.event, found.data);
+    }
+    if (done) throw new ApiError("The connection ended before the work was done.");
+  }
+}
 
 const PATIENCE_MS = 400;
 

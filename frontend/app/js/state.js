@@ -1,6 +1,7 @@
 // @ts-check
 // The one document: what undo steps through, what the link carries, what a saved file holds.
 import { batch, computed, signal } from "./reactive.js";
+import { defaultCompare, readCompare } from "./views/compare/document.js";
 import { defaultTransient, readTransient } from "./views/transient/document.js";
 
 /** @typedef {import("./types.js").Doc} Doc */
@@ -34,6 +35,7 @@ export const defaultDoc = () => ({
   units: "bar",
   design: defaultDesign(),
   transient: defaultTransient(),
+  compare: defaultCompare(),
   catalogue: {
     kind: "muscles",
     search: "",
@@ -173,6 +175,7 @@ export function readDoc(raw) {
     units,
     design: readDesign(raw.design),
     transient: readTransient(raw.transient),
+    compare: readCompare(raw.compare),
     catalogue: readFilter(raw.catalogue),
   };
 }

@@ -36,6 +36,7 @@
 /** @typedef {{kind: string, search: string, maker: string, from: number | null, to: number | null,
  *   sort: string, descending: boolean, selected: string | null}} CatalogueFilter */
 /** @typedef {{schema: 1, view: string, units: import("./format.js").System, design: Design,
- *   transient: import("./views/transient/document.js").Transient, catalogue: CatalogueFilter}} Doc */
+ *   transient: import("./views/transient/document.js").Transient,
+ *   compare: import("./views/compare/document.js").Compare, catalogue: CatalogueFilter}} Doc */
 
 export {};

@@ -36,6 +36,8 @@ def refused(text, name="a.csv") -> InputError:
 VARIANTS = {
     "plain": BASE,
     "bom": "\ufeff" + BASE,
+    "utf-16": BASE.encode("utf-16"),
+    "utf-16, other end": b"\xfe\xff" + BASE.encode("utf-16-be"),
     "crlf": BASE.replace("\n", "\r\n"),
     "old mac": BASE.replace("\n", "\r"),
     "no last line end": BASE.rstrip(),
@@ -345,14 +347,17 @@ def test_id_is_the_hash_of_the_bytes():
 
 
 ERRORS = {
-    "no bytes": ("", "a.csv: the file is empty"),
-    "blank": (" \n\n", "a.csv: the file is empty"),
-    "bom only": ("\ufeff", "a.csv: the file is empty"),
-    "comments only": ("# kind: static\n", "a.csv: the header names no column"),
+    "no bytes": ("", "a.csv, row 1: the file is empty"),
+    "blank": (" \n\n", "a.csv, row 1: the file is empty"),
+    "bom only": ("\ufeff", "a.csv, row 1: the file is empty"),
+    "comments only": ("# kind: static\n", "a.csv, row 1: the header names no column"),
     "no columns": ('"",""\n1,2\n', "a.csv, row 1: the header names no column"),
-    "separators only": (",,,\n,,\n", "a.csv: the header names no column"),
-    "header only": ("pressure_bar,length_mm\n", "a.csv: there are no rows below the header"),
-    "header and empty rows": ("pressure_bar,length_mm\n,\n\n", "a.csv: there are no rows below the header"),
+    "separators only": (",,,\n,,\n", "a.csv, row 2: the header names no column"),
+    "header only": ("pressure_bar,length_mm\n", "a.csv, row 1: there are no rows below the header"),
+    "header and empty rows": (
+        "pressure_bar,length_mm\n,\n\n",
+        "a.csv, row 1: there are no rows below the header",
+    ),
     "no channel": ("foo,bar\n1,2\n", "a.csv, row 1: no known channel among the columns 'foo', 'bar'"),
     "no header": ("1,2\n3,4\n", "a.csv, row 1: numbers where the header should be"),
     "groups only": ("run,direction\n1,up\n", "a.csv, row 1: no known channel"),
@@ -427,7 +432,7 @@ ERRORS = {
     "quote within": ('pressure_bar,length_mm\n"1"2,300\n', "a.csv, row 2: the quotes are wrong"),
     "nul": (BASE.encode() + b"1,\x002,3\n", "a.csv, row 4: the file holds NUL bytes"),
     "control": (BASE.encode() + b"1,\x022,3\n", "a.csv, row 4: the file holds control characters"),
-    "utf-16": (BASE.encode("utf-16"), "a.csv: the file is UTF-16 text"),
+    "damaged utf-16": (BASE.encode("utf-16")[:-1], "a.csv, row 3: the UTF-16 text is damaged"),
     "utf-16 without mark": (BASE.encode("utf-16-le"), "a.csv, row 1: the file holds NUL bytes"),
     "zip": (b"PK\x03\x04\x14\x00\x06\x00", "a.csv, row 1: the file holds control characters"),
     "kind": ("# kind: isobar\n" + BASE, "a.csv: kind 'isobar' is not known"),
@@ -468,13 +473,11 @@ def test_extensions():
     for name in ("a.csv", "A.CSV", "folder/a.txt"):
         assert read_measurement(BASE.encode(), name).rows == 2
     assert read_measurement(BASE.replace(",", "\t").encode(), "a.tsv").rows == 2
-    for name, what in {
-        "a.xlsx": "xlsx files are",
-        "a.mat": "mat files are",
-        "a": "files without an extension are",
-    }.items():
-        with pytest.raises(InputError, match=f"{what} not read yet, save as CSV"):
-            read_measurement(BASE.encode(), name)
+    for name in ("a", "a.dat", "a.xlsx"):  # the content counts, not the name
+        assert read_measurement(BASE.encode(), name).rows == 2
+    assert "the file is text, not an Excel workbook: read as CSV" in (
+        read_measurement(BASE.encode(), "a.xlsx").messages
+    )
 
 
 # The fast and the careful way ------------------------------------------------------------------------------
@@ -520,6 +523,23 @@ def test_fast_way_reads_words_and_numbers_exactly(monkeypatch):
     np.testing.assert_allclose(result.columns["pressure"], values[:, 0], rtol=1e-15)
     np.testing.assert_array_equal(result.columns["direction"], np.tile([-1, -1, 1], 100))
     np.testing.assert_array_equal(result.columns["group"], np.repeat([0, 1, 2], 100))
+
+
+@pytest.mark.parametrize("separator", [",", ";"])
+def test_a_few_odd_rows_do_not_make_a_large_table_slow(separator, monkeypatch):
+    lines = [f"{n},{n + 1},0.5,up".replace(",", separator) for n in range(1, 201)]
+    lines[50] = lines[50].replace("0.5", "half")
+    lines[60] = lines[60] + separator + "7"
+    lines[70] = ""
+    text = separator.join(("time_s", "pressure_Pa", "length_m", "direction")) + "\n" + "\n".join(lines)
+    monkeypatch.setattr(table, "FAST_FROM", 0)
+    monkeypatch.setattr(table, "_read_carefully", lambda *a: pytest.fail("not fast"))
+    error = refused(text)
+    assert error.message == "a.csv, row 52, column 'length_m': 'half' is not a number (and 1 more such rows)"
+    result = read("# bad_rows: skip\n" + text)
+    assert result.rows == 197
+    assert result.skipped == {"not a number": 1, "another number of cells": 1}
+    assert result.columns["time"][50] == 52.0
 
 
 # Any bytes -------------------------------------------------------------------------------------------------

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mckibben.api.store import MeasurementStore
 from mckibben.identification.measurement import Measurement, build
@@ -30,6 +31,10 @@ class Points:
     measurement: Measurement
     left_out: dict[str, int] = field(default_factory=dict)
     nominal_length: float | None = None
+
+    def __post_init__(self) -> None:
+        # Rows that could not be read are left out like those a source excludes itself.
+        object.__setattr__(self, "left_out", dict(self.measurement.skipped) | self.left_out)
 
 
 def find_points(identity: str, *, library: PresetLibrary, store: MeasurementStore) -> Points:
@@ -124,6 +129,8 @@ def joined(all_points: Sequence[Points]) -> Points:
         kind=first.kind,
         conditions=first.conditions,
         marked_slack=np.concatenate([part.slack for part in parts]),
+        excluded_rows=_excluded(parts),
+        starts=_starts(parts),
     )
     messages = [f"{part.name}: {message}" for part in parts for message in part.messages]
     left_out: dict[str, int] = {}
@@ -134,3 +141,21 @@ def joined(all_points: Sequence[Points]) -> Points:
     return Points(
         replace(together, messages=tuple(messages)), left_out, rest.pop() if len(rest) == 1 else None
     )
+
+
+def _excluded(parts: Sequence[Measurement]) -> dict[str, NDArray[np.bool_]]:
+    """The excluded rows of all parts, one below the other."""
+    reasons = dict.fromkeys(reason for part in parts for reason in part.excluded_rows)
+    return {
+        reason: np.concatenate([part.excluded_rows.get(reason, np.zeros(part.rows, bool)) for part in parts])
+        for reason in reasons
+    }
+
+
+def _starts(parts: Sequence[Measurement]) -> tuple[int, ...]:
+    """First row of each file."""
+    offset, result = 0, []
+    for part in parts:
+        result += [offset + start for start in part.starts]
+        offset += part.rows
+    return tuple(result)

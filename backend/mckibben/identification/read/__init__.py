@@ -2,26 +2,29 @@
 
 from __future__ import annotations
 
-from pathlib import PurePath
-
 from mckibben.identification.measurement import Measurement
+from mckibben.identification.read.assemble import assemble
+from mckibben.identification.read.correction import Correction, read_correction
 from mckibben.identification.read.csv import read_csv
-from mckibben.physics.errors import InputError
+from mckibben.identification.read.formats import open_source
+from mckibben.identification.read.preview import Preview, preview
 
-__all__ = ["read_csv", "read_measurement"]
+__all__ = [
+    "Correction", "Preview", "preview", "read_correction", "read_csv", "read_measurement",
+]  # fmt: skip
 
-_READERS = {".csv": read_csv, ".txt": read_csv, ".tsv": read_csv}
 
+def read_measurement(data: bytes, name: str, correction: Correction | None = None) -> Measurement:
+    """The measurement in a file: CSV, .xlsx, .mat (v5 to v7.3) or .tdms, told apart by the content.
 
-def read_measurement(data: bytes, name: str) -> Measurement:
-    """The measurement in a file, read by the extension of its name.
+    Args:
+        data: the file's bytes.
+        name: file name, for messages.
+        correction: what the user says beyond the file.
 
     Raises:
-        InputError: no reader for the extension, or whatever is wrong with the file.
+        InputError: whatever is wrong with the file, naming row, column or key, and the remedy.
     """
-    extension = PurePath(name).suffix.lower()
-    reader = _READERS.get(extension)
-    if reader is None:
-        what = f"{extension[1:]} files are" if len(extension) > 1 else "files without an extension are"
-        raise InputError(f"{name}: {what} not read yet, save as CSV", field="name", hint="e.g. 'test.csv'")
-    return reader(data, name)
+    correction = correction or Correction()
+    source = open_source(data, name)
+    return assemble(source, name=name, id=correction.identity(data), correction=correction).measurement

@@ -1,42 +1,24 @@
-"""The rows of a delimited text: numbers and labels by column, and an error that names the row.
+"""The rows of a delimited text.
 
 Two ways that give the same result. The careful one walks the rows with the csv module and knows the line of
-every cell. The fast one (pandas, for large regular tables) leaves anything odd to the former.
+every cell. The fast one (pandas, for large tables) leaves odd rows, or a table of many, to the former.
 """
 
 from __future__ import annotations
 
 import csv
 import io
-import math
-import re
-from array import array
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.identification.read.cells import Labels, Problems, Table, good_rows, no_rows, read_cells
 from mckibben.physics.errors import InputError
 
-_POINT = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
-_COMMA = re.compile(r"[+-]?(?:[0-9]+,[0-9]*|,[0-9]+)(?:[eE][+-]?[0-9]+)?")
 FAST_FROM = 200_000  # characters; below, importing pandas costs more than it saves
-
-
-class Labels(NamedTuple):
-    """A text column: ``words[codes]``, words in order of first appearance."""
-
-    codes: NDArray[np.intp]
-    words: list[str]
-
-
-class Table(NamedTuple):
-    """``numbers`` and ``labels`` by column index; ``lines``: 1-based line of the file of each row."""
-
-    numbers: dict[int, NDArray[np.float64]]
-    labels: dict[int, Labels]
-    lines: NDArray[np.int64]
+_MANY_ODD = 1000  # rows
 
 
 def split_header(line: str, separator: str, *, name: str, row: int) -> list[str]:
@@ -49,7 +31,7 @@ def split_header(line: str, separator: str, *, name: str, row: int) -> list[str]
 
 def read_table(
     body: str, separator: str, headers: Sequence[str], *, numeric: Sequence[int], text: Sequence[int],
-    name: str, first_line: int,
+    name: str, first_line: int, skip: bool = False,
 ) -> Table:  # fmt: skip
     """Read the lines below the header.
 
@@ -61,6 +43,7 @@ def read_table(
         text: indices of the columns to read as labels.
         name: file name, for messages.
         first_line: 1-based line of the file on which ``body`` begins.
+        skip: leave bad rows out, with a count, instead of refusing the table.
 
     Raises:
         InputError: ragged rows, text or nothing or nan where a number must be, mixed decimal signs, an
@@ -68,13 +51,23 @@ def read_table(
     """
     body = _without_empty_end(body, separator)
     if not body:
-        raise InputError(
-            f"{name}: there are no rows below the header", field="rows", hint="one line per reading"
-        )
+        raise no_rows(f"{name}, row {first_line - 1}")
+    problems = Problems(name, "column", skip=skip)
     table = None
     if len(body) >= FAST_FROM:
-        table = _read_fast(body, separator, len(headers), numeric, text, first_line)
-    return table or _read_carefully(body, separator, headers, numeric, text, name, first_line)
+        table = _read_fast(body, separator, headers, numeric, text, problems, first_line)
+    if table is None:
+        table = _read_carefully(body, separator, headers, numeric, text, problems, first_line)
+    return table
+
+
+def first_rows(body: str, separator: str, rows: int) -> list[list[str]]:
+    """The cells of the first lines, as they are written."""
+    lines = [line for line in body[: 2000 * rows].split("\n", 2 * rows)[: 2 * rows] if line.strip()][:rows]
+    try:
+        return list(csv.reader(lines, delimiter=separator))
+    except csv.Error:
+        return [line.split(separator) for line in lines]
 
 
 def _without_empty_end(body: str, separator: str) -> str:
@@ -89,42 +82,77 @@ def _without_empty_end(body: str, separator: str) -> str:
 
 
 def _read_fast(
-    body: str, separator: str, width: int, numeric: Sequence[int], text: Sequence[int], first_line: int
-) -> Table | None:
-    """The table by pandas; None when anything is irregular."""
+    body: str, separator: str, headers: Sequence[str], numeric: Sequence[int], text: Sequence[int],
+    problems: Problems, first_line: int,
+) -> Table | None:  # fmt: skip
+    """The table by pandas, its few odd rows by the careful way; None when more is odd."""
+    width = len(headers)
     comma = separator != "," and "," in body
-    if '"' in body or "\n\n" in body or body[0] == "\n" or (comma and "." in body):
+    if '"' in body or (width == 1 and "\n\n" in body) or (comma and "." in body):
         return None
-    raw = np.frombuffer(body.encode(), np.uint8)
+    data = body.encode()
+    raw = np.frombuffer(data, np.uint8)
     ends = np.append(np.flatnonzero(raw == ord("\n")), len(raw))
     before = np.searchsorted(np.flatnonzero(raw == ord(separator)), ends)
-    if np.any(np.diff(before, prepend=0) != width - 1):
+    odd = np.flatnonzero(np.diff(before, prepend=0) != width - 1)
+    if len(odd) > _MANY_ODD or len(odd) == len(ends):
         return None
+    regular = np.delete(np.arange(len(ends)), odd)
     import pandas as pd  # 150 ms: only when a large file comes
 
     columns = sorted((*numeric, *text))
     try:
         frame = pd.read_csv(
-            io.StringIO(body), sep=separator, decimal="," if comma else ".", header=None, index_col=False,
-            names=range(width), usecols=columns, dtype=dict.fromkeys(text, "category"), na_filter=False,
-            low_memory=False, engine="c",
+            io.BytesIO(_without(data, ends, odd)), sep=separator, decimal="," if comma else ".", header=None,
+            index_col=False, names=range(width), usecols=columns, dtype=dict.fromkeys(text, "category"),
+            na_filter=False, low_memory=False, engine="c",
         )  # fmt: skip
     except (ValueError, OverflowError):  # includes pandas' ParserError; the careful way says what is wrong
         return None
-    if len(frame) != len(ends):
+    if len(frame) != len(regular):
         return None
-    numbers = {}
+    numbers, good = {}, np.ones(len(regular), bool)
     for index in numeric:
-        if frame[index].dtype.kind not in "fiu":
-            return None
-        numbers[index] = frame[index].to_numpy(np.float64)
-        if not np.isfinite(numbers[index]).all():
-            return None
+        column: Any = frame[index]
+        if column.dtype.kind not in "fiu":
+            if column.dtype.kind == "b":
+                return None
+            column = pd.to_numeric(column.str.replace(",", ".") if comma else column, errors="coerce")
+        numbers[index] = np.asarray(column, dtype=np.float64)
+        good &= np.isfinite(numbers[index])
+    suspects = np.sort(np.concatenate([odd, regular[~good]]))
+    if len(suspects) > _MANY_ODD or not good.any():
+        return None
+    if len(suspects):
+        rows = ((first_line + int(n), _cells(data, ends, int(n), separator)) for n in suspects)
+        if any(True for _ in good_rows(rows, headers, numeric, problems)):
+            problems.clear()
+            return None  # odd, and right all the same
+        problems.raise_any()
     labels = {}
     for index in text:
-        codes, words = pd.factorize(frame[index])
+        chosen: Any = frame[index]
+        codes, words = pd.factorize(chosen[good])
         labels[index] = _stripped(codes, [str(word) for word in words])
-    return Table(numbers, labels, np.arange(first_line, first_line + len(frame)))
+    kept = {index: values[good] if len(suspects) else values for index, values in numbers.items()}
+    return Table(kept, labels, first_line + regular[good], problems.skipped)
+
+
+def _without(data: bytes, ends: NDArray[np.intp], lines: NDArray[np.intp]) -> bytes:
+    """The text without some of its lines."""
+    if not len(lines):
+        return data
+    pieces, position = [], 0
+    for line in lines.tolist():
+        pieces.append(data[position : int(ends[line - 1]) + 1 if line else 0])
+        position = int(ends[line]) + 1
+    return b"".join([*pieces, data[position:]])
+
+
+def _cells(data: bytes, ends: NDArray[np.intp], line: int, separator: str) -> list[str]:
+    """The cells of one line."""
+    text = data[int(ends[line - 1]) + 1 if line else 0 : int(ends[line])].decode()
+    return next(csv.reader([text], delimiter=separator), [])
 
 
 def _stripped(codes: NDArray[np.intp], words: Sequence[str]) -> Labels:
@@ -134,105 +162,24 @@ def _stripped(codes: NDArray[np.intp], words: Sequence[str]) -> Labels:
     return Labels(new[codes], list(position))
 
 
-class _Problems:
-    """The first bad row and how many there are."""
-
-    def __init__(self, name: str) -> None:
-        self.name = name
-        self.first: InputError | None = None
-        self.rows = 0
-
-    def add(self, line: int, column: str | None, what: str, hint: str) -> None:
-        self.rows += 1
-        if self.first is None:
-            where = f"row {line}" + (f", column '{column}'" if column else "")
-            field = f"row {line}" + (f", column {column}" if column else "")
-            self.first = InputError(f"{self.name}, {where}: {what}", field=field, hint=hint)
-
-    def raise_any(self) -> None:
-        if self.first is None:
-            return
-        more = f" (and {self.rows - 1} more such rows)" if self.rows > 1 else ""
-        raise InputError(self.first.message + more, field=self.first.field, hint=self.first.hint)
-
-
 def _read_carefully(
     body: str, separator: str, headers: Sequence[str], numeric: Sequence[int], text: Sequence[int],
-    name: str, first_line: int,
+    problems: Problems, first_line: int,
 ) -> Table:  # fmt: skip
-    width = len(headers)
     reader = csv.reader(io.StringIO(body), delimiter=separator, strict=True)
-    numbers = {index: array("d") for index in numeric}
-    codes = {index: array("q") for index in text}
-    words: dict[int, dict[str, int]] = {index: {} for index in text}
-    lines = array("q")
-    problems = _Problems(name)
-    style = ""  # the decimal sign of the file, once a cell has shown it
-    start = 0
-    while True:
-        start = reader.line_num
-        line = first_line + start
-        try:
-            row = next(reader, None)
-        except csv.Error as error:
-            raise _quote_error(name, line, error) from error
-        if row is None:
-            break
-        if not row or (width > 1 and len(row) == 1 and not row[0].strip()):
-            continue  # an empty line
-        if len(row) != width:
-            what = f"{len(row)} cells, the header has {width}"
-            problems.add(line, None, what, _ragged_hint(len(row), width))
-            continue
-        for index in numeric:
-            cell = row[index].strip()
-            sign = ""
-            if _POINT.fullmatch(cell):
-                sign = "." if "." in cell else ""
-            elif _COMMA.fullmatch(cell):
-                sign = ","
-            else:
-                problems.add(line, headers[index], *_why_no_number(cell))
-                break
-            if sign:
-                style = style or sign
-                if sign != style:
-                    what = f"'{cell[:30]}' has a decimal '{sign}', earlier cells a '{style}'"
-                    problems.add(line, headers[index], what, "use one decimal sign in the whole file")
-                    break
-            value = float(cell.replace(",", "."))
-            if not math.isfinite(value):
-                problems.add(line, headers[index], f"'{cell[:30]}' is too large", "a finite number")
-                break
-            numbers[index].append(value)
-        else:
-            lines.append(line)
-            for index in text:
-                label = row[index].strip()
-                codes[index].append(words[index].setdefault(label, len(words[index])))
-    problems.raise_any()
-    return Table(
-        {index: np.array(values, dtype=np.float64) for index, values in numbers.items()},
-        {i: Labels(np.array(values, dtype=np.intp), list(words[i])) for i, values in codes.items()},
-        np.array(lines, dtype=np.int64),
-    )
 
+    def rows() -> Iterator[tuple[int, list[str]]]:
+        while True:
+            line = first_line + reader.line_num
+            try:
+                row = next(reader, None)
+            except csv.Error as error:
+                raise _quote_error(problems.place, line, error) from error
+            if row is None:
+                return
+            yield line, row
 
-def _why_no_number(cell: str) -> tuple[str, str]:
-    """(what is wrong, what would be right) for a cell that is no number."""
-    if not cell:
-        return "the cell is empty", "a number, or leave the row out"
-    if cell.lower().lstrip("+-") in ("nan", "inf", "infinity", "na", "n/a", "none", "null"):
-        return f"'{cell}' is not a number that can be used", "a finite number, or leave the row out"
-    if re.fullmatch(r"[+-]?[0-9]{1,3}([.,' ][0-9]{3})+([.,][0-9]*)?", cell):
-        return f"'{cell[:30]}' has a thousands separator", "digits and one decimal sign only"
-    return f"{cell[:30]!r} is not a number", "a number; text belongs in a '#' line above the header"
-
-
-def _ragged_hint(cells: int, width: int) -> str:
-    if cells > width and cells % width == 0:
-        return "with decimal commas the columns must be separated by ';' or tabs"
-    return "every row needs one cell per column"
+    return read_cells(rows(), headers, numeric=numeric, text=text, problems=problems)
 
 
 def _quote_error(name: str, line: int, error: csv.Error) -> InputError:

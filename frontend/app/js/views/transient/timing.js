@@ -20,7 +20,7 @@ export const FIGURES = [
     ],
     ["rise_time", "Rise time", "lapse", "From 10 % to 90 % of the stroke; no dead time in it."],
     ["delay_time", "Delay time", "lapse", "From switching to 50 % of the stroke."],
-    ["settling_time", "Settling time", "lapse", "From here on within 2 % of the stroke."],
+    ["settling_time", "Settling time", "lapse", "From here on within 5 % of the stroke."],
     ["average_speed", "Average speed", "speed", "Stroke over positioning time."],
     ["max_speed", "Greatest speed", "speed", "The instant before an impact included."],
     ["max_speed_at", "… at", "lapse", "When, from switching."],

@@ -1,0 +1,224 @@
+"""Rates of noisy samples, with the standard uncertainty they have: local quadratic fits of adapted width.
+
+On uniform samples a local quadratic fit is the Savitzky-Golay filter (A. Savitzky, M. J. E. Golay, Analytical
+Chemistry 36 (1964) 1627, doi 10.1021/ac60214a047); the fit itself allows any sampling. Its width is chosen
+per row by the intersection of confidence intervals (A. Goldenshluger, A. Nemirovski, Mathematical Methods of
+Statistics 6 (1997) 135): the widest window whose estimate still agrees with those of all narrower ones.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+#: Half widths tried [rows]; each about 1.5 times the one before.
+LADDER = (1, 2, 3, 4, 6, 9, 13, 19, 28, 42, 63, 94)
+_AGREES = 4.0  # standard uncertainties on either side: noise alone hardly ever disagrees
+_BACK = 2  # steps of the ladder below the widest that agrees: there the bias is small beside the noise
+_CHUNK = 32_768  # rows whose sums stay in the processor's cache
+_TRIMMED = 0.9  # share of squared residuals that counts: edges are no noise
+_TRIMMED_MEAN = 0.6229962  # mean of z^2 over the smallest 90 % of a standard normal z
+_SURE = 8.0  # standard deviations of the noise: a smaller swing may be noise
+_THIRD = 20.0  # variance of the third difference of white noise of variance 1
+
+
+class Rate(NamedTuple):
+    """Rates of each row, their standard uncertainty, and the half width used [rows]; shape (rows,) each."""
+
+    value: Array
+    sigma: Array
+    half_width: NDArray[np.intp]
+
+
+class _Fit(NamedTuple):
+    """A local quadratic fit of one half width: level and slope relative to the row, variances per noise."""
+
+    level: Array
+    slope: Array
+    level_variance: Array
+    slope_variance: Array
+
+
+def noise_of(values: Array) -> float:
+    r"""Standard deviation of white noise on a smooth signal of evenly spaced rows.
+
+    From third differences, whose variance is :math:`20\sigma^2`; the largest tenth, where the signal jumps,
+    does not count. At least the rounding noise q/√12 of a signal that moves in steps q.
+    """
+    if len(values) < 8:
+        return 0.0
+    return max(_spread(np.diff(values, 3) ** 2 / _THIRD), rounding_step(values) / np.sqrt(12.0))
+
+
+def rounding_step(values: Array) -> float:
+    """The step of a rounded signal, of which many neighbours are equal; 0 for one without visible steps."""
+    steps = np.abs(np.diff(values))
+    moving = steps[steps > 1e-12 * np.max(np.abs(values), initial=0.0)]
+    if not len(moving) or len(moving) > 0.7 * len(steps):
+        return 0.0
+    step = float(np.quantile(moving, 0.05))
+    ratio = moving / step
+    return step if np.median(np.abs(ratio - np.rint(ratio))) < 0.05 else 0.0
+
+
+def smoothed(values: Array, *, noise: float, swing: float) -> tuple[Array, float]:
+    """The signal with so little noise that swings of this size are seen, and the swing that is none of noise.
+
+    A running mean, only as wide as is needed, and none at all where it would take the signal away: what
+    looks like noise is then a signal of few rows per swing.
+    """
+    ratio = _SURE * noise / swing if swing > 0.0 else 0.0
+    width = min(int(ratio**2) // 2 * 2 + 1, len(values) // 20) if ratio < 1e6 else 0
+    if ratio <= 1.0:
+        return values, swing
+    if width >= 3:
+        mean = running_mean(values, width)
+        if np.ptp(mean) > 0.5 * np.ptp(values):
+            return mean, max(swing, _SURE * noise / np.sqrt(width))
+        return values, swing
+    return values, min(max(swing, _SURE * noise), 0.5 * float(np.ptp(values)))
+
+
+def running_mean(values: Array, width: int) -> Array:
+    """Mean over so many rows around each; beyond the ends the first and the last value go on."""
+    if width <= 1:
+        return values
+    before = width // 2
+    padded = np.pad(values - values[0], (before + 1, width - 1 - before), mode="edge")
+    padded[0] = 0.0
+    total = np.cumsum(padded)
+    return values[0] + (total[width:] - total[:-width]) / width
+
+
+def rates(time: Array, values: Array, *, starts: tuple[int, ...] = (0,), noise: float | None = None) -> Rate:
+    r"""Time derivative of sampled values with its standard uncertainty.
+
+    At each row a quadratic is fitted to the rows around it; its slope at the row is the rate, with
+
+    .. math:: u^2 = \sigma^2 \left[(X^T X)^{-1}\right]_{11}
+
+    for noise :math:`\sigma` (white; a sensor's own low-pass filter makes it look smaller than it is), and the
+    bias that the next wider windows show. At a corner the rate is the mean of both sides.
+
+    Args:
+        time: shape (rows,), ascending within a part; uneven spacing is allowed [s].
+        values: shape (rows,).
+        starts: first row of each part; no fit reaches across, nor across a step back in time.
+        noise: standard deviation of the values; None = from the residuals of the narrowest fits.
+
+    Returns:
+        zero with infinite uncertainty where fewer than three different times are in reach.
+    """
+    back = np.flatnonzero(np.diff(time) < 0.0) + 1
+    edges = np.unique([0, *starts, *back.tolist(), len(time)])
+    parts = [_part(time[a:b], values[a:b], noise) for a, b in pairwise(edges.tolist())]
+    return Rate(*(np.concatenate(each) for each in zip(*parts, strict=True)))
+
+
+def _part(time: Array, values: Array, noise: float | None) -> Rate:
+    rows = len(time)
+    step = float(np.median(np.diff(time))) if rows > 1 else 0.0
+    if rows < 3 or step <= 0.0:
+        spans = float(np.ptp(time)) if rows else 0.0
+        step = spans / (rows - 1) if rows > 2 and spans > 0.0 else 0.0
+        if step <= 0.0:
+            return Rate(np.zeros(rows), np.full(rows, np.inf), np.zeros(rows, np.intp))
+    ladder = [half for half in LADDER if half <= max(2, rows // 4)]
+    # Relative to their own size: no square of a large or tiny value leaves the range of numbers.
+    scale = float(np.max(np.abs(values - values[0]))) or 1.0
+    scaled, clock = (values - values[0]) / scale, (time - time[0]) / step
+    sigma = _residual_noise(clock, scaled) if noise is None else noise / scale
+    value, spread, width = np.zeros(rows), np.full(rows, np.inf), np.zeros(rows, np.intp)
+    for begin in range(0, rows, _CHUNK):
+        chunk = slice(begin, min(begin + _CHUNK, rows))
+        value[chunk], spread[chunk], width[chunk] = _adapted(clock, scaled, chunk, ladder, sigma)
+    return Rate(value * scale / step, spread * scale / step, width)
+
+
+def _residual_noise(clock: Array, values: Array) -> float:
+    """Noise from the residuals of the narrowest fits, and from rounding."""
+    rows = len(clock)
+    squares = []
+    for begin in range(0, rows, _CHUNK):
+        fit = next(_fits(clock, values, slice(begin, min(begin + _CHUNK, rows)), [3]))
+        left = 1.0 - fit.level_variance
+        good = left > 0.1
+        squares.append(fit.level[good] ** 2 / left[good])
+    return max(_spread(np.concatenate(squares)), rounding_step(values) / np.sqrt(12.0))
+
+
+def _spread(squares: Array) -> float:
+    """Standard deviation from squares of which the largest may be no noise."""
+    if not len(squares):
+        return 0.0
+    count = max(1, int(_TRIMMED * len(squares)))
+    smallest = np.partition(squares, count - 1)[:count]
+    return float(np.sqrt(np.mean(smallest) / _TRIMMED_MEAN))
+
+
+def _adapted(
+    clock: Array, values: Array, chunk: slice, ladder: list[int], sigma: float
+) -> tuple[Array, Array, NDArray[np.intp]]:
+    """Rate, uncertainty and half width of the rows of a chunk."""
+    fits = [(fit.slope, sigma * np.sqrt(fit.slope_variance)) for fit in _fits(clock, values, chunk, ladder)]
+    rows = chunk.stop - chunk.start
+    low, high = np.full(rows, -np.inf), np.full(rows, np.inf)
+    agreeing, unknown = np.ones(rows, bool), np.zeros(rows, np.intp)
+    widest = np.zeros(rows, np.intp)
+    for number, (slope, own) in enumerate(fits):
+        known = np.isfinite(own)
+        unknown += ~known  # too few different times in the narrowest windows
+        low = np.where(known, np.maximum(low, slope - _AGREES * own), low)
+        high = np.where(known, np.minimum(high, slope + _AGREES * own), high)
+        agreeing &= low <= high
+        widest[agreeing] = number
+    taken = np.minimum(np.maximum(widest - _BACK, unknown), len(ladder) - 1)
+    row, halves = np.arange(rows), np.array(ladder)
+    slopes, spreads = (np.array(each) for each in zip(*fits, strict=True))
+    value, spread = slopes[taken, row], spreads[taken, row]
+    # The bias of a quadratic fit grows with the width squared: the next wider windows show how large it is.
+    wider = np.minimum(taken + _BACK, len(ladder) - 1)
+    growth = np.maximum((halves[wider] / halves[taken]) ** 2 - 1.0, 1.0)
+    spread = np.hypot(spread, (slopes[wider, row] - value) / growth)
+    return np.where(np.isfinite(spread), value, 0.0), spread, halves[taken]
+
+
+def _fits(clock: Array, values: Array, chunk: slice, ladder: list[int]):
+    """The quadratic fits of a chunk's rows for ascending half widths, one sum for all of them."""
+    rows, count = len(clock), chunk.stop - chunk.start
+    s0, s1, s2, s3, s4, y0, y1, y2 = (np.zeros(count) for _ in range(8))
+    s0 += 1.0  # the row itself, relative to which all others are counted
+    reached = 0
+    for half in ladder:
+        for offset in (k for n in range(reached + 1, half + 1) for k in (n, -n)):
+            begin, end = max(chunk.start, -offset), min(chunk.stop, rows - offset)
+            if begin >= end:
+                continue
+            here = slice(begin - chunk.start, end - chunk.start)
+            t = clock[begin + offset : end + offset] - clock[begin:end]
+            y = values[begin + offset : end + offset] - values[begin:end]
+            t2 = t * t
+            s0[here] += 1.0
+            s1[here] += t
+            s2[here] += t2
+            s3[here] += t2 * t
+            s4[here] += t2 * t2
+            y0[here] += y
+            y1[here] += y * t
+            y2[here] += y * t2
+        reached = half
+        c00, c01, c02 = s2 * s4 - s3 * s3, s2 * s3 - s1 * s4, s1 * s3 - s2 * s2
+        c11, c12 = s0 * s4 - s2 * s2, s1 * s2 - s0 * s3
+        det = s0 * c00 + s1 * c01 + s2 * c02
+        det = np.where(det > 1e-9 * s0 * s2 * s4, det, np.nan)
+        yield _Fit(
+            np.nan_to_num((c00 * y0 + c01 * y1 + c02 * y2) / det),
+            np.nan_to_num((c01 * y0 + c11 * y1 + c12 * y2) / det),
+            np.nan_to_num(c00 / det, nan=1.0),
+            np.where(np.isnan(det), np.inf, c11 / det),
+        )

@@ -1,0 +1,287 @@
+"""Which physical effect is missing: candidates, the best model, its twins, and an honest verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mckibben.identification.fit import FitResult, Free, least_squares_fit
+from mckibben.identification.next_measurement import Proposal, declared, protocols, separation
+from mckibben.identification.node import Node
+from mckibben.identification.noise import channel_noise
+from mckibben.identification.residuals import Profile, profiles, variables_of
+from mckibben.identification.score import effective_rows, score
+from mckibben.identification.search import CancelledError, Search, search
+from mckibben.identification.setting import Setting
+from mckibben.identification.subjects.subject import Subject
+from mckibben.identification.twins import Alternative, alternatives, same_predictions
+from mckibben.identification.unknown import Structure, Term, proposed_term, structure
+from mckibben.identification.why import Seen, seen, why
+from mckibben.physics.effect import Effect
+from mckibben.simulation.outcome import Outcome, Watch
+
+_AT_FLOOR = 1.15  # of the noise: nothing more is asked for
+_FAR = 2.0  # of the noise: structure that is left is said to be unknown whatever was explained before
+_STRUCTURED = 0.3  # share of the residual a regression predicts, from which it is structure
+_EXPLAINED = 0.98  # of the excess over the noise
+_TIME_LIMIT = 300.0  # s
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """The start model with one more effect, everything refitted.
+
+    Attributes:
+        effect: what was added.
+        node: the fitted model.
+        gain: share of the rms error that it took away.
+        score: change of the score of `mckibben.identification.score`; negative is better.
+        twins: candidates whose fitted predictions are the same on these data.
+        why: one sentence.
+    """
+
+    effect: Effect
+    node: Node
+    gain: float
+    score: float
+    twins: tuple[str, ...]
+    why: str
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step of the path: what was added, and the errors after it."""
+
+    added: str | None
+    node: Node
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """The answer.
+
+    Attributes:
+        subject: the data.
+        start: the start model as given, its residual over its scale.
+        root: the start model refitted.
+        noise: of the residual over its scale; None when it cannot be told. ``noise_how``: from what.
+        where: the start model's residual over each variable.
+        candidates: single additions, the best first.
+        path: the best model, in the order of adding that lowers the error fastest.
+        best: the best model; fit: its numbers with errors.
+        status: adequate, missing_effects, ambiguous or unknown_effect.
+        added: effects that the best model has and the start model has not.
+        alternatives: effects that could stand in for one of these.
+        structure: what a regression still predicts of the last residual; term: a formula for it.
+        proposals: experiments that would separate what is alike.
+        messages: what has to be said.
+    """
+
+    subject: Subject
+    start: Node
+    root: Node
+    noise: float | None
+    noise_how: str
+    where: tuple[Profile, ...]
+    seen: Seen
+    candidates: tuple[Candidate, ...]
+    path: tuple[Step, ...]
+    best: Node
+    fit: FitResult | None
+    status: str
+    added: tuple[str, ...]
+    alternatives: tuple[Alternative, ...]
+    structure: Structure
+    term: Term | None
+    proposals: tuple[Proposal, ...]
+    messages: tuple[str, ...] = field(default_factory=tuple)
+
+
+def diagnose(
+    subject: Subject,
+    setting: Setting,
+    *,
+    catalogue: Mapping[str, Effect],
+    geometry: Sequence[Free] = (),
+    noise: float | None = None,
+    watch: Watch | None = None,
+    found: Callable[[Candidate], None] = lambda _: None,
+) -> Diagnosis:
+    """Find what a model of a measurement is missing.
+
+    Args:
+        subject: the data.
+        setting: the start model.
+        catalogue: effects to choose from.
+        geometry: geometry that fits may change.
+        noise: standard deviation of the predicted channel [SI], when it is known.
+        watch: may cancel, and is told the share that is done.
+        found: told each candidate as it is tried.
+
+    Raises:
+        CancelledError: the watch said so.
+    """
+    inside = set(setting.ids)
+    candidates = tuple(
+        effect
+        for effect in catalogue.values()
+        if effect.id not in inside and subject.reveals(effect) and _has_needs(effect, setting)
+    )
+    progress = _Progress(watch or Watch(time_limit=_TIME_LIMIT))
+    work = Search(subject, tuple(geometry), candidates, None, progress.tell)
+    subject.prepare(setting, candidates, geometry)
+    start = Node(
+        setting, (), frozenset(), subject.residual(setting) / subject.scale,
+        np.empty((len(subject.measured), 0)), subject.folds,
+    )  # fmt: skip
+    root = work.fit(setting)
+    work.noise, how = _noise_of(subject, root, noise)
+    variables = variables_of(subject, setting.muscle.nominal_length)
+    before = seen(root.residual, variables)
+    where = profiles(start.residual, variables, subject.folds[0])
+    singles = []
+    for number, effect in enumerate(candidates):
+        progress.share = 0.45 * number / max(len(candidates), 1)
+        node = work.adding(root, effect)
+        singles.append((effect, node))
+        found(_candidate(work, root, effect, node, before, ()))
+    progress.share, progress.end = 0.45, 0.85
+    best = search(work, root, singles=[node for _, node in singles])
+    work.noise, how = _noise_of(subject, best, noise)
+    level = work.noise or best.rmse
+    progress.share, progress.end = 0.85, 0.95
+    path = _path(work, start, root, best)
+    added = tuple(step.added for step in path if step.added)
+    others = tuple(alternatives(work, best, added, level))
+    fit = _final_fit(subject, best)
+    alike = same_predictions([(effect.id, node) for effect, node in singles], level)
+    ranked = sorted(
+        (_candidate(work, root, effect, node, before, alike[effect.id]) for effect, node in singles),
+        key=lambda candidate: candidate.score,
+    )
+    rest = structure(best.residual, variables)
+    status = _status(start, best, work.noise, added, others, rest)
+    term = None
+    if status == "unknown_effect" and _is_force(subject):
+        term = proposed_term(best.residual, variables, best.jacobian[:, best.inner])
+    progress.share = 0.95
+    return Diagnosis(
+        subject, start, root, work.noise, how, tuple(where), before, tuple(ranked), path, best, fit, status,
+        added, others, rest, term, tuple(_proposals(best, others, catalogue, level, subject)),
+        tuple(_messages(work, best, fit)),
+    )  # fmt: skip
+
+
+class _Progress:
+    """Shares of the work, told to a watch."""
+
+    def __init__(self, watch: Watch) -> None:
+        self._watch = watch
+        self.share, self.end = 0.0, 0.45
+
+    def tell(self, _: str) -> None:
+        """One more model is fitted."""
+        self.share += 0.02 * (self.end - self.share)
+        if self._watch.ended(self.share) in (Outcome.CANCELLED, Outcome.TIMED_OUT):
+            raise CancelledError
+
+
+def _has_needs(effect: Effect, setting: Setting) -> bool:
+    return all(getattr(setting.muscle, needed) > 0.0 for needed in effect.needs)
+
+
+def _noise_of(subject: Subject, node: Node, given: float | None) -> tuple[float | None, str]:
+    if given is not None and len(subject.channels) == 1:
+        return given, "given"
+    if len(subject.channels) > 1:
+        return 1.0, "third differences of each channel"
+    value = channel_noise(subject, node.residual, subject.channels[0])
+    return value, "third differences of the residual within sweeps"
+
+
+def _candidate(
+    work: Search, root: Node, effect: Effect, node: Node, before: Seen, twins: Sequence[str]
+) -> Candidate:
+    rows = effective_rows(node.residual, work.subject.sweeps, work.subject.folds)
+    change = score(node, rows=rows, noise=work.noise) - score(root, rows=rows, noise=work.noise)
+    gain = 1.0 - node.rmse / root.rmse if root.rmse > 0.0 else 0.0
+    return Candidate(effect, node, gain, change, tuple(twins), why(effect, before, gain=gain))
+
+
+def _path(work: Search, start: Node, root: Node, best: Node) -> tuple[Step, ...]:
+    steps = [Step(None, start)]
+    node, left = root, [e for e in best.setting.effects if e.id not in set(root.setting.ids)]
+    while len(left) > 1:
+        nexts = [(effect, work.adding(node, effect)) for effect in left]
+        effect, node = min(nexts, key=lambda pair: pair[1].rmse)
+        steps.append(Step(effect.id, node))
+        left.remove(effect)
+    if left:
+        steps.append(Step(left[0].id, best))
+    elif best.rmse < 0.98 * start.rmse:
+        steps.append(Step(None, best))
+    return tuple(steps)
+
+
+def _final_fit(subject: Subject, best: Node) -> FitResult | None:
+    if not best.free:
+        return None
+    freedom = [p.start for p in best.free]
+    return least_squares_fit(
+        lambda numbers: best.jacobian @ (np.asarray(numbers) - freedom) - best.residual,
+        lambda _: best.jacobian,
+        best.free,
+        starts=1,
+    )
+
+
+def _status(
+    start: Node,
+    best: Node,
+    noise: float | None,
+    added: Sequence[str],
+    others: Sequence[Alternative],
+    rest: Structure,
+) -> str:
+    floor = noise or 0.0
+    excess = max(start.mean_square - floor**2, 1e-300)
+    explained = 1.0 - max(best.mean_square - floor**2, 0.0) / excess
+    above = best.rmse > _AT_FLOOR * floor and rest.share > _STRUCTURED
+    if above and (best.rmse > _FAR * floor or explained < _EXPLAINED):
+        return "unknown_effect"
+    if not added:
+        return "adequate"
+    return "ambiguous" if others else "missing_effects"
+
+
+def _is_force(subject: Subject) -> bool:
+    return [channel.name for channel in subject.channels] == ["force"]
+
+
+def _proposals(
+    best: Node, others: Sequence[Alternative], catalogue: Mapping[str, Effect], noise: float, subject: Subject
+) -> list[Proposal]:
+    found = []
+    pressure = subject.inputs.get("pressure")
+    high = float(np.max(pressure)) if pressure is not None else 6e5
+    for other in others:
+        words, apart = "", 0.0
+        if _is_force(subject) and high > 0.0:
+            tests = protocols(best.setting, largest_pressure=high)
+            words, apart = separation(best.setting, other.node.setting, tests, noise=noise)
+        text = declared(catalogue[other.of], catalogue[other.effect])
+        found.append(Proposal(other.of, other.effect, text, words, apart))
+    return found
+
+
+def _messages(work: Search, best: Node, fit: FitResult | None) -> list[str]:
+    found = []
+    if work.noise is None:
+        found.append("the sweeps are too short to estimate the noise: state it to know when to stop")
+    for name in (p.name for p in work.geometry):
+        first, last = work.known[next(iter(work.known))].setting.number(name), best.setting.number(name)
+        if abs(last / first - 1.0) > 0.005:
+            found.append(f"the fit moved {name.replace('_', ' ')} by {100.0 * (last / first - 1.0):+.1f} %")
+    return [*found, *(fit.messages if fit else ())]

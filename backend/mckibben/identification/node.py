@@ -1,0 +1,169 @@
+"""One fitted model in a search: its numbers, its residuals, and how it does on what it was not fitted to."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from mckibben.identification.fit import Free, least_squares_fit
+from mckibben.identification.setting import Setting
+from mckibben.identification.subjects.subject import Subject
+
+_NEAR_BOUND = 1e-6  # of the range
+_AT_BOUND = 1e-3  # of the range
+_COLLINEAR = 3e-3  # singular value of the normalised Jacobian below which numbers stand in for each other
+_CUTOFF = 1e-9  # of the largest singular value, below which a direction is not determined
+
+
+@dataclass(frozen=True, eq=False)
+class Node:
+    """A fitted model.
+
+    Attributes:
+        setting: with the fitted numbers.
+        free: what was free, starts at the fitted numbers.
+        freed: names of further constants that were freed.
+        residual: measured minus predicted over the scale, shape (values,).
+        jacobian: derivatives of the prediction over the scale, shape (values, free).
+        folds: ways of leaving out, see `mckibben.identification.subjects.subject.Subject`.
+    """
+
+    setting: Setting
+    free: tuple[Free, ...]
+    freed: frozenset[str]
+    residual: np.ndarray = field(repr=False)
+    jacobian: np.ndarray = field(repr=False)
+    folds: tuple[np.ndarray, ...] = field(repr=False)
+
+    @property
+    def key(self) -> tuple[frozenset[str], frozenset[str]]:
+        """What was searched: the effects and the freed constants."""
+        return frozenset(self.setting.ids), self.freed
+
+    @cached_property
+    def mean_square(self) -> float:
+        """Of the residual."""
+        return float(np.mean(self.residual**2))
+
+    @property
+    def rmse(self) -> float:
+        """Root mean square of the residual."""
+        return float(np.sqrt(self.mean_square))
+
+    @cached_property
+    def inner(self) -> np.ndarray:
+        """Indices of the free numbers that are not at a bound and that the data see."""
+        scale = np.linalg.norm(self.jacobian, axis=0) if self.free else np.empty(0)
+        span = np.array([p.upper - p.lower for p in self.free])
+        gap = np.array([min(p.start - p.lower, p.upper - p.start) for p in self.free])
+        largest = np.max(scale * span, initial=0.0)
+        return np.flatnonzero((gap > _NEAR_BOUND * span) & (scale * span > 1e-12 * largest))
+
+    @cached_property
+    def idle(self) -> np.ndarray:
+        """Which free numbers ended where they do nothing, mask."""
+        return np.array([
+            p.off is not None and abs(p.start - p.off) <= _AT_BOUND * (p.upper - p.lower) for p in self.free
+        ], dtype=bool)  # fmt: skip
+
+    @cached_property
+    def at_bound(self) -> np.ndarray:
+        """Which free numbers ended at a bound of what is plausible and still do something, mask."""
+        span = np.array([p.upper - p.lower for p in self.free])
+        gap = np.array([min(p.start - p.lower, p.upper - p.start) for p in self.free])
+        return (gap <= _AT_BOUND * span) & ~self.idle
+
+    @cached_property
+    def implausible(self) -> int:
+        """How many numbers are at a bound, or are determined only together with others."""
+        inner = self.jacobian[:, ~self.at_bound & ~self.idle]
+        if not inner.shape[1]:
+            return int(np.count_nonzero(self.at_bound))
+        scale = np.linalg.norm(inner, axis=0)
+        weak = np.linalg.svd(inner / np.where(scale > 0.0, scale, 1.0), compute_uv=False) < _COLLINEAR
+        return int(np.count_nonzero(self.at_bound) + np.count_nonzero(weak))
+
+    @cached_property
+    def fold_squares(self) -> tuple[np.ndarray, ...]:
+        r"""Mean square of what is left out, per fold of each way of folding, without refitting.
+
+        Leaving fold g out moves the numbers by :math:`-(J^TJ - J_g^TJ_g)^{+}J_g^Tr_g` to first order, within
+        their bounds; for a model that is linear in its numbers this is the exact hold-out residual.
+        """
+        inner = self.inner
+        jacobian = self.jacobian[:, inner]
+        scale = np.linalg.norm(jacobian, axis=0) if len(inner) else np.empty(0)
+        jacobian = jacobian / scale if len(inner) else jacobian
+        normal = jacobian.T @ jacobian
+        low = np.array([(self.free[i].lower - self.free[i].start) for i in inner]) * scale
+        high = np.array([(self.free[i].upper - self.free[i].start) for i in inner]) * scale
+
+        def square(rows: np.ndarray) -> float:
+            out, left = jacobian[rows], self.residual[rows]
+            if len(inner):
+                inverse = np.linalg.pinv(normal - out.T @ out, rcond=_CUTOFF, hermitian=True)
+                left = left - out @ np.clip(-inverse @ (out.T @ left), low, high)
+            return float(np.mean(left**2))
+
+        return tuple(
+            np.array([square(labels == label) for label in np.unique(labels)]) for labels in self.folds
+        )
+
+    @cached_property
+    def holdout_square(self) -> float:
+        """Mean square over all left-out groups together."""
+        return float(np.average(self.fold_squares[0], weights=counts(self.folds[0])))
+
+    @property
+    def holdout_rmse(self) -> float:
+        """Root of `holdout_square`."""
+        return float(np.sqrt(self.holdout_square))
+
+
+def counts(labels: np.ndarray) -> np.ndarray:
+    """Rows of each fold, in the order of its label."""
+    return np.unique(labels, return_counts=True)[1]
+
+
+def fitted_node(
+    subject: Subject,
+    setting: Setting,
+    free: Sequence[Free],
+    *,
+    freed: Collection[str] = (),
+) -> Node:
+    """Fit the free numbers jointly, from their starts and from further ones, and keep the best end."""
+    names = [parameter.name for parameter in free]
+    last: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
+
+    def both(numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        key = numbers.tobytes()
+        if key not in last:
+            last.clear()
+            predicted, jacobian = subject.linearised(setting.with_numbers(names, numbers), free)
+            last[key] = (predicted - subject.measured) / subject.scale, jacobian / subject.scale[:, None]
+        return last[key]
+
+    if not free:
+        residual = subject.residual(setting) / subject.scale
+        empty = np.empty((len(residual), 0))
+        return Node(setting, (), frozenset(freed), residual, empty, subject.folds)
+    result = least_squares_fit(
+        lambda numbers: both(numbers)[0],
+        lambda numbers: both(numbers)[1],
+        free,
+        starts=1,
+        tolerance=subject.tolerance,
+        evaluations=subject.evaluations,
+    )
+    numbers = np.array(result.numbers)
+    misfit, jacobian = both(numbers)
+    ended = tuple(
+        replace(p, start=float(x)) for p, x in zip(free, numbers, strict=True)
+    )
+    return Node(
+        setting.with_numbers(names, numbers), ended, frozenset(freed), -misfit, jacobian, subject.folds
+    )

@@ -1,0 +1,212 @@
+"""Variables of MATLAB files v5 to v7, by the published layout of the format (MAT-File Format, MathWorks).
+
+Every length is checked before it is used, so a damaged file is refused and no memory is taken on its word.
+"""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from collections.abc import Iterator
+from math import prod
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+HEADER = 128  # bytes before the first element
+MAX_UNPACKED = 512_000_000  # bytes
+_MAX_DEPTH = 4
+_NUMBERS = {
+    1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 9: "f8", 12: "i8", 13: "u8",
+}  # fmt: skip
+_TEXTS = {16: "utf-8", 17: "utf-16", 18: "utf-32"}
+_MATRIX, _COMPRESSED = 14, 15
+_CELL, _STRUCT, _OBJECT, _CHAR, _SPARSE, _FUNCTION, _OPAQUE = 1, 2, 3, 4, 5, 16, 17
+_NUMERIC = range(6, 16)
+_COMPLEX = 0x0800
+
+
+class DamagedError(ValueError):
+    """Why a file cannot be read, as the end of a sentence."""
+
+
+class Foreign(NamedTuple):
+    """A variable that is a table, another object or a function: only its name is known."""
+
+    kind: str
+
+
+class _Element(NamedTuple):
+    kind: int
+    data: memoryview
+
+
+def read_variables(data: bytes) -> dict[str, Any]:
+    """Name -> array of numbers, text, list of texts, mapping of fields, ``Foreign``, or None for the rest.
+
+    Raises:
+        DamagedError: the file is not complete, or does not hold what it says.
+    """
+    if len(data) < HEADER or data[126:128] not in (b"IM", b"MI"):
+        raise DamagedError("the header is not complete")
+    order = "<" if data[126:128] == b"IM" else ">"
+    reader = _Reader(order)
+    variables: dict[str, Any] = {}
+    count = 0
+    for element in reader.elements(memoryview(data)[HEADER:], "the file"):
+        count += 1
+        if element.kind == _COMPRESSED:
+            element = reader.unpacked(element, count)
+        if element.kind != _MATRIX:
+            raise DamagedError(f"variable {count} is of the unknown type {element.kind}")
+        name, value = reader.matrix(element.data, f"variable {count}", 0)
+        if name:  # the nameless one holds what objects are made of
+            variables[name] = value
+    if not count:
+        raise DamagedError("it holds no variable")
+    return variables
+
+
+class _Reader:
+    """Elements of one byte order."""
+
+    def __init__(self, order: str) -> None:
+        self._order = order
+        self._left = MAX_UNPACKED
+
+    def elements(self, data: memoryview, where: str) -> Iterator[_Element]:
+        """The elements that follow each other in some bytes."""
+        position = 0
+        while position < len(data):
+            if position + 8 > len(data):
+                raise DamagedError(f"{where} ends within an element")
+            kind, size = struct.unpack_from(f"{self._order}II", data, position)
+            if kind >> 16:  # a small element: type and size in one word, the data in the other
+                kind, size = kind & 0xFFFF, kind >> 16
+                if size > 4:
+                    raise DamagedError(f"{where} holds a small element of {size} bytes")
+                yield _Element(kind, data[position + 4 : position + 4 + size])
+                position += 8
+                continue
+            begin, position = position + 8, position + 8 + size
+            if position > len(data):
+                raise DamagedError(f"{where} ends within an element")
+            yield _Element(kind, data[begin:position])
+            if kind != _COMPRESSED:
+                position += -size % 8
+
+    def unpacked(self, element: _Element, number: int) -> _Element:
+        """The element inside a compressed one."""
+        unpacker = zlib.decompressobj()
+        try:
+            content = unpacker.decompress(element.data, self._left)
+        except zlib.error as error:
+            raise DamagedError(f"variable {number} cannot be unpacked") from error
+        if unpacker.unconsumed_tail:
+            raise DamagedError(f"variable {number} is too large once unpacked")
+        if not unpacker.eof:
+            raise DamagedError(f"variable {number} is not complete")
+        self._left -= len(content)
+        inner = next(self.elements(memoryview(content), f"variable {number}"), None)
+        if inner is None:
+            raise DamagedError(f"variable {number} is empty")
+        return inner
+
+    def matrix(self, data: memoryview, where: str, depth: int) -> tuple[str, Any]:
+        """(name, value) of a matrix element."""
+        if not data:
+            return "", np.empty(0)
+        parts = self.elements(data, where)
+        flags = self._numbers(self._next(parts, where), where)
+        if flags.dtype.kind not in "iu" or len(flags) < 1:
+            raise DamagedError(f"{where} has no flags")
+        kind, is_complex = int(flags[0]) & 0xFF, bool(int(flags[0]) & _COMPLEX)
+        if kind == _OPAQUE:
+            return self._text(self._next(parts, where)), Foreign("table or another object")
+        shape = tuple(int(size) for size in self._numbers(self._next(parts, where), where))
+        if len(shape) < 2 or min(shape) < 0 or prod(shape) > MAX_UNPACKED:
+            raise DamagedError(f"{where} has the size {'x'.join(map(str, shape[:4]))}")
+        name = self._text(self._next(parts, where))
+        where = f"variable '{name}'" if name and depth == 0 else where
+        if kind in (_OBJECT, _FUNCTION):
+            return name, Foreign("object" if kind == _OBJECT else "function")
+        if kind in _NUMERIC:
+            values = self._numbers(self._next(parts, where), where)
+            if len(values) != prod(shape):
+                raise DamagedError(
+                    f"{where} holds {len(values)} numbers, its size is {'x'.join(map(str, shape))}"
+                )
+            return name, None if is_complex else values.reshape(shape, order="F")
+        if kind == _CHAR:
+            return name, self._characters(self._next(parts, where) if prod(shape) else None, shape, where)
+        if kind in (_CELL, _STRUCT) and depth < _MAX_DEPTH:
+            read = self._cells if kind == _CELL else self._fields
+            return name, read(parts, prod(shape), where, depth)
+        if kind in (_SPARSE, _CELL, _STRUCT):
+            return name, None
+        raise DamagedError(f"{where} is of the unknown class {kind}")
+
+    def _next(self, parts: Iterator[_Element], where: str) -> _Element:
+        part = next(parts, None)
+        if part is None:
+            raise DamagedError(f"{where} is not complete")
+        return part
+
+    def _numbers(self, element: _Element, where: str) -> NDArray:
+        code = _NUMBERS.get(element.kind)
+        if code is None:
+            raise DamagedError(f"{where} holds values of the unknown type {element.kind}")
+        dtype = np.dtype(self._order + code)
+        if len(element.data) % dtype.itemsize:
+            raise DamagedError(f"{where} ends within a number")
+        return np.frombuffer(element.data, dtype).astype(dtype.newbyteorder("="))
+
+    def _text(self, element: _Element) -> str:
+        return bytes(element.data).rstrip(b"\0").decode("latin-1")
+
+    def _characters(self, element: _Element | None, shape: tuple[int, ...], where: str) -> str | list[str]:
+        """The text, or one text per row."""
+        if element is None:
+            return ""
+        if element.kind in _TEXTS:
+            suffix = "" if element.kind == 16 else ("-le" if self._order == "<" else "-be")
+            text = bytes(element.data).decode(_TEXTS[element.kind] + suffix, "replace")
+        else:
+            codes = self._numbers(element, where)
+            if codes.dtype.kind not in "iu" or np.any((codes < 0) | (codes > 0xFFFF)):
+                raise DamagedError(f"{where} holds what is no text")
+            text = "".join(map(chr, codes.tolist()))
+        rows = shape[0]
+        if len(text) != prod(shape):
+            raise DamagedError(
+                f"{where} holds {len(text)} characters, its size is {'x'.join(map(str, shape))}"
+            )
+        if rows <= 1:
+            return text
+        return [text[row::rows].rstrip() for row in range(rows)]
+
+    def _cells(self, parts: Iterator[_Element], count: int, where: str, depth: int) -> list[str] | None:
+        """A cell array of texts; None = of something else."""
+        words = []
+        for _ in range(count):
+            value = self.matrix(self._next(parts, where).data, where, depth + 1)[1]
+            if not isinstance(value, str):
+                return None
+            words.append(value)
+        return words
+
+    def _fields(self, parts: Iterator[_Element], count: int, where: str, depth: int) -> dict[str, Any] | None:
+        """The fields of a single struct; None = an array of structs."""
+        width = self._numbers(self._next(parts, where), where)
+        if len(width) != 1 or not 0 < int(width[0]) <= 1024:
+            raise DamagedError(f"{where} has no field names")
+        size, names = int(width[0]), bytes(self._next(parts, where).data)
+        if count != 1:
+            return None
+        fields = {}
+        for begin in range(0, len(names) // size * size, size):
+            name = names[begin : begin + size].partition(b"\0")[0].decode("latin-1")
+            element = self._next(parts, where)
+            fields[name] = self.matrix(element.data, f"{where}, field '{name}'", depth + 1)[1]
+        return fields

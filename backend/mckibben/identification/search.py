@@ -1,0 +1,225 @@
+"""Which effects are missing: models are built up in a beam, then every effect has to defend its place.
+
+One effect at a time hides pairs that only help together, and near-twins share their credit, so several models
+go on at once, ranked by `mckibben.identification.score`. From each, every candidate is added and all numbers
+are refitted jointly; further constants of an effect are freed before another effect is believed. At the end
+each effect is dropped and exchanged, and what is not needed goes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mckibben.identification.fit import Free
+from mckibben.identification.node import Node, fitted_node
+from mckibben.identification.score import LEAST_SCORE, better, effective_rows, score
+from mckibben.identification.setting import Setting, free_numbers
+from mckibben.identification.subjects.subject import Subject
+from mckibben.physics.effect import Effect
+
+_BEAM = 4
+_TRIED = 8  # candidates fitted per model, by what they promise to first order
+_PATIENCE = 2  # rounds without a better model
+_ALIKE = 0.02  # of the mean square: models whose residuals differ by less go on as one
+_DEEPEST = 7  # effects added
+_AT_FLOOR = 1.03  # of the noise: below, nothing more can be learnt
+_NEAR_FLOOR = 1.2  # of the noise: below, only an effect that shows by itself is tried
+_STUCK = 0.999  # of the error before: a fit that gains less starts once more
+_LEAST_PROMISE = 0.02  # of the mean square, near the floor
+
+
+class CancelledError(Exception):
+    """Nobody waits for the diagnosis any more."""
+
+
+@dataclass
+class Search:
+    """Fits models of one subject and remembers them.
+
+    Attributes:
+        subject: the data.
+        geometry: geometry that every fit may change.
+        candidates: effects that may be added.
+        noise: of the residual over its scale, None when it cannot be told.
+        tell: told now and then what is being done; may raise `CancelledError`.
+    """
+
+    subject: Subject
+    geometry: tuple[Free, ...]
+    candidates: tuple[Effect, ...]
+    noise: float | None
+    tell: Callable[[str], None] = lambda _: None
+    known: dict[tuple[frozenset[str], frozenset[str]], Node] = field(default_factory=dict)
+    twice: set[tuple[frozenset[str], frozenset[str]]] = field(default_factory=set)
+
+    def fit(self, setting: Setting, freed: frozenset[str] = frozenset(), *, again: bool = False) -> Node:
+        """The fitted model of a choice of effects and freed constants; found again when it was fitted.
+
+        ``again`` fits from another start, once, and keeps the better end.
+        """
+        key = frozenset(setting.ids), freed
+        if key not in self.known or (again and key not in self.twice):
+            self.tell(", ".join(setting.ids))
+            free = free_numbers(setting, self.geometry, freed, load=self.subject.unknown_load)
+            node = fitted_node(self.subject, setting, free, freed=freed)
+            if again:
+                self.twice.add(key)
+            if key not in self.known or node.rmse < self.known[key].rmse:
+                self.known[key] = node
+        return self.known[key]
+
+    def adding(self, node: Node, effect: Effect) -> Node:
+        """The model with one more effect, its numbers refitted from where they are."""
+        off = {p.name: p.off for p in effect.parameters if p.fitted and p.off is not None}
+        near, usual = node.setting.adding(effect, _between(effect, off)), node.setting.adding(effect)
+        found = self.fit(near, node.freed)
+        if found.rmse > _STUCK * node.rmse:
+            found = self.fit(usual, node.freed, again=True)
+        return found
+
+    def freeing(self, node: Node, effect: Effect) -> Node | None:
+        """The model with the further constants of an effect freed; None when it has none left."""
+        names = {f"{effect.id}.{p.name}" for p in effect.parameters if not p.fitted} - node.freed
+        names -= self._blind(node, names)
+        return self.fit(node.setting, node.freed | names) if names else None
+
+    def dropping(self, node: Node, effect_id: str) -> Node:
+        """The model without an effect, refitted."""
+        freed = frozenset(name for name in node.freed if not name.startswith(f"{effect_id}."))
+        return self.fit(node.setting.without(effect_id), freed)
+
+    def promising(self, node: Node, effects: Sequence[Effect]) -> list[Effect]:
+        """Effects in the order of the error they would take away to first order."""
+        inner = node.jacobian[:, node.inner]
+        basis = np.linalg.qr(inner)[0] if inner.shape[1] else np.empty((len(node.residual), 0))
+        left = node.residual - basis @ (basis.T @ node.residual)
+        gains = []
+        for effect in effects:
+            columns = self.changes(node, effect)
+            rest = columns - basis @ (basis.T @ columns)
+            size, whole = np.linalg.norm(rest, axis=0), np.linalg.norm(columns, axis=0)
+            seen = size > 1e-3 * whole
+            found = (
+                np.linalg.lstsq(rest[:, seen] / size[seen], left, rcond=1e-6)[0] if np.any(seen) else left[:0]
+            )
+            gains.append(float(np.sum((rest[:, seen] / size[seen] @ found) ** 2)))
+        order = np.argsort(gains)[::-1]
+        near = self.noise is not None and node.rmse < _NEAR_FLOOR * self.noise
+        least = _LEAST_PROMISE * float(left @ left) if near else 0.0
+        return [effects[index] for index in order if gains[index] > least]
+
+    def changes(self, node: Node, effect: Effect) -> np.ndarray:
+        """How the prediction changes by each number of an effect of moderate size, shape (values, numbers)."""
+        off = {p.name: p.off for p in effect.parameters if p.off is not None and p.fitted}
+        before = self.subject.measured - node.residual * self.subject.scale
+        columns = []
+        for name in off:
+            single = effect.off | {name: _between(effect, off)[name]}
+            trial = self.subject.trial(node.setting.adding(effect, single))
+            columns.append((trial - before) / self.subject.scale)
+        return np.column_stack(columns)
+
+    def _blind(self, node: Node, names: set[str]) -> set[str]:
+        """Those of some constants that change nothing in these data."""
+        free = [p for p in free_numbers(node.setting, (), names) if p.name in names]
+        if not free:
+            return set()
+        columns = self.subject.linearised(node.setting, free)[1]
+        span = np.array([p.upper - p.lower for p in free])
+        reach = np.linalg.norm(columns, axis=0) * span / np.sqrt(len(columns))
+        least = 0.1 * (self.noise or 0.0)
+        return {p.name for p, size in zip(free, reach, strict=True) if not size > least}
+
+
+def _between(effect: Effect, off: dict[str, float]) -> dict[str, float]:
+    """A third of the way from off to the default."""
+    usual = effect.defaults
+    return {name: value + (usual[name] - value) / 3.0 for name, value in off.items()}
+
+
+def search(work: Search, root: Node, *, singles: Sequence[Node]) -> Node:
+    """The best model that effects can make of a fitted start model.
+
+    Args:
+        work: fits.
+        root: the start model.
+        singles: the start model with each single candidate.
+    """
+    best, idle = root, 0
+    children = list(singles)
+    for _ in range(_DEEPEST):
+        children = [n for n in {child.key: child for child in children}.values() if n.rmse < root.rmse]
+        if not children:
+            break
+        rows = _rows(work, min(children, key=lambda node: node.rmse))
+        children.sort(key=lambda node: score(node, rows=rows, noise=work.noise))
+        beam = [_freed(work, node) for node in _different(children)[:_BEAM]]
+        sound = [node for node in beam if not node.implausible] or beam
+        leader = min(sound, key=lambda node: score(node, rows=rows, noise=work.noise))
+        idle += 1
+        if better(leader, best, rows=_rows(work, leader), noise=work.noise):
+            best, idle = leader, 0
+        if idle >= _PATIENCE or _at_floor(work, best):
+            break
+        children = []
+        for node in beam:
+            inside = set(node.setting.ids)
+            others = [effect for effect in work.candidates if effect.id not in inside]
+            children += [work.adding(node, effect) for effect in work.promising(node, others)[:_TRIED]]
+    return _polished(work, best, root)
+
+
+def _freed(work: Search, node: Node) -> Node:
+    """The node with further constants of its effects freed where that earns its price."""
+    for effect in node.setting.effects:
+        other = work.freeing(node, effect)
+        if other is not None and better(other, node, rows=_rows(work, other), noise=work.noise):
+            node = other
+    return node
+
+
+def _polished(work: Search, best: Node, root: Node) -> Node:
+    """Drop what is not needed, exchange what another effect does better, until nothing changes."""
+    start = set(root.setting.ids)
+    for _ in range(_DEEPEST):
+        rows = _rows(work, best)
+        before = best
+        for effect_id in best.setting.ids:
+            if effect_id in start:
+                continue
+            less = work.dropping(best, effect_id)
+            if not better(best, less, rows=rows, noise=work.noise):
+                best = less
+                break
+            inside = set(best.setting.ids)
+            others = [effect for effect in work.candidates if effect.id not in inside]
+            swaps = [work.adding(less, effect) for effect in work.promising(less, others)[:_BEAM]]
+            swaps = [_freed(work, node) for node in swaps]
+            here = score(best, rows=rows, noise=work.noise)
+            found = min(swaps, key=lambda node: score(node, rows=rows, noise=work.noise), default=best)
+            if score(found, rows=rows, noise=work.noise) < here - LEAST_SCORE:
+                best = found
+                break
+        if best is before:
+            return best
+    return best
+
+
+def _different(nodes: Sequence[Node]) -> list[Node]:
+    """The nodes without those whose prediction an earlier one makes as well."""
+    kept: list[Node] = []
+    for node in nodes:
+        if all(np.mean((node.residual - other.residual) ** 2) > _ALIKE * node.mean_square for other in kept):
+            kept.append(node)
+    return kept
+
+
+def _rows(work: Search, node: Node) -> float:
+    return effective_rows(node.residual, work.subject.sweeps, work.subject.folds)
+
+
+def _at_floor(work: Search, node: Node) -> bool:
+    return work.noise is not None and node.rmse <= _AT_FLOOR * work.noise

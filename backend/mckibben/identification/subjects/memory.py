@@ -1,0 +1,99 @@
+"""States of effects with memory along a measured record: where friction, creep and run-in have got to."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mckibben.identification.setting import Setting
+from mckibben.identification.subjects.task import Task
+from mckibben.physics.effect import Effect
+from mckibben.physics.model import ROOM_TEMPERATURE
+from mckibben.simulation.driven import driven_states
+from mckibben.simulation.static import StaticModel
+
+_KEPT = 64
+_SENSORS = ("pressure_sensor", "length_sensor")
+_STEP = 1e-2  # of a parameter, for the derivative of a state by it
+
+
+def remembers(effect: Effect) -> bool:
+    """Whether an effect has memory of the muscle's motion."""
+    return bool(effect.states) and "rates" in effect.slots
+
+
+class Memory:
+    """Trajectories of the states of effects over the rows of a task, kept for models that share them.
+
+    They follow the measured length and pressure and start at rest with each record, so they depend on the
+    parameters in the effects' own rates and on the sensors only: a fit of the other parameters never
+    integrates again.
+    """
+
+    def __init__(self, task: Task) -> None:
+        self._task = task
+        self._kept: dict[tuple, dict[str, np.ndarray]] = {}
+        self._records = [
+            np.flatnonzero(task.records == label)
+            for label in np.unique(task.records)
+            if np.count_nonzero(task.records == label) >= 2
+        ]
+
+    def states(self, setting: Setting) -> dict[str, np.ndarray]:
+        """Value of each state ("effect.state") at each row."""
+        effects = tuple(
+            e for e in setting.effects if remembers(e) or any(slot in e.slots for slot in _SENSORS)
+        )
+        chosen = [e for e in effects if remembers(e)]
+        if not chosen:
+            return {}
+        values = {e.id: dict(setting.values[e.id]) for e in effects}
+        key = (setting.muscle, *(self._key(effect, values[effect.id]) for effect in effects))
+        if key not in self._kept:
+            if len(self._kept) >= _KEPT:
+                self._kept.pop(next(iter(self._kept)))
+            self._kept[key] = self._run(StaticModel.of(setting.muscle, effects, values), chosen)
+        return self._kept[key]
+
+    def by_parameters(self, setting: Setting, names: Sequence[str]) -> dict[str, dict[str, np.ndarray]]:
+        """Derivatives of the states by those of the named parameters that move them: name -> state -> rows."""
+        found: dict[str, dict[str, np.ndarray]] = {}
+        for name in names:
+            effect_id, _, parameter = name.partition(".")
+            effect = next((e for e in setting.effects if e.id == effect_id), None)
+            if effect is None or not remembers(effect) or parameter not in effect.wanted("rates"):
+                continue
+            declared = effect.parameter(parameter)
+            here = setting.number(name)
+            step = _STEP * max(abs(here), 0.01 * (declared.upper - declared.lower))
+            low, high = max(here - step, declared.lower), min(here + step, declared.upper)
+            ends = [self.states(setting.with_numbers([name], [end])) for end in (low, high)]
+            found[name] = {
+                state: (ends[1][state] - ends[0][state]) / (high - low)
+                for state in ends[0]
+                if state.startswith(f"{effect_id}.")
+            }
+        return found
+
+    @staticmethod
+    def _key(effect: Effect, values: dict[str, float]) -> tuple:
+        wanted = effect.wanted("rates") if remembers(effect) else tuple(values)
+        return (effect.id, *(values[name] for name in values if name in wanted))
+
+    def _run(self, model: StaticModel, chosen: Sequence[Effect]) -> dict[str, np.ndarray]:
+        task = self._task
+        rest = {f"{e.id}.{s.name}": s.initial for e in chosen for s in e.states}
+        found = {name: np.full(len(task.measured), value) for name, value in rest.items()}
+        clock = task.time if task.time is not None else np.arange(len(task.measured), dtype=float)
+        for rows in self._records:
+            states = driven_states(
+                model,
+                time=clock[rows],
+                pressure=task.state["pressure"][rows],
+                length=task.state["length"][rows],
+                temperature=float(np.mean(task.state.get("temperature", ROOM_TEMPERATURE))),
+            )
+            for name in found:
+                found[name][rows] = states[name]
+        return found

@@ -1,0 +1,177 @@
+"""The rows of a measurement that a model can predict, and what the model needs for them.
+
+| kind | given | predicted |
+|---|---|---|
+| isobaric, isometric, static | pressure, length (and time, where rates or memory matter) | force |
+| isotonic | pressure, load | length |
+| diameter | length, or pressure of a free muscle | diameter |
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mckibben.identification.measurement import FORCE_KINDS, STROKES, Measurement, lengths
+from mckibben.identification.motion import motion_of
+from mckibben.physics.errors import InputError
+from mckibben.physics.model import ROOM_TEMPERATURE
+from mckibben.physics.muscle import Muscle
+
+GRAVITY = 9.80665  # m/s2
+_LONGEST_SHARE = 0.9999  # of the thread: the braid locks there
+
+
+@dataclass(frozen=True)
+class Task:
+    """The rows of a measurement that can be compared, and what the model needs for them.
+
+    Attributes:
+        kind: kind of the measurement.
+        channel: name of the predicted channel.
+        unit: its SI unit.
+        measured: its values, shape (rows used,).
+        state: inputs of the model (`mckibben.simulation.compile.INPUTS`), each of the same shape, and "load"
+            where the length is predicted.
+        time: of each row [s]; None where the rows have no order in time.
+        records: label of the uninterrupted record that each row belongs to; rows of a record are in order.
+        groups: group label of each row.
+        rows: index of each row in the measurement.
+        excluded: why rows were left out -> how many.
+        unknown_load: whether the load is not stated and has to be fitted.
+        messages: what was assumed.
+    """
+
+    kind: str
+    channel: str
+    unit: str
+    measured: np.ndarray
+    state: Mapping[str, np.ndarray]
+    time: np.ndarray | None
+    records: np.ndarray
+    groups: np.ndarray
+    rows: np.ndarray
+    excluded: Mapping[str, int]
+    unknown_load: bool
+    messages: tuple[str, ...]
+
+    def chosen(self, keep: np.ndarray) -> Task:
+        """The task with some of its rows (a mask or indices) only."""
+        return replace(
+            self,
+            measured=self.measured[keep],
+            state={name: values[keep] for name, values in self.state.items()},
+            time=None if self.time is None else self.time[keep],
+            records=self.records[keep],
+            groups=self.groups[keep],
+            rows=self.rows[keep],
+        )
+
+
+def task_of(measurement: Measurement, muscle: Muscle) -> Task:
+    """The comparison that a measurement of any kind but transient allows.
+
+    Rows without pulling force (slack), unusable rows and rows longer than the braid allows are excluded, with
+    a count.
+
+    Raises:
+        InputError: a condition is missing, or no row is left.
+    """
+    columns, kind, count = measurement.columns, measurement.kind, measurement.rows
+    messages = list(measurement.messages)
+    stroked = any(name in columns for name in STROKES)
+    length = lengths(measurement, muscle.nominal_length) if stroked else None
+    records = records_of(measurement)
+    velocity, direction = _motion(measurement, muscle.nominal_length, messages)
+    state: dict[str, np.ndarray] = {
+        "temperature": columns.get("temperature", np.full(count, ROOM_TEMPERATURE)),
+        "pressure": columns.get("pressure", np.zeros(count)),
+        "velocity": velocity,
+        "direction": direction,
+    }
+    unknown_load = False
+    if kind in FORCE_KINDS:
+        channel, unit, measured = "force", "N", columns["force"]
+    elif kind == "isotonic":
+        channel, unit, measured = "length", "m", length
+        state["load"], unknown_load = load_of(measurement)
+        if unknown_load:
+            messages.append("the load is not stated: it is fitted as an unknown constant")
+    else:
+        channel, unit, measured = "diameter", "m", columns["diameter"]
+    if measured is None:
+        raise InputError(f"{measurement.name}: no {channel} was measured", field=channel)
+    keep, excluded = measurement.usable.copy(), dict(measurement.exclusions)
+    if length is not None:
+        too_long = length >= _LONGEST_SHARE * float(muscle.braid.thread_length)
+        excluded["beyond the braid lock"] = int(np.count_nonzero(too_long & keep))
+        keep &= ~too_long
+        state["length"] = length
+    elif kind == "diameter":
+        state["load"] = np.zeros(count)
+    if not np.any(keep):
+        reasons = ", ".join(f"{number} {reason}" for reason, number in excluded.items() if number)
+        raise InputError(
+            f"{measurement.name}: no row can be compared ({count} rows, {reasons})", field="measurement"
+        )
+    ordered = "time" in columns
+    return Task(
+        kind,
+        channel,
+        unit,
+        np.asarray(measured, dtype=float)[keep],
+        {name: np.asarray(values, dtype=float)[keep] for name, values in state.items()},
+        columns["time"][keep] if ordered else None,
+        records[keep],
+        columns["group"][keep],
+        np.flatnonzero(keep),
+        {reason: number for reason, number in excluded.items() if number},
+        unknown_load,
+        tuple(messages),
+    )
+
+
+def _motion(
+    measurement: Measurement, nominal_length: float, messages: list[str]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Velocity and direction of each row; a direction channel counts before what the velocity says."""
+    columns = measurement.columns
+    velocity, direction = np.zeros(measurement.rows), columns.get("direction")
+    known = direction is not None and bool(np.any(direction))
+    stroked = any(name in columns for name in STROKES)
+    if "time" in columns and (stroked or "velocity" in columns):
+        moved = motion_of(measurement, nominal_length)
+        velocity = moved.velocity
+        messages += moved.messages
+        if not known:
+            direction, known = moved.direction, True
+    elif "velocity" in columns:
+        velocity = columns["velocity"]
+        if not known:
+            direction, known = velocity, True
+    if direction is None or not known:
+        messages.append("direction of motion unknown: friction cannot show in these rows")
+        return velocity, np.zeros(measurement.rows)
+    return velocity, np.sign(direction).astype(float)
+
+
+def records_of(measurement: Measurement) -> np.ndarray:
+    """Label of the uninterrupted record of each row: a new one begins where time does not go on."""
+    columns = measurement.columns
+    if "time" not in columns:
+        return np.zeros(measurement.rows, dtype=np.int64)
+    new = ~(np.diff(columns["time"]) > 0.0)
+    new[np.array(measurement.starts[1:], dtype=int) - 1] = True
+    return np.concatenate([[0], np.cumsum(new)]).astype(np.int64)
+
+
+def load_of(measurement: Measurement) -> tuple[np.ndarray, bool]:
+    """The load of each row [N], and whether it is unknown."""
+    if "force" in measurement.columns:
+        return measurement.columns["force"], False
+    conditions = measurement.conditions
+    force, mass = conditions.get("load_force"), conditions.get("load_mass")
+    total = float(force or 0.0) + float(mass or 0.0) * GRAVITY
+    return np.full(measurement.rows, total), force is None and mass is None

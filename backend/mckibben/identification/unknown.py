@@ -1,0 +1,185 @@
+"""Structure that no catalogued effect explains: how much there is, in what, and a term that would take it away.
+
+The share comes from a regression without any physics, judged on blocks it did not see. The term is found by
+orthogonal matching pursuit over products that a force can physically be made of: powers of the pressure,
+contraction, direction and velocity, waves and bumps over contraction, pressure and time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+_MOST_ROWS = 3000
+_BLOCK = 12  # rows that are left out together
+_FOLDS = 5
+_TERMS = 3
+_WORTH = 0.08  # of the mean square that is left: a term that takes less is not proposed
+_SEED = 0
+#: Name in a term -> variable.
+SYMBOLS = {"P": "pressure", "kappa": "contraction", "v": "velocity", "s": "direction", "t": "time"}
+
+
+@dataclass(frozen=True)
+class Structure:
+    """What a regression without physics can still predict of a residual.
+
+    Attributes:
+        share: of the mean square, on blocks it did not see.
+        variables: those it cannot do without, the most important first, with the share that is lost when a
+            variable is shuffled.
+    """
+
+    share: float
+    variables: tuple[tuple[str, float], ...]
+
+
+@dataclass(frozen=True)
+class Term:
+    """A proposed term of the tension [N].
+
+    Attributes:
+        formula: as it can be typed into the ``custom`` effect.
+        coefficients: name -> value, SI.
+        share: of the residual's mean square that it takes away.
+    """
+
+    formula: str
+    coefficients: dict[str, float]
+    share: float
+
+
+def structure(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> Structure:
+    """How much of a residual a regression without physics predicts, and from what."""
+    from sklearn.ensemble import HistGradientBoostingRegressor  # 1 s import, not paid at start
+
+    names = [name for name in variables if name != "group"]
+    if not names or len(residual) < 40 or not np.any(residual):
+        return Structure(0.0, ())
+    rows = np.arange(len(residual))
+    if len(rows) > _MOST_ROWS:
+        rows = np.unique(np.linspace(0, len(rows) - 1, _MOST_ROWS).astype(int))
+    table = np.column_stack([variables[name][rows] for name in names])
+    target = residual[rows]
+    random = np.random.default_rng(_SEED)
+    blocks = np.arange(len(rows)) // min(_BLOCK, max(2, len(rows) // (4 * _FOLDS)))
+    fold = random.integers(0, _FOLDS, blocks[-1] + 1)[blocks]
+    left, shuffled = np.zeros(len(rows)), np.zeros((len(names), len(rows)))
+    for label in range(_FOLDS):
+        out = fold == label
+        if not np.any(out) or np.all(out):
+            continue
+        model = HistGradientBoostingRegressor(
+            max_iter=120, learning_rate=0.1, max_leaf_nodes=12, min_samples_leaf=6, random_state=_SEED
+        ).fit(table[~out], target[~out])
+        left[out] = target[out] - model.predict(table[out])
+        for column in range(len(names)):
+            other = table[out].copy()
+            other[:, column] = random.permutation(other[:, column])
+            shuffled[column, out] = target[out] - model.predict(other)
+    whole = float(np.mean(target**2))
+    share = max(0.0, 1.0 - float(np.mean(left**2)) / whole)
+    lost = (np.mean(shuffled**2, axis=1) - np.mean(left**2)) / whole
+    order = np.argsort(lost)[::-1]
+    return Structure(share, tuple((names[i], float(lost[i])) for i in order if lost[i] > 0.02))
+
+
+def proposed_term(
+    residual: np.ndarray, variables: Mapping[str, np.ndarray], basis: np.ndarray | None = None
+) -> Term | None:
+    """The product terms that take away most of a force residual, at most three; None when none is worth it.
+
+    Args:
+        residual: measured minus predicted force [N].
+        variables: pressure [Pa], contraction, velocity [m/s], direction, time [s]; what there is of them.
+        basis: derivatives of the model by its free numbers: what they can take up is not proposed.
+    """
+    given = {symbol: variables[name] for symbol, name in SYMBOLS.items() if name in variables}
+    library = list(_library(given))
+    if not library:
+        return None
+    columns = np.column_stack([column for _, group in library for column in group])
+    sizes = [len(group) for _, group in library]
+    starts = np.concatenate([[0], np.cumsum(sizes)])
+    taken = np.empty((len(residual), 0)) if basis is None or not basis.size else np.linalg.qr(basis)[0]
+    left = residual - taken @ (taken.T @ residual)
+    whole = float(left @ left)
+    chosen: list[int] = []
+    for _ in range(_TERMS):
+        gains = []
+        projected = columns - taken @ (taken.T @ columns)
+        for number, start in enumerate(starts[:-1]):
+            group = projected[:, start : starts[number + 1]]
+            norm = np.linalg.norm(group, axis=0)
+            if np.any(norm < 1e-6 * np.linalg.norm(columns[:, start : starts[number + 1]], axis=0)):
+                gains.append(0.0)
+                continue
+            solution = np.linalg.lstsq(group / norm, left, rcond=1e-8)[0]
+            gains.append(float(np.sum((group / norm @ solution) ** 2)))
+        best = int(np.argmax(gains))
+        if gains[best] < _WORTH * float(left @ left):
+            break
+        chosen.append(best)
+        group = columns[:, starts[best] : starts[best + 1]]
+        taken = np.linalg.qr(np.column_stack([taken, group]))[0]
+        left = residual - taken @ (taken.T @ residual)
+    if not chosen:
+        return None
+    design = np.column_stack([columns[:, starts[n] : starts[n + 1]] for n in chosen])
+    whole_design = design if basis is None or not basis.size else np.column_stack([design, basis])
+    weights = np.linalg.lstsq(whole_design / np.linalg.norm(whole_design, axis=0), residual, rcond=1e-10)[0]
+    weights = (weights / np.linalg.norm(whole_design, axis=0))[: design.shape[1]]
+    texts = [text for n in chosen for text in library[n][0]]
+    names = [f"c{number}" for number in range(1, len(texts) + 1)]
+    formula = " + ".join(f"{name}*{text}" for name, text in zip(names, texts, strict=True))
+    share = 1.0 - float(left @ left) / whole
+    return Term(formula, {n: float(w) for n, w in zip(names, weights, strict=True)}, share)
+
+
+def _library(given: Mapping[str, np.ndarray]) -> Iterator[tuple[Sequence[str], list[np.ndarray]]]:
+    """Products as (texts, columns); a wave has two columns, so that its phase is free."""
+    shapes: list[tuple[list[str], list[np.ndarray]]] = [(["1"], [np.ones(len(next(iter(given.values()))))])]
+    for symbol in ("kappa", "P", "t", "v"):
+        if symbol not in given:
+            continue
+        x = given[symbol]
+        powers: tuple[tuple[str, Callable[[np.ndarray], np.ndarray]], ...] = (
+            (symbol, lambda x: x),
+            (f"{symbol}**2", lambda x: x**2),
+            (f"{symbol}**3", lambda x: x**3),
+        )
+        shapes += [([text], [make(x)]) for text, make in powers]
+        low, span = float(np.min(x)), float(np.ptp(x))
+        if symbol == "v" or not span > 0.0:
+            shapes += [(["abs(v)"], [np.abs(x)]), (["v*abs(v)"], [x * np.abs(x)])]
+            continue
+        for periods in (*np.arange(1.0, 8.1, 0.5), *np.arange(9.0, 20.1, 1.0)):
+            rate = float(f"{2.0 * np.pi * periods / span:.5g}")
+            shapes.append(
+                ([f"sin({rate:g}*{symbol})", f"cos({rate:g}*{symbol})"], [np.sin(rate * x), np.cos(rate * x)])
+            )
+        for place in np.linspace(0.05, 0.95, 13):
+            for width in (0.03, 0.06, 0.12, 0.25):
+                middle, scale = float(f"{low + place * span:.5g}"), float(f"{width * span:.4g}")
+                text = f"exp(-(({symbol} - {middle:g})/{scale:g})**2)"
+                shapes.append(([text], [np.exp(-(((x - middle) / scale) ** 2))]))
+    factors: list[tuple[str, np.ndarray | float]] = [("", 1.0)]
+    if "P" in given:
+        factors.append(("P", given["P"]))
+    if "s" in given:
+        factors.append(("sign(v)", given["s"]))
+        if "P" in given:
+            factors.append(("sign(v)*P", given["s"] * given["P"]))
+    if "v" in given:
+        factors.append(("v", given["v"]))
+    for texts, columns in shapes:
+        for text, factor in factors:
+            if text and text == texts[0]:
+                continue
+            made = [column * factor for column in columns]
+            if all(np.ptp(column) > 0.0 or texts == ["1"] for column in made) and any(
+                np.any(c) for c in made
+            ):
+                yield [f"{t}*{text}" if text and t != "1" else text or t for t in texts], made

@@ -1,0 +1,161 @@
+// @ts-check
+// The Compare view's part of the document: which measurements, which model, how it came about, what is looked
+// at. Pure functions; the server checks what the numbers mean.
+
+/** @typedef {import("./types.js").Effects} Effects */
+/** @typedef {import("../../types.js").Muscle} Muscle */
+/** @typedef {import("../transient/document.js").Drive} Drive */
+/** @typedef {"fit" | "validation" | "off"} Use */
+/** A file or preset measurement. @typedef {{id: string, name: string, use: Use}} Chosen */
+/** Errors of fitted values: effect -> parameter -> what the fit said of it.
+ * @typedef {Record<string, Record<string, {stderr: number | null, at_bound: boolean}>>} Fit */
+/** A model and its error; `values`: of the geometry. `label` says how it came about.
+ * @typedef {{label: string, effects: Effects | null, freed: string[], values: Record<string, number>,
+ *   fit: Fit, rmse: number | null, holdout: number | null}} Step */
+/** @typedef {"contraction" | "pressure" | "velocity" | "time" | "histogram"} Tab */
+/** Ranges of variables in SI. @typedef {Record<string, [number, number]>} Brush */
+/** `effects`: null = those of the preset. `history`: the models before this one, the start first.
+ * @typedef {{files: Chosen[], muscle: Muscle, start: "ideal" | "preset", effects: Effects | null,
+ *   freed: string[], free: string[], fit: Fit, label: string, holdout: number | null, history: Step[],
+ *   drive: Drive | null, noise: number | null, mystery: string | null, guided: boolean,
+ *   tab: Tab, over: string | null, channel: string | null, brush: Brush | null,
+ *   before: boolean}} Compare */
+
+export const MOST_FILES = 16;
+const MOST_STEPS = 40;
+export const IDEAL = "Ideal muscle";
+
+/** @returns {Compare} */
+export const defaultCompare = () => ({
+  files: [],
+  muscle: { preset: "DMSP-20", form: "braid", values: { nominal_length: 0.3 } },
+  start: "ideal",
+  effects: {},
+  freed: [],
+  free: [],
+  fit: {},
+  label: IDEAL,
+  holdout: null,
+  history: [],
+  drive: null,
+  noise: null,
+  mystery: null,
+  guided: false,
+  tab: "contraction",
+  over: null,
+  channel: null,
+  brush: null,
+  before: false,
+});
+
+/** @param {unknown} x @returns {x is Record<string, any>} */
+const isObject = (x) => typeof x === "object" && x !== null && !Array.isArray(x);
+/** @param {unknown} x @returns {x is number} */
+const isNumber = (x) => typeof x === "number" && Number.isFinite(x);
+/** @param {unknown} x */
+const isText = (x) => typeof x === "string";
+/** @param {unknown} x */
+const isName = (x) => x === null || typeof x === "string";
+/** @param {unknown} x */
+const isValues = (x) => isObject(x) && Object.values(x).every(isNumber);
+/** @param {unknown} x */
+const isTexts = (x) => Array.isArray(x) && x.every(isText);
+/** @param {unknown} x */
+const isEffects = (x) =>
+  x === null || (isObject(x) && Object.values(x).every((values) =>
+    isObject(values) && Object.values(values).every((v) => isNumber(v) || isText(v))
+  ));
+/** @param {unknown} x */
+const isFit = (x) =>
+  isObject(x) && Object.values(x).every((values) =>
+    isObject(values) && Object.values(values).every((f) => isObject(f) && typeof f.at_bound === "boolean")
+  );
+/** @param {unknown} x */
+const isRange = (x) => Array.isArray(x) && x.length === 2 && x.every(isNumber);
+/** @param {unknown} x */
+const isStep = (x) =>
+  isObject(x) && isText(x.label) && isEffects(x.effects) && isTexts(x.freed) && isValues(x.values) &&
+  isFit(x.fit) && (x.rmse === null || isNumber(x.rmse)) && (x.holdout === null || isNumber(x.holdout));
+/** @param {unknown} x */
+const isChosen = (x) =>
+  isObject(x) && isText(x.id) && isText(x.name) && ["fit", "validation", "off"].includes(x.use);
+/** @param {unknown} x */
+const isBoolean = (x) => typeof x === "boolean";
+
+/** @type {Record<keyof Compare, (x: unknown) => boolean>} */
+const CHECKS = {
+  files: (x) => Array.isArray(x) && x.length <= MOST_FILES && x.every(isChosen),
+  muscle: (x) =>
+    isObject(x) && isName(x.preset) && ["braid", "thread", "rhombus"].includes(x.form) && isValues(x.values),
+  start: (x) => x === "ideal" || x === "preset",
+  effects: isEffects,
+  freed: isTexts,
+  free: isTexts,
+  fit: isFit,
+  label: isText,
+  holdout: (x) => x === null || isNumber(x),
+  history: (x) => Array.isArray(x) && x.length <= MOST_STEPS && x.every(isStep),
+  drive: (x) => x === null || isObject(x),
+  noise: (x) => x === null || isNumber(x),
+  mystery: isName,
+  guided: isBoolean,
+  tab: (x) => ["contraction", "pressure", "velocity", "time", "histogram"].includes(String(x)),
+  over: isName,
+  channel: isName,
+  brush: (x) => x === null || (isObject(x) && Object.values(x).every(isRange)),
+  before: isBoolean,
+};
+
+/** Reads the Compare part of a link or file; a missing part takes its default.
+ * @param {unknown} raw @returns {Compare} @throws {Error} names the part that makes no sense */
+export function readCompare(raw) {
+  const start = defaultCompare();
+  if (raw === undefined) return start;
+  if (!isObject(raw)) throw new Error("“compare” is not an object");
+  const known = Object.entries(raw).filter(([key]) => Object.hasOwn(CHECKS, key));
+  for (const [key, value] of known) {
+    if (!CHECKS[/** @type {keyof Compare} */ (key)](value)) {
+      throw new Error(`“compare.${key}” makes no sense`);
+    }
+  }
+  return { ...start, ...Object.fromEntries(known) };
+}
+
+/** The model as it is now, as one step of the history. @param {Compare} c @param {number | null} rmse
+ * @param {number | null} holdout @returns {Step} */
+export const stepOf = (c, rmse, holdout) => ({
+  label: c.label,
+  effects: c.effects,
+  freed: c.freed,
+  values: c.muscle.values,
+  fit: c.fit,
+  rmse,
+  holdout: c.holdout ?? holdout,
+});
+
+/** The document with a step's model in place of its own. @param {Compare} c @param {Step} step
+ * @param {Step[]} history @returns {Compare} */
+export const withStep = (c, step, history) => ({
+  ...c,
+  label: step.label,
+  effects: step.effects,
+  freed: step.freed,
+  muscle: { ...c.muscle, values: step.values },
+  fit: step.fit,
+  holdout: step.holdout,
+  history: history.slice(-MOST_STEPS),
+  before: false,
+});
+
+/** What a fit said of its values, without the values themselves.
+ * @param {Record<string, Record<string, import("./types.js").Fitted>>} parameters @returns {Fit} */
+export const fitOf = (parameters) =>
+  Object.fromEntries(
+    Object.entries(parameters).map(([id, values]) => [
+      id,
+      Object.fromEntries(
+        Object.entries(values).filter(([, p]) => p.fitted)
+          .map(([name, { stderr, at_bound }]) => [name, { stderr, at_bound }]),
+      ),
+    ]),
+  );

@@ -1,0 +1,104 @@
+"""The reference lift of the benchmarks, and variations of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from mckibben.api.answers.simulations import read_document
+from mckibben.drive_input import drive_of
+from mckibben.simulation.engine import compiled_drive
+from mckibben.simulation.transient import parameters_of, segments_of, start_of
+from mckibben.studio import Studio
+
+ROWS, SETS = 4001, 5
+DOCUMENT: dict[str, Any] = {
+    "muscle": {
+        "inside_diameter": "20 mm", "braid_angle": "25 deg", "nominal_length": "800 mm",
+        "wall_thickness": "1.8 mm",
+    },
+    "effects": {
+        "effectiveness": {"factor": 0.98, "threshold": "0.1 bar"},
+        "linear_elasticity": {"stiffness": "400 N/m"},
+        "dahl": {"force": "25 N", "break_strain": 0.000375},
+        "creep": {"stiffness": "1500 N/m", "time": "0.4 s"},
+        "viscous_damping": {"coefficient": "60 N*s/m"},
+        "valve_delay": {"opening_time": "5 ms", "closing_time": "5 ms"},
+    },
+    "supply": {"pressure": "6 bar"},
+    "valve": {"sonic_conductance": "1.2 l/(s*bar)", "critical_pressure_ratio": 0.3},
+    "tube": {"inside_diameter": "4 mm", "length": "1.2 m"},
+    "gas": {"polytropic_exponent": 1.25, "dead_volume": "20 cm^3"},
+    "load": {"mass": "20 kg"},
+    "command": {"shape": "pulse", "on": "0 s", "off": "2 s"},
+    "duration": "4 s",
+}  # fmt: skip
+WITH_SPOOL: dict[str, Any] = {
+    **DOCUMENT,
+    "muscle": {"preset": "DMSP-20", "nominal_length": "800 mm"},
+    "effects": {
+        "bladder_elasticity": {}, "prestress": {}, "dahl": {}, "creep": {}, "spool_lag": {},
+        "viscous_damping": {"coefficient": "60 N*s/m"}, "valve_delay": {},
+    },
+    "tube": {"inside_diameter": "4 mm", "length": "1 m"},
+    "gas": {},
+}  # fmt: skip
+Positions = Callable[[int, float], np.ndarray]
+# (state, segment, begin, end, instants, parameter set) -> states at the instants
+Solver = Callable[[np.ndarray, int, float, float, np.ndarray, int], np.ndarray]
+
+
+class Lift:
+    """The reference lift, and variations of it by ± 20 %."""
+
+    def __init__(self, studio: Studio, *, level: int = 0) -> None:
+        self.drive = drive_of(read_document(DOCUMENT, "the lift"), studio).drive
+        self.compiled = compiled_drive(self.drive.structure, level)
+        self.grid = np.linspace(0.0, self.drive.duration, ROWS)
+        self.times, self.inputs, _ = segments_of(self.drive)
+        usual = parameters_of(self.drive, self.compiled)
+        random = np.random.default_rng(7)
+        names = list(self.compiled.model.parameters)
+        free = [
+            names.index(n) for n in ("mass", "fill_conductance", "exhaust_conductance", "supply_pressure")
+        ]
+        self.parameters = [usual]
+        for _ in range(999):
+            changed = usual.copy()
+            changed[free] *= random.uniform(0.8, 1.2, len(free))
+            self.parameters.append(changed)
+        self.starts = [start_of(self.drive, self.compiled, p, self.inputs[0]) for p in self.parameters[:SETS]]
+        self.scales = np.array([state.scale for state in self.compiled.model.states])
+        self.stroke = [state.name for state in self.compiled.model.states].index("stroke")
+
+    def start(self, number: int) -> np.ndarray:
+        """States at rest of a parameter set."""
+        return self.starts[number % SETS]
+
+    def rows_of_segments(self) -> list[tuple[int, float, float, np.ndarray]]:
+        """Segments with the instants of the rows in them."""
+        found, written = [], 0
+        for index in range(len(self.inputs)):
+            begin, end = self.times[index], self.times[index + 1]
+            last = index == len(self.inputs) - 1
+            stop = int(np.searchsorted(self.grid, end, side="right" if last else "left"))
+            found.append((index, begin, end, self.grid[written:stop]))
+            written = stop
+        return found
+
+
+def by_segments(lift: Lift, solve: Solver) -> Callable[[int, np.ndarray], np.ndarray]:
+    """Positions of a run from a solver of one segment."""
+
+    def positions(number: int, state: np.ndarray) -> np.ndarray:
+        found = []
+        for index, begin, end, wanted in lift.rows_of_segments():
+            instants = np.unique(np.concatenate([[begin], wanted, [end]]))
+            states = solve(state, index, begin, end, instants, number)
+            found.append(states[np.searchsorted(instants, wanted), lift.stroke])
+            state = states[-1]
+        return np.concatenate(found)
+
+    return positions

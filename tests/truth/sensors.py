@@ -1,0 +1,99 @@
+"""Sensors that err, and the noise, quantisation and drift of those that do not."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import cast
+
+import numpy as np
+from scipy.signal import cont2discrete, lfilter
+
+from tests.truth.composition import Hidden, accept
+from tests.truth.muscle import Array
+
+
+def zero_error(channel: str, offset: float, *ids: str) -> Hidden:
+    """A zero that is off."""
+
+    def reading(channels: dict[str, Array]) -> dict[str, Array]:
+        channels[channel] = channels[channel] + offset
+        return channels
+
+    return Hidden(f"{channel} zero", accept(*ids), reading=reading)
+
+
+def bent_scale(channel: str, scale: float, bend: float, full: float, *ids: str) -> Hidden:
+    """A scale error with a slight bend: y = scale x [1 + bend (1 - x/full)]."""
+
+    def reading(channels: dict[str, Array]) -> dict[str, Array]:
+        x = channels[channel]
+        channels[channel] = scale * x * (1.0 + bend * (1.0 - x / full))
+        return channels
+
+    return Hidden(f"{channel} scale", accept(*ids), reading=reading)
+
+
+def second_order(time: Array, signal: Array, frequency: float, damping: float) -> Array:
+    """A signal behind a second-order filter, at rest before the first row."""
+    step = float(np.min(np.diff(time)))
+    grid = np.arange(time[0], time[-1] + step, step)
+    w = 2.0 * np.pi * frequency
+    system = ([w * w], [1.0, 2.0 * damping * w, w * w])
+    b, a, _ = cast(tuple[Array, Array, float], cont2discrete(system, step, method="foh"))
+    even = np.interp(grid, time, signal)
+    return np.interp(time, grid, even[0] + lfilter(b.ravel(), a, even - even[0]))
+
+
+def slow_amplifier(channel: str, frequency: float, damping: float, *ids: str) -> Hidden:
+    """A channel behind a second-order low pass."""
+
+    def reading(channels: dict[str, Array]) -> dict[str, Array]:
+        channels[channel] = second_order(channels["time"], channels[channel], frequency, damping)
+        return channels
+
+    return Hidden(f"slow {channel} amplifier", accept(*ids), reading=reading)
+
+
+def late_recorder(delay: float, *ids: str) -> Hidden:
+    """The force comes from another recorder, whose clock is off: resampled by cubic lines."""
+
+    def reading(channels: dict[str, Array]) -> dict[str, Array]:
+        time = channels["time"]
+        channels["force"] = np.interp(time - delay, time, channels["force"])
+        return channels
+
+    return Hidden("late recorder", accept(*ids), reading=reading)
+
+
+@dataclass(frozen=True)
+class Noise:
+    """What every channel adds: white noise, steps of the converter, a slow drift of the force.
+
+    Attributes:
+        levels: standard deviation by channel, SI.
+        bits: of the converter; positions are counted with at least 14.
+        ranges: largest value of each channel that the converter shows.
+        drift: amplitude of the force's drift, in units of its noise.
+    """
+
+    levels: dict[str, float]
+    ranges: dict[str, float]
+    bits: int = 16
+    drift: float = 0.0
+
+    def white(self, channel: str, rows: int, rng: np.random.Generator) -> Array:
+        """White noise of a channel."""
+        return rng.normal(0.0, self.levels.get(channel, 0.0), rows)
+
+    def drifting(self, channel: str, time: Array) -> Array:
+        """A slow drift that levels off, of the force alone."""
+        if channel != "force" or not self.drift:
+            return np.zeros_like(time)
+        span = float(time[-1] - time[0])
+        return self.drift * self.levels["force"] * (1.0 - np.exp(-3.0 * (time - time[0]) / span))
+
+    def quantised(self, channel: str, values: Array) -> Array:
+        """Values in steps of the converter."""
+        bits = max(self.bits, 14) if channel in ("length", "diameter") else self.bits
+        step = self.ranges[channel] / 2.0**bits
+        return np.round(values / step) * step
