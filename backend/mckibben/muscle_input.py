@@ -7,10 +7,12 @@ physics' own `Muscle` and a choice of effects.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from mckibben.physics.braid import Braid, Rhombus, braid_from_rhombus, rest_diameter_and_angle
 from mckibben.physics.catalogue import Catalogue
+from mckibben.physics.custom import CUSTOM, typed_effect
+from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import GEOMETRY, Muscle
 from mckibben.physics.units import si
@@ -85,12 +87,16 @@ class StartModel:
         effects: effect id -> every parameter of it, SI.
         preset: facts of the preset it is based on.
         rhombus: the lattice, when the caller gave the geometry by it.
+        catalogue: where its effects are found: the known ones, and the typed term where there is one.
+        term: the typed term, as it was typed.
     """
 
     muscle: Muscle
     effects: Mapping[str, Mapping[str, float]]
     preset: PresetFacts | None = None
     rhombus: Rhombus | None = None
+    catalogue: Mapping[str, Effect] = field(default_factory=dict)
+    term: str | None = None
 
     @property
     def limits(self) -> Limits:
@@ -158,12 +164,16 @@ def start_model(
             parameter, a value with a wrong unit. Bounds are the model's to check.
     """
     muscle = _muscle(given, None if preset is None else preset.muscle)
-    chosen: Mapping[str, Mapping[str, float]]
     if effects is None:
-        chosen = {} if preset is None else preset.effects
-    else:
-        chosen = {name: _effect_values(name, values, catalogue) for name, values in effects.items()}
-    return StartModel(muscle, chosen, preset, given.rhombus)
+        return StartModel(muscle, {} if preset is None else preset.effects, preset, given.rhombus, catalogue)
+    known: Mapping[str, Effect] = catalogue
+    term = None
+    if CUSTOM in effects and CUSTOM not in catalogue:
+        effect, term = typed_effect(effects[CUSTOM])
+        known = {**catalogue, CUSTOM: effect}
+        effects = {name: own if name != CUSTOM else effect.defaults for name, own in effects.items()}
+    chosen = {name: _effect_values(name, values, known) for name, values in effects.items()}
+    return StartModel(muscle, chosen, preset, given.rhombus, known, term)
 
 
 def _muscle(given: GivenMuscle, base: Muscle | None) -> Muscle:
@@ -245,7 +255,7 @@ def _by_thread(given: GivenMuscle, base: Muscle | None, length: float) -> Muscle
 
 
 def _effect_values(
-    effect_id: str, given: Mapping[str, float | str], catalogue: Catalogue
+    effect_id: str, given: Mapping[str, float | str], catalogue: Mapping[str, Effect]
 ) -> dict[str, float]:
     """Every parameter of an effect in SI: the given ones, defaults for the rest."""
     path = f"effects.{effect_id}"

@@ -70,4 +70,6 @@ class Studio:
         Raises:
             InputError: a geometry that cannot pull, or a parameter outside its bounds.
         """
-        return StaticModel(start.muscle, start.effects, catalogue=self.catalogue, limits=start.limits)
+        return StaticModel(
+            start.muscle, start.effects, catalogue=start.catalogue or self.catalogue, limits=start.limits
+        )

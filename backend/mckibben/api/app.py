@@ -16,6 +16,7 @@ from mckibben.api import errors, static
 from mckibben.api.routes import (
     comparisons,
     curves,
+    diagnoses,
     effects,
     health,
     inverse,
@@ -43,6 +44,7 @@ _TAGS = [
     {"name": "simulations", "description": "Drives through time."},
     {"name": "measurements", "description": "Measurement files."},
     {"name": "comparisons", "description": "A model beside a measurement."},
+    {"name": "diagnoses", "description": "Which physical effect a model is missing."},
 ]
 
 
@@ -83,7 +85,18 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.effects = effects.EffectsDocument(app.state.studio.catalogue)
     app.state.plotly = static.PlotlyBundle()
     # Routes are tried in this order: the one asked at every movement of a slider first.
-    for noun in (curves, simulations, inverse, comparisons, health, effects, presets, measurements, static):
+    for noun in (
+        curves,
+        simulations,
+        inverse,
+        comparisons,
+        diagnoses,
+        health,
+        effects,
+        presets,
+        measurements,
+        static,
+    ):
         app.include_router(noun.router)
     app.router.redirect_slashes = False
     app.router.default = static.frontend(settings.frontend)

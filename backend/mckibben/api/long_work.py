@@ -12,7 +12,7 @@ from fastapi.sse import EventSourceResponse, format_sse_event
 from mckibben.api.answer import to_json
 from mckibben.api.errors import input_error_answer, unexpected_answer
 from mckibben.physics.errors import InputError
-from mckibben.simulation.outcome import Watch
+from mckibben.simulation.outcome import TIME_LIMIT, Watch
 
 Work = Callable[[Watch], object]
 
@@ -24,10 +24,12 @@ def wants_events(request: Request) -> bool:
     return "text/event-stream" in request.headers.get("accept", "")
 
 
-async def finished(request: Request, work: Work) -> object:
+async def finished(request: Request, work: Work, *, time_limit: float = TIME_LIMIT) -> object:
     """The result of the work; it is told to stop when the caller has gone."""
     gone = threading.Event()
-    running = asyncio.get_running_loop().run_in_executor(None, work, Watch(cancelled=gone.is_set))
+    running = asyncio.get_running_loop().run_in_executor(
+        None, work, Watch(cancelled=gone.is_set, time_limit=time_limit)
+    )
     while True:
         done, _ = await asyncio.wait({running}, timeout=_LOOK_EVERY)
         if done:
@@ -36,27 +38,35 @@ async def finished(request: Request, work: Work) -> object:
             gone.set()
 
 
-def events(work: Work) -> EventSourceResponse:
+def events(work: Work, *, time_limit: float = TIME_LIMIT) -> EventSourceResponse:
     """``progress`` events while the work runs, then ``done`` with its result, or ``error``."""
-    return EventSourceResponse(_events(work))
+    return EventSourceResponse(_events(work, time_limit))
 
 
-async def _events(work: Work) -> AsyncIterator[bytes]:
+async def _events(work: Work, time_limit: float) -> AsyncIterator[bytes]:
     loop = asyncio.get_running_loop()
-    shares: asyncio.Queue[float | None] = asyncio.Queue()
+    news: asyncio.Queue[dict[str, object] | None] = asyncio.Queue()
     gone = threading.Event()
 
-    def tell(share: float | None) -> None:
+    def tell(**fresh: object) -> None:
         # The loop may have ended before the thread.
         if not loop.is_closed():
-            loop.call_soon_threadsafe(shares.put_nowait, share)
+            loop.call_soon_threadsafe(news.put_nowait, fresh)
 
-    running = loop.run_in_executor(None, work, Watch(cancelled=gone.is_set, progress=tell))
-    running.add_done_callback(lambda _: shares.put_nowait(None))
+    watch = Watch(
+        cancelled=gone.is_set,
+        progress=lambda share: tell(share=share),
+        found=lambda found: tell(found=found),
+        time_limit=time_limit,
+    )
+    running = loop.run_in_executor(None, work, watch)
+    running.add_done_callback(lambda _: news.put_nowait(None))
     try:
-        yield _event("progress", to_json({"share": 0.0}))
-        while (share := await shares.get()) is not None:
-            yield _event("progress", to_json({"share": share}))
+        share: object = 0.0
+        yield _event("progress", to_json({"share": share}))
+        while (fresh := await news.get()) is not None:
+            share = fresh.get("share", share)
+            yield _event("progress", to_json({"share": share, **fresh}))
         try:
             yield _event("done", to_json(running.result()))
         except InputError as error:

@@ -136,6 +136,41 @@ def compare(
 
 
 @app.command()
+def diagnose(
+    files: DataFiles,
+    muscle: MuscleText = "",
+    ideal: Ideal = False,
+    effect: EffectIds = None,
+    drive: str = typer.Option(
+        "", "--drive", help="A drive document (JSON file): its muscle, effects, valve."
+    ),
+    free: Free = None,
+    noise: Annotated[
+        float | None, typer.Option("--noise", min=0.0, help="Noise of the predicted channel in SI, if known.")
+    ] = None,
+    as_json: AsJson = False,
+    presets: PresetsFolder = None,
+    effects: EffectsFolders = None,
+    data: DataFolder = None,
+) -> None:
+    """Which physical effect a model of measurements is missing, and what the data cannot tell."""
+    from mckibben.cli.diagnose import run
+    from mckibben.cli.options import open_studio
+
+    run(
+        open_studio(presets, effects, data),
+        files=files,
+        muscle=muscle,
+        ideal=ideal,
+        effects=effect or [],
+        drive=drive,
+        free=free or [],
+        noise=noise or None,
+        as_json=as_json,
+    )
+
+
+@app.command()
 def simulate(
     drive: Annotated[
         str, typer.Argument(metavar="DRIVE", help="A drive document (JSON file) or the id of a preset.")

@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 from mckibben.api.answers.comparisons import comparison_answer
-from mckibben.api.answers.measured import Points, find_preset, joined
 from mckibben.api.answers.start import Json
-from mckibben.cli.options import start_model
+from mckibben.cli.data import points_of
+from mckibben.cli.options import asked_of
 from mckibben.cli.output import figure, remark, write_json, write_table
-from mckibben.identification.read import read_measurement
-from mckibben.physics.errors import InputError, did_you_mean
-from mckibben.physics.muscle import GEOMETRY
 from mckibben.studio import Studio
-
-_MAX_BYTES = 200_000_000
 
 
 def run(
@@ -35,13 +29,9 @@ def run(
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
-    for name in free:
-        if name not in GEOMETRY:
-            raise InputError(f"--free {name}: there is no such geometry", hint=did_you_mean(name, GEOMETRY))
-    points = joined([_read(name, studio) for name in files])
-    named = str(points.measurement.conditions.get("muscle", ""))
-    start = start_model(studio, muscle, ideal=ideal, effects=effects, drive=drive, named=named)
-    answer = comparison_answer(studio, start, points, fit=fit, free=free)
+    points = points_of(files, studio)
+    question = asked_of(studio, points, muscle=muscle, ideal=ideal, effects=effects, drive=drive, free=free)
+    answer = comparison_answer(question, fit=fit)
     if as_json:
         write_json(answer)
         return
@@ -50,37 +40,8 @@ def run(
         remark(message)
 
 
-def _read(name: str, studio: Studio) -> Points:
-    """A file, or a preset measurement or curve when there is no such file."""
-    path = Path(name)
-    try:
-        if not path.exists():
-            preset = find_preset(name, studio.library)
-            if preset is not None:
-                return preset
-            raise InputError(f"{name}: there is no such file", hint=_near_file(path))
-        if path.is_dir():
-            raise InputError(f"{name}: is a folder", hint=f"name a file in it, e.g. {path / '*.csv'}")
-        if path.stat().st_size > _MAX_BYTES:
-            raise InputError(f"{name}: is larger than {_MAX_BYTES // 1_000_000} MB", hint="split the file")
-        return Points(read_measurement(path.read_bytes(), path.name))
-    except (OSError, ValueError) as error:
-        if isinstance(error, InputError):
-            raise
-        reason = getattr(error, "strerror", None) or error
-        raise InputError(f"{name[:200]!r}: cannot be read: {reason}", hint="name a readable file") from error
-
-
-def _near_file(path: Path) -> str | None:
-    folder = path.parent
-    if not folder.is_dir():
-        return f"there is no folder {folder}"
-    names = [entry.name for entry in folder.iterdir() if entry.suffix == path.suffix]
-    return did_you_mean(path.name, names)
-
-
 def _write_tables(answer: Json) -> None:
-    unit, scale = ("mm", 1e3) if answer["unit"] == "m" else (answer["unit"], 1.0)
+    unit, scale = ("mm", 1e3) if answer["unit"] == "m" else (answer["unit"].replace("1", "x noise"), 1.0)
 
     def shown(name: str) -> str:
         value = answer[name]
@@ -99,6 +60,8 @@ def _write_tables(answer: Json) -> None:
             ["noise floor", shown("noise_floor")],
         ],
     )
+    for words in answer["sentences"]:
+        remark(words)
     rows = [
         [
             f"{effect}.{name}",

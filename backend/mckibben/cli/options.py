@@ -12,7 +12,10 @@ import typer
 from mckibben.physics.errors import InputError, did_you_mean
 
 if TYPE_CHECKING:
+    from mckibben.api.answers.asked import Asked
+    from mckibben.api.answers.measured import Points
     from mckibben.muscle_input import StartModel
+    from mckibben.simulation.parts import Drive
     from mckibben.studio import Studio
 
 MuscleText = Annotated[
@@ -131,6 +134,54 @@ def start_model(
     if separator:
         document["nominal_length"] = length
     return _start_of_input(studio, document, chosen, f"--muscle {muscle}")
+
+
+def asked_of(
+    studio: Studio,
+    points: Points,
+    *,
+    muscle: str,
+    ideal: bool,
+    effects: Sequence[str],
+    drive: str,
+    free: Sequence[str],
+    noise: float | None = None,
+) -> Asked:
+    """The question that the options of ``compare`` and ``diagnose`` make of measurements.
+
+    A drive document with a valve is the drive of transient measurements.
+
+    Raises:
+        InputError: names the file or option, what is wrong and what would be right.
+    """
+    from mckibben.api.answers.asked import Asked
+    from mckibben.physics.muscle import GEOMETRY
+
+    for name in free:
+        if name not in GEOMETRY:
+            raise InputError(f"--free {name}: there is no such geometry", hint=did_you_mean(name, GEOMETRY))
+    measurement = points.measurement
+    named = str(measurement.conditions.get("muscle", ""))
+    start = start_model(studio, muscle, ideal=ideal, effects=effects, drive=drive, named=named)
+    given = _drive_of(studio, drive, start) if drive and measurement.kind == "transient" else None
+    return Asked(start, points, given, free=tuple(free), noise=noise)
+
+
+def _drive_of(studio: Studio, path: str, start: StartModel) -> Drive | None:
+    """The drive of a document that has a valve, with the muscle and effects of the start model."""
+    from dataclasses import replace
+
+    from mckibben.api.answers.simulations import read_document
+    from mckibben.drive_input import drive_of
+
+    document = _drive_document(path)
+    if "valve" not in document:
+        return None
+    try:
+        found = drive_of(read_document({**document, "effects": {}}, path), studio).drive
+    except InputError as error:
+        raise _at(path, error.field, error.message, error.hint) from error
+    return replace(found, model=studio.static_model(start))
 
 
 def _drive_document(path: str) -> dict[str, object]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 
 import typer
 from rich.box import SIMPLE_HEAD
@@ -11,6 +12,7 @@ from rich.console import Console
 from rich.table import Table
 
 from mckibben.api.answer import to_json
+from mckibben.simulation.outcome import Watch
 
 
 def write_json(answer: object) -> None:
@@ -32,6 +34,20 @@ def write_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]
         console = Console(highlight=False, width=200)
     console.print(title, style="bold", soft_wrap=True)
     console.print(table)
+
+
+@contextmanager
+def progress(words: str) -> Iterator[Watch]:
+    """A bar on stderr while somebody looks at it; the watch of the work it shows."""
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn
+
+    console = Console(stderr=True)
+    with Progress(
+        TextColumn(words), BarColumn(), TaskProgressColumn(), console=console, transient=True,
+        disable=not console.is_terminal,
+    ) as bar:  # fmt: skip
+        task = bar.add_task(words, total=1.0)
+        yield Watch(progress=lambda share: bar.update(task, completed=share), time_limit=float("inf"))
 
 
 def remark(text: str) -> None:

@@ -57,6 +57,15 @@ class Comparison:
         return self.subject.measured - self.predicted
 
     @property
+    def noise_how(self) -> str:
+        """From what the noise was estimated."""
+        if self.noise is None:
+            return "the sweeps are too short to tell"
+        if len(self.subject.channels) > 1:
+            return "third differences of each channel"
+        return "third differences of the residual within sweeps"
+
+    @property
     def full_scale(self) -> float:
         """Largest measured magnitude over the scale of the residual."""
         return float(np.max(np.abs(self.subject.measured / self.subject.scale)))
@@ -210,7 +219,9 @@ def noise_floor_of(subject: Subject, scaled: np.ndarray, given: float | None) ->
     return given if given is not None else channel_noise(subject, scaled, subject.channels[0])
 
 
-def fit_of(subject: Subject, setting: Setting, choice: Sequence[Free], *, starts: int | None = None) -> FitResult:
+def fit_of(
+    subject: Subject, setting: Setting, choice: Sequence[Free], *, starts: int | None = None
+) -> FitResult:
     """Fit the numbers; several starts where a model is quick, tightly where its derivatives are exact."""
     # The unclipped force is fitted: where the model is slack although the muscle pulls, a clipped one has no
     # gradient to follow.

@@ -26,7 +26,6 @@ _AT_FLOOR = 1.15  # of the noise: nothing more is asked for
 _FAR = 2.0  # of the noise: structure that is left is said to be unknown whatever was explained before
 _STRUCTURED = 0.3  # share of the residual a regression predicts, from which it is structure
 _EXPLAINED = 0.98  # of the excess over the noise
-_TIME_LIMIT = 300.0  # s
 
 
 @dataclass(frozen=True)
@@ -129,7 +128,7 @@ def diagnose(
         for effect in catalogue.values()
         if effect.id not in inside and subject.reveals(effect) and _has_needs(effect, setting)
     )
-    progress = _Progress(watch or Watch(time_limit=_TIME_LIMIT))
+    progress = _Progress(watch or Watch(time_limit=np.inf))
     work = Search(subject, tuple(geometry), candidates, None, progress.tell)
     subject.prepare(setting, candidates, geometry)
     start = Node(

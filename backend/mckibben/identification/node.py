@@ -87,6 +87,20 @@ class Node:
         return int(np.count_nonzero(self.at_bound) + np.count_nonzero(weak))
 
     @cached_property
+    def standard_errors(self) -> list[float | None]:
+        """Of the free numbers; None at a bound, or where the data do not determine it."""
+        errors: list[float | None] = [None] * len(self.free)
+        inner = [i for i in self.inner if not self.at_bound[i]]
+        if not inner or self.implausible:
+            return errors
+        jacobian = self.jacobian[:, inner]
+        variance = self.mean_square * len(self.residual) / max(len(self.residual) - len(inner), 1)
+        covariance = variance * np.linalg.pinv(jacobian.T @ jacobian)
+        for place, index in enumerate(inner):
+            errors[index] = float(np.sqrt(max(covariance[place, place], 0.0)))
+        return errors
+
+    @cached_property
     def fold_squares(self) -> tuple[np.ndarray, ...]:
         r"""Mean square of what is left out, per fold of each way of folding, without refitting.
 
@@ -161,9 +175,7 @@ def fitted_node(
     )
     numbers = np.array(result.numbers)
     misfit, jacobian = both(numbers)
-    ended = tuple(
-        replace(p, start=float(x)) for p, x in zip(free, numbers, strict=True)
-    )
+    ended = tuple(replace(p, start=float(x)) for p, x in zip(free, numbers, strict=True))
     return Node(
         setting.with_numbers(names, numbers), ended, frozenset(freed), -misfit, jacobian, subject.folds
     )

@@ -43,11 +43,13 @@ class Watch:
     Attributes:
         cancelled: whether the caller has lost interest.
         progress: told the share of the run that is done, a few times a second.
+        found: told what was found on the way, as JSON.
         time_limit: [s] from the first question on.
     """
 
     cancelled: Callable[[], bool] | None = None
     progress: Callable[[float], None] | None = None
+    found: Callable[[object], None] | None = None
     time_limit: float = TIME_LIMIT
     _began: float | None = field(default=None, init=False, repr=False)
     _told: float = field(default=0.0, init=False, repr=False)

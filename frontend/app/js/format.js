@@ -29,6 +29,12 @@ export const SCALES = {
     bar: scale("°C", 1, 1, 273.15),
     us: scale("°F", 5 / 9, 1, 273.15 - (32 * 5) / 9),
   },
+  torque: { si: scale("N·m", 1, 2), bar: scale("N·m", 1, 2), us: scale("lbf·in", LBF * INCH, 2) },
+  rotary: {
+    si: scale("N·m/rad", 1, 2),
+    bar: scale("N·m/rad", 1, 2),
+    us: scale("lbf·in/rad", LBF * INCH, 2),
+  },
   energy: { si: scale("J", 1, 2), bar: scale("J", 1, 2), us: scale("ft·lbf", LBF * 12 * INCH, 2) },
   angle: same(scale("°", DEG, 2)),
   ratio: same(scale("%", 0.01, 2)),

@@ -1,18 +1,19 @@
-"""A model beside a measurement: the error in numbers, and the points for the plots."""
+"""A model beside measurements: the error in numbers, where it fails, and the points for the plots."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.api.answers.asked import Asked
 from mckibben.api.answers.measured import Points
 from mckibben.api.answers.start import Json, geometry_json, start_flags
 from mckibben.identification.compare import Comparison, compare
+from mckibben.identification.residuals import heat_map, loops, profiles, variables_of, whiteness
 from mckibben.muscle_input import StartModel
-from mckibben.studio import Studio
+from mckibben.simulation.static import EffectValues
 
 MAX_POINTS_PER_SERIES = 400
 _MAX_SERIES = 200
@@ -20,30 +21,25 @@ _MAX_SERIES = 200
 _OTHER_LENGTH = 0.05
 
 
-def comparison_answer(
-    studio: Studio, start: StartModel, points: Points, *, fit: bool = False, free: Sequence[str] = ()
-) -> Json:
+def comparison_answer(asked: Asked, *, fit: bool = False) -> Json:
     """Compare, and say it in JSON (with numpy arrays in it).
 
     Raises:
         InputError: the measurement does not allow the comparison, or a geometry field cannot be freed.
     """
-    result = compare(
-        points.measurement,
-        start.muscle,
-        start.effects,
-        catalogue=studio.catalogue,
-        limits=start.limits,
-        fit=fit,
-        free=free,
-        tolerance={} if start.preset is None else start.preset.tolerance,
-    )
+    start, points = asked.start, asked.points
+    result = _compared(asked, points, start.effects, fit=fit)
     report = result.report()
-    series, thinned = _series(result)
+    series, thinned = _series(result, "fit")
     messages = [*report["messages"], *_length_messages(start, points)]
+    validation = None
+    if asked.validation is not None:
+        validation, thin = _validation(asked, asked.validation, result)
+        thinned = thinned or thin
     if thinned:
         messages.append(f"curves show at most {MAX_POINTS_PER_SERIES} points each; the figures use all rows")
     left_out = sum(points.left_out.values())
+    muscle = result.setting.muscle
     return {
         **report,
         "rows": report["rows"] + left_out,
@@ -51,11 +47,74 @@ def comparison_answer(
         "messages": messages,
         # A fitted geometry no longer belongs to the lattice it was given by.
         "geometry": geometry_json(
-            start if result.muscle == start.muscle else replace(start, muscle=result.muscle, rhombus=None)
+            start if muscle == start.muscle else replace(start, muscle=muscle, rhombus=None)
         ),
+        "noise_how": "given" if asked.noise is not None else result.noise_how,
+        **failures(result),
         "series": series,
+        "validation": validation,
+        "model": {"effects": asked.effects_json(result.setting)},
         "flags": start_flags(start),
     }
+
+
+def _compared(asked: Asked, points: Points, effects: EffectValues, *, fit: bool) -> Comparison:
+    return compare(
+        points.measurement,
+        asked.start.muscle,
+        effects,
+        catalogue=asked.start.catalogue,
+        drive=asked.drive,
+        fit=fit,
+        free=asked.free,
+        freed=asked.freed,
+        tolerance={} if asked.start.preset is None else asked.start.preset.tolerance,
+        noise=asked.noise,
+    )
+
+
+def failures(result: Comparison) -> Json:
+    """Where the model fails: over each variable, as a map, in loops, in words; and whether it is noise."""
+    subject = result.subject
+    residual = result.residual / subject.scale
+    variables = variables_of(subject, result.setting.muscle.nominal_length)
+    found = profiles(residual, variables, subject.folds[0])
+    chart = heat_map(residual, variables)
+    white = whiteness(residual, subject.sweeps)
+    areas = []
+    if subject.predicted == "force" and "length" in subject.inputs and "time" in subject.inputs:
+        areas = loops(residual, subject.inputs["length"], subject.groups)
+    unit = "" if subject.unit == "1" else f" {subject.unit}"
+    words = [
+        f"{profile.worst}: {profile.rmse:.3g}{unit} rms; this variable alone predicts "
+        f"{100.0 * profile.share_explained:.0f} % of the error"
+        for profile in found[:3]
+        if profile.share_explained > 0.05
+    ]
+    words.append(
+        "the residual looks like noise" if white.white else "the residual is not noise: it has structure"
+    )
+    return {
+        "where": [profile.report() for profile in found],
+        "heat_map": None if chart is None else chart.report(),
+        "whiteness": white.report(),
+        "loops": areas[:_MAX_SERIES],
+        "sentences": words,
+    }
+
+
+def _validation(asked: Asked, points: Points, fitted: Comparison) -> tuple[Json, bool]:
+    """The fitted model on what it has not seen."""
+    started = replace(asked.start, muscle=fitted.setting.muscle, rhombus=None)
+    other = replace(asked, start=started, free=(), freed=())
+    result = _compared(other, points, dict(fitted.setting.values), fit=False)
+    series, thinned = _series(result, "validation")
+    return {
+        "rmse": result.rmse,
+        "nrmse_percent": result.nrmse_percent,
+        "rows_used": result.subject.rows_used,
+        "series": series,
+    }, thinned
 
 
 def _length_messages(start: StartModel, points: Points) -> list[str]:
@@ -68,37 +127,49 @@ def _length_messages(start: StartModel, points: Points) -> list[str]:
     ]
 
 
-def _series(result: Comparison) -> tuple[list[Json], bool]:
-    """One curve per group of rows, thinned for the screen."""
-    task, rest = result.task, result.muscle.nominal_length
-    pressure = task.state["pressure"]
-    if task.channel == "length":
-        length: NDArray | None = task.measured
-    else:
-        length = task.state.get("length")
-    labels, thinned = np.unique(task.groups), False
-    if len(labels) > _MAX_SERIES:
-        labels, thinned = labels[:_MAX_SERIES], True
-    series = []
-    for number, label in enumerate(labels, 1):
-        rows = np.flatnonzero(task.groups == label)
-        held = _held(pressure[rows])
-        name = _label(number, held, None if length is None else _held(length[rows]))
-        if len(rows) > MAX_POINTS_PER_SERIES:
-            rows, thinned = rows[np.linspace(0, len(rows) - 1, MAX_POINTS_PER_SERIES).astype(int)], True
-        unknown = np.full(len(rows), np.nan)
-        series.append(
-            {
-                "label": name,
-                "pressure": held,
-                "contraction": unknown if length is None else 1.0 - length[rows] / rest,
-                "length": unknown if length is None else length[rows],
-                "x_pressure": pressure[rows],
-                "measured": task.measured[rows],
-                "predicted": result.predicted[rows],
-                "residual": result.residual[rows],
-            }
-        )
+def _series(result: Comparison, use: str) -> tuple[list[Json], bool]:
+    """One curve per channel and group of rows, thinned for the screen."""
+    subject, rest = result.subject, result.setting.muscle.nominal_length
+    inputs = subject.inputs
+    count = len(subject.measured)
+    unknown = np.full(count, np.nan)
+    length = inputs.get("length", unknown)
+    if subject.predicted == "length":
+        length = subject.measured
+    elif "displacement" in inputs:
+        length = rest - inputs["displacement"]
+    pressure = inputs.get("pressure", unknown)
+    place = np.arange(count)
+    series, thinned = [], False
+    for channel in subject.channels:
+        inside = place[channel.rows]
+        labels = np.unique(subject.groups[inside])
+        if len(labels) > _MAX_SERIES:
+            labels, thinned = labels[:_MAX_SERIES], True
+        for number, label in enumerate(labels, 1):
+            rows = inside[subject.groups[inside] == label]
+            held = _held(pressure[rows])
+            name = _label(number, held, _held(length[rows]), timed=subject.kind == "transient")
+            if len(rows) > MAX_POINTS_PER_SERIES:
+                rows, thinned = rows[np.linspace(0, len(rows) - 1, MAX_POINTS_PER_SERIES).astype(int)], True
+            series.append(
+                {
+                    "label": name,
+                    "channel": channel.name,
+                    "unit": channel.unit,
+                    "use": use,
+                    "pressure": held,
+                    "time": inputs["time"][rows] if "time" in inputs else None,
+                    "contraction": 1.0 - length[rows] / rest,
+                    "length": length[rows],
+                    "x_pressure": pressure[rows],
+                    "velocity": inputs.get("velocity", unknown)[rows],
+                    "direction": inputs.get("direction", unknown)[rows],
+                    "measured": subject.measured[rows],
+                    "predicted": result.predicted[rows],
+                    "residual": result.residual[rows],
+                }
+            )
     return series, thinned
 
 
@@ -108,7 +179,9 @@ def _held(values: NDArray) -> float | None:
     return level if np.ptp(values) <= 0.03 * abs(level) else None
 
 
-def _label(number: int, pressure: float | None, length: float | None) -> str:
+def _label(number: int, pressure: float | None, length: float | None, *, timed: bool) -> str:
+    if timed:
+        return f"run {number}"
     if pressure is not None:
         return f"{pressure / 1e5:.3g} bar"
     return f"sweep {number}" if length is None else f"{length * 1e3:.4g} mm"

@@ -38,8 +38,11 @@ class MuscleInput(Strict):
 
 
 ParameterValue = Annotated[
-    float | Annotated[str, Field(min_length=1, max_length=100)],
-    Field(description="A number in SI units or a text with a unit.", examples=["0.47 MPa"]),
+    float | Annotated[str, Field(min_length=1, max_length=500)],
+    Field(
+        description="A number in SI units or a text with a unit; the term of a custom effect.",
+        examples=["0.47 MPa"],
+    ),
 ]
 EffectsInput = Annotated[
     dict[Name, dict[Name, ParameterValue]],

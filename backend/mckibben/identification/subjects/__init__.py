@@ -65,7 +65,9 @@ def _bare_drive(measurement: Measurement, muscle: Muscle) -> Drive:
     return Drive(
         model=StaticModel(muscle),
         valve=_ANY_VALVE,
-        load=Load(mass=float(conditions.get("load_mass", 0.0)), force=float(conditions.get("load_force", 0.0))),
+        load=Load(
+            mass=float(conditions.get("load_mass", 0.0)), force=float(conditions.get("load_force", 0.0))
+        ),
         command=Step(level=1.0),
         duration=1.0,
         supply_pressure=_PRESSURE,

@@ -116,6 +116,7 @@ class Moving(Subject):
         self.records = np.tile(np.concatenate(per_record), len(found)) + np.repeat(
             len(self._records) * np.arange(len(found)), count
         )
+        self.groups = self.records
         self.sweeps = [np.flatnonzero(self.records == label) for label in np.unique(self.records)]
         self.folds = (_blocks(self._records, len(found)),)
         time = np.concatenate([record.time for record in self._records])

@@ -10,7 +10,7 @@ A length under a load W is where :math:`F(L) = W`, so :math:`dL/d\theta = -F_\th
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -49,7 +49,7 @@ class Quasistatic(Subject):
         self.scale = np.ones(len(task.measured))
         full_scale = float(np.max(np.abs(task.measured)))
         self.channels = (Channel(task.channel, task.unit, slice(None), 1.0, full_scale),)
-        self.records = task.records
+        self.records, self.groups = task.records, task.groups
         self.rows_used, self.excluded, self.messages = len(task.measured), task.excluded, task.messages
         within = "pressure" if task.kind in ("isometric", "isotonic") else "length"
         other = ranges_of(task.state.get(within, task.state["pressure"]))
@@ -120,9 +120,7 @@ class Quasistatic(Subject):
             return out["force"], gradient
         return self._length(setting, names)
 
-    def _delayed_linearised(
-        self, setting: Setting, free: Sequence[Free]
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def _delayed_linearised(self, setting: Setting, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
         """Differences by the numbers of the delays; the others act as if they came at once, which is close."""
         predicted = self.predict(setting, clipped=False)
         ids = {effect.id for effect in setting.effects if _late(effect)}
@@ -149,7 +147,10 @@ class Quasistatic(Subject):
         states = sorted({state for own in moved.values() for state in own})
         inner = tuple(name for name in names if name != LOAD)
         compiled = compiled_state(
-            _sorted(setting.effects), (*inner, *states), memory=any(map(remembers, setting.effects)), quick=True
+            _sorted(setting.effects),
+            (*inner, *states),
+            memory=any(map(remembers, setting.effects)),
+            quick=True,
         )
         constants = compiled.pack(setting.muscle, setting.values)
         out, raw = settle(compiled, constants, state or self._state(setting))

@@ -45,6 +45,7 @@ class Subject(ABC):
             channel's noise for several; shape (values,).
         folds: ways of leaving out, each a label of what is left out together, shape (values,): whole groups
             first, then ranges of what changes within a group.
+        groups: label of the curve that a value belongs to, shape (values,).
         records: label of the uninterrupted record, shape (values,).
         sweeps: indices of the values of each smooth sweep, in order.
         inputs: what the residual may depend on, name -> shape (values,), SI.
@@ -58,6 +59,7 @@ class Subject(ABC):
     measured: np.ndarray
     scale: np.ndarray
     folds: tuple[np.ndarray, ...]
+    groups: np.ndarray
     records: np.ndarray
     sweeps: Sequence[np.ndarray]
     inputs: Mapping[str, np.ndarray]

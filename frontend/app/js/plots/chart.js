@@ -12,10 +12,12 @@ import { canPatch, patch } from "./patch.js";
 /** @typedef {{x: [number, number] | null, y: [number, number] | null, text: string}} Zone */
 /** @typedef {{text: string, x: number, y: number, color: string}} Label */
 /** A time in which something holds, shaded by kind. @typedef {{x: [number, number], kind: string}} Band */
-/** `level`: the handle; `marks`: instants; `brush`: dragging chooses a range of x, null = all of it.
+/** What both axes show, in shown units. @typedef {{x: [number, number], y: [number, number]}} Ranges */
+/** `level`: the handle; `marks`: instants; `brush`: dragging chooses a range of x, null = all of it; `zoomed`:
+ * the zoom is kept outside and comes back as the ranges of the axes.
  * @typedef {{x: Axis, y: Axis, y2?: Axis, traces: Trace[], zones: Zone[], labels?: Label[],
  *   revision: string, level?: {y: number, text: string}, bands?: Band[], marks?: number[],
- *   brush?: (range: [number, number] | null) => void}} Spec */
+ *   brush?: (range: [number, number] | null) => void, zoomed?: (ranges: Ranges | null) => void}} Spec */
 
 const SETTLE_MS = 300;
 
@@ -154,7 +156,7 @@ export class Chart {
   full(fig, now) {
     const first = !this.drawnAs;
     this.drawnAs = now;
-    const doubleClick = this.spec?.brush ? false : "reset";
+    const doubleClick = this.spec?.brush || this.spec?.zoomed ? false : "reset";
     plotly().react(this.canvas, fig.data, fig.layout, { displayModeBar: false, doubleClick });
     if (!first) return;
     const canvas = /** @type {any} */ (this.canvas);
@@ -162,14 +164,17 @@ export class Chart {
       this.after.forEach((fn) => fn());
       const from = change["xaxis.range[0]"], to = change["xaxis.range[1]"];
       if (from !== undefined) this.spec?.brush?.([from, to]);
+      const { xaxis, yaxis } = this.axes;
+      this.spec?.zoomed?.({ x: [xaxis.range[0], xaxis.range[1]], y: [yaxis.range[0], yaxis.range[1]] });
     });
-    canvas.on("plotly_doubleclick", () => this.spec?.brush?.(null));
+    canvas.on("plotly_doubleclick", () => (this.spec?.brush ?? this.spec?.zoomed)?.(null));
   }
 
   unzoom() {
     const spec = this.spec;
     if (!spec) return;
-    if (spec.brush) return spec.brush(null);
+    const kept = spec.brush ?? spec.zoomed;
+    if (kept) return kept(null);
     const y2 = spec.y2 ? { "yaxis2.range": spec.y2.range } : {};
     plotly().relayout(this.canvas, { "xaxis.range": spec.x.range, "yaxis.range": spec.y.range, ...y2 });
   }

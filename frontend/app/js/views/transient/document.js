@@ -8,8 +8,11 @@ import { siNumber } from "./units.js";
 /** @typedef {{name: string, drive: Drive}} Pin  a whole drive document, muscle and effects included */
 /** @typedef {"flow" | "force" | "valve"} Lower */
 /** @typedef {{drive: Drive, mode: "command" | "controller", scenario: string | null, lower: Lower,
- *   window: [number, number] | null, pins: Pin[], differing: boolean,
+ *   window: [number, number] | null, phase: Zoom | null, pins: Pin[], differing: boolean,
  *   measurement: {id: string, name: string} | null}} Transient */
+/** What the phase plot shows when it is zoomed.
+ * @typedef {{pressure: [number, number], contraction: [number, number]}} Zoom */
+/** @typedef {"hanging" | "inclined" | "horizontal" | "lever" | "antagonist"} Arrangement */
 
 export const MOST_PINS = 4;
 
@@ -18,7 +21,7 @@ const defaultDrive = () => ({
   supply: { pressure: 5.5e5 },
   valve: { preset: "MPYE-5-1/8-HF" },
   tube: { preset: "PUN-H-4x0.75", length: 1 },
-  load: { mass: 50 },
+  load: { mass: 50, arrangement: "hanging" },
   command: { shape: "pulse", on: 0, off: 1 },
   controller: {
     type: "pid",
@@ -39,6 +42,7 @@ export const defaultTransient = () => ({
   scenario: null,
   lower: "flow",
   window: null,
+  phase: null,
   pins: [],
   differing: false,
   measurement: null,
@@ -94,6 +98,9 @@ function isPlain(x, depth = 0) {
   return Object.values(x).every((/** @type {unknown} */ one) => isPlain(one, depth + 1));
 }
 
+/** @param {unknown} x @returns {x is [number, number]} */
+const isRange = (x) => Array.isArray(x) && x.length === 2 && x.every(Number.isFinite) && x[0] < x[1];
+
 /** @param {unknown} raw @returns {raw is Drive} */
 const isDrive = (raw) => isObject(raw) && isPlain(raw);
 
@@ -106,15 +113,17 @@ export function readTransient(raw) {
   if (raw.drive !== undefined && !isDrive(raw.drive)) throw new Error("“transient.drive” makes no sense");
   const pins = Array.isArray(raw.pins) ? raw.pins : [];
   const sound = pins.filter((p) => isObject(p) && typeof p.name === "string" && isDrive(p.drive));
-  const { window: w, measurement: m } = raw;
-  const isWindow = Array.isArray(w) && w.length === 2 && w.every(Number.isFinite) && w[0] < w[1];
+  const { window: w, measurement: m, phase: z } = raw;
+  const drive = raw.drive ?? start.drive;
+  const isZoomed = isObject(z) && isRange(z.pressure) && isRange(z.contraction);
   const isFile = isObject(m) && typeof m.id === "string" && typeof m.name === "string";
   return {
-    drive: raw.drive ?? start.drive,
+    drive: isObject(drive.load) ? { ...drive, load: arranged(drive.load) } : drive,
     mode: raw.mode === "controller" ? "controller" : "command",
     scenario: typeof raw.scenario === "string" ? raw.scenario : null,
     lower: ["force", "valve"].includes(raw.lower) ? raw.lower : "flow",
-    window: isWindow ? [w[0], w[1]] : null,
+    window: isRange(w) ? [w[0], w[1]] : null,
+    phase: isZoomed ? { pressure: z.pressure, contraction: z.contraction } : null,
     pins: /** @type {Pin[]} */ (sound.slice(0, MOST_PINS)),
     differing: raw.differing === true,
     measurement: isFile ? { id: m.id, name: m.name } : null,
@@ -134,10 +143,50 @@ export function driveDocument(t, muscle, effects) {
   return { schema: 1, muscle, ...(effects ? { effects } : {}), ...rest, ...driven };
 }
 
-/** An arrangement is a word for an inclination; here the inclination is a field. @param {Drive} load */
-function arranged({ arrangement, ...load }) {
-  const fixed = /** @type {Record<string, number>} */ ({ hanging: Math.PI / 2, horizontal: 0 });
-  return arrangement in fixed ? { inclination: fixed[arrangement], ...load } : load;
+const UPRIGHT = Math.PI / 2, TILTED = Math.PI / 6, LEVER = 0.5, PULLEY = 0.03;
+/** What an arrangement inclines the load by when the document does not say it.
+ * @type {Record<Arrangement, number>} */
+const INCLINED = { hanging: UPRIGHT, inclined: UPRIGHT, horizontal: 0, lever: UPRIGHT, antagonist: 0 };
+const near = (/** @type {number} */ a, /** @type {number} */ b) => Math.abs(a - b) < 1e-3;
+
+/** How the load is arranged; a document may leave it to its numbers. @param {Drive | undefined} load
+ * @returns {Arrangement} */
+export function arrangementOf(load) {
+  if (load?.arrangement) return load.arrangement;
+  const angle = siNumber(load?.inclination) ?? UPRIGHT, ratio = siNumber(load?.lever_ratio);
+  if (ratio !== null && ratio !== 1) return "lever";
+  return near(angle, UPRIGHT) ? "hanging" : near(angle, 0) ? "horizontal" : "inclined";
+}
+
+/** Of the way the load is pulled against the horizontal [rad]. @param {Drive | undefined} load */
+export const inclinationOf = (load) =>
+  siNumber(load?.inclination) ?? INCLINED[arrangementOf(load)] ?? UPRIGHT;
+
+/** The load with its arrangement in a word, so that a slider cannot make another one of it.
+ * @param {Drive} load */
+function arranged(load) {
+  const arrangement = arrangementOf(load), { inclination, ...rest } = load;
+  const fixed = arrangement === "hanging" || arrangement === "horizontal";
+  const told = fixed && near(siNumber(inclination) ?? INCLINED[arrangement], INCLINED[arrangement]);
+  return told ? { ...rest, arrangement } : { ...load, arrangement };
+}
+
+/** The same load arranged otherwise, with what the arrangement needs and without what it does not know.
+ * @param {Drive} load @param {Arrangement} next @param {number} middle contraction in the middle of the stops
+ * @returns {Drive} */
+export function rearranged(load, next, middle) {
+  const { pulley_radius: _r, precontraction: _e, lever_ratio: ratio, inclination, ...rest } = load;
+  const angle = siNumber(inclination);
+  const tilted = angle === null || near(angle, 0) || near(angle, UPRIGHT) ? TILTED : angle;
+  /** @type {Record<Arrangement, object>} */
+  const own = {
+    hanging: {},
+    horizontal: {},
+    inclined: { inclination: tilted },
+    lever: { lever_ratio: ratio ?? LEVER, ...(inclination === undefined ? {} : { inclination }) },
+    antagonist: { pulley_radius: PULLEY, precontraction: middle },
+  };
+  return { ...rest, arrangement: next, ...own[next] };
 }
 
 const GEOMETRY = [
@@ -174,6 +223,7 @@ export function takenApart(document, scenario) {
       mode: rest.controller ? "controller" : "command",
       scenario,
       window: null,
+      phase: null,
     },
   };
 }

@@ -1,0 +1,28 @@
+"""Which physical effect a model is missing."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Request, Response
+
+from mckibben.api.answer import JsonAnswer, StrictRoute
+from mckibben.api.answers.asked import asked
+from mckibben.api.answers.diagnoses import TIME_LIMIT, prepare
+from mckibben.api.context import StoreDep, StudioDep
+from mckibben.api.long_work import events, finished, wants_events
+from mckibben.api.schemas.common import errors
+from mckibben.api.schemas.diagnoses import DiagnosisAnswer, DiagnosisEvents, DiagnosisRequest
+
+router = APIRouter(prefix="/api/diagnoses", tags=["diagnoses"], route_class=StrictRoute)
+
+
+@router.post(
+    "", response_model=DiagnosisAnswer, responses={**errors(400, 404, 413, 415, 422), **DiagnosisEvents}
+)
+async def diagnose_model(
+    body: DiagnosisRequest, request: Request, studio: StudioDep, store: StoreDep
+) -> Response:
+    """The missing effects with reasons, twins, path and verdict; closing the connection ends the search."""
+    work = prepare(asked(body, studio, store), studio)
+    if wants_events(request):
+        return events(work, time_limit=TIME_LIMIT)
+    return JsonAnswer(await finished(request, work, time_limit=TIME_LIMIT))

@@ -1,0 +1,216 @@
+r"""A term of the tension that the user types, e.g. ``-c*sign(v)*P``: parsed by a whitelist, never evaluated.
+
+Symbols: P gauge pressure [Pa], kappa contraction ratio, L length [m], v = dL/dt [m/s], t time [s], pi.
+Functions: abs, sign, exp, sqrt, sin, cos, tanh. Operators: + - * / **. Any other name is a parameter in SI.
+sign(v) is the direction of the motion, 0 at rest.
+"""
+
+from __future__ import annotations
+
+import ast
+import math
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from inspect import Parameter as Argument
+from inspect import Signature as CallSignature
+from typing import Any
+
+from mckibben.physics import ops
+from mckibben.physics.effect import Effect, Example, Signature, StateVariable
+from mckibben.physics.errors import InputError, did_you_mean
+from mckibben.physics.muscle import Muscle
+from mckibben.physics.ops import Value
+from mckibben.physics.parameter import Parameter, Source
+
+CUSTOM = "custom"
+TERM = "term"
+SYMBOLS = {
+    "P": "gauge pressure [Pa]", "kappa": "contraction ratio", "L": "length [m]", "v": "dL/dt [m/s]",
+    "t": "time [s]", "pi": "3.14159...",
+}  # fmt: skip
+FUNCTIONS: Mapping[str, Callable[[Value], Value]] = {
+    "abs": ops.absolute,
+    "exp": ops.exp, "sqrt": ops.sqrt, "sin": ops.sin, "cos": ops.cos,
+    "tanh": lambda x: 1.0 - 2.0 / (ops.exp(2.0 * x) + 1.0),
+}  # fmt: skip
+_LONGEST = 500
+_DEEPEST = 40
+_LARGEST = 1e12  # SI; bounds of a parameter whose size nobody stated
+_REACH = 1e3  # times the stated value
+
+_Make = Callable[[Mapping[str, Value]], Value]
+
+
+def custom_effect(term: str, given: Mapping[str, float] | None = None) -> Effect:
+    """The effect of a typed term.
+
+    Args:
+        term: the tension it adds [N].
+        given: values of its parameters; 1 for the rest. Bounds are a thousand times the value either way.
+
+    Raises:
+        InputError: names what in the term cannot be used; field "effects.custom.term".
+    """
+    if not isinstance(term, str) or not term.strip():
+        raise _error("the term is empty", hint="e.g. -c*sign(v)*P")
+    if len(term) > _LONGEST:
+        raise _error(f"the term has {len(term)} characters, at most {_LONGEST}")
+    try:
+        tree = ast.parse(term.strip().replace("^", "**"), mode="eval")
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        raise _error(f"'{term[:80]}' is not a formula", hint="e.g. -c*sign(v)*P") from error
+    names: dict[str, None] = {}
+    make = _node(tree.body, names, 0)
+    parameters = [name for name in names if name not in SYMBOLS]
+    timed = "t" in names
+    if not parameters:
+        raise _error("the term has no parameter that could be fitted", hint="e.g. c*sign(v)*P")
+    unknown = [name for name in given or {} if name not in parameters]
+    if unknown:
+        raise InputError(
+            f"the term has no parameter '{unknown[0]}'",
+            field=f"effects.{CUSTOM}.{unknown[0]}",
+            hint=did_you_mean(unknown[0], parameters),
+        )
+
+    def tension(**known: Any) -> Value:
+        muscle: Muscle = known["muscle"]
+        values = {
+            "P": known["pressure"],
+            "kappa": muscle.contraction(known["length"]),
+            "L": known["length"],
+            "v": known["velocity"],
+            "direction": known["direction"],
+            "t": known.get("elapsed", 0.0),
+            "pi": math.pi,
+        }
+        return make({**values, **{name: known[name] for name in parameters}})
+
+    def rates(**_: Any) -> tuple[Value, ...]:
+        return (1.0,)
+
+    wanted = ["muscle", "length", "pressure", "velocity", "direction", *parameters]
+    _declare(tension, [*wanted, *(["elapsed"] if timed else [])])
+    slots: dict[str, Callable[..., Value]] = {"friction": tension}
+    states: tuple[StateVariable, ...] = ()
+    if timed:
+        _declare(rates, ["pressure"])
+        slots["rates"] = rates
+        states = (StateVariable("elapsed", "t", "s", 1.0, "Time since the record began."),)
+    user = Source("typed by the user", "user")
+    return Effect(
+        title="Custom term",
+        family="friction",
+        type="static",
+        cause=f"A term that was typed or proposed from data: {term}. Nothing is known of its cause.",
+        equation=r"F_{custom} = \mathtt{" + term.replace("_", r"\_").replace("**", "^") + "}",
+        parameters=tuple(_parameter(name, (given or {}).get(name, 1.0), user) for name in parameters),
+        slots=slots,
+        states=states,
+        kinds=frozenset({"isobaric", "isometric", "isotonic", "static", "transient"}),
+        signature=Signature(f"the typed term {term}", None, None, (), "lumped"),
+        confused_with=(),
+        references=(user,),
+        examples=(Example("force_change", 0.0, 1.0, user, {}, {}, {}),),
+    ).named(CUSTOM)
+
+
+def typed_effect(given: Mapping[str, float | str]) -> tuple[Effect, str]:
+    """The effect of a request or document, {"term": text, parameter: value}, and its term.
+
+    Raises:
+        InputError: as `custom_effect`; or no term, or a value that is not a number.
+    """
+    values: dict[str, float] = {}
+    for name, value in given.items():
+        if name == TERM:
+            continue
+        try:
+            values[name] = float(value)
+        except ValueError as error:
+            where = f"effects.{CUSTOM}.{name}"
+            raise InputError(f"'{str(value)[:40]}' is not a number", field=where, hint="in SI") from error
+    term = given.get(TERM)
+    if not isinstance(term, str):
+        raise _error("a custom effect needs its term as a text", hint="e.g. c*sign(v)*P")
+    return _kept(term, tuple(sorted(values.items()))), term
+
+
+@lru_cache(maxsize=64)
+def _kept(term: str, values: tuple[tuple[str, float], ...]) -> Effect:
+    # The same object for the same term, so that its machine code is found again.
+    return custom_effect(term, dict(values))
+
+
+def _parameter(name: str, value: float, source: Source) -> Parameter:
+    reach = min(_REACH * abs(value), _LARGEST) or 1.0
+    return Parameter(name, name, "SI", value, -reach, reach, source, "Of the typed term.", off=0.0)
+
+
+def _declare(function: Callable[..., Value], names: list[str]) -> None:
+    # An effect's functions ask for what they want by the names of their keyword-only arguments.
+    arguments = [Argument(name, Argument.KEYWORD_ONLY) for name in names]
+    function.__signature__ = CallSignature(arguments)  # type: ignore[attr-defined]
+
+
+def _node(node: ast.expr, names: dict[str, None], depth: int) -> _Make:
+    """A function of the known values from a whitelisted part of the formula."""
+    if depth > _DEEPEST:
+        raise _error("the term is nested too deeply")
+    if isinstance(node, ast.Constant) and isinstance(node.value, int | float):
+        number = float(node.value)
+        if not math.isfinite(number):
+            raise _error(f"{number} is not a number that can be used")
+        return lambda _: number
+    if isinstance(node, ast.Name):
+        name = node.id
+        names.setdefault(name)
+        if name in FUNCTIONS or name == "sign":
+            raise _error(f"{name} is a function", hint=f"e.g. {name}(v)")
+        return lambda known: known[name]
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.UAdd):
+        inner = _node(node.operand, names, depth + 1)
+        return inner if isinstance(node.op, ast.UAdd) else lambda known: -inner(known)
+    if isinstance(node, ast.BinOp) and type(node.op) in _OPERATORS:
+        left, right = (_node(part, names, depth + 1) for part in (node.left, node.right))
+        operate = _OPERATORS[type(node.op)]
+        return lambda known: operate(left(known), right(known))
+    if isinstance(node, ast.Call):
+        return _call(node, names, depth)
+    raise _error(
+        f"'{ast.unparse(node)[:60]}' cannot be part of a term",
+        hint=f"numbers, + - * / **, {', '.join((*SYMBOLS, 'sign', *FUNCTIONS))} and parameters",
+    )
+
+
+def _call(node: ast.Call, names: dict[str, None], depth: int) -> _Make:
+    name = node.func.id if isinstance(node.func, ast.Name) else ast.unparse(node.func)[:40]
+    if name != "sign" and name not in FUNCTIONS:
+        raise _error(f"there is no function '{name}'", hint=did_you_mean(name, ("sign", *FUNCTIONS)))
+    if len(node.args) != 1 or node.keywords:
+        raise _error(f"{name} takes one argument", hint=f"e.g. {name}(v)")
+    if name == "sign":
+        if isinstance(node.args[0], ast.Name) and node.args[0].id == "v":
+            return lambda known: known["direction"]
+        inner = _node(node.args[0], names, depth + 1)
+        return lambda known: _sign(inner(known))
+    inner, function = _node(node.args[0], names, depth + 1), FUNCTIONS[name]
+    return lambda known: function(inner(known))
+
+
+def _sign(value: Value) -> Value:
+    falling = ops.where(ops.greater(-value, 0.0), -1.0, 0.0)
+    return ops.where(ops.greater(value, 0.0), 1.0, falling)
+
+
+_OPERATORS: Mapping[type[ast.operator], Callable[[Any, Any], Value]] = {
+    ast.Add: lambda a, b: a + b,
+    ast.Sub: lambda a, b: a - b,
+    ast.Mult: lambda a, b: a * b,
+    ast.Div: lambda a, b: a / b,
+    ast.Pow: lambda a, b: a**b,
+}
+
+
+def _error(message: str, hint: str | None = None) -> InputError:
+    return InputError(message, field=f"effects.{CUSTOM}.{TERM}", hint=hint)

@@ -1,0 +1,48 @@
+// @ts-check
+// What a muscle preset says, in SI; and which preset a measurement was taken on. Pure functions.
+import { siOf } from "../../format.js";
+
+/** @typedef {import("../../types.js").Preset} Preset */
+/** @typedef {import("../../types.js").Muscle} Muscle */
+
+/** @param {Preset | null} preset @returns {Record<string, Record<string, number>>} */
+export const presetValues = (preset) =>
+  Object.fromEntries(
+    Object.entries(preset?.effects ?? {}).map(([id, values]) => [
+      id,
+      Object.fromEntries(Object.entries(values).map(([key, q]) => [key, siOf(q)])),
+    ]),
+  );
+
+/** The preset a file names, by id, title or the type code of a sample ("DMSP-20-300").
+ * @param {Preset[]} muscles @param {unknown} name
+ * @returns {{preset: Preset, length: number | null} | null} */
+export function presetNamed(muscles, name) {
+  if (typeof name !== "string" || !name.trim()) return null;
+  const wanted = name.trim().toLowerCase().replace(/\s+/g, "-");
+  const exact = muscles.find((m) =>
+    [m.id, m.title].some((text) => text.toLowerCase().replace(/\s+/g, "-") === wanted)
+  );
+  if (exact) return { preset: exact, length: null };
+  const longest = muscles.filter((m) => wanted.startsWith(`${m.id.toLowerCase()}-`))
+    .sort((a, b) => b.id.length - a.id.length)[0];
+  if (!longest) return null;
+  const code = /^(\d+)/.exec(wanted.slice(longest.id.length + 1));
+  return { preset: longest, length: code ? Number(code[1]) / 1000 : null };
+}
+
+/** The muscle that conditions of a measurement name; null = they name none that is known here.
+ * @param {Preset[]} muscles @param {Record<string, unknown>} conditions @returns {Muscle | null} */
+export function muscleOf(muscles, conditions) {
+  const named = presetNamed(muscles, conditions.muscle) ?? presetNamed(muscles, conditions.sample);
+  const given = conditions.nominal_length;
+  const length = typeof given === "number" ? given : named?.length;
+  if (!named) return null;
+  return { preset: named.preset.id, form: "braid", values: length ? { nominal_length: length } : {} };
+}
+
+/** A muscle of a request as this page keeps it. @param {Record<string, any>} input @returns {Muscle} */
+export function muscleFrom({ preset = null, ...rest }) {
+  const values = Object.fromEntries(Object.entries(rest).filter(([, v]) => typeof v === "number"));
+  return { preset, form: "turns" in values || "thread_length" in values ? "thread" : "braid", values };
+}

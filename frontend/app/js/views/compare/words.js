@@ -1,0 +1,97 @@
+// @ts-check
+// Errors and ranges as the page writes them.
+import { brief, number, plainScale, quantityOf, scaleOf, toShown } from "../../format.js";
+
+/** @typedef {import("../../format.js").Quantity} Quantity */
+/** @typedef {import("../../format.js").System} System */
+/** @typedef {import("./types.js").Series} Series */
+
+/** The scale of a channel: a contraction is shown in percent.
+ * @param {string} unit @param {string} channel @param {System} system */
+export function channelScale(unit, channel, system) {
+  if (unit === "1" && /contraction|command/.test(channel)) return scaleOf("ratio", system);
+  const quantity = unit === "1" ? null : quantityOf(unit);
+  return quantity ? scaleOf(quantity, system) : plainScale(unit);
+}
+
+/** An error with its unit. Several channels together are told in units of their noise.
+ * @param {number | null | undefined} si @param {string} unit @param {string} channel @param {System} system */
+export function errorText(si, unit, channel, system) {
+  if (si == null) return "–";
+  const s = channelScale(unit, channel, system);
+  if (unit === "1" && !s.unit) return `${brief(si)} × noise`;
+  return `${brief(si / s.factor)}\u00a0${s.unit}`.trim();
+}
+
+/** Variables of the residual by the name the server uses.
+ * @type {Record<string, {title: string, quantity: Quantity, of: (s: Series) => (number | null)[] | null}>} */
+export const VARIABLES = {
+  contraction: { title: "Contraction", quantity: "ratio", of: (s) => s.contraction },
+  pressure: { title: "Pressure", quantity: "pressure", of: (s) => s.x_pressure },
+  velocity: { title: "Velocity", quantity: "speed", of: (s) => s.velocity },
+  time: { title: "Time", quantity: "time", of: (s) => s.time },
+  length: { title: "Length", quantity: "length", of: (s) => s.length },
+};
+
+/** @param {Series} s @param {string} name @returns {(number | null)[]} */
+export const column = (s, name) => VARIABLES[name]?.of(s) ?? [];
+
+/** Whether a variable changes within the series. @param {Series[]} all @param {string} name */
+export function varies(all, name) {
+  let low = Infinity, high = -Infinity;
+  for (const s of all) {
+    for (const v of column(s, name)) {
+      if (v == null) continue;
+      if (v < low) low = v;
+      if (v > high) high = v;
+    }
+  }
+  return high - low > 1e-9 * Math.max(Math.abs(low), Math.abs(high), 1e-12);
+}
+
+/** "5 to 10 %" of a variable. @param {string} name @param {[number, number]} range @param {System} system */
+export function rangeText(name, [from, to], system) {
+  const v = VARIABLES[name];
+  if (!v) return "";
+  const s = scaleOf(v.quantity, system);
+  const say = (/** @type {number} */ si) => number(toShown(si, s), 2);
+  return `${v.title.toLowerCase()} ${say(from)} to ${say(to)} ${s.unit}`.trim();
+}
+
+/** @param {Series} s @param {number} i @param {import("./document.js").Brush | null} brush */
+export function isInside(s, i, brush) {
+  if (!brush) return true;
+  return Object.entries(brush).every(([name, [from, to]]) => {
+    const v = column(s, name)[i];
+    const slack = 1e-9 * Math.max(Math.abs(from), Math.abs(to));
+    return v == null || (v >= from - slack && v <= to + slack);
+  });
+}
+
+/** Root mean square and number of the residuals inside a brush.
+ * @param {Series[]} all @param {import("./document.js").Brush | null} brush */
+export function rmsInside(all, brush) {
+  let sum = 0, rows = 0;
+  for (const s of all) {
+    s.residual.forEach((r, i) => {
+      if (r == null || !isInside(s, i, brush)) return;
+      sum += r * r;
+      rows++;
+    });
+  }
+  return { rms: rows ? Math.sqrt(sum / rows) : null, rows };
+}
+
+/** Share of the spread that the model explains: 100 % is perfect. @param {Series[]} all */
+export function fitPercent(all) {
+  const measured = all.flatMap((s) => s.measured.filter((v, i) => v != null && s.residual[i] != null));
+  if (measured.length < 2) return null;
+  const mean = measured.reduce((/** @type {number} */ sum, v) => sum + (v ?? 0), 0) / measured.length;
+  const spread = measured.reduce((/** @type {number} */ sum, v) => sum + ((v ?? 0) - mean) ** 2, 0);
+  const { rms, rows } = rmsInside(all, null);
+  return rms === null || spread === 0 ? null : 100 * (1 - Math.sqrt((rms * rms * rows) / spread));
+}
+
+/** "−41 %" @param {number} percent */
+export const signed = (percent) =>
+  `${percent < 0 ? "−" : "+"}${Math.abs(percent).toFixed(Math.abs(percent) < 10 ? 1 : 0)}\u00a0%`;
