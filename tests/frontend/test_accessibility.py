@@ -1,14 +1,16 @@
-"""axe finds nothing in both views and both themes; everything works without a pointer."""
+"""axe finds nothing in any view and either theme; everything works without a pointer."""
 
 from __future__ import annotations
 
+import re
 from typing import Literal
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
-from tests.frontend.views import open_catalogue, open_design, redrawn, run
+from tests.frontend.guard import PageGuard
+from tests.frontend.views import open_catalogue, open_compare, open_compared, open_design, redrawn, run
 
 
 def violations(page: Page) -> list[str]:
@@ -43,6 +45,28 @@ def test_axe_finds_nothing_in_the_catalogue(page: Page, theme: Literal["light", 
     assert violations(page) == []
 
 
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_axe_finds_nothing_in_the_compare_view(
+    page: Page, page_guard: PageGuard, theme: Literal["light", "dark"]
+) -> None:
+    page_guard.allow("status of 404")  # a server without mysteries
+    page.emulate_media(color_scheme=theme)
+    open_compare(page)
+    assert violations(page) == []
+    open_compared(page)
+    page.locator("#add-all").click()
+    expect(page.locator(".error-card")).not_to_have_class(re.compile("stale"), timeout=20_000)
+    expect(page.locator("html")).to_have_attribute("data-diagnosis", "done", timeout=60_000)
+    page.get_by_role("button", name=re.compile("more that were tried")).click()
+    page.evaluate("document.querySelectorAll('details').forEach((el) => { el.open = true; })")
+    page.locator(".heat button").first.click()
+    assert violations(page) == []
+    odd = {"name": "odd.csv", "mimeType": "text/csv", "buffer": b"p,x,F\n3,1,2\n3,2,3\n3,3,a\n4,5,5\n"}
+    page.locator("#measurement-files").set_input_files([odd])
+    expect(page.get_by_role("dialog", name="How odd.csv is read")).to_be_visible()
+    assert violations(page) == []
+
+
 def test_keys_views_search_and_typing(page: Page) -> None:
     open_design(page)
     page.keyboard.press("?")
@@ -56,7 +80,7 @@ def test_keys_views_search_and_typing(page: Page) -> None:
     expect(page.get_by_label("Search effects")).to_have_value("2?")
     page.get_by_label("Search effects").fill("")
     page.locator("body").click(position={"x": 4, "y": 400})
-    page.keyboard.press("3")
+    page.keyboard.press("4")
     expect(page.get_by_role("region", name="Table of parts")).to_be_visible()
     page.keyboard.press("1")
     expect(page.locator("#force")).to_be_visible()

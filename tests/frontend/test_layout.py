@@ -5,9 +5,15 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Page
 
-from tests.frontend.views import SIZES, open_catalogue, open_design, run
+from tests.frontend.guard import PageGuard
+from tests.frontend.views import SIZES, open_catalogue, open_compare, open_compared, open_design, run
 
-OPENERS = {"design": open_design, "catalogue": open_catalogue}
+OPENERS = {
+    "design": open_design,
+    "catalogue": open_catalogue,
+    "compare, empty": open_compare,
+    "compare": open_compared,
+}
 
 
 SIDEWAYS = """
@@ -43,8 +49,9 @@ return [...all].filter((el) => el.checkVisibility() && !el.matches(".skip, label
 
 
 @pytest.mark.parametrize("view", OPENERS)
-def test_every_width(page: Page, view: str) -> None:
+def test_every_width(page: Page, page_guard: PageGuard, view: str) -> None:
     """No sideways scroll, no overlaps, targets of at least 24 px."""
+    page_guard.allow("status of 404")  # a server without mysteries
     OPENERS[view](page)
     for width, height in SIZES:
         page.set_viewport_size({"width": width, "height": height})

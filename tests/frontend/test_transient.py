@@ -5,16 +5,18 @@ from __future__ import annotations
 import base64
 import csv
 import json
+import math
 import re
 import statistics
 import zlib
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 from urllib.parse import urlsplit
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Route, expect
 
 from tests.frontend.guard import PageGuard
 from tests.frontend.views import REFUSED, SIZES, enter, field, link_of, run
@@ -329,10 +331,297 @@ def test_a_measured_trace_lies_over_the_run(page: Page, page_guard: PageGuard, t
     expect(card.get_by_role("alert")).not_to_be_empty()
 
 
+PLOTTED = """
+const trace = document.querySelector(`#run-${argument[0]} .canvas`).data.find((t) => t.uid === argument[1]);
+return trace ? { x: [...trace.x], y: [...trace.y] } : null;
+"""
+
+
+def arrange(page: Page, how: str) -> None:
+    """Choose an arrangement of the load and wait for its run."""
+    rerun(page, lambda: page.get_by_label("Arrangement", exact=True).select_option(how))
+
+
+def test_an_antagonist_pair_turns_a_pulley(page: Page, page_guard: PageGuard) -> None:
+    page_guard.allow(REFUSED)
+    open_transient(page)
+    expect(field(page, "Pulley radius")).to_be_hidden()
+    expect(page.locator("#run-torque")).to_be_hidden()
+    arrange(page, "antagonist")
+    expect(field(page, "Middle")).to_have_value("6")
+    rerun(page, lambda: enter(page, "Pulley radius", "36 mm"))
+    joint = page.get_by_role("region", name="Joint", exact=True)
+    # Stops at 0 and 12 % of 300 mm: 18 mm either way, on 36 mm half a radian.
+    expect(joint).to_contain_text("−28.7 to 28.7 °")
+    rerun(page, lambda: enter(page, "Pulley radius", "72 mm"))
+    expect(joint).to_contain_text("−14.3 to 14.3 °")
+    for name in ("angle", "torque", "stiffness"):
+        assert page.locator(f"#run-{name} .js-line").count() == 1, name
+    expect(page.locator(".run-pressure .legend")).to_contain_text("muscle 2")
+    angle, torque = (run(page, PLOTTED, [name, name])["y"] for name in ("angle", "torque"))
+    assert max(angle) == pytest.approx(-min(angle), rel=1e-3)
+    assert torque[0] == pytest.approx(0, abs=1e-6)
+    # The picture: what one muscle is shorter, the other is longer.
+    ends = "return [...document.querySelectorAll('.double .rod')].map((el) => Number(el.getAttribute('x1')));"
+    page.locator("#run-angle").focus()
+    page.keyboard.press("Home")
+    assert run(page, ends)[0] == pytest.approx(run(page, ends)[1])
+    middle = run(page, ends)[0]
+    page.get_by_label("Time of the cursor").fill("400")
+    first, second = run(page, ends)
+    assert middle - first == pytest.approx(second - middle)
+    assert middle - first > 5
+    page.locator("[data-field='load.precontraction'] input[type=text]").fill("30 %")
+    page.keyboard.press("Enter")
+    expect(page.locator("[data-field='load.precontraction'] .error")).to_contain_text("30 %")
+    page.get_by_role("button", name="Undo").click()
+    expect(page.locator(".transient .notice")).to_be_hidden()
+    table = list(csv.DictReader(download(page, "Run as CSV").read_text().splitlines()))
+    assert {"joint_angle [°]", "joint_torque [N·m]", "counter_pressure [bar]"} <= set(table[0])
+    arrange(page, "hanging")
+    expect(joint).to_be_hidden()
+    expect(page.locator("#run-torque")).to_be_hidden()
+
+
+def test_each_arrangement_has_its_fields_and_runs(page: Page) -> None:
+    open_transient(page)
+    own = ("Inclination", "Lever ratio", "Pulley radius")
+    wanted = {
+        "inclined": {"Inclination"},
+        "lever": {"Inclination", "Lever ratio"},
+        "horizontal": set(),
+        "antagonist": {"Pulley radius"},
+        "hanging": set(),
+    }
+    for how, names in wanted.items():
+        arrange(page, how)
+        expect(page.locator(".transient .notice")).to_be_hidden()
+        card = page.get_by_role("region", name="Load", exact=True)
+        seen = {name for name in own if card.get_by_role("textbox", name=name, exact=True).is_visible()}
+        assert seen == names, how
+    rerun(page, lambda: page.get_by_role("button", name="Undo").click())
+    expect(page.get_by_label("Arrangement", exact=True)).to_have_value("antagonist")
+
+
+def test_a_table_comes_from_a_file(page: Page, tmp_path: Path) -> None:
+    open_transient(page)
+    rerun(page, lambda: page.get_by_label("Force over time", exact=True).select_option("table"))
+    file = tmp_path / "force.csv"
+    chooser = page.locator("#t-load-force-file")
+    file.write_text("Zeit [ms];Kraft [kN]\n0;0\n500;0,4\n1500;0,1\n", encoding="utf-8")
+    with page.expect_request("**/api/simulations") as asked:
+        rerun(page, lambda: chooser.set_input_files(file))
+    force = asked.value.post_data_json["drive"]["load"]["force"]
+    assert force["times"] == [0, 0.5, 1.5]
+    assert force["values"] == pytest.approx([0, 400, 100])
+    card = page.get_by_role("region", name="Load", exact=True)
+    expect(card.locator(".points")).to_contain_text(
+        "force.csv: 3 points, 0 to 1.5 s; times in ms, values in kN"
+    )
+    expect(page.get_by_label("Time (s) and value (N), a row each")).to_have_value("0  0\n0.5  400\n1.5  100")
+    expect(page.locator("[id^=run-phase] ~ .hint")).to_contain_text("external force of the instant")
+    for text, words in {
+        "0;0\n0,5;12\nlater;3\n": "force.csv: Row 3: “later” is no number",
+        "0;0;1\n": "has 3 columns",
+        "t;F\n": "no row of numbers",
+        "t [s];p [bar]\n0;1\n": "“bar” measures a pressure",
+        "0;0\n1;1\n0,5;2\n": "Row 3: the time 0.5 is earlier",
+    }.items():
+        file.write_text(text, encoding="utf-8")
+        chooser.set_input_files(file)
+        expect(card.get_by_role("alert")).to_contain_text(words)
+    expect(card.locator(".points")).to_contain_text("3 points")
+    file.write_text("0 0\n1 50\n", encoding="utf-8")
+    rerun(page, lambda: chooser.set_input_files(file))
+    expect(card.get_by_role("alert")).to_be_empty()
+
+
+READ = """
+const { readTable } = await import("/js/views/transient/table-file.js");
+return argument[0].map((text) => {
+  const { times, values, words } = readTable(text, argument[1], "bar", { header: true });
+  return { times, values, words };
+});
+"""
+
+
+def test_tables_as_instruments_write_them(page: Page) -> None:
+    open_transient(page)
+    same = [
+        "0,0\n0.5,0.02\n",
+        "time,position in m\r\n0,0\r\n0.5,0.02\r\n",
+        "\ufeff0\t0\n0,5\t20\n",
+        "# from the rig\n0  0\n0,5  20\n",
+        "time;position\nms;mm\n0;0\n500;20\n",
+        '"t (s)","x (mm)"\n0,0\n5e-1,2e1\n',
+        "t/ms; x/cm\n0;0;\n500;2;\n",
+    ]
+    for one, text in zip(run(page, READ, [same[1:], "length"]), same[1:], strict=True):
+        assert one["times"] == pytest.approx([0, 0.5]), text
+        assert one["values"] == pytest.approx([0, 0.02]), text
+    shares = run(page, READ, [["0;0\n1;0,5\n", "0;0\n1;50\n", "t;u [%]\n0;0\n1;50\n"], "ratio"])
+    assert [one["values"] for one in shares] == [[0, 0.5]] * 3
+    assert "shares of 1 (it names no unit)" in shares[0]["words"]
+    # A triangle of 5001 points is three; noise keeps as many as a link can carry, and says what that costs.
+    triangle = "\n".join(f"{k / 1000:.3f} {min(k, 5000 - k) / 100:.2f}" for k in range(5001))
+    noise = "\n".join(f"{k} {math.sin(k * k):.6f}" for k in range(5001))
+    exact, thinned = run(page, READ, [[triangle, noise], "force"])
+    assert exact["times"] == [0, 2.5, 5]
+    assert len(thinned["times"]) == 1000
+    assert "5001 points" in thinned["words"]
+    assert "1000 of them are kept" in thinned["words"]
+
+
+def test_pinned_runs_are_as_fine_as_the_run(page: Page, server_url: str) -> None:
+    open_transient(page)
+    page.get_by_role("button", name="Pin this run").click()
+    rerun(page, lambda: enter(page, "Mass", "40"))
+    expect(page.locator("#run-position .js-line")).to_have_count(4)
+    asked: list[dict[str, Any]] = []
+    page.on(
+        "request",
+        lambda request: asked.append(request.post_data_json) if "/api/simulations" in request.url else None,
+    )
+    begin, end = 0.40, 0.46
+    for name, value in (("from", begin), ("to", end)):
+        window = page.get_by_label(f"Window {name}, in seconds")
+        window.fill(str(value))
+        rerun(page, lambda window=window: window.press("Enter"))
+    pinned = [body for body in asked if body["drive"]["load"]["mass"] == 50]
+    assert (pinned[-1]["from"], pinned[-1]["to"]) == (begin, end)
+    post = page.request.post(f"{server_url}/api/simulations", data=pinned[-1])
+    fine = post.json()
+    coarse = page.request.post(
+        f"{server_url}/api/simulations", data={**pinned[-1], "from": 0, "to": 2}
+    ).json()
+    page.wait_for_function(
+        """(first) => {
+          const data = document.querySelector("#run-pressure .canvas").data.find((t) => t.uid === "pin0");
+          return data && Math.abs(data.y[200] - first) < 1e-9;
+        }""",
+        arg=fine["pressure"][200] / 1e5,
+    )
+    drawn = run(page, PLOTTED, ["position", "pin0"])
+    assert drawn["x"] == pytest.approx(fine["time"])
+    assert drawn["y"] == pytest.approx([1e3 * x for x in fine["position"]], abs=1e-9)
+    inside = [x for x in coarse["time"] if begin <= x <= end]
+    assert len(inside) < 20  # what the pin had before the window changed
+
+
+def test_another_window_ends_what_pinned_runs_were_asked_for(page: Page) -> None:
+    open_transient(page)
+    page.get_by_role("button", name="Pin this run").click()
+    rerun(page, lambda: enter(page, "Mass", "40"))
+    held: list[Route] = []
+
+    def hold(route: Route) -> None:
+        body = route.request.post_data_json
+        if body["drive"]["load"]["mass"] == 50 and body.get("to") == 1:
+            held.append(route)  # never answered
+        else:
+            route.continue_()
+
+    page.route("**/api/simulations", hold)
+    window = page.get_by_label("Window to, in seconds")
+    window.fill("1")
+    with page.expect_event("requestfailed") as ended:
+        rerun(page, lambda: window.press("Enter"))
+        window.fill("0.6")
+        rerun(page, lambda: window.press("Enter"))
+    assert ended.value.post_data_json["to"] == 1
+    assert len(held) == 1
+    page.wait_for_function(
+        """() => {
+          const canvas = document.querySelector("#run-position .canvas");
+          const pin = canvas.data.find((t) => t.uid === "pin0");
+          return pin.x.length === 401 && pin.x.at(-1) === 0.6;
+        }"""
+    )
+    page.unroute("**/api/simulations")
+
+
+def test_the_link_restores_the_zoomed_phase_plot(page: Page) -> None:
+    open_transient(page)
+    range_of = """
+      const { xaxis, yaxis } = document.querySelector("#run-phase .canvas")._fullLayout;
+      return [...xaxis.range, ...yaxis.range];
+    """
+    whole = run(page, range_of)
+    box = page.locator("#run-phase").bounding_box()
+    assert box
+    page.locator("#run-phase").scroll_into_view_if_needed()
+    box = page.locator("#run-phase").bounding_box()
+    assert box
+    page.mouse.move(box["x"] + 120, box["y"] + 30)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 220, box["y"] + 90, steps=6)
+    page.mouse.up()
+    zoomed = run(page, range_of)
+    assert whole[0] < zoomed[0] < zoomed[1] < whole[1]
+    other = page.context.new_page()
+    open_transient(other, link_of(page))
+    expect(other.locator("#run-phase .js-line").first).to_be_attached()
+    assert run(other, range_of) == pytest.approx(zoomed, rel=1e-4)
+    other.locator("#run-phase").dblclick(position={"x": 150, "y": 60})
+    assert run(other, range_of) == pytest.approx(whole)
+    other.close()
+
+
+def test_a_window_never_outlasts_the_run(page: Page) -> None:
+    open_transient(page)
+    window = page.get_by_label("Window from, in seconds")
+    window.fill("0.5")
+    rerun(page, lambda: window.press("Enter"))
+    rerun(page, lambda: enter(page, "Duration", "1"))
+    expect(page.get_by_label("Window to, in seconds")).to_have_value("1.00")
+    rerun(page, lambda: enter(page, "Duration", "0.4"))
+    expect(page.locator(".transient .notice")).to_be_hidden()
+    expect(page.get_by_label("Window to, in seconds")).to_have_value("0.400")
+
+
+RESTING = """
+const { resting } = await import("/js/views/transient/phase.js");
+// F = p A (1 - k / k_max): straight, so that the balance has a closed form.
+const contraction = [...Array(51).keys()].map((i) => 0.005 * i), pressure = [0, 2e5, 4e5, 6e5];
+const force = pressure.map((p) => contraction.map((k) => p * argument.area * (1 - k / 0.25)));
+const map = { contraction, pressure, force };
+const middle = argument.middle ?? 0, rest = 0.3;
+const run = { contraction: [middle], position: [0], geometry: { nominal_length: rest },
+  limits: { position_min: -0.06, position_max: 0.06 }, joint: argument.counter ? {} : null };
+return resting(run, argument.load, map, map, argument);
+"""
+
+
+def test_the_static_line_is_the_balance_of_forces(page: Page) -> None:
+    open_transient(page)
+    area, greatest, rest = 2.5e-3, 0.25, 0.3
+    pressures, forces = [2e5, 3e5, 5e5], [100.0, 150.0, 50.0]
+    weight, spring, ratio = 200.0, 900.0, 2.0
+    load = {"weight": weight, "spring": spring, "ratio": ratio}
+    case = {"area": area, "load": load, "pressure": pressures, "force": forces, "counter": None}
+    # i^2 p A (1 - k / k_max) = i (W + F) + c k L
+    wanted = [
+        (ratio**2 * p * area - ratio * (weight + f)) / (ratio**2 * p * area / greatest + spring * rest)
+        for p, f in zip(pressures, forces, strict=True)
+    ]
+    assert run(page, RESTING, case) == pytest.approx(wanted, abs=1e-6)
+    # p A (1 - (m + u) / k_max) - q A (1 - (m - u) / k_max) = F, with the stroke u L from the middle m
+    counter, middle = [2e5, 2e5, 4e5], 0.1
+    load = {"weight": 0.0, "spring": 0.0, "ratio": 1.0}
+    case = {**case, "load": load, "counter": counter, "middle": middle}
+    wanted = [
+        middle + ((p - q) * area * (1 - middle / greatest) - f) / ((p + q) * area / greatest)
+        for p, q, f in zip(pressures, counter, forces, strict=True)
+    ]
+    assert run(page, RESTING, case) == pytest.approx(wanted, abs=1e-6)
+
+
 def test_axe_finds_nothing(page: Page) -> None:
     open_transient(page)
     page.get_by_role("button", name="Pin this run").click()
     rerun(page, lambda: page.get_by_role("radio", name="Controller").click())
+    arrange(page, "antagonist")
+    rerun(page, lambda: page.get_by_label("Force over time", exact=True).select_option("table"))
     page.evaluate("document.querySelectorAll('details').forEach((el) => { el.open = true; })")
     expect(page.get_by_role("region", name="Pinned runs and the run now")).to_be_visible()
     for theme in ("light", "dark"):

@@ -31,6 +31,26 @@ def open_catalogue(page: Page) -> None:
     expect(page.locator(".detail .js-line").first).to_be_attached()
 
 
+def open_compare(page: Page) -> None:
+    """The Compare & diagnose view before there are data."""
+    open_design(page)
+    page.get_by_role("button", name="Compare & diagnose", exact=True).click()
+    expect(page.get_by_role("button", name="Guided example")).to_be_visible()
+
+
+def open_compared(page: Page) -> None:
+    """The Compare & diagnose view with a built-in measurement and its diagnosis."""
+    open_compare(page)
+    page.locator(".tile", has_text="DMSP-20-300").click()
+    expect(page.locator("html")).to_have_attribute("data-diagnosis", "done", timeout=60_000)
+    expect(page.locator("#overlay-force .js-line").first).to_be_attached()
+
+
+def redo(page: Page) -> None:
+    """One step forward again."""
+    page.keyboard.press("Control+Shift+z")
+
+
 def drawings(page: Page) -> int:
     """How often the plots of the Design view were drawn."""
     return int(page.locator("html").get_attribute("data-drawn") or 0)

@@ -122,6 +122,22 @@ def diagnose(
     Raises:
         CancelledError: the watch said so.
     """
+    from threadpoolctl import threadpool_limits
+
+    # Many small decompositions: threads of the linear algebra only wait for each other.
+    with threadpool_limits(1):
+        return _diagnose(subject, setting, catalogue, geometry, noise, watch, found)
+
+
+def _diagnose(
+    subject: Subject,
+    setting: Setting,
+    catalogue: Mapping[str, Effect],
+    geometry: Sequence[Free],
+    noise: float | None,
+    watch: Watch | None,
+    found: Callable[[Candidate], None],
+) -> Diagnosis:
     inside = set(setting.ids)
     candidates = tuple(
         effect
@@ -160,7 +176,7 @@ def diagnose(
         (_candidate(work, root, effect, node, before, alike[effect.id]) for effect, node in singles),
         key=lambda candidate: candidate.score,
     )
-    rest = structure(best.residual, variables)
+    rest = _structure(subject, best.residual, variables)
     status = _status(start, best, work.noise, added, others, rest)
     term = None
     if status == "unknown_effect" and _is_force(subject):
@@ -234,6 +250,22 @@ def _final_fit(subject: Subject, best: Node) -> FitResult | None:
         best.free,
         starts=1,
     )
+
+
+def _structure(subject: Subject, residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> Structure:
+    """Structure left in the residual: of each channel, together by their mean squares."""
+    parts = []
+    for channel in subject.channels:
+        own = {name: values[channel.rows] for name, values in variables.items()}
+        left = residual[channel.rows]
+        parts.append((float(np.mean(left**2)), structure(left, own)))
+    whole = sum(size for size, _ in parts) or 1.0
+    lost: dict[str, float] = {}
+    for size, part in parts:
+        for name, share in part.variables:
+            lost[name] = lost.get(name, 0.0) + share * size / whole
+    order = tuple(sorted(lost.items(), key=lambda pair: -pair[1]))
+    return Structure(sum(size * part.share for size, part in parts) / whole, order)
 
 
 def _status(

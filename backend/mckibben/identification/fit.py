@@ -15,7 +15,7 @@ _UNDETERMINED = 1e10  # condition number of the scaled normal matrix beyond whic
 
 @dataclass(frozen=True, slots=True)
 class Free:
-    """A free parameter: name, start, bounds, SI unit, and the value at which it does nothing."""
+    """A free parameter: name, start, bounds, SI unit, the value at which it does nothing, a usual change."""
 
     name: str
     start: float
@@ -23,11 +23,12 @@ class Free:
     upper: float
     unit: str
     off: float | None = None
+    usual: float | None = None
 
     @property
     def typical(self) -> float:
-        """A magnitude that matters: a hundredth of the range between the bounds."""
-        return 0.01 * (self.upper - self.lower)
+        """A change that matters: the usual one, or a hundredth of the range between the bounds."""
+        return self.usual or 0.01 * (self.upper - self.lower)
 
 
 @dataclass(frozen=True, slots=True)

@@ -167,6 +167,7 @@ def _task(parts: list[tuple[np.ndarray, np.ndarray, np.ndarray, int]]) -> Task:
         time=np.concatenate(time),
         records=labels,
         groups=labels,
+        turning=np.zeros(count, bool),
         rows=np.arange(count),
         excluded={},
         unknown_load=False,

@@ -15,7 +15,7 @@ from mckibben.identification.subjects.subject import Subject
 _NEAR_BOUND = 1e-6  # of the range
 _AT_BOUND = 1e-3  # of the range
 _COLLINEAR = 3e-3  # singular value of the normalised Jacobian below which numbers stand in for each other
-_CUTOFF = 1e-9  # of the largest singular value, below which a direction is not determined
+_CUTOFF = 1e-13  # of the largest singular value, below which a direction is not determined
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,22 +104,29 @@ class Node:
     def fold_squares(self) -> tuple[np.ndarray, ...]:
         r"""Mean square of what is left out, per fold of each way of folding, without refitting.
 
-        Leaving fold g out moves the numbers by :math:`-(J^TJ - J_g^TJ_g)^{+}J_g^Tr_g` to first order, within
-        their bounds; for a model that is linear in its numbers this is the exact hold-out residual.
+        Leaving fold g out moves the numbers to first order by
+
+        .. math:: -(J^TJ - J_g^TJ_g + \Lambda)^{+}\,(J_g^Tr_g + \Lambda(\theta-\theta_{off}))
+
+        within their bounds; for a model that is linear in its numbers this is the exact hold-out residual.
+        The prior :math:`\Lambda`, one noise over the whole range of a number, matters only where fold g alone
+        determines a number: without it nobody would know of the effect, so it goes to where it does nothing.
         """
         inner = self.inner
-        jacobian = self.jacobian[:, inner]
-        scale = np.linalg.norm(jacobian, axis=0) if len(inner) else np.empty(0)
-        jacobian = jacobian / scale if len(inner) else jacobian
+        free = [self.free[i] for i in inner]
+        span = np.array([p.upper - p.lower for p in free])
+        jacobian = self.jacobian[:, inner] * span
         normal = jacobian.T @ jacobian
-        low = np.array([(self.free[i].lower - self.free[i].start) for i in inner]) * scale
-        high = np.array([(self.free[i].upper - self.free[i].start) for i in inner]) * scale
+        here = np.array([p.start for p in free])
+        low, high = ((np.array([getattr(p, end) for p in free]) - here) / span for end in ("lower", "upper"))
+        prior = np.array([0.0 if p.off is None else self.mean_square for p in free])
+        pull = np.array([0.0 if p.off is None else self.mean_square * (p.start - p.off) for p in free]) / span
 
         def square(rows: np.ndarray) -> float:
             out, left = jacobian[rows], self.residual[rows]
             if len(inner):
-                inverse = np.linalg.pinv(normal - out.T @ out, rcond=_CUTOFF, hermitian=True)
-                left = left - out @ np.clip(-inverse @ (out.T @ left), low, high)
+                inverse = np.linalg.pinv(normal - out.T @ out + np.diag(prior), rcond=_CUTOFF, hermitian=True)
+                left = left - out @ np.clip(-inverse @ (out.T @ left + pull), low, high)
             return float(np.mean(left**2))
 
         return tuple(

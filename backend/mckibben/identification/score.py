@@ -66,7 +66,9 @@ def log_ratio(before: Node, after: Node) -> tuple[float, float]:
 
 
 def better(after: Node, before: Node, *, rows: float, noise: float | None) -> bool:
-    """Whether a model with more numbers earns them."""
+    """Whether a model with more numbers earns them, and none of them is implausible."""
+    if after.implausible > before.implausible:
+        return False
     gain = 1.0 - after.rmse / before.rmse if before.rmse > 0.0 else 0.0
     drop = score(before, rows=rows, noise=noise) - score(after, rows=rows, noise=noise)
     return gain > LEAST_GAIN and drop > LEAST_SCORE

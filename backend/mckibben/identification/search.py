@@ -80,11 +80,16 @@ class Search:
             found = self.fit(usual, node.freed, again=True)
         return found
 
-    def freeing(self, node: Node, effect: Effect) -> Node | None:
-        """The model with the further constants of an effect freed; None when it has none left."""
+    def freeing(self, node: Node, effect: Effect) -> list[Node]:
+        """The model with the further constants of an effect freed: together, or each where that is too much."""
         names = {f"{effect.id}.{p.name}" for p in effect.parameters if not p.fitted} - node.freed
         names -= self._blind(node, names)
-        return self.fit(node.setting, node.freed | names) if names else None
+        if not names:
+            return []
+        whole = self.fit(node.setting, node.freed | names)
+        if len(names) == 1 or whole.implausible <= node.implausible:
+            return [whole]
+        return [self.fit(node.setting, node.freed | {name}) for name in sorted(names)]
 
     def dropping(self, node: Node, effect_id: str) -> Node:
         """The model without an effect, refitted."""
@@ -156,9 +161,8 @@ def search(work: Search, root: Node, *, singles: Sequence[Node]) -> Node:
             break
         rows = _rows(work, min(children, key=lambda node: node.rmse))
         children.sort(key=lambda node: score(node, rows=rows, noise=work.noise))
-        beam = [_freed(work, node) for node in _different(children)[:_BEAM]]
-        sound = [node for node in beam if not node.implausible] or beam
-        leader = min(sound, key=lambda node: score(node, rows=rows, noise=work.noise))
+        beam = _different([with_further_constants(work, node) for node in children[: 2 * _BEAM]])[:_BEAM]
+        leader = min(beam, key=lambda node: (node.implausible > 0, score(node, rows=rows, noise=work.noise)))
         idle += 1
         if better(leader, best, rows=_rows(work, leader), noise=work.noise):
             best, idle = leader, 0
@@ -172,12 +176,17 @@ def search(work: Search, root: Node, *, singles: Sequence[Node]) -> Node:
     return _polished(work, best, root)
 
 
-def _freed(work: Search, node: Node) -> Node:
+def with_further_constants(work: Search, node: Node) -> Node:
     """The node with further constants of its effects freed where that earns its price."""
+    if _at_floor(work, node):
+        return node
     for effect in node.setting.effects:
-        other = work.freeing(node, effect)
-        if other is not None and better(other, node, rows=_rows(work, other), noise=work.noise):
-            node = other
+        others = [
+            n for n in work.freeing(node, effect) if better(n, node, rows=_rows(work, n), noise=work.noise)
+        ]
+        if others:
+            rows = _rows(work, min(others, key=lambda n: n.rmse))
+            node = min(others, key=lambda n: score(n, rows=rows, noise=work.noise))
     return node
 
 
@@ -197,7 +206,7 @@ def _polished(work: Search, best: Node, root: Node) -> Node:
             inside = set(best.setting.ids)
             others = [effect for effect in work.candidates if effect.id not in inside]
             swaps = [work.adding(less, effect) for effect in work.promising(less, others)[:_BEAM]]
-            swaps = [_freed(work, node) for node in swaps]
+            swaps = [with_further_constants(work, node) for node in swaps]
             here = score(best, rows=rows, noise=work.noise)
             found = min(swaps, key=lambda node: score(node, rows=rows, noise=work.noise), default=best)
             if score(found, rows=rows, noise=work.noise) < here - LEAST_SCORE:

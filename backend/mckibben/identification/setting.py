@@ -12,6 +12,7 @@ from mckibben.identification.fit import Free
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import GEOMETRY, NEUTRAL_ANGLE, Muscle
+from mckibben.physics.parameter import Parameter
 
 #: Name of the load of a measurement that does not say it [N].
 LOAD = "load_force"
@@ -99,7 +100,7 @@ def free_numbers(
         load: the unknown load with its bounds.
     """
     own = [
-        Free(f"{effect.id}.{p.name}", setting.values[effect.id][p.name], p.lower, p.upper, p.unit, p.off)
+        _free(effect.id, p, setting.values[effect.id][p.name])
         for effect in setting.effects
         for p in effect.parameters
         if p.fitted or f"{effect.id}.{p.name}" in freed
@@ -108,6 +109,11 @@ def free_numbers(
     if load is not None:
         others.append(Free(LOAD, setting.load, load.lower, load.upper, load.unit))
     return (*own, *others)
+
+
+def _free(effect: str, p: Parameter, value: float) -> Free:
+    usual = abs(p.default) if p.off is None else abs(p.default - p.off)
+    return Free(f"{effect}.{p.name}", value, p.lower, p.upper, p.unit, p.off, usual or None)
 
 
 def free_geometry(muscle: Muscle, names: Iterable[str], tolerance: Mapping[str, float]) -> tuple[Free, ...]:

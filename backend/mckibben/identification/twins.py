@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mckibben.identification.node import Node
-from mckibben.identification.search import Search
+from mckibben.identification.search import Search, with_further_constants
 
 #: Fitted predictions that differ by less than this share of the noise are the same prediction: data of another
 #: functional form than ours differ from the best fit by as much.
@@ -47,7 +47,7 @@ def alternatives(work: Search, best: Node, added: Sequence[str], noise: float) -
         own = next(effect for effect in best.setting.effects if effect.id == effect_id)
         mine = work.changes(less, own)
         for effect in work.promising(less, others)[:_TRIED]:
-            node = work.adding(less, effect)
+            node = with_further_constants(work, work.adding(less, effect))
             difference = float(np.sqrt(np.mean((node.residual - best.residual) ** 2))) / noise
             cosine = _cosine(mine, work.changes(less, effect))
             parallel = abs(cosine) > _COSINE and node.rmse <= _AS_GOOD * best.rmse

@@ -1,10 +1,11 @@
-"""Presets: muscles, valves, tubes, fittings, curves, measurements, designs, drives; one JSON file each.
+"""Presets: muscles, valves, tubes, fittings, curves, measurements, designs, drives, mysteries.
 
-Every physical value carries its unit, source and grade. A file that cannot be used becomes a `Problem` and
-the others still load.
+Each is one JSON file. Every physical value carries its unit, source and grade. A file that cannot be used
+becomes a `Problem` and the others still load.
 """
 
 from mckibben.presets.library import PresetLibrary, Problem
+from mckibben.presets.mystery import MysteryPreset
 from mckibben.presets.quantity import Quantity
 from mckibben.presets.schema import (
     DesignPreset,
@@ -24,6 +25,7 @@ __all__ = [
     "FittingPreset",
     "MeasurementPreset",
     "MusclePreset",
+    "MysteryPreset",
     "Preset",
     "PresetLibrary",
     "Problem",

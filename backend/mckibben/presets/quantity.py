@@ -124,7 +124,10 @@ EXPECTED: dict[str, Expected] = {
     "command_max": _VOLTAGE,
     "command_middle": _VOLTAGE,
 }
-COLUMN_UNITS = {"pressure": "Pa", "contraction": "1", "length": "m", "force": "N"}
+COLUMN_UNITS = {
+    "pressure": "Pa", "contraction": "1", "length": "m", "displacement": "m", "force": "N", "time": "s",
+    "command": "1",
+}  # fmt: skip
 
 # Tried in this order for a value whose meaning is not known beforehand (an effect's parameter).
 _SI_UNITS = (

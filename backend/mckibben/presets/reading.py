@@ -13,6 +13,7 @@ from typing import Any, Union, get_args, get_origin
 from pydantic import BaseModel, ValidationError
 
 from mckibben.physics.errors import did_you_mean
+from mckibben.presets.mystery import MysteryPreset
 from mckibben.presets.quantity import Finding
 from mckibben.presets.schema import (
     DesignPreset,
@@ -40,6 +41,7 @@ KINDS: dict[str, type[Preset]] = {
     "curves": CurvePreset,
     "designs": DesignPreset,
     "drives": DrivePreset,
+    "mysteries": MysteryPreset,
 }
 
 

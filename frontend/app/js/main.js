@@ -12,12 +12,14 @@ import { designView } from "./views/design/index.js";
 import { plotlyReady } from "./views/design/charts.js";
 import { TRANSIENT_KEYS, transientView } from "./views/transient/index.js";
 import { transientExports } from "./views/transient/exports.js";
+import { COMPARE_KEYS, compareExports, compareView, listenToDrops } from "./views/compare/index.js";
 import { catalogueView } from "./views/catalogue/index.js";
 
 /** The tabs. A new view is one line here. @type {import("./shell.js").View[]} */
 const VIEWS = [
   { id: "design", title: "Design", build: designView },
   { id: "transient", title: "Transient", build: transientView, exports: transientExports },
+  { id: "compare", title: "Compare & diagnose", build: compareView, exports: compareExports },
   { id: "catalogue", title: "Catalogue", build: catalogueView },
 ];
 
@@ -31,6 +33,7 @@ const KEYS = [
     run: () => goTo(v.id),
   })),
   ...TRANSIENT_KEYS,
+  ...COMPARE_KEYS,
   { keys: "Ctrl Z", what: "Undo", match: control("z"), run: undoAndTell },
   { keys: "Ctrl Shift Z", what: "Redo", match: control("z", true), run: redoAndTell },
   {
@@ -99,6 +102,7 @@ function start() {
   app.append(main, line);
   effect(show);
   listenToKeys(KEYS);
+  listenToDrops();
   writeLink();
   loadAll();
   requestAnimationFrame(() => setTimeout(fetchPlotly));

@@ -35,8 +35,9 @@
  *   reference: string | null}} Design */
 /** @typedef {{kind: string, search: string, maker: string, from: number | null, to: number | null,
  *   sort: string, descending: boolean, selected: string | null}} CatalogueFilter */
+/** @typedef {import("./views/compare/document.js").Compare} Compare */
 /** @typedef {{schema: 1, view: string, units: import("./format.js").System, design: Design,
  *   transient: import("./views/transient/document.js").Transient,
- *   compare: import("./views/compare/document.js").Compare, catalogue: CatalogueFilter}} Doc */
+ *   compare: Compare, catalogue: CatalogueFilter}} Doc */
 
 export {};

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from mckibben.api.store import MeasurementStore
 from mckibben.identification.measurement import Measurement, build
 from mckibben.physics.errors import InputError, did_you_mean
-from mckibben.presets import CurvePreset, MeasurementPreset, PresetLibrary
+from mckibben.presets import CurvePreset, MeasurementPreset, MysteryPreset, Preset, PresetLibrary
 
 _SHA256_LENGTH = 64
-_KINDS = ("measurements", "curves")
+_KINDS = ("measurements", "curves", "mysteries")
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,11 +26,15 @@ class Points:
         measurement: the rows that may be compared.
         left_out: why rows were left out -> how many.
         nominal_length: of the sample that was measured, when the source says it [m].
+        source: who measured it, of a preset.
+        parts: the measurements that were joined to this one; empty for a single one.
     """
 
     measurement: Measurement
     left_out: dict[str, int] = field(default_factory=dict)
     nominal_length: float | None = None
+    source: str = ""
+    parts: tuple[Points, ...] = ()
 
     def __post_init__(self) -> None:
         # Rows that could not be read are left out like those a source excludes itself.
@@ -58,10 +62,14 @@ def find_points(identity: str, *, library: PresetLibrary, store: MeasurementStor
 
 
 def find_preset(identity: str, library: PresetLibrary) -> Points | None:
-    """The points of a measurement or curve preset, None when there is none of this id."""
+    """The points of a measurement, curve or mystery preset, None when there is none of this id."""
     for kind in _KINDS:
         for preset in library.list(kind):
-            if preset.id.lower() == identity.lower() and isinstance(preset, MeasurementPreset | CurvePreset):
+            if preset.id.lower() != identity.lower():
+                continue
+            if isinstance(preset, MysteryPreset):
+                return mystery_points(preset)
+            if isinstance(preset, MeasurementPreset | CurvePreset):
                 return preset_points(preset)
     return None
 
@@ -82,12 +90,29 @@ def preset_points(preset: MeasurementPreset | CurvePreset) -> Points:
     measurement = build(
         columns,
         name=preset.id,
-        id=hashlib.sha256(f"{preset.kind}:{preset.id}".encode()).hexdigest(),
+        id=_preset_hash(preset),
         kind=kind,
         marked_slack=slack,
         messages=reasons,
     )
-    return Points(measurement, {"by its source": len(reasons)} if reasons else {}, rest)
+    source = f"{preset.source} (grade {preset.grade})"
+    return Points(measurement, {"by its source": len(reasons)} if reasons else {}, rest, source)
+
+
+def mystery_points(preset: MysteryPreset) -> Points:
+    """The points of a mystery."""
+    measurement = build(
+        preset.si_columns(),
+        name=preset.id,
+        id=_preset_hash(preset),
+        kind=preset.measurement_kind,
+        conditions=preset.si_conditions(),
+    )
+    return Points(measurement, nominal_length=preset.nominal_length.si("m"), source=preset.maker)
+
+
+def _preset_hash(preset: Preset) -> str:
+    return hashlib.sha256(f"{preset.kind}:{preset.id}".encode()).hexdigest()
 
 
 def joined(all_points: Sequence[Points]) -> Points:
@@ -139,8 +164,9 @@ def joined(all_points: Sequence[Points]) -> Points:
             left_out[reason] = left_out.get(reason, 0) + count
     rest = {points.nominal_length for points in all_points}
     return Points(
-        replace(together, messages=tuple(messages)), left_out, rest.pop() if len(rest) == 1 else None
-    )
+        replace(together, messages=tuple(messages)), left_out, rest.pop() if len(rest) == 1 else None,
+        parts=tuple(all_points),
+    )  # fmt: skip
 
 
 def _excluded(parts: Sequence[Measurement]) -> dict[str, NDArray[np.bool_]]:

@@ -68,7 +68,7 @@ def _bare_drive(measurement: Measurement, muscle: Muscle) -> Drive:
         load=Load(
             mass=float(conditions.get("load_mass", 0.0)), force=float(conditions.get("load_force", 0.0))
         ),
-        command=Step(level=1.0),
+        command=Step(level=1.0, initial=0.0),
         duration=1.0,
         supply_pressure=_PRESSURE,
         max_contraction=0.4,

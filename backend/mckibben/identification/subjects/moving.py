@@ -29,7 +29,7 @@ from mckibben.simulation.signals import Table
 from mckibben.simulation.static import StaticModel
 from mckibben.simulation.transient import simulate
 
-_MOST_ROWS = 2000  # per record; more are thinned evenly
+_MOST_ROWS = 1500  # per record; more are thinned evenly
 _FEW_LEVELS = 0.2  # share of rows with another command than the row before, up to which it is held
 _LOST = 1e3  # noises by which a run that broke off is said to miss
 _TIME_LIMIT = 2.0  # s; a run that takes longer is a bad guess of a fit
@@ -74,8 +74,9 @@ class Moving(Subject):
         InputError: nothing that the model predicts was measured.
     """
 
-    tolerance = 1e-3
-    evaluations = 15
+    step = 2e-2
+    tolerance = 1e-4
+    evaluations = 25
 
     def __init__(self, measurement: Measurement, drive: Drive) -> None:
         columns = measurement.columns

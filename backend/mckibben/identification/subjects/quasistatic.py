@@ -1,12 +1,4 @@
-r"""Measurements of force, length or diameter: the model is evaluated row by row, memory follows the record.
-
-The force has exact derivatives. With a series compliance c the muscle settles where :math:`L(x) + c\,T(x)` is
-the measured length, so by the implicit function theorem
-
-.. math:: \frac{dF}{d\theta} = F_\theta - F_x\,\frac{c\,T_\theta + T c_\theta}{L_x + c\,T_x}
-
-A length under a load W is where :math:`F(L) = W`, so :math:`dL/d\theta = -F_\theta/F_L`.
-"""
+"""Measurements of force, length or diameter: the model is evaluated row by row, memory follows the record."""
 
 from __future__ import annotations
 
@@ -17,20 +9,16 @@ import numpy as np
 
 from mckibben.identification.fit import Free
 from mckibben.identification.setting import LOAD, Setting
+from mckibben.identification.subjects.evaluate import Evaluation, sorted_effects
 from mckibben.identification.subjects.folds import folds_of, ranges_of, sweeps_of
-from mckibben.identification.subjects.memory import Memory, remembers
+from mckibben.identification.subjects.lengths import predicted_lengths
+from mckibben.identification.subjects.memory import remembers
 from mckibben.identification.subjects.subject import Channel, Subject
 from mckibben.identification.subjects.task import Task
 from mckibben.physics.effect import Effect
-from mckibben.physics.model import Model
-from mckibben.simulation.compile import INPUTS, compiled_state
 from mckibben.simulation.driven import driven_force
-from mckibben.simulation.static import StaticModel, clip_slack, settle
+from mckibben.simulation.static import StaticModel, clip_slack
 
-_NEWTON_STEPS = 40
-_LENGTH_TOLERANCE = 1e-9  # m
-_LARGEST_STEP = 0.02  # of the nominal length, per Newton step
-_SHORTEST = 0.35  # share of the nominal length down to which a length is looked for
 _LATE = ("skew", "force_reading", "pressure_reading", "stroke_reading")
 
 
@@ -45,39 +33,42 @@ class Quasistatic(Subject):
     def __init__(self, task: Task, *, largest_load: float = 0.0) -> None:
         self.task = task
         self.kind = task.kind
-        self.measured = task.measured
-        self.scale = np.ones(len(task.measured))
-        full_scale = float(np.max(np.abs(task.measured)))
+        # Rows where the motion turns belong to the way, but are not held against the model.
+        self._counted = ~task.turning if np.any(~task.turning) else np.ones(len(task.turning), bool)
+        counted = task.chosen(self._counted)
+        self.measured = counted.measured
+        self.scale = np.ones(len(self.measured))
+        full_scale = float(np.max(np.abs(self.measured)))
         self.channels = (Channel(task.channel, task.unit, slice(None), 1.0, full_scale),)
-        self.records, self.groups = task.records, task.groups
-        self.rows_used, self.excluded, self.messages = len(task.measured), task.excluded, task.messages
+        self.records, self.groups = counted.records, counted.groups
+        self.rows_used, self.excluded, self.messages = len(self.measured), task.excluded, task.messages
         within = "pressure" if task.kind in ("isometric", "isotonic") else "length"
-        other = ranges_of(task.state.get(within, task.state["pressure"]))
-        self.folds = (folds_of(task.groups), other) if np.ptp(other) else (folds_of(task.groups),)
+        other = ranges_of(counted.state.get(within, counted.state["pressure"]))
+        self.folds = (folds_of(self.groups), other) if np.ptp(other) else (folds_of(self.groups),)
         self.sweeps = sweeps_of(
-            task.groups,
-            task.records,
-            task.state.get("length"),
-            task.state["pressure"],
+            self.groups,
+            self.records,
+            counted.state.get("length"),
+            counted.state["pressure"],
             timed=task.time is not None,
         )
+        time = {} if counted.time is None else {"time": counted.time}
         self.inputs = {
             name: values
-            for name, values in {**task.state, **({} if task.time is None else {"time": task.time})}.items()
+            for name, values in {**counted.state, **time}.items()
             if name != "temperature" or np.ptp(values) > 0.0
         }
         if task.unknown_load:
             self.unknown_load = Free(LOAD, 0.05 * largest_load, 0.0, largest_load, "N")
-        self._memory = Memory(task)
+        self._evaluation = Evaluation(task)
         self._wide: tuple[Effect, ...] = ()
-        self._ordered = task.time is not None
 
     def reveals(self, effect: Effect) -> bool:
         """By the kinds that the effect names; memory needs an order in time, temperature a change."""
         if self.kind not in effect.kinds:
             return False
         late = _late(effect)
-        if (remembers(effect) or late) and not self._ordered:
+        if (remembers(effect) or late) and self.task.time is None:
             return False
         if late and self.task.channel != "force":
             return False
@@ -87,7 +78,7 @@ class Quasistatic(Subject):
         """One structure that holds every model of a search: absent effects are off in it."""
         inside = {effect.id for effect in setting.effects}
         further = [e for e in candidates if e.id not in inside and not _late(e)]
-        self._wide = _sorted((*setting.effects, *further))
+        self._wide = sorted_effects((*setting.effects, *further))
 
     def trial(self, setting: Setting) -> np.ndarray:
         """As `predict`, in the structure of all candidates where that holds the model."""
@@ -98,15 +89,15 @@ class Quasistatic(Subject):
 
     def predict(self, setting: Setting, *, clipped: bool = True) -> np.ndarray:
         """Force, length or diameter of each row; a load that passes the braid lock is predicted there."""
-        model = StaticModel.of(setting.muscle, _sorted(setting.effects), setting.values)
+        model = StaticModel.of(setting.muscle, sorted_effects(setting.effects), setting.values)
         if self.task.channel == "force":
             if any(map(_late, setting.effects)):
-                return self._delayed(model)
-            out = self._settled(setting, ())[0]
-            return clip_slack(out) if clipped else out["force"]
+                return self._delayed(model)[self._counted]
+            out = self._evaluation.at(setting)[0]
+            return (clip_slack(out) if clipped else out["force"])[self._counted]
         if self.task.channel == "length":
-            return self._length(setting, ())[0]
-        return self._diameter(setting)
+            return predicted_lengths(self._evaluation, setting)[0][self._counted]
+        return self._diameter(setting)[self._counted]
 
     def linearised(self, setting: Setting, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
         """Predicted values and exact derivatives of force and length; differences for what has none."""
@@ -116,9 +107,10 @@ class Quasistatic(Subject):
         if any(map(_late, setting.effects)):
             return self._delayed_linearised(setting, free)
         if self.task.channel == "force":
-            out, gradient, _ = self._settled(setting, names)
-            return out["force"], gradient
-        return self._length(setting, names)
+            out, gradient = self._evaluation.at(setting, names)
+            return out["force"][self._counted], gradient[self._counted]
+        length, gradient = predicted_lengths(self._evaluation, setting, names)
+        return length[self._counted], gradient[self._counted]
 
     def _delayed_linearised(self, setting: Setting, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
         """Differences by the numbers of the delays; the others act as if they came at once, which is close."""
@@ -127,7 +119,7 @@ class Quasistatic(Subject):
         at_once = replace(setting, effects=tuple(e for e in setting.effects if e.id not in ids))
         inner = [p for p in free if p.name.partition(".")[0] not in ids]
         gradient = np.empty((len(predicted), len(free)))
-        exact = self._settled(at_once, tuple(p.name for p in inner))[1]
+        exact = self._evaluation.at(at_once, tuple(p.name for p in inner))[1][self._counted]
         for column, parameter in enumerate(free):
             own = parameter in inner
             gradient[:, column] = (
@@ -135,71 +127,11 @@ class Quasistatic(Subject):
             )
         return predicted, gradient
 
-    def _state(self, setting: Setting) -> dict[str, np.ndarray]:
-        state = {name: self.task.state[name] for name in INPUTS if name in self.task.state}
-        return state | self._memory.states(setting)
-
-    def _settled(
-        self, setting: Setting, names: Sequence[str], state: dict[str, np.ndarray] | None = None
-    ) -> tuple[dict[str, np.ndarray], np.ndarray, np.ndarray]:
-        """Outputs at the measured length, derivatives of the force by the numbers, and d force/d length."""
-        moved = self._memory.by_parameters(setting, names)
-        states = sorted({state for own in moved.values() for state in own})
-        inner = tuple(name for name in names if name != LOAD)
-        compiled = compiled_state(
-            _sorted(setting.effects),
-            (*inner, *states),
-            memory=any(map(remembers, setting.effects)),
-            quick=True,
-        )
-        constants = compiled.pack(setting.muscle, setting.values)
-        out, raw = settle(compiled, constants, state or self._state(setting))
-        force, tension, _, compliance = (raw[index::4] for index in range(4))
-        pulling = out["tension"] > 0.0
-        c = np.where(pulling, out["compliance"], 0.0)
-        slope = out["length_by_length"] + c * out["tension_by_length"]
-        # settle() gives dF/dL as seen at the measured length; here the slope at the muscle itself is needed.
-        by_length = out["force_by_length"] * slope / out["length_by_length"]
-        stretch = c * tension + np.where(pulling, out["tension"], 0.0) * compliance
-        total = force - by_length * stretch / slope
-        gradient = np.zeros((len(out["force"]), len(names)))
-        for column, name in enumerate(names):
-            if name != LOAD:
-                gradient[:, column] = total[inner.index(name)]
-            for own, rate in moved.get(name, {}).items():
-                gradient[:, column] += total[len(inner) + states.index(own)] * rate
-        return out, gradient, out["force_by_length"]
-
-    def _length(self, setting: Setting, names: Sequence[str]) -> tuple[np.ndarray, np.ndarray]:
-        load = self.task.state["load"] + setting.load
-        state = self._state(setting)
-        rest = setting.muscle.nominal_length
-        low, high = _SHORTEST * rest, 0.9999 * float(setting.muscle.braid.thread_length)
-        length = np.clip(self.task.measured, low, high)
-        for _ in range(_NEWTON_STEPS):
-            out, _, slope = self._settled(setting, (), {**state, "length": length})
-            with np.errstate(divide="ignore", invalid="ignore"):
-                step = np.where(slope > 0.0, (out["force"] - load) / slope, np.sign(out["force"] - load))
-            limit = _LARGEST_STEP * rest
-            moved = np.clip(length - np.clip(step, -limit, limit), low, high)
-            done = np.max(np.abs(moved - length)) < _LENGTH_TOLERANCE
-            length = moved
-            if done:
-                break
-        if not names:
-            return length, np.empty((len(length), 0))
-        _, gradient, slope = self._settled(setting, names, {**state, "length": length})
-        gradient = gradient.copy()
-        if LOAD in names:
-            gradient[:, list(names).index(LOAD)] = -1.0
-        inside = (length > low) & (length < high) & (slope > 0.0)
-        return length, np.where(inside[:, None], -gradient / np.where(inside, slope, 1.0)[:, None], 0.0)
-
     def _diameter(self, setting: Setting) -> np.ndarray:
         if "length" in self.task.state:
-            return self._settled(setting, ())[0]["diameter"]
-        length, _ = Quasistatic._length(self, setting, ())
-        return self._settled(setting, (), {**self._state(setting), "length": length})[0]["diameter"]
+            return self._evaluation.at(setting)[0]["diameter"]
+        length, _ = predicted_lengths(self._evaluation, setting)
+        return self._evaluation.at(setting, (), {**self._evaluation.state(setting), "length": length})[0]["diameter"]
 
     def _delayed(self, model: StaticModel) -> np.ndarray:
         """The force of a model with lags or skew of the channels, along each record."""
@@ -221,8 +153,3 @@ class Quasistatic(Subject):
 def _late(effect: Effect) -> bool:
     """Whether an effect delays what is read, so that rows depend on the rows before them."""
     return any(slot in effect.slots for slot in _LATE)
-
-
-def _sorted(effects: Sequence[Effect]) -> tuple[Effect, ...]:
-    # One order for one choice of effects, so that its machine code is found again.
-    return Model(effects).effects

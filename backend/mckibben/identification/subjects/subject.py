@@ -12,7 +12,6 @@ from mckibben.identification.fit import Free
 from mckibben.identification.setting import Setting
 from mckibben.physics.effect import Effect
 
-_STEP = 5e-3  # of a parameter's range of interest, for central differences
 
 
 @dataclass(frozen=True)
@@ -49,6 +48,7 @@ class Subject(ABC):
         records: label of the uninterrupted record, shape (values,).
         sweeps: indices of the values of each smooth sweep, in order.
         inputs: what the residual may depend on, name -> shape (values,), SI.
+        step: of central differences, over the size of a number or its usual change.
         tolerance, evaluations: of a fit in a search.
         rows_used, excluded, messages: rows of the measurement that count, why others do not, what was assumed.
         unknown_load: bounds of the load where it has to be fitted.
@@ -66,6 +66,7 @@ class Subject(ABC):
     rows_used: int
     excluded: Mapping[str, int]
     messages: tuple[str, ...]
+    step: float = 5e-3
     tolerance: float = 1e-6
     evaluations: int = 60
     unknown_load: Free | None = None
@@ -95,7 +96,7 @@ class Subject(ABC):
         columns = []
         for parameter in free:
             here = setting.number(parameter.name)
-            step = _STEP * min(parameter.upper - parameter.lower, max(abs(here), parameter.typical))
+            step = self.step * min(parameter.upper - parameter.lower, max(abs(here), parameter.typical))
             low, high = max(here - step, parameter.lower), min(here + step, parameter.upper)
             ends = [
                 self.predict(setting.with_numbers([parameter.name], [end]), clipped=False)

@@ -38,6 +38,8 @@ class Task:
         time: of each row [s]; None where the rows have no order in time.
         records: label of the uninterrupted record that each row belongs to; rows of a record are in order.
         groups: group label of each row.
+        turning: rows at which the motion turns: their friction has no sign, so they are not counted, but they
+            belong to the way that memory follows; mask.
         rows: index of each row in the measurement.
         excluded: why rows were left out -> how many.
         unknown_load: whether the load is not stated and has to be fitted.
@@ -52,6 +54,7 @@ class Task:
     time: np.ndarray | None
     records: np.ndarray
     groups: np.ndarray
+    turning: np.ndarray
     rows: np.ndarray
     excluded: Mapping[str, int]
     unknown_load: bool
@@ -66,6 +69,7 @@ class Task:
             time=None if self.time is None else self.time[keep],
             records=self.records[keep],
             groups=self.groups[keep],
+            turning=self.turning[keep],
             rows=self.rows[keep],
         )
 
@@ -117,6 +121,8 @@ def task_of(measurement: Measurement, muscle: Muscle) -> Task:
             f"{measurement.name}: no row can be compared ({count} rows, {reasons})", field="measurement"
         )
     ordered = "time" in columns
+    turning = _turning(state["direction"], records)
+    excluded["turning points"] = int(np.count_nonzero(turning & keep))
     return Task(
         kind,
         channel,
@@ -126,6 +132,7 @@ def task_of(measurement: Measurement, muscle: Muscle) -> Task:
         columns["time"][keep] if ordered else None,
         records[keep],
         columns["group"][keep],
+        turning[keep],
         np.flatnonzero(keep),
         {reason: number for reason, number in excluded.items() if number},
         unknown_load,
@@ -155,6 +162,14 @@ def _motion(
         messages.append("direction of motion unknown: friction cannot show in these rows")
         return velocity, np.zeros(measurement.rows)
     return velocity, np.sign(direction).astype(float)
+
+
+def _turning(direction: np.ndarray, records: np.ndarray) -> np.ndarray:
+    """Single rows without a direction between two opposite ones."""
+    found = np.zeros(len(direction), bool)
+    same = (records[2:] == records[:-2]) if len(records) > 2 else np.zeros(0, bool)
+    found[1:-1] = same & (direction[1:-1] == 0.0) & (direction[2:] * direction[:-2] < 0.0)
+    return found
 
 
 def records_of(measurement: Measurement) -> np.ndarray:

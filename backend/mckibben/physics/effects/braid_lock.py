@@ -3,6 +3,10 @@ r"""Braid lock: neighbouring strands touch at a largest braid angle and stop the
 Strands of width w on rhombi of side :math:`\ell` touch at :math:`\ell\sin 2\theta = w`, so
 :math:`\theta_{max} = 90^\circ - \tfrac12\arcsin(w/\ell)`. Only when this is below 54.7 degrees does it end
 the contraction before the ideal model does; the jammed braid is a stiff one-sided spring.
+
+.. math:: F = -k_l\,d\,(d/d_r)^{m-1}, \quad d = \max(b\cos\theta_{max}-L,\,0), \quad d_r = L_0/100
+
+At :math:`d_r` beyond the lock the stiffness is force over way whatever the exponent m is.
 """
 
 from mckibben.physics import ops
@@ -11,15 +15,23 @@ from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
+# Way beyond the lock, of the nominal length, at which the stiffness is given.
+REFERENCE_SHARE = 0.01
+# Under this share of the reference the spring is linear: 0 has no logarithm, which a slope by m would take.
+_LEAST_SHARE = 1e-6
 
-def tension(*, length: Value, muscle: Muscle, stiffness: Value, lock_angle: Value) -> Value:
-    """-k_l max(b cos(theta_max) - L, 0) [N]; never positive."""
+
+def tension(*, length: Value, muscle: Muscle, stiffness: Value, lock_angle: Value, exponent: Value) -> Value:
+    """-k_l d (d/d_r)^(m-1) with d = max(b cos(theta_max) - L, 0) [N]; never positive."""
     lock_length = muscle.braid.thread_length * ops.cos(lock_angle)
-    return -stiffness * ops.positive_part(lock_length - length)
+    way = ops.positive_part(lock_length - length)
+    share = ops.maximum(way / (REFERENCE_SHARE * muscle.nominal_length), _LEAST_SHARE)
+    return -stiffness * way * share ** (exponent - 1.0)
 
 
 _DAVIS = Source("Davis & Caldwell, Int. J. Robotics Res. 25 (2006) 359", "M")
 _DEFINITION = Source("stiffness times the way beyond b cos(theta_max), by hand", "D")
+_POWER_BY_HAND = Source("302.06009 * 3.0206009^0.5: 1 % of 100 mm is 1 mm", "D")
 _SIZE_10 = {"nominal_length": 0.1, "braid_diameter": 0.01, "braid_angle": 0.4363323129985824}
 
 EFFECT = Effect(
@@ -28,7 +40,8 @@ EFFECT = Effect(
     type="static",
     cause="The strands have a width, so the braid cannot close beyond the angle at which neighbours touch. "
     "From there on the muscle hardly contracts any further, whatever the pressure.",
-    equation=r"F_{l} = -k_l\,\max(b\cos\theta_{max}-L,\,0)",
+    equation=r"F_{l} = -k_l\,d\left(\frac{d}{d_r}\right)^{m-1},\quad "
+    r"d = \max(b\cos\theta_{max}-L,\,0),\quad d_r = \frac{L_0}{100}",
     parameters=(
         Parameter(
             "stiffness",
@@ -38,7 +51,8 @@ EFFECT = Effect(
             0.0,
             5.0e6,
             Source("2-20 times the muscle's own stiffness at high pressure", "E"),
-            "Stiffness of the jammed braid.",
+            "Stiffness of the jammed braid: force over way, with another exponent than 1 that at 1 % of the "
+            "nominal length beyond the lock.",
             off=0.0,
         ),
         Parameter(
@@ -50,6 +64,17 @@ EFFECT = Effect(
             1.2,
             Source("45 degrees: strands as wide as the rhombus' side; 34-69 degrees", "E"),
             "Braid angle at which neighbouring strands touch.",
+        ),
+        Parameter(
+            "exponent",
+            "m",
+            "1",
+            1.0,
+            1.0,
+            3.0,
+            Source("1.5 for round strands in Hertzian contact, more where they touch one by one", "E"),
+            "Power of the way beyond the lock that the force goes with; 1 is a spring with a kink.",
+            fitted=False,
         ),
     ),
     slots={"tension": tension},
@@ -85,6 +110,15 @@ EFFECT = Effect(
             {"stiffness": 1e5, "lock_angle": 0.7853981633974483},
             _SIZE_10,
             {"length": 0.079, "pressure": 6e5},
+        ),
+        Example(
+            "force_change",
+            -524.97668,
+            1e-7,
+            _POWER_BY_HAND,
+            {"stiffness": 1e5, "lock_angle": 0.7853981633974483, "exponent": 1.5},
+            _SIZE_10,
+            {"length": 0.075, "pressure": 6e5},
         ),
     ),
 )

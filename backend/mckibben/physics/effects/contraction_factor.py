@@ -1,12 +1,22 @@
 r"""Contraction factor of Tondu and Lopez: the conical ends make the muscle contract less than its middle.
 
 The braid in the middle contracts by :math:`k\varepsilon` while the muscle contracts by :math:`\varepsilon`:
-the volume is :math:`V(L) = V_0 + \frac1k\left[V_i(L_0(1-k\varepsilon)) - V_0\right]`, so that
-:math:`-dV/dL` is the ideal area at :math:`k\varepsilon` and force and gas balance agree.
+the volume is :math:`V_k(L) = V_0 + \frac1k\left[V_i(L_0(1-k\varepsilon)) - V_0\right]`, so that
+:math:`-dV_k/dL` is the ideal area at :math:`k\varepsilon` and force and gas balance agree.
+
+With :math:`k(P) = k + a_k e^{-P/P_k}` and the force :math:`-P\,\partial V_k/\partial L`, no work is lost or gained
+over a closed path in P and L only when the ends store energy U: the gas fills
+:math:`V = \partial(P V_k)/\partial P`, and the ends pull with :math:`F_e` besides :math:`-P\,\partial V/\partial L`:
+
+.. math:: V = V_k + U/P,\quad F_e = \frac{\partial U}{\partial L},\quad
+   U = P^2\,\frac{a_k}{P_k}e^{-P/P_k}\,\frac{s^2\bigl(3L_0-2k(P)s\bigr)}{4\pi n^2},\quad s = L_0 - L
+
+U is that of the ideal braid, also where other effects change the volume.
 """
 
 from collections.abc import Callable
 
+from mckibben.physics import ops
 from mckibben.physics.effect import Effect, Example, Signature, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
@@ -14,16 +24,47 @@ from mckibben.physics.parameter import Parameter, Source
 from mckibben.physics.slots import Shape
 
 
-def shape(*, inner: Callable[[Value], Shape], length: Value, muscle: Muscle, factor: Value) -> Shape:
-    """The shape at the braid's own length L0 (1 - k eps), its volume change divided by k."""
+def shape(
+    *,
+    inner: Callable[[Value], Shape],
+    length: Value,
+    muscle: Muscle,
+    pressure: Value,
+    factor: Value,
+    excess: Value,
+    decay_pressure: Value,
+) -> Shape:
+    """The shape at the braid's own length L0 (1 - k eps), its volume change divided by k, and U/P."""
+    above = ops.positive_part(pressure)
+    fading = excess * ops.exp(-above / decay_pressure)
+    local = factor + fading
     stroke = muscle.nominal_length - length
-    braid = inner(length - (factor - 1.0) * stroke)
+    braid = inner(length - (local - 1.0) * stroke)
     rest = inner(muscle.nominal_length)
-    return Shape(braid.volume + (1.0 / factor - 1.0) * (braid.volume - rest.volume), braid.diameter)
+    volume = braid.volume + (1.0 / local - 1.0) * (braid.volume - rest.volume)
+    bulge = stroke**2 * (3.0 * muscle.nominal_length - 2.0 * local * stroke)
+    stored = above * fading / decay_pressure * bulge / (4.0 * ops.pi * muscle.braid.turns**2)
+    return Shape(volume + stored, braid.diameter)
+
+
+def tension(
+    *, length: Value, muscle: Muscle, pressure: Value, factor: Value, excess: Value, decay_pressure: Value
+) -> Value:
+    """F_e = dU/dL [N], what the ends hold back; 0 for a factor that does not depend on pressure."""
+    above = ops.positive_part(pressure)
+    fading = excess * ops.exp(-above / decay_pressure)
+    stroke = muscle.nominal_length - length
+    slope = 3.0 * stroke * (muscle.nominal_length - (factor + fading) * stroke)
+    return -(above**2) * fading / decay_pressure * slope / (2.0 * ops.pi * muscle.braid.turns**2)
 
 
 _TONDU = Source("Tondu & Lopez, IEEE Control Systems 20(2) (2000) 15: k = 1.25-1.35", "M")
+_KERSCHER = Source("Kerscher, Albiez, Zoellner & Dillmann, IEEE/RAS-EMBS BioRob (2006)", "M")
 _CLOSED_FORM = Source("F = P A0 [a (1 - k eps)^2 - c_b] evaluated by hand", "D")
+_DECAYED = Source("the same with k(P_k) = 1.1 + 0.2/e = 1.17357589", "D")
+_FROM_WORK = Source("V_k + U/P = 13.070603 + 0.073489 cm3 by hand", "D")
+_DECAYING = {"factor": 1.1, "excess": 0.2, "decay_pressure": 1.5e5}
+_AT_DECAY = {"length": 0.09, "pressure": 1.5e5}
 _SIZE_10 = {"nominal_length": 0.1, "braid_diameter": 0.01, "braid_angle": 0.4363323129985824}
 
 EFFECT = Effect(
@@ -32,7 +73,8 @@ EFFECT = Effect(
     type="static",
     cause="Towards its fittings the muscle is conical and takes no part in the contraction. The cylindrical "
     "middle therefore contracts k times as much as the muscle as a whole.",
-    equation=r"F = P A_0\left[\frac{3}{\tan^2\theta_0}(1-k\varepsilon)^2 - \frac{1}{\sin^2\theta_0}\right]",
+    equation=r"F = P A_0\left[\frac{3}{\tan^2\theta_0}(1-k_P\,\varepsilon)^2 - \frac{1}{\sin^2\theta_0}\right],\quad "
+    r"k_P = k + a_k e^{-P/P_k}",
     parameters=(
         Parameter(
             "factor",
@@ -42,11 +84,35 @@ EFFECT = Effect(
             0.7,
             2.5,
             _TONDU,
-            "Contraction of the cylindrical middle over that of the whole muscle.",
+            "Contraction of the cylindrical middle over that of the whole muscle; at high pressure when it "
+            "depends on pressure.",
             off=1.0,
         ),
+        Parameter(
+            "excess",
+            "a_k",
+            "1",
+            0.0,
+            0.0,
+            1.0,
+            Source("0.02-0.3 beside an elastic bladder, more where it stands for the bladder", "E"),
+            "What the factor has in addition at low pressure; 0 is the same factor at every pressure.",
+            off=0.0,
+            fitted=False,
+        ),
+        Parameter(
+            "decay_pressure",
+            "P_k",
+            "Pa",
+            1.5e5,
+            2.0e4,
+            1.0e6,
+            Source("1-3 bar", "E"),
+            "Gauge pressure at which 1/e of the excess is left.",
+            fitted=False,
+        ),
     ),
-    slots={"shape": shape},
+    slots={"shape": shape, "tension": tension},
     kinds=frozenset({"isobaric", "isometric", "isotonic", "diameter", "static", "transient"}),
     signature=Signature(
         text="proportional to pressure, zero at the nominal length, growing in proportion to contraction",
@@ -60,7 +126,7 @@ EFFECT = Effect(
         Twin("bladder_elasticity", "several pressures: the bladder's share does not grow with pressure"),
         Twin("linear_elasticity", "several pressures: the elastic share does not grow with pressure"),
     ),
-    references=(_TONDU,),
+    references=(_TONDU, _KERSCHER),
     examples=(
         Example(
             "force",
@@ -73,14 +139,11 @@ EFFECT = Effect(
             {"length": 0.09, "pressure": 6e5},
         ),
         Example(
-            "diameter",
             # D = D0 sqrt(c_b - a/3 * 0.875^2)
-            0.01441482,
-            2e-5,
-            _CLOSED_FORM,
-            {"factor": 1.25},
-            _SIZE_10,
+            *("diameter", 0.01441482, 2e-5, _CLOSED_FORM, {"factor": 1.25}, _SIZE_10),
             {"length": 0.09, "pressure": 6e5},
         ),
+        Example("force", 60.666561, 1e-7, _DECAYED, _DECAYING, _SIZE_10, _AT_DECAY),
+        Example("volume", 13.144092e-6, 1e-7, _FROM_WORK, _DECAYING, _SIZE_10, _AT_DECAY),
     ),
 )

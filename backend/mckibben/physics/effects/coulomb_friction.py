@@ -1,18 +1,30 @@
-r"""Constant Coulomb friction between the threads and between threads and bladder."""
+r"""Coulomb friction between the threads and between threads and bladder, which may be higher at low speed.
 
+.. math:: F = F_c\,\bigl[1 + s\,e^{-|\dot L|/v_s}\bigr]\operatorname{sgn}\dot L, \quad s = F_s/F_c - 1
+
+Without a static share s it is constant; with one it falls from :math:`F_s` to :math:`F_c` (Stribeck). What is
+evaluated with a direction but without a speed, a static curve, takes :math:`F_s`.
+"""
+
+from mckibben.physics import ops
 from mckibben.physics.effect import Effect, Example, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
 
-def friction(*, direction: Value, force: Value) -> Value:
-    """F_c sgn(dL/dt) [N]: tension is higher on lengthening, lower on shortening, 0 at rest."""
-    return force * direction
+def friction(
+    *, direction: Value, force: Value, velocity: Value, static_share: Value, stribeck_speed: Value
+) -> Value:
+    """F_c (1 + s exp(-|v|/v_s)) sgn(v) [N]: tension is higher on lengthening, lower on shortening, 0 at rest."""
+    fading = ops.exp(-ops.absolute(velocity) / stribeck_speed)
+    return force * direction * (1.0 + static_share * fading)
 
 
 _CHOU = Source("Chou & Hannaford, IEEE Trans. Robotics Autom. 12 (1996) 90: about 2.5 N", "M")
 _RANGE = Source("1-2.5 % of the maximum force", "E")
+_STRIBECK = Source("Armstrong-Helouvry, Dupont & Canudas de Wit, Automatica 30 (1994) 1083", "M")
 _DEFINITION = Source("definition: half the loop width", "D")
+_BY_HAND = Source("10 (1 + 0.3/e) at the Stribeck speed", "D")
 _SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
 
 EFFECT = Effect(
@@ -21,7 +33,7 @@ EFFECT = Effect(
     type="static",
     cause="The threads rub on each other and on the bladder when the braid angle changes. The friction "
     "opposes the motion with a constant force, so lengthening takes more and shortening gives less.",
-    equation=r"F_{fr} = F_c\,\operatorname{sgn}\dot L",
+    equation=r"F_{fr} = F_c\left[1+s\,e^{-|\dot L|/v_s}\right]\operatorname{sgn}\dot L",
     parameters=(
         Parameter(
             "force",
@@ -31,8 +43,30 @@ EFFECT = Effect(
             0.0,
             200.0,
             _RANGE,
-            "Half the width of the force loop.",
+            "Half the width of the force loop; with a static share that at high speed.",
             off=0.0,
+        ),
+        Parameter(
+            "static_share",
+            "s",
+            "1",
+            0.0,
+            0.0,
+            1.0,
+            Source("static over kinetic friction 1.0-1.3 moulded, up to 2 dry threads", "E"),
+            "Excess of the static over the kinetic friction, F_s/F_c - 1; 0 is the same at every speed.",
+            fitted=False,
+        ),
+        Parameter(
+            "stribeck_speed",
+            "v_s",
+            "m/s",
+            0.005,
+            0.001,
+            0.1,
+            Source("1-50 mm/s for lubricated and dry sliding", "E"),
+            "Speed at which 1/e of the static share is left.",
+            fitted=False,
         ),
     ),
     slots={"friction": friction},
@@ -49,7 +83,7 @@ EFFECT = Effect(
         Twin("viscous_damping", "three speeds: Coulomb friction does not change"),
         Twin("prestress", "both directions: friction changes sign, the prestress does not"),
     ),
-    references=(_CHOU,),
+    references=(_CHOU, _STRIBECK),
     examples=(
         Example(
             "force_change",
@@ -68,6 +102,15 @@ EFFECT = Effect(
             {"force": 10.0},
             _SIZE_20,
             {"length": 0.26, "pressure": 1e5, "direction": 1.0},
+        ),
+        Example(
+            "force_change",
+            -11.1036383,
+            1e-8,
+            _BY_HAND,
+            {"force": 10.0, "static_share": 0.3, "stribeck_speed": 0.005},
+            _SIZE_20,
+            {"length": 0.28, "pressure": 3e5, "velocity": -0.005, "direction": -1.0},
         ),
     ),
 )

@@ -1,7 +1,10 @@
 r"""Viscous damping that may grow with pressure and differ between shortening and lengthening.
 
-.. math:: F = (c_0 + c_P P)\,r(\dot L)\,\dot L, \quad r = 1\ (\dot L<0),\quad r = r_l\ (\dot L>0)
+.. math:: F = (c_0 + c_P P)\,r\,\Bigl|\frac{\dot L}{v_r}\Bigr|^{n-1}\dot L,
+   \quad r = 1\ (\dot L<0),\quad r = r_l\ (\dot L>0)
 
+At the reference speed :math:`v_r = 0.1\,m/s` the coefficient is force over speed whatever the exponent n is.
+Below some 0.1 mm/s the law becomes linear, so that its slope stays finite at rest for n < 1.
 Reynolds' hand-made muscle: 1010 N s/m + 6.91e-3 N s/(m Pa) on shortening, a tenth of it on lengthening.
 """
 
@@ -9,6 +12,10 @@ from mckibben.physics import ops
 from mckibben.physics.effect import Effect, Example, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
+
+REFERENCE_SPEED = 0.1  # m/s
+# Under this speed [m/s] the power of the speed is rounded off to a constant.
+_CREEPING = 1e-4
 
 
 def friction(
@@ -18,15 +25,20 @@ def friction(
     coefficient: Value,
     pressure_coefficient: Value,
     lengthening_ratio: Value,
+    exponent: Value,
 ) -> Value:
-    """(c0 + c_P P) r dL/dt [N]; 0 at rest. Below atmospheric pressure c_P adds nothing."""
+    """(c0 + c_P P) r |v/v_r|^(n-1) v [N]; 0 at rest. Below atmospheric pressure c_P adds nothing."""
     ratio = ops.where(ops.greater(velocity, 0.0), lengthening_ratio, 1.0)
-    return (coefficient + pressure_coefficient * ops.positive_part(pressure)) * ratio * velocity
+    linear = (coefficient + pressure_coefficient * ops.positive_part(pressure)) * ratio * velocity
+    squared = (velocity**2 + _CREEPING**2) / (REFERENCE_SPEED**2 + _CREEPING**2)
+    return linear * squared ** (0.5 * (exponent - 1.0))
 
 
 _REYNOLDS = Source("Reynolds et al., Ann. Biomed. Eng. 31 (2003) 310, coefficients second-hand", "S2")
 _RANGE = Source("50-500 N s/m for size 20, 280-3800 N s/m hand-made at 2-6 bar", "E")
+_POWER = Source("powers of 0.5 to 1 reported for McKibben muscles; 2 would be a throttled flow", "M")
 _BY_HAND = Source("1.01 + 0.00691 P N s/mm with P = 400 kPa, times 10 mm/s", "D")
+_POWER_BY_HAND = Source("200 N s/m * 25 mm/s * (25/100)^-0.5, 4e-6 of it rounded off", "D")
 _SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
 _HAND_MADE = {"coefficient": 1010.0, "pressure_coefficient": 6.91e-3, "lengthening_ratio": 0.074}
 
@@ -36,7 +48,8 @@ EFFECT = Effect(
     type="rate",
     cause="Elastomer, lubricated threads and the wall's own flow resist fast motion. The force is lower "
     "while the muscle shortens and higher while it lengthens, the more the faster it moves.",
-    equation=r"F_{v} = (c_0 + c_P P)\,r\,\dot L,\quad r = 1\ (\dot L<0),\ r = r_l\ (\dot L>0)",
+    equation=r"F_{v} = (c_0 + c_P P)\,r\left|\frac{\dot L}{v_r}\right|^{n-1}\dot L,\quad "
+    r"r = 1\ (\dot L<0),\ r = r_l\ (\dot L>0),\quad v_r = 0.1\,\mathrm{m/s}",
     parameters=(
         Parameter(
             "coefficient",
@@ -46,7 +59,7 @@ EFFECT = Effect(
             0.0,
             5000.0,
             _RANGE,
-            "Damping coefficient without pressure.",
+            "Damping coefficient without pressure: force over speed, at 0.1 m/s when the exponent is not 1.",
             off=0.0,
         ),
         Parameter(
@@ -70,6 +83,17 @@ EFFECT = Effect(
             2.0,
             _REYNOLDS,
             "Damping on lengthening as a share of that on shortening; 0.07 in Reynolds' muscle.",
+            fitted=False,
+        ),
+        Parameter(
+            "exponent",
+            "n",
+            "1",
+            1.0,
+            0.3,
+            2.0,
+            _POWER,
+            "Power of the speed that the force goes with; 1 is linear damping.",
             fitted=False,
         ),
     ),
@@ -112,6 +136,15 @@ EFFECT = Effect(
             _HAND_MADE,
             _SIZE_20,
             {"length": 0.28, "pressure": 4e5, "velocity": 0.01, "direction": 1.0},
+        ),
+        Example(
+            "force_change",
+            -10.0,
+            1e-5,
+            _POWER_BY_HAND,
+            {"coefficient": 200.0, "exponent": 0.5},
+            _SIZE_20,
+            {"length": 0.28, "pressure": 4e5, "velocity": -0.025, "direction": -1.0},
         ),
     ),
 )

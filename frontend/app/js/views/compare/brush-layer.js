@@ -12,7 +12,11 @@ const SMALLEST_PX = 4, STEPS = 50;
  * @returns {() => void} places it anew */
 export function brushLayer(chart, o) {
   const band = h("div", { class: "brush-band", hidden: true });
-  const area = h("div", { class: "brush-area", title: "Drag to choose a range, double click to clear" }, band);
+  const area = h(
+    "div",
+    { class: "brush-area", title: "Drag to choose a range, double click to clear" },
+    band,
+  );
   /** @type {["from" | "to", 0 | 1][]} */
   const sides = [["from", 0], ["to", 1]];
   const handles = sides.map(([name, side]) =>
@@ -61,7 +65,9 @@ export function brushLayer(chart, o) {
       if (Math.abs(e.clientX - startPx) >= SMALLEST_PX) o.set(ordered(fixed, at(e)));
     };
     el.addEventListener("pointermove", move);
-    el.addEventListener("lostpointercapture", () => el.removeEventListener("pointermove", move), { once: true });
+    el.addEventListener("lostpointercapture", () => el.removeEventListener("pointermove", move), {
+      once: true,
+    });
   }
   /** @param {PointerEvent} event @param {0 | 1} side */
   const grab = (event, side) => {

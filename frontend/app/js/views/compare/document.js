@@ -62,12 +62,14 @@ const isValues = (x) => isObject(x) && Object.values(x).every(isNumber);
 const isTexts = (x) => Array.isArray(x) && x.every(isText);
 /** @param {unknown} x */
 const isEffects = (x) =>
-  x === null || (isObject(x) && Object.values(x).every((values) =>
+  x === null ||
+  (isObject(x) && Object.values(x).every((values) =>
     isObject(values) && Object.values(values).every((v) => isNumber(v) || isText(v))
   ));
 /** @param {unknown} x */
 const isFit = (x) =>
-  isObject(x) && Object.values(x).every((values) =>
+  isObject(x) &&
+  Object.values(x).every((values) =>
     isObject(values) && Object.values(values).every((f) => isObject(f) && typeof f.at_bound === "boolean")
   );
 /** @param {unknown} x */

@@ -1,31 +1,17 @@
 // @ts-check
-// The error in one number, what it was before, and the verdict in a sentence.
-import { h, icon } from "../../dom.js";
+// The error in one number, what it was before, and what it is made of.
+import { h } from "../../dom.js";
 import { computed, signal } from "../../reactive.js";
 import { units } from "../../state.js";
 import { brief } from "../../format.js";
 import { spoken } from "../../ui/sources.js";
-import {
-  again,
-  answer,
-  cancel,
-  compare,
-  diagnosis,
-  fault,
-  previous,
-  progress,
-  stage,
-  stale,
-  steps,
-  trouble,
-} from "./model.js";
+import { answer, compare, diagnosis, previous, stale, steps } from "./model.js";
 import { allSeries } from "./pictures.js";
 import { fitting, refit } from "./history.js";
 import { saveReport } from "./exports.js";
 import { errorText, fitPercent, signed } from "./words.js";
 
 /** @typedef {import("./types.js").Comparison} Comparison */
-/** @typedef {import("./types.js").Status} Status */
 
 /** @param {number | null | undefined} si */
 const say = (si) => {
@@ -64,7 +50,7 @@ function facts(a) {
   return h(
     "dl",
     null,
-    ...row("Explained", fit === null ? "–" : `${brief(fit)} %`),
+    ...row("Fit, 100 % is perfect", fit === null ? "–" : `${brief(fit)} %`),
     ...row("Hold-out", say(holdout)),
     ...(a.validation ? row("Validation", both(a.validation.rmse, check), "validation-error") : []),
     ...row("Noise floor", noise === null ? "not known" : say(noise), "noise-floor"),
@@ -83,7 +69,11 @@ function channelTable(a) {
     h(
       "thead",
       null,
-      h("tr", null, ...["Channel", "Error", "Noise"].map((t, i) => h("th", { scope: "col", class: i ? "" : "text" }, t))),
+      h(
+        "tr",
+        null,
+        ...["Channel", "Error", "Noise"].map((t, i) => h("th", { scope: "col", class: i ? "" : "text" }, t)),
+      ),
     ),
     h(
       "tbody",
@@ -149,68 +139,5 @@ export function errorCard() {
         channelTable(a),
       ];
     },
-  );
-}
-
-/** @type {Record<Status, [string, string]>} */
-const BADGES = {
-  adequate: ["good", "Adequate"],
-  missing_effects: ["warn", "Effects are missing"],
-  ambiguous: ["warn", "Not decidable from these data"],
-  unknown_effect: ["bad", "Unknown effect"],
-};
-
-function running() {
-  const { share, stage: text } = progress.value;
-  return [
-    h(
-      "div",
-      { class: "bar", role: "progressbar", "aria-label": "Diagnosis", "aria-valuenow": Math.round(100 * share) },
-      h("i", { style: `width:${Math.max(3, 100 * share)}%` }),
-    ),
-    h(
-      "div",
-      { class: "running" },
-      h("span", { class: "muted" }, text || "Trying every effect of the catalogue…"),
-      h("button", { type: "button", class: "link", onclick: cancel }, "Cancel"),
-    ),
-  ];
-}
-
-/** @param {string} words @param {string} button */
-const halted = (words, button) =>
-  h(
-    "div",
-    { class: "notice" },
-    h("span", null, words),
-    h("button", { type: "button", onclick: again }, button),
-  );
-
-export function verdictCard() {
-  const body = () => {
-    if (stage.value === "failed") return halted(trouble.value?.words ?? "The diagnosis failed.", "Try again");
-    if (stage.value === "cancelled") return halted("The diagnosis was cancelled.", "Diagnose");
-    const told = diagnosis.value;
-    if (!told) return fault.value ? h("p", { class: "muted" }, "There is no comparison to diagnose.") : running();
-    const { verdict, messages } = told;
-    const [tone, label] = BADGES[verdict.status] ?? ["warn", spoken(verdict.status)];
-    return [
-      h(
-        "p",
-        { class: `verdict ${tone}` },
-        icon(tone === "good" ? "check" : "warn"),
-        h("span", null, h("b", { id: "verdict-status" }, label), h("br"), verdict.sentence),
-      ),
-      verdict.next_measurement
-        ? h("p", { class: "next" }, h("b", null, "Measure next: "), verdict.next_measurement)
-        : null,
-      messages?.length ? h("ul", { class: "plain muted" }, ...messages.map((m) => h("li", null, m))) : null,
-    ];
-  };
-  return h(
-    "section",
-    { class: "card verdict-card", "aria-label": "Verdict", "aria-busy": () => String(stage.value === "running") },
-    h("div", { class: "card-head" }, h("h2", null, "Verdict")),
-    body,
   );
 }

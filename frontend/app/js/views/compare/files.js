@@ -35,8 +35,14 @@ export const hasSource = (/** @type {string} */ id) => (infos.value, sources.has
 /** @param {string} name @param {string} words */
 const complain = (name, words) => (complaints.value = [...complaints.peek(), { name, words }]);
 
-/** Is there something only the user knows? @param {Preview} p */
-const isUnsure = (p) => p.problem !== null || p.missing.length > 0;
+/** Is there something only the user knows? A unit that is guessed may be off by any factor.
+ * @param {Preview} p */
+const isUnsure = (p) =>
+  p.problem !== null || p.missing.length > 0 ||
+  p.columns.some((column) =>
+    column.channel && !column.unit_given &&
+    (p.channel_choices.find((one) => one.name === column.channel)?.si_unit ?? "1") !== "1"
+  );
 
 /** Files chosen or dropped, one after the other. @param {Iterable<File>} list */
 export async function addFiles(list) {
@@ -140,7 +146,9 @@ export function setUse(id, use) {
   const file = files.peek().find((f) => f.id === id);
   editCompare(
     { files: files.peek().map((f) => f.id === id ? { ...f, use } : f) },
-    `${file?.name ?? "file"}: ${use === "fit" ? "used for the fit" : use === "off" ? "not used" : "validation"}`,
+    `${file?.name ?? "file"}: ${
+      use === "fit" ? "used for the fit" : use === "off" ? "not used" : "validation"
+    }`,
   );
 }
 

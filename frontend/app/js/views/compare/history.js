@@ -22,7 +22,7 @@ export const titleOf = (id) => effectsById.value.get(id)?.title ?? id.replaceAll
 
 /** The model of now with its error, as a step of the history. */
 export const here = () =>
-  stepOf(compare.peek(), answer.peek()?.rmse ?? null, diagnosis.peek()?.baseline.holdout_rmse ?? null);
+  stepOf(compare.value, answer.value?.rmse ?? null, diagnosis.value?.baseline.holdout_rmse ?? null);
 
 /** Geometry that a fit changed. @param {Model} model */
 const geometryOf = (model) => ({ ...compare.peek().muscle.values, ...valuesOf(model.muscle) });
@@ -42,7 +42,7 @@ export function add(c) {
     effects: c.model.effects,
     freed: c.freed,
     values: geometryOf(c.model),
-    fit: { ...compare.peek().fit, ...fitOf({ [c.effect]: c.parameters }) },
+    fit: fitOf({ [c.effect]: c.parameters }),
     rmse: c.rmse,
     holdout: c.holdout_rmse,
   }], `add ${title}`);
@@ -133,7 +133,10 @@ export function remove(id) {
 export function goBack(index) {
   const { history } = compare.peek();
   const step = history[index];
-  edit((d) => ({ ...d, compare: withStep(d.compare, step, history.slice(0, index)) }), `back to ${step.label}`);
+  edit(
+    (d) => ({ ...d, compare: withStep(d.compare, step, history.slice(0, index)) }),
+    `back to ${step.label}`,
+  );
 }
 
 /** A fresh start: without effects, or with those of the preset.

@@ -59,8 +59,12 @@ export function openMapping(file, first, start) {
     let result = null;
     const body = apart(() => [
       h("p", { class: "muted", role: "status" }, () => counts(preview.value)),
-      h("div", { class: "scroll map-table", tabindex: 0, role: "region", "aria-label": "Columns of the file" }, () =>
-        columnTable(context)),
+      h("div", {
+        class: "scroll map-table",
+        tabindex: 0,
+        role: "region",
+        "aria-label": "Columns of the file",
+      }, () => columnTable(context)),
       h("div", { class: "map-more" }, kindField(context), conditionFields(context)),
       () => badRows(context),
       () => problem(preview.value, wrong.value),
@@ -120,14 +124,21 @@ function columnTable({ preview, mapping, change }) {
     h(
       "tbody",
       null,
-      h("tr", null, ...p.columns.map((column) => h("td", { class: "text" }, channelSelect(column, names, set)))),
+      h(
+        "tr",
+        null,
+        ...p.columns.map((column) => h("td", { class: "text" }, channelSelect(column, names, set))),
+      ),
       h(
         "tr",
         null,
         ...p.columns.map((column) => h("td", { class: "text" }, unitSelect(column, p, set))),
       ),
-      ...Array.from({ length: Math.min(SAMPLE_ROWS, p.sample.length) }, (_, k) =>
-        h("tr", { class: "sample" }, ...p.columns.map((_column, i) => h("td", null, row(k)[i] ?? "")))),
+      ...Array.from(
+        { length: Math.min(SAMPLE_ROWS, p.sample.length) },
+        (_, k) =>
+          h("tr", { class: "sample" }, ...p.columns.map((_column, i) => h("td", null, row(k)[i] ?? ""))),
+      ),
       h(
         "tr",
         { class: "range" },
@@ -168,7 +179,11 @@ function unitSelect(column, p, set) {
   const { unit } = column;
   const units = unit && !choice.units.includes(unit) ? [unit, ...choice.units] : choice.units;
   const { absolute } = column;
-  const keep = { channel: column.channel, ...(unit ? { unit } : {}), ...(absolute === null ? {} : { absolute }) };
+  const keep = {
+    channel: column.channel,
+    ...(unit ? { unit } : {}),
+    ...(absolute === null ? {} : { absolute }),
+  };
   return [
     h(
       "select",
@@ -177,16 +192,23 @@ function unitSelect(column, p, set) {
         onchange: (/** @type {Event} */ e) => set(column, { ...keep, unit: valueOf(e) }),
       },
       unit ? null : h("option", { value: "", selected: true }, "unit?"),
-      ...units.map((one) => h("option", { value: one, selected: one === unit }, one === "1" ? "1 (plain)" : one)),
+      ...units.map((one) =>
+        h("option", { value: one, selected: one === unit }, one === "1" ? "1 (plain)" : one)
+      ),
     ),
     column.unit_given ? null : h("small", { class: "guess" }, " guessed"),
     choice.si_unit === "Pa"
-      ? h("label", { class: "check" }, h("input", {
-        type: "checkbox",
-        checked: absolute === true,
-        onchange: (/** @type {Event} */ e) =>
-          set(column, { ...keep, absolute: /** @type {HTMLInputElement} */ (e.target).checked }),
-      }), h("small", null, "above vacuum"))
+      ? h(
+        "label",
+        { class: "check" },
+        h("input", {
+          type: "checkbox",
+          checked: absolute === true,
+          onchange: (/** @type {Event} */ e) =>
+            set(column, { ...keep, absolute: /** @type {HTMLInputElement} */ (e.target).checked }),
+        }),
+        h("small", null, "above vacuum"),
+      )
       : null,
   ];
 }
@@ -237,16 +259,20 @@ function conditionFields({ preview, mapping, change }) {
             "div",
             { class: "field-head" },
             h("label", { for: `map-${m.key}` }, spoken(m.key).replace(/^./, (c) => c.toUpperCase())),
-            h("span", { class: "entry" }, h("input", {
-              id: `map-${m.key}`,
-              type: "text",
-              placeholder: m.example,
-              value: mapping.peek().conditions?.[m.key] ?? "",
-              onchange: (/** @type {Event} */ e) =>
-                change({
-                  conditions: { ...mapping.peek().conditions, [m.key]: valueOf(e).trim() || null },
-                }),
-            })),
+            h(
+              "span",
+              { class: "entry" },
+              h("input", {
+                id: `map-${m.key}`,
+                type: "text",
+                placeholder: m.example,
+                value: mapping.peek().conditions?.[m.key] ?? "",
+                onchange: (/** @type {Event} */ e) =>
+                  change({
+                    conditions: { ...mapping.peek().conditions, [m.key]: valueOf(e).trim() || null },
+                  }),
+              }),
+            ),
           ),
           h("p", { class: "hint" }, `Not in the file: ${m.why}.`),
         )
@@ -286,10 +312,8 @@ function badRows({ preview, mapping, change }) {
 
 /** @param {Preview} p @param {string} wrong */
 function problem(p, wrong) {
-  const told = wrong || [p.problem?.message, p.problem?.hint].filter(Boolean).join(". ");
-  return told
-    ? h("p", { class: "flag bad", role: "alert" }, icon("warn"), h("span", null, told))
-    : null;
+  const told = wrong || (p.problem ? new ApiError(p.problem.message, p.problem).words : "");
+  return told ? h("p", { class: "flag bad", role: "alert" }, icon("warn"), h("span", null, told)) : null;
 }
 
 /** @param {import("../../reactive.js").Signal<Preview>} preview */

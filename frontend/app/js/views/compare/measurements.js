@@ -3,7 +3,17 @@
 import { h, icon } from "../../dom.js";
 import { references } from "../../store.js";
 import { menuButton } from "../../ui/menu.js";
-import { addFiles, complaints, hasSource, infos, openBuiltIn, reading, remap, removeFile, setUse } from "./files.js";
+import {
+  addFiles,
+  complaints,
+  hasSource,
+  infos,
+  openBuiltIn,
+  reading,
+  remap,
+  removeFile,
+  setUse,
+} from "./files.js";
 import { answer, chosen, fault, files, messageFor } from "./model.js";
 
 /** @typedef {import("./document.js").Chosen} Chosen */
@@ -107,7 +117,8 @@ function fileRow(file, index) {
 /** What the comparison left out of all files together. */
 function leftOut() {
   const a = answer.value;
-  if (!a || fault.value || !chosen.value.length) return null;
+  const known = chosen.value.length === 1 && infos.value.has(chosen.value[0].id);
+  if (!a || fault.value || !chosen.value.length || known) return null;
   const out = Object.entries(a.excluded);
   const why = out.length ? `; left out: ${out.map(([text, n]) => `${n} ${text}`).join(", ")}` : "";
   return h("p", { class: "muted" }, `Compared: ${a.rows_used} of ${a.rows} rows${why}.`);
@@ -135,12 +146,21 @@ export function measurementsCard() {
     h(
       "button",
       { type: "button", class: "drop", onclick: chooseFiles },
-      h("span", null, () => reading.value ? `Reading ${reading.value}…` : "Choose files, or drop them on the page"),
+      h(
+        "span",
+        null,
+        () => reading.value ? `Reading ${reading.value}…` : "Choose files, or drop them on the page",
+      ),
       h("small", null, "CSV, .xlsx, .mat, .tdms"),
     ),
     () =>
       complaints.value.map(({ name, words }) =>
-        h("p", { class: "flag bad", role: "alert" }, icon("warn"), h("span", null, h("b", null, name), `: ${words}`))
+        h(
+          "p",
+          { class: "flag bad", role: "alert" },
+          icon("warn"),
+          h("span", null, h("b", null, name), `: ${words}`),
+        )
       ),
     () => files.value.length ? h("ul", { class: "files" }, ...files.value.map(fileRow)) : null,
     leftOut,

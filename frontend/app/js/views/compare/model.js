@@ -38,7 +38,7 @@ export const fault = signal(/** @type {ApiError | null} */ (null));
 /** The diagnosis; while it runs, what it found so far. */
 export const diagnosis = signal(/** @type {Diagnosis | null} */ (null));
 export const found = signal(/** @type {Candidate[]} */ ([]));
-export const progress = signal(/** @type {Progress} */ ({ share: 0, stage: "" }));
+export const progress = signal(/** @type {Progress} */ ({ share: 0 }));
 export const stage = signal(/** @type {Stage} */ ("idle"));
 export const trouble = signal(/** @type {ApiError | null} */ (null));
 
@@ -165,7 +165,7 @@ async function diagnose(body, mine) {
   batch(() => {
     diagnosis.value = null;
     found.value = [];
-    progress.value = { share: 0, stage: "" };
+    progress.value = { share: 0 };
     stage.value = "running";
     trouble.value = null;
   });

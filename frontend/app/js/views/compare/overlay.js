@@ -28,7 +28,7 @@ const flip = () =>
   h(
     "div",
     { class: "group", role: "group", "aria-label": "Model that is shown" },
-    ...[false, true].map((before) =>
+    ...[true, false].map((before) =>
       h("button", {
         type: "button",
         id: before ? "show-before" : "show-after",
@@ -48,7 +48,11 @@ const overChoice = () =>
       lookCompare({ over: /** @type {HTMLSelectElement} */ (e.target).value, brush: null }),
   }, () =>
     variables.value.map((name) =>
-      h("option", { value: name, selected: name === over.value }, `over ${VARIABLES[name].title.toLowerCase()}`)
+      h(
+        "option",
+        { value: name, selected: name === over.value },
+        `over ${VARIABLES[name].title.toLowerCase()}`,
+      )
     ));
 
 const SHOWN = 6;
@@ -113,8 +117,12 @@ function plotCard(name, first) {
       }),
     ),
     first ? legend : null,
-    h("div", { class: "on-plot" }, () =>
-      isBefore.value ? h("p", { class: "before-tag" }, `Before: ${steps.value.at(-1)?.label ?? ""}`) : null),
+    h(
+      "div",
+      { class: "on-plot" },
+      () =>
+        isBefore.value ? h("p", { class: "before-tag" }, `Before: ${steps.value.at(-1)?.label ?? ""}`) : null,
+    ),
     host,
   );
 }
@@ -122,11 +130,15 @@ function plotCard(name, first) {
 export function overlayCards() {
   const names = computed(() => channels.value.join());
   const built = signal(0);
-  return h("div", { class: () => `column${stale.value ? " stale" : ""}`, "data-built": () => built.value }, () => {
-    overlays.length = 0;
-    if (!names.value) return answer.peek() ? null : skeleton();
-    return names.value.split(",").map((name, i) => plotCard(name, i === 0));
-  });
+  return h(
+    "div",
+    { class: () => `column${stale.value ? " stale" : ""}`, "data-built": () => built.value },
+    () => {
+      overlays.length = 0;
+      if (!names.value) return answer.peek() ? null : skeleton();
+      return names.value.split(",").map((name, i) => plotCard(name, i === 0));
+    },
+  );
 }
 
 const skeleton = () =>

@@ -4,7 +4,7 @@ import { h, icon } from "../../dom.js";
 import { future, past, units } from "../../state.js";
 import { redoAndTell, undoAndTell } from "../../shell.js";
 import { goBack, here, titleOf } from "./history.js";
-import { answer, compare, diagnosis, stale, steps } from "./model.js";
+import { answer, diagnosis, stale, steps } from "./model.js";
 import { errorText } from "./words.js";
 
 /** @typedef {{label: string, rmse: number | null, holdout: number | null,
@@ -12,7 +12,7 @@ import { errorText } from "./words.js";
 
 /** @returns {Row[]} */
 function rows() {
-  const now = (answer.value, diagnosis.value, compare.value, here());
+  const now = here();
   const ahead = stale.value ? [] : diagnosis.value?.path.slice(1) ?? [];
   return [
     ...steps.value.map((s, index) => ({ ...s, kind: /** @type {const} */ ("past"), index })),

@@ -100,14 +100,18 @@ const tabs = () => {
 
 const channelChoice = () =>
   channels.value.length > 1
-    ? h("select", {
-      "aria-label": "Channel of the residual",
-      class: "small",
-      onchange: (/** @type {Event} */ e) =>
-        lookCompare({ channel: /** @type {HTMLSelectElement} */ (e.target).value }),
-    }, ...channels.value.map((name) =>
-      h("option", { value: name, selected: name === channel.value }, spoken(name))
-    ))
+    ? h(
+      "select",
+      {
+        "aria-label": "Channel of the residual",
+        class: "small",
+        onchange: (/** @type {Event} */ e) =>
+          lookCompare({ channel: /** @type {HTMLSelectElement} */ (e.target).value }),
+      },
+      ...channels.value.map((name) =>
+        h("option", { value: name, selected: name === channel.value }, spoken(name))
+      ),
+    )
     : null;
 
 export function residualCard() {

@@ -28,7 +28,10 @@ const wanted = computed(() =>
 );
 
 const take = () =>
-  editCompare({ drive: driveFor(doc.peek().transient.drive, conditions.peek()) }, "rig of the Transient view");
+  editCompare(
+    { drive: driveFor(doc.peek().transient.drive, conditions.peek()) },
+    "rig of the Transient view",
+  );
 
 function openText() {
   const text = h("textarea", { rows: 14, "aria-label": "Drive document as JSON", spellcheck: "false" });
@@ -44,7 +47,10 @@ function openText() {
   const use = () => {
     try {
       const read = readDrive(text.value);
-      edit((d) => ({ ...d, compare: { ...d.compare, drive: read.drive, muscle: read.muscle } }), "drive document");
+      edit(
+        (d) => ({ ...d, compare: { ...d.compare, drive: read.drive, muscle: read.muscle } }),
+        "drive document",
+      );
       dialog.close();
     } catch (error) {
       wrong.textContent = `This cannot be used: ${/** @type {Error} */ (error).message}.`;
@@ -89,13 +95,17 @@ const valveSelect = () =>
         id: "rig-valve",
         onchange: (/** @type {Event} */ e) => {
           const id = /** @type {HTMLSelectElement} */ (e.target).value;
-          if (id) editCompare({ drive: put(compare.peek().drive ?? {}, "valve", { preset: id }) }, `valve ${id}`);
+          if (id) {
+            editCompare({ drive: put(compare.peek().drive ?? {}, "valve", { preset: id }) }, `valve ${id}`);
+          }
         },
       }, () => {
         const now = at(drive.value ?? {}, "valve.preset");
         return [
           now ? null : h("option", { value: "", selected: true }, "By value"),
-          ...(presets.value.valves ?? []).map((p) => h("option", { value: p.id, selected: p.id === now }, p.title)),
+          ...(presets.value.valves ?? []).map((p) =>
+            h("option", { value: p.id, selected: p.id === now }, p.title)
+          ),
         ];
       }),
     ),
@@ -114,7 +124,11 @@ export function rigCard() {
         "p",
         { class: "flag note" },
         icon("info"),
-        h("span", null, "The file holds a valve command: valve, supply and load are needed to compute the run."),
+        h(
+          "span",
+          null,
+          "The file holds a valve command: valve, supply and load are needed to compute the run.",
+        ),
       ),
     h("p", { class: "error" }, () => (messageFor("drive") && !drive.value ? messageFor("drive") : "") ?? ""),
     () =>

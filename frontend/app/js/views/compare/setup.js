@@ -31,7 +31,7 @@ function valueOf(key) {
   const own = compare.value.muscle.values[key];
   if (own !== undefined) return own;
   const given = preset.value?.geometry?.[key];
-  return given ? siOf(given) : answer.value?.geometry[key] ?? null;
+  return given ? siOf(given) : /** @type {any} */ (answer.value?.geometry)?.[key] ?? null;
 }
 
 /** @param {string} key */
@@ -204,7 +204,11 @@ export function setupCard() {
           "p",
           { class: "flag note" },
           icon("info"),
-          h("span", null, `The file names “${stranger.value}”, which is not in the catalogue: check the muscle.`),
+          h(
+            "span",
+            null,
+            `The file names “${stranger.value}”, which is not in the catalogue: check the muscle.`,
+          ),
         )
         : null,
     field("nominal_length"),
@@ -218,7 +222,11 @@ export function setupCard() {
     h("p", { class: "label" }, "Start model"),
     startChoice(),
     noiseField(),
-    h("p", { class: "hint" }, () =>
-      compare.value.noise === null && answer.value?.noise_how ? `Noise: ${answer.value.noise_how}.` : ""),
+    h(
+      "p",
+      { class: "hint" },
+      () =>
+        compare.value.noise === null && answer.value?.noise_how ? `Noise: ${answer.value.noise_how}.` : "",
+    ),
   );
 }

@@ -54,7 +54,8 @@ function pieces(s, over, belongs) {
 export function overlaySpec(v, p) {
   const { title, quantity } = VARIABLES[v.over], { system } = v;
   const s = channelScale(v.unit, v.channel, system);
-  const y = (/** @type {(number | null)[]} */ values) => values.map((one) => one == null ? null : toShown(one, s));
+  const y = (/** @type {(number | null)[]} */ values) =>
+    values.map((one) => one == null ? null : toShown(one, s));
   const x = (/** @type {(number | null)[]} */ values) => shown(values, quantity, system);
   const tints = colours(v.series, p);
   /** @type {Trace[]} */
@@ -92,7 +93,10 @@ export function overlaySpec(v, p) {
   const name = v.channel.replace(/^./, (c) => c.toUpperCase());
   return {
     x: { title: axisTitle(title, quantity, system), range: steadyX(`cmp${v.picture}${v.over}`, xLow, xHigh) },
-    y: { title: `${name} (${s.unit})`, range: steadyRange(`cmp${v.picture}${v.channel}${system}`, low, high) },
+    y: {
+      title: `${name} (${s.unit})`,
+      range: steadyRange(`cmp${v.picture}${v.channel}${system}`, low, high),
+    },
     traces,
     zones: brushZone(v),
     revision: `${v.picture}${v.over}${system}`,
@@ -110,8 +114,10 @@ function points(v, p, tints, x, y) {
     x: x(v.series.flatMap((s) => column(s, v.over))),
     y: y(v.series.flatMap((s) => s.measured)),
     marker: {
-      size: v.series.reduce((sum, s) => sum + s.measured.length, 0) > 600 ? 4 : 5,
-      symbol: each((s, i) => s.use === "validation" ? "triangle-up" : (s.direction?.[i] ?? 0) < 0 ? "square" : "circle"),
+      size: v.series.reduce((sum, s) => sum + s.measured.length, 0) > 300 ? 4 : 5,
+      symbol: each((s, i) =>
+        s.use === "validation" ? "triangle-up" : (s.direction?.[i] ?? 0) < 0 ? "square" : "circle"
+      ),
       color: each((s, i, k) => isInside(s, i, v.brush) ? tints[k] : p.line),
     },
     column: "measured",
@@ -146,7 +152,7 @@ export function residualSpec(v, p) {
       x,
       y,
       marker: {
-        size: y.length > 600 ? 4 : 5,
+        size: y.length > 300 ? 4 : 5,
         symbol: v.series.flatMap((one) =>
           one.residual.map((_r, i) => (one.direction?.[i] ?? 0) < 0 ? "square" : "circle")
         ),

@@ -92,6 +92,17 @@ export function fitPercent(all) {
   return rms === null || spread === 0 ? null : 100 * (1 - Math.sqrt((rms * rms * rows) / spread));
 }
 
+/** A number with a few figures, whatever its size: 2.03·10⁻⁶. @param {number} x @param {number} digits */
+export function figures(x, digits) {
+  const size = Math.abs(x);
+  if (size >= 1e-3 && size < 1e5 || x === 0) {
+    return number(x, Math.max(0, digits - 1 - Math.floor(Math.log10(size || 1))));
+  }
+  const [lead, power] = x.toExponential(digits - 1).split("e");
+  const raised = [...String(Number(power))].map((c) => c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]).join("");
+  return `${lead.replace("-", "−")}·10${raised}`;
+}
+
 /** "−41 %" @param {number} percent */
 export const signed = (percent) =>
   `${percent < 0 ? "−" : "+"}${Math.abs(percent).toFixed(Math.abs(percent) < 10 ? 1 : 0)}\u00a0%`;

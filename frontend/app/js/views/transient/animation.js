@@ -4,43 +4,15 @@ import { h, icon } from "../../dom.js";
 import { computed, effect, signal } from "../../reactive.js";
 import { units, view } from "../../state.js";
 import { brief, withUnit } from "../../format.js";
-import { readout, setWindow } from "./charts.js";
+import { paired, readout, setWindow } from "./charts.js";
 import { cursor, cursorKeys, moveCursor, row, span } from "./cursor.js";
-import { numberAt, run, timeWindow } from "./model.js";
+import { inclination, numberAt, run, timeWindow } from "./model.js";
+import { draw, outline, place } from "./outline.js";
+import { pairPicture } from "./pair-picture.js";
 
 /** @typedef {import("../../types.js").Run} Run */
 
-const HEIGHT = 118, LEFT = 26, RIGHT = 84, BLOCK = 48, STEPPED_MS = 250;
-const SVG = "http://www.w3.org/2000/svg";
-
-/** @param {string} tag @param {Record<string, string | number>} [attributes] */
-function draw(tag, attributes = {}) {
-  const el = document.createElementNS(SVG, tag);
-  for (const [key, value] of Object.entries(attributes)) el.setAttribute(key, String(value));
-  return el;
-}
-
-/** The outline of a muscle from x = 0 to its length: caps as wide as the braid at rest, a bulge between them.
- * @param {number} length @param {number} cap @param {number} bulge half widths @param {number} y */
-export function outline(length, cap, bulge, y) {
-  const bend = Math.min(0.22 * length, 2.2 * Math.max(bulge, cap));
-  const side = (/** @type {1 | -1} */ s) => ({
-    cap: y - s * cap,
-    top: y - s * bulge,
-  });
-  const up = side(1), down = side(-1);
-  return [
-    `M0 ${up.cap}`,
-    `C${bend / 2} ${up.cap} ${bend / 2} ${up.top} ${bend} ${up.top}`,
-    `L${length - bend} ${up.top}`,
-    `C${length - bend / 2} ${up.top} ${length - bend / 2} ${up.cap} ${length} ${up.cap}`,
-    `L${length} ${down.cap}`,
-    `C${length - bend / 2} ${down.cap} ${length - bend / 2} ${down.top} ${length - bend} ${down.top}`,
-    `L${bend} ${down.top}`,
-    `C${bend / 2} ${down.top} ${bend / 2} ${down.cap} 0 ${down.cap}`,
-    "Z",
-  ].join("");
-}
+const HEIGHT = 118, LEFT = 26, RIGHT = 92, BLOCK = 56, STEPPED_MS = 250;
 
 /** @param {(number | null)[]} values */
 const greatest = (values) => values.reduce((/** @type {number} */ most, v) => Math.max(most, v ?? 0), 0);
@@ -76,8 +48,8 @@ function picture() {
     "aria-label": "The muscle from the side",
   });
   svg.append(wall, ghost, ...stops, rod, body, first, block, mass, pull, pullText);
-  const box = h("div", { class: "stage" });
-  box.append(svg);
+  const box = h("div", { class: () => `stage${paired.value ? " paired" : ""}` });
+  box.append(svg, pairPicture(width));
   new ResizeObserver(([entry]) => (width.value = Math.round(entry.contentRect.width))).observe(box);
 
   const scene = computed(() => run.value ? sceneOf(run.value, width.value) : null);
@@ -92,12 +64,9 @@ function picture() {
     // The load touches the upper stop with its left side, the lower one with its right side.
     const right = s.low + 12 + BLOCK, left = s.high + 12;
     for (const [stop, x] of /** @type {[Element, number][]} */ ([[stops[0], right], [stops[1], left - 4]])) {
-      for (const [key, value] of Object.entries({ x, y: y - 29, width: 4, height: 58 })) {
-        stop.setAttribute(key, String(value));
-      }
+      place(stop, { x, y: y - 29, width: 4, height: 58 });
     }
-    const angle = numberAt("load.inclination") ?? Math.PI / 2;
-    const weight = (numberAt("load.mass") ?? 0) * 9.80665 * Math.sin(angle);
+    const weight = (numberAt("load.mass") ?? 0) * 9.80665 * Math.sin(inclination.value);
     mass.textContent = withUnit(numberAt("load.mass") ?? 0, "mass", units.value);
     pullText.textContent = Math.abs(weight) > 0.5 ? withUnit(Math.abs(weight), "force", units.value) : "";
     pull.setAttribute("visibility", Math.abs(weight) > 0.5 ? "visible" : "hidden");
@@ -110,20 +79,13 @@ function picture() {
     const cap = (s.scale * r.geometry.braid_diameter) / 2, end = s.scale * length, x = LEFT + end;
     body.setAttribute("d", outline(end, cap, (s.scale * diameter) / 2, y));
     body.setAttribute("transform", `translate(${LEFT})`);
-    for (const [key, value] of Object.entries({ x1: x, x2: x + 12, y1: y, y2: y })) {
-      rod.setAttribute(key, String(value));
-    }
-    first.setAttribute("cx", String(x));
-    first.setAttribute("cy", String(y));
-    for (const [key, value] of Object.entries({ x: x + 12, y: y - 23, width: BLOCK, height: 46 })) {
-      block.setAttribute(key, String(value));
-    }
-    mass.setAttribute("x", String(x + 12 + BLOCK / 2));
-    mass.setAttribute("y", String(y + 4));
+    place(rod, { x1: x, x2: x + 12, y1: y, y2: y });
+    place(first, { cx: x, cy: y });
+    place(block, { x: x + 12, y: y - 23, width: BLOCK, height: 46 });
+    place(mass, { x: x + 12 + BLOCK / 2, y: y + 4 });
     block.classList.toggle("touching", Boolean(r.contact[i]));
     pull.setAttribute("transform", `translate(${x + 14} ${y + 41})`);
-    pullText.setAttribute("x", String(x + 35));
-    pullText.setAttribute("y", String(y + 45));
+    place(pullText, { x: x + 35, y: y + 45 });
     // What fills the muscle shows as its colour.
     const most = Math.max(1, greatest(r.pressure));
     body.style.setProperty("--full", String(Math.max(0, (r.pressure[i] ?? 0) / most)));

@@ -1,34 +1,22 @@
 // @ts-check
 // The plots: five over one time axis and the phase plot; one drawing of all of them when an answer arrives.
 import { h, icon } from "../../dom.js";
-import { apart, computed, effect, signal } from "../../reactive.js";
+import { computed, effect, signal } from "../../reactive.js";
 import { units, view } from "../../state.js";
-import { scaleOf, withUnit } from "../../format.js";
-import { Chart } from "../../plots/chart.js";
+import { withUnit } from "../../format.js";
 import { drawBands, writeLabels } from "../../plots/overlay.js";
-import { palette, pressureColour } from "../../plots/theme.js";
+import { palette } from "../../plots/theme.js";
 import { chartMenu } from "../../plots/export.js";
-import { openDialog } from "../../ui/dialog.js";
 import { menuButton } from "../../ui/menu.js";
-import { dataTable, downloadText, toCsv } from "../../ui/table.js";
 import { plotlyReady } from "../design/charts.js";
 import { at } from "./document.js";
 import { followTime, row, span } from "./cursor.js";
+import { angleSpec, jointCells, stiffnessSpec, torqueSpec } from "./joint.js";
 import { measured } from "./measured.js";
-import {
-  drive,
-  lookTransient,
-  mode,
-  numberAt,
-  pinKey,
-  pinRuns,
-  pins,
-  run,
-  statics,
-  timeWindow,
-  transient,
-} from "./model.js";
-import { phaseSpec, phaseTable } from "./phase.js";
+import { drive, duration, lookTransient, mode, run, timeWindow, transient } from "./model.js";
+import { drawPhase, phase, phaseItems, phaseLegend, phaseNote, phasePoint } from "./phase-card.js";
+import { pinKey, pinRuns, pins } from "./pin-runs.js";
+import { plot } from "./plot.js";
 import { switchings } from "./signals.js";
 import { siNumber } from "./units.js";
 import { accelerationSpec, legendOf, lowerSpec, positionSpec, pressureSpec, speedSpec } from "./specs.js";
@@ -36,47 +24,38 @@ import { accelerationSpec, legendOf, lowerSpec, positionSpec, pressureSpec, spee
 /** @typedef {import("./specs.js").View} View */
 /** @typedef {import("../../types.js").Run} Run */
 /** @typedef {import("./document.js").Lower} Lower */
-/** @typedef {{id: string, title: string, host: HTMLElement, chart: Chart}} Plot */
+/** @typedef {import("./plot.js").Plot} Plot */
 
 const NARROWEST = 1e-3;
-
-/** @param {string} id @param {string} title @param {string} label @returns {Plot} */
-function plot(id, title, label) {
-  const host = h("div", { class: "plot", id: `run-${id}`, role: "figure", "aria-label": label });
-  return { id, title, host, chart: new Chart(host, `run-${id}`) };
-}
 
 const position = plot("position", "Position", "Position over time with reference and stops");
 const pressure = plot("pressure", "Pressure", "Pressure in muscle, tube and supply over time");
 const speed = plot("speed", "Speed", "Speed over time");
 const acceleration = plot("acceleration", "Acceleration", "Acceleration over time");
 const lower = plot("lower", "Flow and force", "Mass flow, force or valve over time");
-const phase = plot("phase", "Phase plot", "Contraction over pressure on the static map");
+const angle = plot("angle", "Joint angle", "Angle of the pulley over time");
+const torque = plot("torque", "Joint torque", "Torque of both muscles on the pulley over time");
+const stiffness = plot("stiffness", "Joint stiffness", "Stiffness of the joint over time");
 
-const overTime = [position, pressure, speed, lower, acceleration];
-/** All plots with their titles, for the export of the sheet. */
-export const charts = [...overTime, phase].map(({ title, chart }) => ({ title, chart }));
+const joint = [angle, torque, stiffness];
+const overTime = [position, pressure, speed, lower, acceleration, ...joint];
+/** All plots there are of a run with their titles, for the export of the sheet. */
+export const shownCharts = () =>
+  [...overTime, phase].filter((one) => run.peek()?.joint || !joint.includes(one))
+    .map(({ title, chart }) => ({ title, chart }));
 
 /** @param {[number, number] | null} range */
 export function setWindow(range) {
-  const duration = run.peek()?.duration ?? numberAt("duration") ?? 1;
+  const end = run.peek()?.duration ?? duration.peek();
   if (!range) return lookTransient({ window: null });
-  const from = Math.max(0, Math.min(...range)), to = Math.min(duration, Math.max(...range));
-  const whole = from <= 1e-6 * duration && to >= duration * (1 - 1e-6);
+  const from = Math.max(0, Math.min(...range)), to = Math.min(end, Math.max(...range));
+  const whole = from <= 1e-6 * end && to >= end * (1 - 1e-6);
   if (to - from < NARROWEST) return;
   lookTransient({ window: whole ? null : [Number(from.toFixed(5)), Number(to.toFixed(5))] });
 }
 
-/** The force that resists the pull at rest, for the static map: i² F = i W + k s. */
-const staticLoad = computed(() => {
-  const force = numberAt("load.force") ?? 0;
-  const mass = numberAt("load.mass") ?? 0, angle = numberAt("load.inclination") ?? Math.PI / 2;
-  return {
-    resisting: mass * 9.80665 * Math.sin(angle) + force,
-    spring: numberAt("load.spring") ?? 0,
-    ratio: numberAt("load.lever_ratio") ?? 1,
-  };
-});
+/** Whether the run is one of an antagonist pair. */
+export const paired = computed(() => Boolean(run.value?.joint));
 
 const lowerKind = computed(() => transient.value.lower);
 
@@ -116,16 +95,14 @@ function drawAll() {
   speed.chart.show((p) => speedSpec(v, p));
   lower.chart.show((p) => lowerSpec(v, p));
   acceleration.chart.show((p) => accelerationSpec(v, p));
+  if (v.run.joint) {
+    angle.chart.show((p) => angleSpec(v, p));
+    torque.chart.show((p) => torqueSpec(v, p));
+    stiffness.chart.show((p) => stiffnessSpec(v, p));
+  }
   if (!position.chart.axes) return;
   drawn.value = ++drawings;
   document.documentElement.dataset.ran = String(drawings);
-}
-
-/** The phase plot also follows the static map, which arrives on its own. */
-function drawPhase() {
-  const answer = run.value, map = statics.value, load = staticLoad.peek(), system = units.value;
-  palette.value;
-  if (answer && view.value === "transient") phase.chart.show((p) => phaseSpec(answer, map, load, system, p));
 }
 
 /** @param {Plot} one */
@@ -156,7 +133,11 @@ function frame(one, ...head) {
     );
   return h(
     "section",
-    { class: `card chart ${one.host.id}`, "aria-label": one.title },
+    {
+      class: `card chart ${one.host.id}`,
+      "aria-label": one.title,
+      hidden: () => joint.includes(one) && !paired.value,
+    },
     h(
       "div",
       { class: "card-head" },
@@ -170,22 +151,8 @@ function frame(one, ...head) {
       }),
     ),
     one.host,
+    one === phase ? phaseNote : null,
   );
-}
-
-function phaseItems() {
-  const answer = run.peek();
-  const rest = chartMenu(phase.chart, phase.title).slice(2);
-  if (!answer) return rest;
-  const table = phaseTable(answer, units.peek());
-  return [
-    {
-      label: "Show as table",
-      run: () => openDialog({ title: phase.title, wide: true }, dataTable(table, phase.title)),
-    },
-    { label: "Save as CSV", run: () => downloadText("mckibben-run-phase.csv", toCsv(table), "text/csv") },
-    ...rest,
-  ];
 }
 
 /** @type {[Lower, string][]} */
@@ -199,44 +166,6 @@ const lowerChoice = () =>
       lookTransient({ lower: /** @type {Lower} */ (/** @type {HTMLSelectElement} */ (e.target).value) }),
   }, () => LOWER.map(([id, name]) => h("option", { value: id, selected: lowerKind.value === id }, name)));
 
-const phaseLegend = () => {
-  const p = palette.value;
-  const stops = Array.from({ length: 6 }, (_, k) => pressureColour(k / 5, p)).join(",");
-  const end = scaleOf("time", units.value).unit;
-  const [from, to] = span.value;
-  return h(
-    "ul",
-    { class: "legend" },
-    h(
-      "li",
-      null,
-      `${Number(from.toPrecision(3))} `,
-      h("i", { class: "ramp", style: `background:linear-gradient(to right,${stops})` }),
-      `${Number(to.toPrecision(3))} ${end}`,
-    ),
-    h("li", null, h("i", { class: "dash", style: `color:${p.soft}` }), "fill, static"),
-    h("li", null, h("i", { class: "dash", style: `color:${p.second}` }), "vent, static"),
-  );
-};
-
-/** The cursor's point in the phase plot. */
-function phasePoint() {
-  const dot = h("div", { class: "dot", hidden: true });
-  phase.chart.over.append(dot);
-  const show = () => {
-    const axes = phase.chart.axes, answer = run.value, i = row.value, system = units.value;
-    const p = answer?.pressure[i], k = answer?.contraction[i];
-    dot.hidden = !axes || p == null || k == null;
-    if (dot.hidden || p == null || k == null) return;
-    const s = scaleOf("pressure", system);
-    const x = axes.xaxis._offset + axes.xaxis.c2p(p / s.factor),
-      y = axes.yaxis._offset + axes.yaxis.c2p(100 * k);
-    dot.style.transform = `translate(${x}px,${y}px)`;
-  };
-  effect(show);
-  phase.chart.after.add(() => apart(show));
-}
-
 /** The values under the cursor, in one line. */
 export function readout() {
   const answer = run.value, i = row.value, system = units.value;
@@ -249,7 +178,7 @@ export function readout() {
     cell("p", answer.pressure, "pressure"),
     cell("F", answer.force, "force"),
     cell("ε", answer.contraction, "ratio"),
-    cell("Ø", answer.diameter, "length"),
+    ...(answer.joint ? jointCells(answer.joint, cell) : [cell("Ø", answer.diameter, "length")]),
   ];
 }
 
@@ -260,6 +189,7 @@ export function plotCards() {
     frame(speed),
     frame(lower, lowerChoice(), legend(lower)),
     frame(acceleration),
+    ...joint.map((one) => frame(one, legend(one))),
     frame(phase, phaseLegend),
   ];
   overTime.forEach(({ chart }) => {

@@ -7,6 +7,8 @@ import { brief, number, plainScale, quantityOf, scaleOf, toShown } from "../../f
 import { spoken } from "../../ui/sources.js";
 import { at } from "./document.js";
 import { SPECS } from "./fields.js";
+import { greatestOf, JOINT } from "./joint.js";
+import { timeWindow } from "./model.js";
 import { signalField } from "./signals.js";
 import { ALL_FIGURES, figureName } from "./timing.js";
 import { siNumber } from "./units.js";
@@ -36,6 +38,7 @@ const NAMES = {
   "command.shape": "Command",
   "controller.reference.shape": "Reference",
   "load.force.shape": "External force",
+  "load.arrangement": "Arrangement",
 };
 
 /** What an input is called and how its value is shown. @param {string} path @param {Drive} drive
@@ -99,6 +102,14 @@ const TRACKING = [
   { label: "Lag", quantity: "lapse", of: (r) => r.tracking?.lag ?? null },
 ];
 
+/** Figures of the pulley come from the times shown, not from the whole run. @returns {Compared[]} */
+const joined = () =>
+  /** @type {import("./joint.js").Column[]} */ (Object.keys(JOINT)).map((key) => ({
+    label: `Greatest ${JOINT[key].title.toLowerCase()}${timeWindow.value ? ", in the window" : ""}`,
+    quantity: JOINT[key].quantity,
+    of: (r) => greatestOf(r, key),
+  }));
+
 /** @type {Compared[]} */
 const TIMED = /** @type {("extend" | "retract")[]} */ (["extend", "retract"]).flatMap((phase) =>
   ALL_FIGURES.filter(([, label]) => !label.startsWith("…")).map((figure) => ({
@@ -111,7 +122,7 @@ const TIMED = /** @type {("extend" | "retract")[]} */ (["extend", "retract"]).fl
 /** Rows of the figures that at least one run has. @param {Column[]} all @returns {Row[]} */
 export function figureRows(all) {
   const tracked = all.some((c) => c.run?.tracking);
-  return [...(tracked ? TRACKING : []), ...TIMED].map(({ label, quantity, of }) => {
+  return [...joined(), ...(tracked ? TRACKING : []), ...TIMED].map(({ label, quantity, of }) => {
     const values = all.map((c) => c.run && of(c.run));
     const s = quantity === "lapse" ? { unit: "ms", factor: 1e-3 } : scaleOf(quantity, units.value);
     const base = values[0];

@@ -143,7 +143,7 @@ export function driveDocument(t, muscle, effects) {
   return { schema: 1, muscle, ...(effects ? { effects } : {}), ...rest, ...driven };
 }
 
-const UPRIGHT = Math.PI / 2, TILTED = Math.PI / 6, LEVER = 0.5, PULLEY = 0.03;
+const UPRIGHT = Math.PI / 2, TILTED = Math.PI / 6, LEVER = 2, PULLEY = 0.03;
 /** What an arrangement inclines the load by when the document does not say it.
  * @type {Record<Arrangement, number>} */
 const INCLINED = { hanging: UPRIGHT, inclined: UPRIGHT, horizontal: 0, lever: UPRIGHT, antagonist: 0 };

@@ -6,7 +6,7 @@ import { scaleOf, toShown } from "../../format.js";
 import { status } from "../../store.js";
 import { saveSheet } from "../../plots/export.js";
 import { downloadText, toCsv } from "../../ui/table.js";
-import { charts } from "./charts.js";
+import { shownCharts } from "./charts.js";
 import { documentNow, openDrive, simulate } from "./model.js";
 
 /** @typedef {import("../../types.js").Run} Run */
@@ -38,20 +38,35 @@ const COLUMNS = [
   ["gas_temperature", "temperature", "temperature"],
 ];
 
+/** What an antagonist pair adds. @type {[string, Quantity, keyof NonNullable<Run["joint"]>][]} */
+const JOINT = [
+  ["joint_angle", "angle", "angle"],
+  ["joint_torque", "torque", "torque"],
+  ["joint_stiffness", "rotary", "stiffness"],
+  ["counter_pressure", "pressure", "counter_pressure"],
+  ["counter_force", "force", "counter_force"],
+];
+
 /** @param {Run} r @returns {import("../../ui/table.js").Table} every column of a run in shown units */
 export function runTable(r) {
   const system = units.peek();
-  const present = COLUMNS.filter(([, , key]) => Array.isArray(r[key]));
+  /** @param {string} title @param {Quantity} quantity @param {unknown} values
+   * @returns {{title: string, quantity: Quantity, values: (number | null)[]}[]} */
+  const column = (title, quantity, values) => Array.isArray(values) ? [{ title, quantity, values }] : [];
+  const present = [
+    ...COLUMNS.flatMap(([title, quantity, key]) => column(title, quantity, r[key])),
+    ...JOINT.flatMap(([title, quantity, key]) => column(title, quantity, r.joint?.[key])),
+  ];
   return {
     columns: [
       { title: "time", unit: "s" },
-      ...present.map(([title, quantity]) => ({ title, unit: scaleOf(quantity, system).unit })),
+      ...present.map(({ title, quantity }) => ({ title, unit: scaleOf(quantity, system).unit })),
       { title: "contact", unit: "" },
     ],
     rows: r.time.map((t, i) => [
       t,
-      ...present.map(([, quantity, key]) => {
-        const value = /** @type {(number | null)[]} */ (r[key])[i];
+      ...present.map(({ quantity, values }) => {
+        const value = values[i];
         return value === null ? null : toShown(value, scaleOf(quantity, system));
       }),
       r.contact[i] ? 1 : 0,
@@ -73,7 +88,7 @@ async function saveCsv() {
 
 /** @param {"png" | "svg"} format */
 const savePlots = (format) => () =>
-  saveSheet(charts, format, `mckibben-run-${stamp()}`).catch((error) => {
+  saveSheet(shownCharts(), format, `mckibben-run-${stamp()}`).catch((error) => {
     status.value = `The plots could not be saved: ${error.message}`;
   });
 

@@ -6,7 +6,18 @@ import { scaleOf, siOf } from "../../format.js";
 import { quantityField } from "../../ui/field.js";
 import { at } from "./document.js";
 import { siNumber } from "./units.js";
-import { baseDrive, drive, messageFor, numberAt, partPreset, regulated, run, setDrive } from "./model.js";
+import {
+  arrangement,
+  baseDrive,
+  drive,
+  messageFor,
+  numberAt,
+  partPreset,
+  regulated,
+  run,
+  setDrive,
+} from "./model.js";
+import { middleOf } from "./phase.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** `usual` in SI: what holds when the document says nothing.
@@ -91,7 +102,7 @@ export const SPECS = {
     symbol: "α",
     quantity: "angle",
     bounds: [-90 * DEG, 90 * DEG],
-    usual: 90 * DEG,
+    usual: () => arrangement.value === "antagonist" ? 0 : 90 * DEG,
     hint: "90° hangs or lifts, 0° is horizontal.",
   },
   "load.force": { label: "External force", symbol: "F_e", quantity: "force", bounds: [0, 2000], usual: 0 },
@@ -104,6 +115,21 @@ export const SPECS = {
     log: true,
     usual: 1,
     hint: "Stroke of the muscle per stroke of the load.",
+  },
+  "load.pulley_radius": {
+    label: "Pulley radius",
+    symbol: "r",
+    quantity: "length",
+    bounds: [5e-3, 0.2],
+    log: true,
+  },
+  "load.precontraction": {
+    label: "Middle",
+    symbol: "ε_m",
+    quantity: "ratio",
+    bounds: [0.01, 0.25],
+    usual: 0.1,
+    hint: "Contraction of both muscles at 0°.",
   },
   "stops.min_contraction": {
     label: "Lower stop",
@@ -120,7 +146,7 @@ export const SPECS = {
     bounds: [0.02, 0.35],
     usual: () => {
       const r = run.value, ratio = numberAt("load.lever_ratio") ?? 1;
-      return r && (r.limits.position_max * ratio) / r.geometry.nominal_length;
+      return r && middleOf(r) + (r.limits.position_max * ratio) / r.geometry.nominal_length;
     },
   },
   "gas.polytropic_exponent": {

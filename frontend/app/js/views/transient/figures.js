@@ -3,7 +3,8 @@
 import { h, icon } from "../../dom.js";
 import { units } from "../../state.js";
 import { brief, withUnit } from "../../format.js";
-import { fault, roundTrip, run } from "./model.js";
+import { jointCard } from "./joint.js";
+import { fault, roundTrip, run, timeWindow } from "./model.js";
 import { paperCard } from "./paper.js";
 import { lapse, reasons, timingTable } from "./timing.js";
 
@@ -45,9 +46,9 @@ function keyFigures(r) {
     ),
     r.tracking || extend.air_volume_anr == null
       ? big(
-        "Air of the run",
+        timeWindow.value ? "Air in the window" : "Air of the run",
         withUnit(airOf(r), "normal", system),
-        "Taken from the supply over the whole run, at ANR",
+        `Taken from the supply ${timeWindow.value ? "in the times shown" : "over the whole run"}, at ANR`,
       )
       : big(
         "Air per cycle",
@@ -179,6 +180,7 @@ export function figureCards() {
       h("div", { class: "verdicts" }, verdict),
       h("p", { class: "runline" }, runLine),
     ),
+    jointCard,
     tracking,
     paperCard,
     h(

@@ -4,12 +4,14 @@ import { append, h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { view } from "../../state.js";
 import { stageCard, togglePlay } from "./animation.js";
-import { plotCards } from "./charts.js";
+import { paired, plotCards } from "./charts.js";
 import { figureCards } from "./figures.js";
 import { measuredCard } from "./measured.js";
 import { fault, fieldOf, retry, run, startRuns } from "./model.js";
 import { inputCards } from "./panel.js";
+import { startPins } from "./pin-runs.js";
 import { compareCard, pin } from "./pins.js";
+import { startStatics } from "./statics.js";
 
 /** @param {string} path */
 function goToField(path) {
@@ -69,7 +71,7 @@ export function transientView() {
     h("div", { class: "column inputs" }, ...inputCards()),
     h(
       "div",
-      { class: () => `column runs${stale.value ? " stale" : ""}` },
+      { class: () => `column runs${stale.value ? " stale" : ""}${paired.value ? " paired" : ""}` },
       notice,
       stageCard(),
       ...plotCards(),
@@ -78,5 +80,7 @@ export function transientView() {
     results,
   );
   startRuns();
+  startStatics();
+  startPins();
   return page;
 }

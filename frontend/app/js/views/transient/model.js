@@ -1,29 +1,36 @@
 // @ts-check
-// From the document to the server's runs: the one shown, the pinned ones, the map behind the phase plot.
+// From the document to the server's run.
 import { batch, computed, effect, signal } from "../../reactive.js";
 import { commit, design, doc, edit, look, preview, view } from "../../state.js";
-import { ApiError, latest, post } from "../../api.js";
+import { latest, post } from "../../api.js";
 import { presets, status } from "../../store.js";
 import { muscleInput, preset, presetEffects } from "../design/model.js";
-import { at, defaultTransient, driveDocument, inSi, put, takenApart } from "./document.js";
+import {
+  arrangementOf,
+  at,
+  defaultTransient,
+  driveDocument,
+  inclinationOf,
+  inSi,
+  put,
+  takenApart,
+} from "./document.js";
 import { siNumber } from "./units.js";
 
 /** @typedef {import("../../types.js").Run} Run */
-/** @typedef {import("../../types.js").Curves} Curves */
 /** @typedef {import("../../types.js").Preset} Preset */
 /** @typedef {import("./document.js").Drive} Drive */
 /** @typedef {import("./document.js").Transient} Transient */
 
-const POINTS = 401, STATIC_PRESSURES = 12, STATIC_POINTS = 90;
+const POINTS = 401, LASTS = 4;
 
 export const transient = computed(() => doc.value.transient);
 export const drive = computed(() => transient.value.drive);
 export const mode = computed(() => transient.value.mode);
-export const timeWindow = computed(() => transient.value.window);
 
 export const run = signal(/** @type {Run | null} */ (null));
 /** Why there is no new run: the plots keep the last one, dimmed. */
-export const fault = signal(/** @type {ApiError | null} */ (null));
+export const fault = signal(/** @type {import("../../api.js").ApiError | null} */ (null));
 /** From the request to its answer [ms]. */
 export const roundTrip = signal(0);
 
@@ -46,6 +53,21 @@ export function setDrive(path, value, label, done = true) {
 
 /** A number of the drive in SI; null = not given. @param {string} path @returns {number | null} */
 export const numberAt = (path) => siNumber(at(drive.value, path));
+
+export const arrangement = computed(() => arrangementOf(drive.value.load));
+export const inclination = computed(() => inclinationOf(drive.value.load));
+
+/** The part of a window that lies in a run; null = all of it.
+ * @param {[number, number] | null} range @param {number} duration @returns {[number, number] | null} */
+export function within(range, duration) {
+  if (!range || range[0] >= duration) return null;
+  return range[1] <= duration ? range : [range[0], duration];
+}
+
+/** How long the run takes [s]. */
+export const duration = computed(() => numberAt("duration") ?? LASTS);
+/** The times looked at; null = the whole run. */
+export const timeWindow = computed(() => within(transient.value.window, duration.value));
 
 /** The preset of a part of the drive. @param {"valves" | "tubes"} kind @param {string} path */
 export const partPreset = (kind, path) =>
@@ -141,10 +163,15 @@ export function useScenario(id) {
 export const documentNow = () =>
   driveDocument(transient.value, muscleInput(design.value.muscle), design.value.effects);
 
-const request = computed(() => {
-  const [from, to] = timeWindow.value ?? [null, null];
-  return JSON.stringify({ drive: documentNow(), points: POINTS, ...(to === null ? {} : { from, to }) });
+/** What is asked for: a drive, and the rows of the window. @param {Drive} document
+ * @param {[number, number] | null} rows */
+export const runRequest = (document, rows) => ({
+  drive: document,
+  points: POINTS,
+  ...(rows ? { from: rows[0], to: rows[1] } : {}),
 });
+
+const request = computed(() => JSON.stringify(runRequest(documentNow(), timeWindow.value)));
 
 /** @param {unknown} body @param {AbortSignal} [control] @returns {Promise<Run>} */
 export const simulate = (body, control) => post("/api/simulations", body, control);
@@ -180,65 +207,11 @@ export function messageFor(key) {
   return told?.field && fieldOf(told.field) === key ? told.words : null;
 }
 
-// ---- pinned runs
-
-/** @type {import("../../reactive.js").Signal<import("./document.js").Pin[]>} */
-export const pins = computed(() => transient.value.pins);
-/** Answers of pinned runs by their document, as JSON. */
-export const pinRuns = signal(/** @type {Map<string, Run | ApiError>} */ (new Map()));
-/** @param {Drive} document */
-export const pinKey = (document) => JSON.stringify(document);
-
-async function runPins() {
-  for (const { drive: document } of transient.peek().pins) {
-    const key = pinKey(document);
-    if (pinRuns.peek().has(key)) continue;
-    const answer = await simulate({ drive: document, points: POINTS }).catch((error) => {
-      if (error instanceof ApiError) return error;
-      throw error;
-    });
-    pinRuns.value = new Map(pinRuns.peek()).set(key, answer);
-  }
-}
-
-// ---- the static map
-
-/** Static curves while filling and while venting, at pressures up to the supply. */
-export const statics = signal(/** @type {{filling: Curves, venting: Curves} | null} */ (null));
-const supplyPressure = computed(() => Math.max(numberAt("supply.pressure") ?? 6e5, 1e4));
-
-const staticRequest = computed(() =>
-  JSON.stringify({
-    muscle: muscleInput(design.value.muscle),
-    effects: design.value.effects,
-    pressures: Array.from({ length: STATIC_PRESSURES }, (_, i) =>
-      ((i + 1) * supplyPressure.value) / STATIC_PRESSURES),
-    points: STATIC_POINTS,
-    temperature: numberAt("gas.temperature") ?? 293.15,
-  })
-);
-
-const askStatics = latest(
-  async (/** @type {string} */ body, control) => {
-    const [filling, venting] = await Promise.all(
-      [-1, 1].map((direction) => post("/api/curves", { ...JSON.parse(body), direction }, control)),
-    );
-    return { filling, venting };
-  },
-  (answer) => {
-    statics.value = answer;
-  },
-  () => {
-    statics.value = null; // the run's own message says what is wrong with the muscle
-  },
-);
-
 /** The muscle by name and length. */
 export const muscleName = computed(() => preset.value?.title ?? "Own geometry");
 
-const shownNow = computed(() => view.value === "transient");
-let staticsAsked = "";
-const STATICS_AFTER_MS = 60;
+/** Asking rests while another view is shown. */
+export const shownNow = computed(() => view.value === "transient");
 
 /** Starts asking; called once, when the view is built. It rests while another view is shown. */
 export function startRuns() {
@@ -246,18 +219,5 @@ export function startRuns() {
     if (!shownNow.value || request.value === asked) return;
     asked = request.value;
     askRun(asked);
-  });
-  let timer = 0;
-  effect(() => {
-    const body = staticRequest.value;
-    if (!shownNow.value || body === staticsAsked) return;
-    clearTimeout(timer);
-    timer = setTimeout(() => {
-      staticsAsked = body;
-      askStatics(body);
-    }, STATICS_AFTER_MS);
-  });
-  effect(() => {
-    if (shownNow.value && pins.value.length) runPins();
   });
 }

@@ -4,11 +4,12 @@ import { h } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { design, units } from "../../state.js";
 import { goTo } from "../../shell.js";
-import { brief, number, scaleOf, siOf, toShown, withUnit } from "../../format.js";
+import { brief, siOf, withUnit } from "../../format.js";
 import { effectsCard, isStatic } from "../design/effects.js";
 import { preset } from "../design/model.js";
 import { driveField, partMessage } from "./fields.js";
 import {
+  arrangement,
   editTransient,
   fault,
   fieldOf,
@@ -23,6 +24,7 @@ import {
   transient,
   useScenario,
 } from "./model.js";
+import { loadCard } from "./load.js";
 import { signalFields } from "./signals.js";
 import { supplyCard } from "./supply.js";
 
@@ -74,49 +76,6 @@ function muscleLine() {
       const told = fault.value;
       return told?.field && fieldOf(told.field).startsWith("muscle") ? told.words : "";
     }),
-  );
-}
-
-function loadCard() {
-  const more = () => ["load.spring", "load.lever_ratio"].some((path) => numberAt(path) !== null);
-  return h(
-    "section",
-    { class: "card", "aria-label": "Load" },
-    h("div", { class: "card-head" }, h("h2", null, "Load")),
-    partMessage("load"),
-    driveField("load.mass"),
-    driveField("load.inclination"),
-    signalFields({
-      path: "load.force",
-      quantity: "force",
-      low: () => 0,
-      high: 2000,
-      rest: () => 0,
-      full: 100,
-      constant: true,
-    }, "Force over time"),
-    h(
-      "details",
-      { open: more },
-      h("summary", null, "Spring and lever"),
-      driveField("load.spring"),
-      driveField("load.lever_ratio"),
-    ),
-    h(
-      "details",
-      {
-        open: () => numberAt("stops.min_contraction") !== null || numberAt("stops.max_contraction") !== null,
-      },
-      h("summary", null, () => {
-        const limits = run.value?.limits;
-        if (!limits) return "End stops";
-        const s = scaleOf("length", units.value),
-          say = (/** @type {number} */ si) => number(toShown(si, s), 1);
-        return `End stops: ${say(limits.position_min)} to ${say(limits.position_max)} ${s.unit}`;
-      }),
-      driveField("stops.min_contraction"),
-      driveField("stops.max_contraction"),
-    ),
   );
 }
 
@@ -183,6 +142,11 @@ function commandCard() {
           "p",
           { class: "hint" },
           regulated.value ? "Share of the regulator’s range." : "100 % fills, 0 % is closed, −100 % vents.",
+          arrangement.value !== "antagonist"
+            ? null
+            : regulated.value
+            ? " The second muscle gets the rest of the range."
+            : " The second muscle gets the opposite.",
         )
         : null,
   );

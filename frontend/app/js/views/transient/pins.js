@@ -8,17 +8,8 @@ import { number, scaleOf, toShown } from "../../format.js";
 import { palette } from "../../plots/theme.js";
 import { figureRows, inputRows } from "./compare.js";
 import { at, MOST_PINS } from "./document.js";
-import {
-  documentNow,
-  editTransient,
-  muscleName,
-  openDrive,
-  pinKey,
-  pinRuns,
-  pins,
-  run,
-  transient,
-} from "./model.js";
+import { documentNow, editTransient, muscleName, openDrive, run, transient } from "./model.js";
+import { pinKey, pinRuns, pins } from "./pin-runs.js";
 import { pinColours } from "./specs.js";
 import { siNumber } from "./units.js";
 
@@ -106,7 +97,7 @@ function table() {
     { class: "scroll", tabindex: 0, role: "region", "aria-label": "Pinned runs and the run now" },
     h(
       "table",
-      { class: "data compare" },
+      { class: "data pinned" },
       h("caption", { class: "unseen" }, "Pinned runs beside the run now; the first is the baseline"),
       h(
         "thead",

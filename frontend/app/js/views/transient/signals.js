@@ -1,12 +1,11 @@
 // @ts-check
 // A signal over time: its shape from a list, and the fields that shape has.
 import { h } from "../../dom.js";
-import { computed, signal } from "../../reactive.js";
-import { units } from "../../state.js";
-import { number, scaleOf, toShown, toSi } from "../../format.js";
+import { computed } from "../../reactive.js";
 import { at } from "./document.js";
 import { choiceField, driveField } from "./fields.js";
-import { drive, messageFor, numberAt, setDrive } from "./model.js";
+import { drive, numberAt, setDrive } from "./model.js";
+import { tableField } from "./table-field.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** @typedef {{path: string, quantity: Quantity, low: () => number, high: number, rest: () => number,
@@ -130,54 +129,6 @@ function field(s, [key, label, kind, start]) {
     seed: { quantity: "number", bounds: [0, 100] },
   };
   return driveField(`${s.path}.${key}`, { label, ...kinds[kind], usual: () => start(startOf(s)) });
-}
-
-/** Rows "time  value" as one types or pastes them. @param {Signal} s */
-function tableField(s) {
-  const wrong = signal("");
-  const scale = () => scaleOf(s.quantity, units.value);
-  const text = () => {
-    const { times = [], values = [] } = at(drive.value, s.path) ?? {};
-    return times.map((/** @type {number} */ t, /** @type {number} */ i) =>
-      `${number(t, 6)}  ${number(toShown(values[i], scale()), 4)}`
-    ).join("\n");
-  };
-  const id = `t-${s.path.replace(/\W/g, "-")}`;
-  const take = () => {
-    const rows = area.value.replaceAll("−", "-").split("\n").map((line) => line.trim()).filter(Boolean)
-      .map((line) => line.split(/[\s;,\t]+/).map(Number));
-    const bad = rows.findIndex((row) => row.length !== 2 || !row.every(Number.isFinite));
-    if (bad >= 0 || !rows.length) {
-      wrong.value = `Row ${bad + 1} needs a time (s) and a value (${scale().unit}), such as “0.5  20”.`;
-      return;
-    }
-    wrong.value = "";
-    const values = rows.map(([, v]) => toSi(v, scale()));
-    setDrive(
-      s.path,
-      { ...at(drive.peek(), s.path), times: rows.map(([t]) => t), values },
-      `${s.path.split(".").at(-1)} table`,
-    );
-  };
-  const area = h("textarea", { id, rows: 6, spellcheck: "false", onchange: take, value: text });
-  return h(
-    "div",
-    { class: "field" },
-    h("label", { for: id }, () => `Time (s) and value (${scale().unit}), a row each`),
-    area,
-    h(
-      "p",
-      { class: "error" },
-      () => wrong.value || messageFor(`${s.path}.times`) || messageFor(`${s.path}.values`) || "",
-    ),
-    choiceField(
-      "Between the rows",
-      () => [["linear", "straight lines"], ["hold", "hold the value"]],
-      () => at(drive.value, `${s.path}.interpolation`) ?? "linear",
-      (way) => setDrive(`${s.path}.interpolation`, way, "interpolation"),
-      `${s.path}.interpolation`,
-    ),
-  );
 }
 
 /** @param {Signal} s @param {string} label */

@@ -1,6 +1,7 @@
 // @ts-check
 // What each plot over time shows: lines, bands and marks in the user's units. Pure functions.
 import { axisTitle, extent, shown, steadyRange } from "../design/axes.js";
+import { scaleOf } from "../../format.js";
 import { contacts, measuredColumn, resampled, withoutImpacts } from "./series.js";
 
 /** @typedef {import("../../plots/chart.js").Spec} Spec */
@@ -24,9 +25,11 @@ export const pinColours = (p) =>
   p.dark ? ["#c9a2ff", "#4fd1c0", "#e6c54a", "#ff8fbf"] : ["#7b3fb5", "#00776b", "#8a6a00", "#b3206e"];
 
 /** @param {View} v @param {Palette} p @param {{key: string, title: string, quantity: Quantity, lines: Line[],
- *   dots?: {x: number[], y: (number | null)[]} | null, within?: (number | null)[][], zero?: boolean}} o
+ *   dots?: {x: number[], y: (number | null)[]} | null, within?: (number | null)[][], zero?: boolean,
+ *   least?: number}} o  `least`: a span in SI below which there is only noise to see
  * @returns {Spec} */
-function overTime(v, p, { key, title, quantity, lines, dots = null, within, zero = false }) {
+export function overTime(v, p, o) {
+  const { key, title, quantity, lines, dots = null, within, zero = false, least = 0 } = o;
   const { run, system, window: span } = v;
   /** @type {Trace[]} */
   const traces = lines.map((line) => ({
@@ -46,7 +49,9 @@ function overTime(v, p, { key, title, quantity, lines, dots = null, within, zero
     });
   }
   const shownRange = within ? within.map((row) => shown(row, quantity, system)) : traces.map((t) => t.y);
-  const [low, high] = extent(zero ? [...shownRange, [0]] : shownRange);
+  const [bottom, top] = extent(zero ? [...shownRange, [0]] : shownRange);
+  const spare = Math.max(0, (least / scaleOf(quantity, system).factor - (top - bottom)) / 2);
+  const low = bottom - spare, high = top + spare;
   const all = lines.flatMap((line, i) => {
     if (!line.label) return [];
     const y = traces[i + (dots ? 1 : 0)].y;
@@ -83,15 +88,21 @@ function labelRow({ time }, y, [from, to]) {
   return null;
 }
 
-/** @param {View} v @param {Palette} p @param {"position" | "pressure"} key @returns {Line[]} */
-const pinLines = (v, p, key) =>
-  v.pinned.map((pin) => ({
-    id: `pin${pin.index}`,
-    name: pin.name,
-    values: resampled(pin.run.time, pin.run[key], v.run.time),
-    color: pinColours(p)[pin.index],
-    width: 1.3,
-  }));
+/** A column of the pinned runs that have it, on the times of the run.
+ * @param {View} v @param {Palette} p @param {(r: Run) => (number | null)[] | null} of @returns {Line[]} */
+export const pinLines = (v, p, of) =>
+  v.pinned.flatMap((pin) => {
+    const values = of(pin.run);
+    return values
+      ? [{
+        id: `pin${pin.index}`,
+        name: pin.name,
+        values: resampled(pin.run.time, values, v.run.time),
+        color: pinColours(p)[pin.index],
+        width: 1.3,
+      }]
+      : [];
+  });
 
 /** @param {View} v @param {Palette} p @returns {Spec} */
 export function positionSpec(v, p) {
@@ -109,7 +120,7 @@ export function positionSpec(v, p) {
       width: 1.2,
       label: "stop",
     },
-    ...pinLines(v, p, "position"),
+    ...pinLines(v, p, (r) => r.position),
   ];
   if (run.reference) {
     lines.push({
@@ -131,10 +142,13 @@ export function positionSpec(v, p) {
   });
 }
 
+/** The muscle that pulls the other way. @param {Palette} p @param {(number | null)[]} values @returns {Line} */
+const second = (p, values) => ({ id: "counter", name: "muscle 2", values, color: p.load, width: 1.6 });
+
 /** @param {View} v @param {Palette} p @returns {Spec} */
 export function pressureSpec(v, p) {
   const { run, supply } = v;
-  const lines = pinLines(v, p, "pressure");
+  const lines = pinLines(v, p, (r) => r.pressure);
   if (supply != null) {
     lines.push({
       id: "supply",
@@ -159,14 +173,20 @@ export function pressureSpec(v, p) {
   if (run.tube_pressure) {
     lines.push({
       id: "tube",
-      name: "tube",
+      name: run.joint ? "tube 1" : "tube",
       values: run.tube_pressure,
       color: p.second,
       dash: "dash",
       width: 1.5,
     });
   }
-  lines.push({ id: "muscle", name: "muscle", values: run.pressure, color: p.accent });
+  if (run.joint) lines.push(second(p, run.joint.counter_pressure));
+  lines.push({
+    id: "muscle",
+    name: run.joint ? "muscle 1" : "muscle",
+    values: run.pressure,
+    color: p.accent,
+  });
   return overTime(v, p, {
     key: "pressure",
     title: "Pressure",
@@ -186,6 +206,7 @@ export const speedSpec = (v, p) =>
     lines: [{ id: "velocity", name: "speed", values: v.run.velocity, color: p.accent }],
     dots: measuredColumn(v.measured, v.window, ["velocity"]),
     zero: true,
+    least: 0.01,
   });
 
 /** @param {View} v @param {Palette} p @returns {Spec} */
@@ -198,6 +219,7 @@ export function accelerationSpec(v, p) {
     lines: [{ id: "acceleration", name: "acceleration", values: run.acceleration, color: p.accent }],
     within: [free.some((a) => a != null) ? free : run.acceleration],
     zero: true,
+    least: 0.5,
   });
 }
 
@@ -224,19 +246,21 @@ export function lowerSpec(v, p) {
         dash: "dash",
         width: 1.5,
       },
-      { id: "flow", name: "muscle", values: run.mass_flow, color: p.accent },
+      { id: "flow", name: run.joint ? "muscle 1" : "muscle", values: run.mass_flow, color: p.accent },
     ];
     return overTime(v, p, { key: lower, title: "Mass flow", quantity: "flow", lines, zero: true });
   }
   if (lower === "force") {
-    lines = [{ id: "force", name: "force of the muscle", values: run.force, color: p.accent }];
+    const name = run.joint ? "muscle 1" : "force of the muscle";
+    lines = [{ id: "force", name, values: run.force, color: p.accent }];
+    if (run.joint) lines.unshift(second(p, run.joint.counter_force));
     const outer = run.load_force.some((x) => x !== 0);
     if (outer) {
       lines.unshift({
         id: "external",
         name: "external force",
         values: run.load_force,
-        color: p.second,
+        color: run.joint ? p.soft : p.second,
         dash: "dash",
         width: 1.5,
       });

@@ -59,7 +59,7 @@ function chooseTube(id) {
 
 const valveId = computed(() => at(drive.value, "valve.preset") ?? OWN);
 const tubeId = computed(() => at(drive.value, "tube") ? at(drive.value, "tube.preset") ?? OWN : NONE);
-const isShort = (/** @type {string} */ path) => () => numberAt(path) !== null;
+const ownFlow = computed(() => numberAt("valve.sonic_conductance") !== null);
 
 export function supplyCard() {
   return h(
@@ -83,7 +83,7 @@ export function supplyCard() {
     () =>
       valveId.value === OWN ? valveFields() : h(
         "details",
-        { open: isShort("valve.sonic_conductance") },
+        { open: () => ownFlow.value },
         h("summary", null, "Its flow"),
         ...valveFields(),
       ),

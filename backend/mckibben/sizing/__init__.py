@@ -1,0 +1,23 @@
+"""From a task to drives: what the catalogue offers, ranked, and why the rest does not do."""
+
+from mckibben.sizing.catalogue import Catalogue, Design, MusclePart, TubePart, ValvePart
+from mckibben.sizing.proposal import Proposal
+from mckibben.sizing.rejection import Rejection
+from mckibben.sizing.search import Sizing, size
+from mckibben.sizing.task import Limits, Pair, Task, Uncertainty
+
+__all__ = [
+    "Catalogue",
+    "Design",
+    "Limits",
+    "MusclePart",
+    "Pair",
+    "Proposal",
+    "Rejection",
+    "Sizing",
+    "Task",
+    "TubePart",
+    "Uncertainty",
+    "ValvePart",
+    "size",
+]

@@ -1,0 +1,148 @@
+"""A proposal: a refined design with figures from a run as fine as every other run of the program."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil
+
+import numpy as np
+
+from mckibben.physics.drive_terms import COUNTER
+from mckibben.physics.gas import ANR_DENSITY
+from mckibben.simulation.outcome import Outcome
+from mckibben.simulation.parts import Drive
+from mckibben.simulation.timing import Trace, timing
+from mckibben.simulation.transient import Run, simulate
+from mckibben.sizing.bench import Bench, Figures
+from mckibben.sizing.catalogue import Design, switch_on
+from mckibben.sizing.chance import Chance
+from mckibben.sizing.trial import Trial, judged
+
+# As every run is read: at least so fine, so many rows.
+_FINEST, _FEWEST, _MOST = 1e-3, 2000, 20_000
+_MILLIMETRE, _PRESSURE_STEP = 1e-3, 1e3
+_ON_STOP = 2e-5  # m
+
+
+@dataclass(frozen=True, eq=False)
+class Proposal:
+    """A drive that does the task.
+
+    Attributes:
+        trial: design, statics and the run's figures.
+        impact_energy: of all muscles' load at the end of the stroke [J].
+        end_speed: of the load there [m/s].
+        pressure_start, pressure_end: in the muscle when the load leaves its stop, and on arrival [Pa].
+        max_speed: of the load [m/s].
+        chance: probability that it does the task; None when no specimens were asked for.
+        reason: why it stands where it stands.
+        front: whether no other design is better in everything.
+    """
+
+    trial: Trial
+    impact_energy: float
+    end_speed: float
+    max_speed: float
+    pressure_start: float
+    pressure_end: float
+    chance: Chance | None = None
+    reason: str = ""
+    front: bool = False
+
+    @property
+    def design(self) -> Design:
+        """What is built."""
+        return self.trial.design
+
+
+def propose(trial: Trial, bench: Bench) -> Proposal | Trial:
+    """The proposal a trial becomes, in whole millimetres and hundredths of a bar where those do.
+
+    A trial that falls behind on the fine grid comes back as it was measured.
+    """
+    design = trial.design
+    length = ceil(design.length / _MILLIMETRE - 1e-6) * _MILLIMETRE
+    pressure = ceil(design.pressure / _PRESSURE_STEP - 1e-6) * _PRESSURE_STEP
+    exact = round(length, 6), design.pressure
+    choices = [(round(length, 6), pressure), exact, (design.length, design.pressure)]
+    measured = trial
+    for length, pressure in dict.fromkeys(choices):
+        found = _measured(Design(design.group, length, pressure), bench)
+        if found is None:
+            continue
+        if found.trial.does:
+            return found
+        measured = found.trial
+    return measured
+
+
+def _measured(design: Design, bench: Bench) -> Proposal | None:
+    """A design run finely, whether it does or not; None when the run fails."""
+    task, group = bench.task, design.group
+    drive = group.drive(task, design.length, design.pressure)
+    bench.runs += 1
+    step = max(min(_FINEST, drive.duration / _FEWEST), drive.duration / _MOST)
+    grid = np.linspace(0.0, drive.duration, ceil(drive.duration / step) + 1)
+    with np.errstate(all="ignore"):
+        run = simulate(drive, grid=grid, engine="rodas")
+    if run.outcome is not Outcome.COMPLETED or not np.isfinite(run.states["stroke"]).all():
+        return None
+    lever, on = drive.load.lever_ratio, switch_on(task, group.duty)
+    off = on + task.fill_time
+    trace = trace_of(run)
+    low, high = (stop / lever for stop in drive.stops)
+    table = timing(
+        trace,
+        fill=(on, off),
+        exhaust=(off, drive.duration),
+        mass=group.duty.mass / group.parallel,
+        stops=(low, high),
+    )
+    up, down = table["extend"], table["retract"]
+    end = int(np.searchsorted(run.time, off))
+    begin = int(np.searchsorted(run.time, on))
+    time = up["positioning_time"] if up["impact_energy"] else None
+    figures = Figures(
+        time=time,
+        time_down=down["positioning_time"] if down["impact_energy"] else None,
+        held=bool(run.states["stroke"][end] >= drive.stops[1] - _ON_STOP),
+        air=_air(run, begin) * group.parallel,
+        peak_force=float(np.max(run.outputs["force"])),
+        reached=float(np.max(trace.position[begin : end + 1])) - low,
+    )
+    filled = slice(begin, end + 1)
+    left = int(np.argmax(trace.position[filled] > low + 1e-5))
+    pressures = run.pressure[filled]
+    arrived = 0.0 if time is None else float(np.interp(on + time, run.time, run.pressure))
+    return Proposal(
+        judged(design, figures, task),
+        float(up["impact_energy"] or 0.0) * group.parallel,
+        float(up["end_speed"] or 0.0),
+        float(up["max_speed"] or 0.0),
+        float(pressures[left]),
+        arrived,
+    )
+
+
+def _air(run: Run, begin: int) -> float:
+    """Volume at ANR that one side's muscle, of a pair both, take in a cycle [m^3]."""
+    names = [name for name in ("supplied", f"supplied{COUNTER}") if name in run.states]
+    return sum(float(run.states[name][-1] - run.states[name][begin]) for name in names) / ANR_DENSITY
+
+
+def trace_of(run: Run) -> Trace:
+    """The run at the load."""
+    drive: Drive = run.drive
+    lever, out = drive.load.lever_ratio, run.outputs
+    return Trace(
+        time=run.time,
+        position=run.states["stroke"] / lever,
+        velocity=run.states["speed"] / lever,
+        acceleration=out["acceleration"] / lever,
+        pressure=run.pressure,
+        force=out["force"],
+        mass_flow=out["mass_flow"],
+        contact=out["penetration"] > 0.0,
+        supply_mass_flow=out["supply_flow"],
+        exhaust_mass_flow=out["exhaust_flow"],
+    )

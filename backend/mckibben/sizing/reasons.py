@@ -1,0 +1,162 @@
+"""Why a candidate does not do, and what would help, in words with figures."""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from mckibben.sizing.catalogue import MusclePart
+from mckibben.sizing.sheet import Sheet, Shortfall
+from mckibben.sizing.statics import contraction_limit
+from mckibben.sizing.task import Task
+from mckibben.sizing.trial import Trial
+
+_BAR = 1e5
+
+
+def length_text(length: float) -> str:
+    """A length as people of the field write it: whole millimetres."""
+    return f"{length * 1e3:.0f} mm"
+
+
+def number_text(parallel: int, part: MusclePart) -> str:
+    """How many of which muscle."""
+    return f"one {part.id}" if parallel == 1 else f"{parallel} × {part.id} in parallel"
+
+
+def why_at_rest(sheet: Sheet, parallel: int, found: Shortfall) -> str:
+    """Why no design of so many muscles keeps every limit at rest."""
+    task, part, rest = sheet.task, sheet.part, sheet.rest
+    who = number_text(parallel, part)
+    most = contraction_limit(part, task)
+    least = sheet.duty.pull / most
+    room = task.limits.max_length - task.limits.end_fittings
+    if found.best is None:
+        if least > part.longest:
+            return (
+                f"{length_text(sheet.duty.pull)} at {most * 100:.3g} % contraction need a muscle of "
+                f"{length_text(least)}, and {part.id} is made up to {length_text(part.longest)}"
+            )
+        if part.shortest > room:
+            return f"{part.id} is made from {length_text(part.shortest)} on, and {length_text(room)} are there"
+        if least > room:
+            return (
+                f"{length_text(sheet.duty.pull)} at {most * 100:.3g} % contraction need a muscle of "
+                f"{length_text(least)}, and {length_text(room)} are there"
+            )
+    index = found.best if found.best is not None else next(iter(found.remedies.values()))[0]
+    at = (
+        f"{who} of {length_text(rest.length[index])} at {rest.pressure[index] / _BAR:.3g} bar and "
+        f"{rest.contraction[index] * 100:.3g} % contraction"
+    )
+    worst = min(sheet.margins, key=lambda name: float(sheet.margins[name][index]))
+    match worst:
+        case "force":
+            share = rest.capacity[index]
+            if share <= 0.0:
+                return f"{at} does not pull at all"
+            wanted = 1.0 + task.limits.force_reserve
+            return f"{at} pulls {share:.3g} times the load, and {wanted:.3g} times are wanted"
+        case "force_limit":
+            limit = part.limits.max_force
+            return f"{at} carries {rest.tension[index]:.4g} N a muscle; the maker allows {limit:.4g} N"
+        case "diameter":
+            room = task.limits.max_diameter or 0.0
+            return f"{at} bulges to {rest.diameter[index] * 1e3:.3g} mm, and {room * 1e3:.3g} mm are there"
+        case "stiffness":
+            wanted = task.limits.stiffness or 0.0
+            return f"{at} holds with {rest.stiffness[index]:.4g} N/m, and {wanted:.4g} N/m are wanted"
+        case "life":
+            wanted = task.limits.life or 0.0
+            return f"{at} lasts some {rest.life[index]:.2g} cycles (an estimate), and {wanted:.2g} are wanted"
+        case _:
+            return f"{at} does not fit"
+
+
+def remedies_text(sheet: Sheet, parallel: int, found: Shortfall, others: tuple[str, ...]) -> str:
+    """What would make so many muscles do, least change first; other muscles that do at the end."""
+    task, rest, part = sheet.task, sheet.rest, sheet.part
+    texts: list[str] = []
+    for name, (index, share) in sorted(found.remedies.items(), key=lambda item: item[1][1]):
+        match name:
+            case "length":
+                more = rest.length[index] + task.limits.end_fittings - task.limits.max_length
+                texts.append(f"{length_text(rest.length[index])} long (+{length_text(more)} of room)")
+            case "pressure":
+                more = rest.pressure[index] - task.available_pressure
+                texts.append(f"{rest.pressure[index] / _BAR:.3g} bar ({more / _BAR:.2g} bar more)")
+            case "contraction" if part.limits.max_contraction is not None:
+                if rest.contraction[index] <= part.limits.max_contraction * (1.0 + 1e-9):
+                    texts.append(f"{rest.contraction[index] * 100:.3g} % contraction allowed")
+            case "force" if rest.capacity[index] > 0.0:
+                if rest.capacity[index] >= 1.0:
+                    texts.append(f"a force reserve of {(rest.capacity[index] - 1.0) * 100:.2g} %")
+                else:
+                    texts.append(f"{share / (1.0 + share) * 100:.2g} % less load")
+            case "diameter":
+                more = rest.diameter[index] - (task.limits.max_diameter or 0.0)
+                texts.append(f"{rest.diameter[index] * 1e3:.3g} mm of diameter (+{more * 1e3:.2g} mm)")
+            case "stiffness":
+                texts.append(f"{rest.stiffness[index]:.3g} N/m accepted")
+            case "life":
+                texts.append(f"{rest.life[index]:.2g} cycles accepted")
+            case _:
+                pass
+    more_muscles = [
+        count
+        for count in range(parallel + 1, int(rest.parallel.max()) + 1)
+        if len(sheet.sound(count))
+    ]
+    if more_muscles:
+        texts.append(f"{more_muscles[0]} in parallel")
+    if others:
+        texts.append(f"{others[0]} in its place")
+    return "; or ".join(texts) if texts else "nothing that is in the catalogue"
+
+
+def slow_text(trial: Trial | None, task: Task) -> str:
+    """Which demand a run misses; without a run, what the closed form says."""
+    if trial is None:
+        wanted = min(time or task.fill_time for time in (task.time, task.cycle_time))
+        return f"even at choked flow the air for the stroke takes longer than the {wanted:.3g} s there are"
+    figures, design = trial.figures, trial.design
+    at = f"{length_text(design.length)} at {design.pressure / _BAR:.3g} bar"
+    if figures.time is None:
+        reached = max(figures.reached, 0.0)
+        return f"{at} reaches {length_text(reached)} within {task.fill_time:.3g} s"
+    match trial.binding:
+        case "time":
+            return f"{at} takes {figures.time:.3g} s for the stroke, and {task.time:.3g} s are demanded"
+        case "time_down" if figures.time_down is None:
+            return f"{at} does not come back within {task.vent_time:.3g} s"
+        case "time_down":
+            return f"{at} takes {figures.time_down:.3g} s back, and {task.time_down:.3g} s are demanded"
+        case "cycle_time" if figures.time_down is None:
+            return f"{at} does not come back within {task.vent_time:.3g} s"
+        case "cycle_time":
+            both = figures.time + figures.time_down
+            return f"{at} takes {both:.3g} s up and down, and {task.cycle_time:.3g} s are demanded"
+        case "force_limit":
+            return f"{at} peaks at {figures.peak_force:.4g} N while it moves, above what the maker allows"
+        case _:
+            return f"{at} does not keep the load at the end of the stroke"
+
+
+def slow_remedy(trial: Trial | None, task: Task, binding: str, works: bool) -> str:
+    """What would make such a group quick enough."""
+    texts = []
+    demanded = {"time": task.time, "time_down": task.time_down, "cycle_time": task.cycle_time}.get(binding)
+    if trial is not None and demanded is not None:
+        needed = demanded * trial.excess(task)
+        if isfinite(needed):
+            texts.append(f"{needed:.3g} s are allowed (+{needed - demanded:.2g} s)")
+    texts.append("a valve or tube with more flow" + (", as proposed" if works else ""))
+    return "; or ".join(texts)
+
+
+def temperature_text(part: MusclePart, task: Task) -> str | None:
+    """Why the muscle cannot be where it shall be; None when it can."""
+    low, high = part.coldest, part.hottest
+    if (low is None or task.temperature >= low) and (high is None or task.temperature <= high):
+        return None
+    ends = [f"{end - 273.15:.3g} °C" for end in (low, high) if end is not None]
+    return f"{part.id} is made for {' to '.join(ends)}, and it is {task.temperature - 273.15:.3g} °C there"

@@ -1,0 +1,43 @@
+"""The continuous choices, nominal length and pressure, moved to where a design is worth most."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mckibben.sizing.bench import Bench
+from mckibben.sizing.catalogue import Design
+from mckibben.sizing.statics import contraction_limit
+from mckibben.sizing.trial import Trial, trial_of
+
+_RUNS = 24
+_FIRST_STEP = (0.12, 0.1)  # of the logarithms of length and pressure
+
+
+def refined(trial: Trial, bench: Bench) -> Trial:
+    """The best of some designs around a trial, found by the simplex method of Nelder and Mead."""
+    from scipy.optimize import minimize  # 0.2 s import, not paid at start
+
+    task, group = bench.task, trial.design.group
+    part = group.muscle
+    own = [p for p in (part.limits.max_pressure, group.valve.max_pressure) if p is not None]
+    highest = min(task.available_pressure, *own) if own else task.available_pressure
+    lengths = (
+        max(part.shortest, group.duty.pull / contraction_limit(part, task)),
+        min(part.longest, task.limits.max_length - task.limits.end_fittings),
+    )
+    low = np.log([lengths[0], 0.1 * highest])
+    high = np.log([max(lengths), highest])
+    tried = [trial]
+
+    def cost(point: np.ndarray) -> float:
+        length, pressure = np.exp(np.clip(point, low, high))
+        tried.append(trial_of(Design(group, float(length), float(pressure)), bench))
+        return tried[-1].cost(task)
+
+    begin = np.log([trial.design.length, trial.design.pressure])
+    steps = np.where(begin + _FIRST_STEP > high, -1.0, 1.0) * _FIRST_STEP
+    simplex = np.array([begin, begin + [steps[0], 0.0], begin + [0.0, steps[1]]])
+    options = {"maxfev": _RUNS, "initial_simplex": simplex, "xatol": 1e-3, "fatol": 1e-3}
+    minimize(cost, begin, method="Nelder-Mead", options=options)
+    doing = [item for item in tried if item.does]
+    return min(doing, key=lambda item: item.cost(task)) if doing else trial

@@ -1,0 +1,116 @@
+"""Candidates that do not do: why, the limit in the way, what would help."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mckibben.sizing.catalogue import Catalogue, Group
+from mckibben.sizing.reasons import (
+    number_text,
+    remedies_text,
+    slow_remedy,
+    slow_text,
+    temperature_text,
+    why_at_rest,
+)
+from mckibben.sizing.sheet import Sheet, shortfall
+from mckibben.sizing.task import Task
+from mckibben.sizing.trial import Trial
+
+_NEVER = float("inf")
+
+
+@dataclass(frozen=True, slots=True)
+class Rejection:
+    """So many muscles, or these with a valve and a tube, that do not do.
+
+    Attributes:
+        binding: the limit in the way.
+        nearness: share by which a limit would have to move; infinite where moving one does not help.
+        combinations: how many combinations this stands for.
+    """
+
+    muscle: str
+    parallel: int
+    why: str
+    binding: str
+    would_work_if: str
+    valve: str | None = None
+    tube: str | None = None
+    nearness: float = _NEVER
+    combinations: int = 0
+
+
+def at_rest_rejections(sheets: Sequence[Sheet], catalogue: Catalogue, task: Task) -> list[Rejection]:
+    """The muscles that the closed form rules out, whatever the valve."""
+    found = [
+        Rejection(part.id, 1, why, "temperature", "another muscle, or another place for it")
+        for part in catalogue.muscles
+        if (why := temperature_text(part, task)) is not None
+    ]
+    counts = range(1, task.limits.max_parallel + 1)
+    sound = {(sheet.part.id, count) for sheet in sheets for count in counts if len(sheet.sound(count))}
+    able = {name for name, _ in sound}
+    pairs = len(catalogue.valves) * len(catalogue.tubes)
+    for sheet in _nearest(sheets, task):
+        name = sheet.part.id
+        series = name.partition("-")[0]
+        others = tuple(sorted(able - {name}, key=lambda other: (other.partition("-")[0] != series, other)))
+        for count in counts:
+            if (name, count) in sound:
+                continue
+            lacking = shortfall(sheet, count)
+            found.append(
+                Rejection(
+                    name,
+                    count,
+                    why_at_rest(sheet, count, lacking),
+                    lacking.binding,
+                    remedies_text(sheet, count, lacking, others),
+                    nearness=min((share for _, share in lacking.remedies.values()), default=_NEVER),
+                    combinations=int(np.sum(sheet.allowed & (sheet.rest.parallel == count))) * pairs,
+                )
+            )
+    return found
+
+
+def _nearest(sheets: Sequence[Sheet], task: Task) -> list[Sheet]:
+    """Of the sheets of a muscle, one for each pulley tried, that which comes nearest."""
+    found: dict[str, Sheet] = {}
+    for sheet in sheets:
+        best = found.get(sheet.part.id)
+        if best is None or _miss(sheet) < _miss(best):
+            found[sheet.part.id] = sheet
+    return list(found.values())
+
+
+def _miss(sheet: Sheet) -> float:
+    return -float(np.max(np.min(list(sheet.margins.values()), axis=0)))
+
+
+def slow_rejections(
+    failed: Sequence[tuple[Group, Trial | None]], task: Task, works: set[str]
+) -> list[Rejection]:
+    """Groups that are strong enough but do not move as demanded; one for each choice of valve and tube."""
+    found: dict[tuple[str, int, str, str], Rejection] = {}
+    for group, trial in failed:
+        key = (group.muscle.id, group.parallel, group.valve.id, group.tube.id)
+        excess = _NEVER if trial is None else trial.excess(task) - 1.0
+        if key in found and found[key].nearness <= excess:
+            continue
+        binding = "time" if trial is None else trial.binding
+        found[key] = Rejection(
+            group.muscle.id,
+            group.parallel,
+            f"{number_text(group.parallel, group.muscle)} with {group.valve.id}: {slow_text(trial, task)}",
+            binding,
+            slow_remedy(trial, task, binding, group.muscle.id in works),
+            valve=group.valve.id,
+            tube=group.tube.id,
+            nearness=excess if excess > 0.0 else _NEVER,
+            combinations=1,
+        )
+    return list(found.values())

@@ -1,0 +1,203 @@
+"""The closed form: what a muscle holds, needs and measures at rest, over whole arrays of designs.
+
+It is the static model with the muscle's own effects (`mckibben.simulation.static`), not the ideal force.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mckibben.physics import gas, ideal
+from mckibben.physics.muscle import GEOMETRY
+from mckibben.simulation.compile import compiled_state
+from mckibben.simulation.static import settle
+from mckibben.sizing.catalogue import MusclePart
+from mckibben.sizing.task import STATIONS, Duty, Task
+
+Array = np.ndarray
+
+# Life of a fluidic muscle, "100 000 to 10 million load cycles depending on load": general knowledge.
+_LONGEST_LIFE, _LIFE_DECADES = 1e7, 2.0
+#: More than enough of something that is not limited.
+AMPLE = 1e3
+
+
+def outputs(
+    part: MusclePart,
+    *,
+    length: Array,
+    contraction: Array,
+    pressure: Array,
+    direction: float = -1.0,
+    temperature: float = 293.15,
+) -> dict[str, Array]:
+    """Outputs of the static model for muscles of different nominal lengths; all arrays of one shape (rows,).
+
+    ``length`` is the nominal one [m], ``pressure`` gauge [Pa]; direction -1 fills.
+    """
+    compiled = compiled_state(part.effects)
+    own = compiled.pack(part.muscle, part.values)
+    constants = np.repeat(own[None, :], len(length), axis=0)
+    constants[:, GEOMETRY.index("nominal_length")] = length
+    state = {
+        "length": length * (1.0 - contraction),
+        "pressure": pressure,
+        "velocity": 0.0,
+        "direction": direction,
+        "temperature": temperature,
+    }
+    return settle(compiled, constants, state)[0]
+
+
+@dataclass(frozen=True, eq=False)
+class Rest:
+    """Designs of one muscle and duty at rest; arrays of shape (designs,), of one muscle where not said.
+
+    Attributes:
+        length, pressure, parallel: the designs.
+        contraction: at the end of the stroke.
+        capacity: least ratio of force to load over the stroke, of all parallel muscles.
+        tension: largest load of one muscle [N].
+        needed: pressure that just carries the load at the end of the stroke [Pa]; NaN where none does.
+        lifting: pressure that just carries it at the begin [Pa].
+        stiffness, stiffness_closed: at the load at the end of the stroke, valve open and closed [N/m].
+        diameter: outside at the end of the stroke [m].
+        volume_start, volume: of one muscle [m^3].
+        blocked: force at the begin of the stroke [N].
+        life: load cycles, an estimate.
+    """
+
+    length: Array
+    pressure: Array
+    parallel: Array
+    contraction: Array
+    capacity: Array
+    tension: Array
+    needed: Array
+    lifting: Array
+    stiffness: Array
+    stiffness_closed: Array
+    diameter: Array
+    volume_start: Array
+    volume: Array
+    blocked: Array
+    life: Array
+
+    @property
+    def air(self) -> Array:
+        """Air that all muscles of one side take for a full fill, at ANR and ambient temperature [m^3]."""
+        filled = (self.pressure + ideal.ATMOSPHERE) * self.volume - ideal.ATMOSPHERE * self.volume_start
+        return self.parallel * filled / (gas.GAS_CONSTANT * gas.ANR_TEMPERATURE * gas.ANR_DENSITY)
+
+
+def at_rest(
+    part: MusclePart, duty: Duty, task: Task, length: Array, pressure: Array, parallel: Array
+) -> Rest:
+    """Designs of one muscle at rest; all arrays of shape (designs,)."""
+    count, stations = len(length), len(STATIONS)
+    lever = duty.lever_ratio
+    strokes = STATIONS * duty.stroke
+    loads = duty.load(strokes)  # at the load, all muscles together
+    reach = duty.pull / length
+    rows = count * stations
+    contraction = (reach[:, None] * STATIONS[None, :]).reshape(rows)
+    repeated = np.repeat(length, stations)
+    common = {"length": repeated, "contraction": contraction, "temperature": task.temperature}
+    full = outputs(part, pressure=np.repeat(pressure, stations), **common)
+    empty = outputs(part, pressure=np.zeros(rows), **common)
+    force = full["force"].reshape(count, stations)
+    passive = empty["force"].reshape(count, stations)
+    against = np.zeros((count, stations))
+    counter_stiffness = np.zeros(count)
+    if duty.pair:
+        against = np.maximum(passive[:, ::-1], 0.0)
+        pulling = passive[:, 0] > 0.0
+        counter_stiffness = np.where(pulling, empty["force_by_length"].reshape(count, stations)[:, 0], 0.0)
+    share = loads[None, :] / (lever * parallel[:, None])  # of one muscle
+    demand = share + against
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = np.where(demand > 0.0, force / np.maximum(demand, 1e-9), AMPLE)
+        # At a fixed length force is nearly straight in pressure.
+        slope = (force - passive) / pressure[:, None]
+        carrying = np.where(slope > 0.0, (demand - passive) / slope, np.nan)
+    end = {name: full[name].reshape(count, stations)[:, -1] for name in full}
+    bulk = 1.4 * (pressure + ideal.ATMOSPHERE)
+    closed = end["force_by_length"] - end["force_by_pressure"] * bulk * end["volume_by_length"] / (
+        end["volume"] + bulk * end["volume_by_pressure"]
+    )
+    at_load = parallel * lever**2
+    tension = np.max(np.maximum(share, 0.0) + against, axis=1)
+    limits = part.limits
+    used = np.maximum(
+        reach / limits.max_contraction if limits.max_contraction else 0.0,
+        tension / limits.max_force if limits.max_force else 0.0,
+    )
+    return Rest(
+        length,
+        pressure,
+        parallel,
+        reach,
+        np.minimum(ratio.min(axis=1), AMPLE),
+        tension,
+        np.maximum(carrying[:, -1], 0.0),
+        np.maximum(carrying[:, 0], 0.0),
+        at_load * (end["force_by_length"] + counter_stiffness) + duty.spring,
+        at_load * (closed + counter_stiffness) + duty.spring,
+        end["outer_diameter"],
+        empty["volume"].reshape(count, stations)[:, 0],
+        end["volume"],
+        force[:, 0],
+        _LONGEST_LIFE * 10.0 ** (-_LIFE_DECADES * np.clip(used, 0.0, 1.0)),
+    )
+
+
+def margins(rest: Rest, part: MusclePart, task: Task) -> dict[str, Array]:
+    """How far each limit is kept, as a share of the limit; negative where it is not. Shape (designs,) each."""
+    limits = task.limits
+    most = contraction_limit(part, task)
+    none = np.full(len(rest.length), AMPLE)
+    stiffness = none
+    if limits.stiffness is not None:
+        stiffness = rest.stiffness / limits.stiffness - 1.0
+    return {
+        "length": limits.max_length / (rest.length + limits.end_fittings) - 1.0,
+        "pressure": task.available_pressure / rest.pressure - 1.0,
+        "contraction": most / rest.contraction - 1.0,
+        "force": rest.capacity / (1.0 + limits.force_reserve) - 1.0,
+        "force_limit": none if part.limits.max_force is None else part.limits.max_force / rest.tension - 1.0,
+        "diameter": none if limits.max_diameter is None else limits.max_diameter / rest.diameter - 1.0,
+        "stiffness": stiffness,
+        "life": none if limits.life is None else rest.life / limits.life - 1.0,
+    }
+
+
+def contraction_limit(part: MusclePart, task: Task) -> float:
+    """The smaller of the task's and the maker's."""
+    own = part.limits.max_contraction
+    return task.limits.max_contraction if own is None else min(own, task.limits.max_contraction)
+
+
+def least_time(
+    rest: Rest, duty: Duty, task: Task, *, conductance: float
+) -> Array:
+    """A time below which no stroke of these designs can be [s]; shape (designs,).
+
+    Until the load lifts, at least the air for that pressure must have come in at choked flow; from then on
+    the largest force at the largest pressure accelerates it.
+
+    Args:
+        rest: shape (designs,).
+        conductance: sonic, of the narrowest part of the way of one muscle's air [m^3/(s Pa)].
+    """
+    supply = rest.pressure + ideal.ATMOSPHERE
+    flow = conductance * gas.ANR_DENSITY * supply * np.sqrt(gas.ANR_TEMPERATURE / task.temperature)
+    per_mass = 1.4 * gas.GAS_CONSTANT * task.temperature  # adiabatic: the quickest rise
+    lifting = np.where(np.isfinite(rest.lifting), rest.lifting, 0.0)
+    lift_off = lifting * rest.volume_start / (per_mass * flow)
+    lowest = float(np.min(duty.load(STATIONS * duty.stroke)))
+    spare = rest.parallel * duty.lever_ratio * rest.blocked - lowest
+    with np.errstate(divide="ignore", invalid="ignore"):
+        flight = np.where(spare > 0.0, np.sqrt(2.0 * duty.stroke * duty.mass / spare), np.inf)
+    return lift_off + flight

@@ -1,0 +1,232 @@
+"""A task of a drive in SI: what is moved how far in what time, within which limits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import radians, sin
+
+import numpy as np
+
+from mckibben.physics.errors import InputError
+
+GRAVITY = 9.80665  # m/s2
+#: Shares of the stroke at which load and muscle are compared.
+STATIONS = np.linspace(0.0, 1.0, 7)
+#: Pulley radii that are tried when the task leaves it open [m].
+_RADII = (0.01, 0.015, 0.02, 0.03, 0.04, 0.06, 0.08, 0.12)
+_UNTIMED = 4.0  # s; how long a fill is watched when no time is demanded
+_SHORTEST_FILL = 0.2  # s; a valve's dead time and a settling pressure fit in it
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """An antagonist pair on a pulley: swing [rad], torque against it [N m], inertia [kg m^2], radius [m]."""
+
+    angle: float
+    torque: float = 0.0
+    inertia: float = 0.0
+    pulley_radius: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What a drive must keep to; None = no such limit.
+
+    Attributes:
+        max_contraction: contraction ratio at the end of the stroke.
+        force_reserve: share by which the static force must exceed the load everywhere on the stroke.
+        pressure_reserve: share of the supply pressure that is not counted on.
+        max_length, end_fittings: installed length, and what both end fittings take of it [m].
+        max_diameter: outside, bulged at the end of the stroke [m].
+        max_parallel: muscles side by side (on each side of a pair).
+        stiffness: against the load at the end of the stroke, valve open [N/m].
+        life: load cycles.
+    """
+
+    max_contraction: float = 0.2
+    force_reserve: float = 0.1
+    pressure_reserve: float = 0.0
+    max_length: float = 1.0
+    end_fittings: float = 0.0
+    max_diameter: float | None = None
+    max_parallel: int = 2
+    stiffness: float | None = None
+    life: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Uncertainty:
+    """How far what is built may differ from what was computed.
+
+    Attributes:
+        blocked_force: two standard deviations of the blocked force between specimens, share of it.
+        hysteresis: largest width of the loop as a contraction ratio; None takes the muscle's own.
+        supply_pressure: largest deviation of the supply, share of it.
+        specimens: drives that are simulated for each proposal.
+    """
+
+    blocked_force: float = 0.1
+    hysteresis: float | None = None
+    supply_pressure: float = 0.03
+    specimens: int = 100
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """What a drive has to do; SI, pressures gauge, strokes and forces at the load.
+
+    Attributes:
+        force_over_stroke: further force against the pull as (strokes, forces), linear between.
+        counterweight: mass that hangs on the other side of a pulley and pulls with the muscle [kg].
+        lever_ratio: stroke of the muscle per stroke of the load.
+        time, time_down, cycle_time: demanded [s]; None = as it comes.
+    """
+
+    stroke: float = 0.0
+    mass: float = 0.0
+    inclination: float = radians(90.0)
+    force: float = 0.0
+    force_over_stroke: tuple[tuple[float, ...], tuple[float, ...]] = ((), ())
+    spring: float = 0.0
+    counterweight: float = 0.0
+    lever_ratio: float = 1.0
+    pair: Pair | None = None
+    time: float | None = None
+    time_down: float | None = None
+    cycle_time: float | None = None
+    supply_pressure: float = 6e5
+    temperature: float = 293.15
+    limits: Limits = field(default_factory=Limits)
+    uncertainty: Uncertainty = field(default_factory=Uncertainty)
+    rank_by: str = "balanced"
+    max_proposals: int = 10
+
+    @property
+    def available_pressure(self) -> float:
+        """What may be counted on [Pa]."""
+        return self.supply_pressure * (1.0 - self.limits.pressure_reserve)
+
+    @property
+    def fill_time(self) -> float:
+        """How long the valve fills [s]: twice the time demanded, so that it is seen whether the load stays."""
+        whole = _least(self.time, self.cycle_time)
+        return _UNTIMED if whole is None else max(2.0 * whole, _SHORTEST_FILL)
+
+    @property
+    def vent_time(self) -> float:
+        """How long it vents afterwards [s]."""
+        whole = _least(self.time_down, self.cycle_time)
+        return self.fill_time if whole is None else max(2.0 * whole, _SHORTEST_FILL)
+
+    @property
+    def returns(self) -> bool:
+        """Whether the way back counts."""
+        return self.time_down is not None or self.cycle_time is not None
+
+    def duties(self) -> list[Duty]:
+        """What the muscles see; one for each pulley that may be tried.
+
+        Raises:
+            InputError: nothing is to be moved, or nothing pulls the muscle long again.
+        """
+        if self.pair is not None:
+            pair = self.pair
+            radii = _RADII if pair.pulley_radius is None else (pair.pulley_radius,)
+            return [
+                Duty(
+                    stroke=radius * pair.angle,
+                    mass=pair.inertia / radius**2,
+                    inclination=0.0,
+                    force=pair.torque / radius,
+                    profile=((), ()),
+                    spring=0.0,
+                    lever_ratio=1.0,
+                    pulley_radius=radius,
+                )
+                for radius in radii
+            ]
+        if not self.stroke > 0.0:
+            raise InputError("the task has no stroke", field="stroke", hint='e.g. "stroke": "60 mm"')
+        duty = Duty(
+            stroke=self.stroke,
+            mass=self.mass + self.counterweight,
+            inclination=self.inclination,
+            force=self.force - self.counterweight * GRAVITY * (1.0 + sin(self.inclination)),
+            profile=self.force_over_stroke,
+            spring=self.spring,
+            lever_ratio=self.lever_ratio,
+        )
+        if not float(duty.load(np.array([0.02 * self.stroke]))[0]) > 0.0:
+            raise InputError(
+                "nothing pulls the load back at the begin of the stroke, and a muscle cannot push",
+                field="load",
+                hint="give a mass to lift, a force, a spring, or an antagonist pair",
+            )
+        return [duty]
+
+
+@dataclass(frozen=True, slots=True)
+class Duty:
+    """A task as the muscles see it: moved mass, static load over the stroke.
+
+    Attributes:
+        force: constant force against the pull besides the weight of ``mass`` [N].
+        pulley_radius: of a pair; its stroke is that of the rim.
+    """
+
+    stroke: float
+    mass: float
+    inclination: float
+    force: float
+    profile: tuple[tuple[float, ...], tuple[float, ...]]
+    spring: float
+    lever_ratio: float
+    pulley_radius: float | None = None
+
+    @property
+    def pair(self) -> bool:
+        """Whether two muscles pull against each other."""
+        return self.pulley_radius is not None
+
+    @property
+    def pull(self) -> float:
+        """Stroke of the muscle [m]."""
+        return self.stroke * self.lever_ratio
+
+    @property
+    def weight(self) -> float:
+        """Weight along the stroke [N]."""
+        return self.mass * GRAVITY * sin(self.inclination)
+
+    def load(self, stroke: np.ndarray) -> np.ndarray:
+        """Static force against the pull at strokes of the load [N], shape of ``stroke``."""
+        return self.weight + self.force + self.spring * stroke + self._profile(stroke)
+
+    def straight(self) -> tuple[float, float]:
+        """Constant force [N] and spring [N/m] that are nowhere below the load's, weight left out.
+
+        Of all lines above the profile that do not fall, the one with the least excess: a drive document
+        knows a constant force and a spring.
+        """
+        strokes = np.array(self.profile[0])
+        if not len(strokes):
+            return self.force, self.spring
+        inner = strokes[(strokes > 0.0) & (strokes < self.stroke)]
+        at = np.unique(np.concatenate([[0.0, self.stroke], inner]))
+        values = self._profile(at)
+        slopes = {0.0} | {
+            float((values[j] - values[i]) / (at[j] - at[i])) for i in range(len(at)) for j in range(i)
+        }
+        rising = [slope for slope in slopes if slope >= 0.0]
+        lines = [(float(np.max(values - slope * at)), slope) for slope in rising]
+        start, slope = min(lines, key=lambda line: line[0] + 0.5 * line[1] * self.stroke)
+        return self.force + start, self.spring + slope
+
+    def _profile(self, stroke: np.ndarray) -> np.ndarray:
+        strokes, forces = self.profile
+        return np.interp(stroke, strokes, forces) if strokes else np.zeros_like(stroke)
+
+
+def _least(*times: float | None) -> float | None:
+    given = [time for time in times if time is not None]
+    return min(given) if given else None

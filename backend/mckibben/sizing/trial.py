@@ -1,0 +1,121 @@
+"""A design that has been run: does it do the task, how much is left to each limit, what is it worth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf, log
+
+import numpy as np
+
+from mckibben.sizing.bench import Bench, Figures
+from mckibben.sizing.catalogue import Design
+from mckibben.sizing.statics import AMPLE, Rest, at_rest, margins
+from mckibben.sizing.task import Task
+
+_HAIR = 1e-9
+#: Limits that what is built may miss though the design keeps them: a design keeps this much to them.
+_SOFT = ("force", "stiffness", "time", "time_down", "cycle_time")
+_KEPT = 0.08
+# What it costs to come nearer (1 = a factor e in air), and to break a limit.
+_NEAR, _BROKEN = 1.0, 30.0
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """A design, its statics (arrays of one entry), and what a run shows; margins by limit."""
+
+    design: Design
+    rest: Rest
+    figures: Figures
+    margins: dict[str, float]
+
+    @property
+    def binding(self) -> str:
+        """The limit with the least margin."""
+        return min(self.margins, key=lambda name: self.margins[name])
+
+    @property
+    def does(self) -> bool:
+        """Whether every limit is kept."""
+        return self.figures.time is not None and self.figures.held and min(self.margins.values()) >= -_HAIR
+
+    @property
+    def air(self) -> float:
+        """Of all muscles in a cycle at ANR [m^3]."""
+        return self.figures.air
+
+    @property
+    def force_reserve(self) -> float:
+        """Share by which the static force exceeds the load where it does least."""
+        return float(self.rest.capacity[0]) - 1.0
+
+    def excess(self, task: Task) -> float:
+        """Largest ratio of a time taken to the time demanded; infinite when an end is not reached."""
+        ratios = [ratio for ratio in times_over(self.figures, task).values()]
+        return max(ratios, default=0.0 if self.figures.time is not None else inf)
+
+    def worth(self, task: Task) -> float:
+        """What the task ranks by, less is better; logarithms, so that shares count."""
+        length = self.design.length + task.limits.end_fittings
+        match task.rank_by:
+            case "air":
+                return log(max(self.air, 1e-12))
+            case "length":
+                return log(length)
+            case "time":
+                return log(max(self.figures.time or inf, 1e-6))
+            case "reserve":
+                return -self.force_reserve
+            case "probability":
+                soft = [self.margins[name] for name in _SOFT if name in self.margins]
+                return -min([*soft, 0.5])
+            case _:
+                return log(max(self.air, 1e-12)) + 0.5 * log(length * self.design.group.muscles)
+
+    def cost(self, task: Task) -> float:
+        """Worth with what it costs to come near a limit, or to break one."""
+        total = self.worth(task) if self.figures.time is not None else 10.0
+        for name, margin in self.margins.items():
+            if margin < 0.0:
+                total += _NEAR + _BROKEN * min(-margin, 10.0)
+            elif name in _SOFT:
+                total += _NEAR * (max(0.0, _KEPT - margin) / _KEPT) ** 2
+        return total if self.figures.held else total + _BROKEN
+
+
+def trial_of(design: Design, bench: Bench) -> Trial:
+    """Run a design."""
+    return judged(design, bench.run(design), bench.task)
+
+
+def judged(design: Design, figures: Figures, task: Task) -> Trial:
+    """A design with what a run of it showed."""
+    group = design.group
+    rest = at_rest(
+        group.muscle,
+        group.duty,
+        task,
+        np.array([design.length]),
+        np.array([design.pressure]),
+        np.array([float(group.parallel)]),
+    )
+    found = {name: float(margin[0]) for name, margin in margins(rest, group.muscle, task).items()}
+    for name, ratio in times_over(figures, task).items():
+        found[name] = 1.0 / ratio - 1.0
+    most = group.muscle.limits.max_force
+    if most is not None and figures.peak_force > 0.0:
+        found["force_limit"] = min(found["force_limit"], most / figures.peak_force - 1.0)
+    return Trial(design, rest, figures, {name: value for name, value in found.items() if value < AMPLE})
+
+
+def times_over(figures: Figures, task: Task) -> dict[str, float]:
+    """Times taken as shares of the times demanded; infinite where an end is not reached."""
+    up, down = figures.time, figures.time_down
+    found: dict[str, float] = {}
+    if task.time is not None:
+        found["time"] = inf if up is None else up / task.time
+    if task.time_down is not None:
+        found["time_down"] = inf if down is None else down / task.time_down
+    if task.cycle_time is not None:
+        found["cycle_time"] = inf if up is None or down is None else (up + down) / task.cycle_time
+    return found

@@ -1,0 +1,112 @@
+// @ts-check
+// What leaves this view: data with residuals, plots, the report, the model for the Design view.
+import { edit, units } from "../../state.js";
+import { ApiError, postForText } from "../../api.js";
+import { goTo } from "../../shell.js";
+import { scaleOf, toShown } from "../../format.js";
+import { status } from "../../store.js";
+import { saveSheet } from "../../plots/export.js";
+import { downloadText, toCsv } from "../../ui/table.js";
+import { answer, compare, files, preset } from "./model.js";
+import { presetValues } from "./muscle-values.js";
+import { overlays } from "./overlay.js";
+import { allSeries } from "./pictures.js";
+import { modelBody, used } from "./request.js";
+import { chart as residual, TITLE } from "./residual.js";
+import { channelScale, VARIABLES } from "./words.js";
+
+const stamp = () => new Date().toISOString().slice(0, 10);
+
+/** Every point with its residual, in shown units. @param {import("./types.js").Comparison} a
+ * @returns {import("../../ui/table.js").Table} */
+export function residualTable(a) {
+  const system = units.peek(), all = allSeries(a);
+  const names = Object.keys(VARIABLES).filter((name) => all.some((s) => VARIABLES[name].of(s)?.length));
+  const scales = names.map((name) => scaleOf(VARIABLES[name].quantity, system));
+  const one = channelScale(all[0]?.unit ?? a.unit, all[0]?.channel ?? a.predicted, system);
+  const several = new Set(all.map((s) => s.channel)).size > 1;
+  const unit = several ? "" : one.unit;
+  return {
+    columns: [
+      { title: "series", text: true },
+      { title: "use", text: true },
+      ...(several ? [{ title: "channel", text: true }] : []),
+      ...names.map((name, i) => ({ title: name, unit: scales[i].unit })),
+      ...["measured", "predicted", "residual"].map((title) => ({ title, unit })),
+    ],
+    rows: all.flatMap((s) => {
+      const own = channelScale(s.unit, s.channel, system);
+      const value = (/** @type {number | null} */ si) => si === null ? null : toShown(si, own);
+      return s.measured.map((measured, i) => [
+        s.label,
+        s.use,
+        ...(several ? [s.channel] : []),
+        ...names.map((name, k) => {
+          const si = VARIABLES[name].of(s)?.[i] ?? null;
+          return si === null ? null : toShown(si, scales[k]);
+        }),
+        value(measured),
+        value(s.predicted[i]),
+        s.residual[i] === null ? null : /** @type {number} */ (s.residual[i]) / own.factor,
+      ]);
+    }),
+  };
+}
+
+function saveCsv() {
+  const a = answer.peek();
+  if (!a) return void (status.value = "There is no comparison to save.");
+  downloadText(`mckibben-residuals-${stamp()}.csv`, toCsv(residualTable(a)), "text/csv");
+}
+
+/** @param {"png" | "svg"} format */
+const savePlots = (format) => () =>
+  saveSheet([...overlays, { title: TITLE, chart: residual }], format, `mckibben-compare-${stamp()}`).catch(
+    (error) => {
+      status.value = `The plots could not be saved: ${error.message}`;
+    },
+  );
+
+/** One file that holds data, model, plots and verdict. */
+export async function saveReport() {
+  const c = compare.peek();
+  const title = used({ ...c, files: files.peek() }).map((f) => f.name).join(", ");
+  try {
+    const text = await postForText("/api/reports", {
+      ...modelBody(c),
+      history: c.history.map(({ effects, freed, label }) => ({ effects, freed, label })),
+      title,
+    });
+    downloadText(`mckibben-report-${stamp()}.html`, text, "text/html");
+    status.value = "The report is saved.";
+  } catch (error) {
+    if (!(error instanceof ApiError)) throw error;
+    status.value = `The report could not be written: ${error.words}`;
+  }
+}
+
+/** The muscle and the effects found become those of the Design view. */
+function useInDesign() {
+  const c = compare.peek();
+  const all = c.effects ?? presetValues(preset.peek());
+  const effects = Object.fromEntries(
+    Object.entries(all).flatMap(([id, values]) => {
+      const numbers = Object.entries(values).filter(([, v]) => typeof v === "number");
+      return numbers.length === Object.keys(values).length ? [[id, /** @type {any} */ (values)]] : [];
+    }),
+  );
+  edit(
+    (d) => ({ ...d, design: { ...d.design, muscle: c.muscle, effects, reference: "auto" } }),
+    "model of the comparison",
+  );
+  goTo("design");
+}
+
+/** @returns {import("../../ui/menu.js").Item[]} */
+export const compareExports = () => [
+  { label: "Data and residuals as CSV", note: "every point, shown units", run: saveCsv },
+  { label: "Report as HTML", note: "data, model, plots, verdict", run: saveReport },
+  { label: "Plots as PNG", note: "one sheet", run: savePlots("png") },
+  { label: "Plots as SVG", note: "one sheet", run: savePlots("svg") },
+  { label: "Use this model in Design", note: "muscle and effects", run: useInDesign },
+];

@@ -1,0 +1,364 @@
+"""The Compare & diagnose view: from a file to the noise of its data, and everything on the way."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import random
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import FilePayload, Page, expect
+
+from tests.frontend.guard import PageGuard
+from tests.frontend.views import REFUSED, link_of, open_compare, redo, run
+
+NOISE = 2.0  # N
+# A muscle of the catalogue as its preset gives it, DMSP-20 at 300 mm.
+LENGTH, DIAMETER, ANGLE, WALL = 0.3, 0.0218, 0.46303585055409563, 0.0018
+C10, PRESTRESS, FRICTION = 0.5e6, 60.0, 15.0
+# Pressure [Pa] -> contraction up to which this muscle pulls.
+REACH = {1e5: 0.01, 2e5: 0.05, 3e5: 0.1, 4e5: 0.14, 5e5: 0.17, 6e5: 0.19}
+POINTS = 40
+ADD = re.compile("^Add (?!all)")  # the button of one effect
+
+
+def braid_force(pressure: float, contraction: float) -> float:
+    """Chou & Hannaford: p pi D0^2/4 (3 (1 - k)^2 / tan^2 - 1 / sin^2) [N]."""
+    shape = 3.0 * (1.0 - contraction) ** 2 / math.tan(ANGLE) ** 2 - 1.0 / math.sin(ANGLE) ** 2
+    return pressure * math.pi * DIAMETER**2 / 4.0 * shape
+
+
+def wall_force(contraction: float) -> float:
+    """A neo-Hookean tube whose hoop stretch the braid dictates: the slope of its energy over length [N]."""
+    stretch = 1.0 - contraction
+    hoop = 1.0 + (1.0 - stretch**2) / math.tan(ANGLE) ** 2  # squared
+    hoop_slope = -2.0 * stretch / math.tan(ANGLE) ** 2
+    radial_slope = -(2.0 * stretch * hoop + stretch**2 * hoop_slope) / (stretch**2 * hoop) ** 2
+    return math.pi * DIAMETER * WALL * C10 * (2.0 * stretch + hoop_slope + radial_slope)
+
+
+def measured(seed: int) -> str:
+    """A file of slow sweeps, shortening and lengthening, with three effects the ideal muscle lacks."""
+    draw = random.Random(seed)
+    text = io.StringIO()
+    text.write("# muscle: DMSP-20\n# nominal_length: 300 mm\n")
+    write = csv.writer(text, lineterminator="\n").writerow
+    write(["time [s]", "pressure [bar]", "length [mm]", "force [N]"])
+    time = 0.0
+    for pressure, reach in REACH.items():
+        for direction in (-1, 1):
+            for i in range(POINTS):
+                share = i / (POINTS - 1)
+                contraction = reach * (share if direction < 0 else 1.0 - share)
+                force = braid_force(pressure, contraction) + wall_force(contraction)
+                force += direction * FRICTION - PRESTRESS + draw.gauss(0.0, NOISE)
+                length = 1e3 * LENGTH * (1.0 - contraction)
+                write([f"{time:.2f}", f"{pressure / 1e5:g}", f"{length:.4f}", f"{force:.3f}"])
+                time += 0.05
+    return text.getvalue()
+
+
+def file(name: str, text: str) -> FilePayload:
+    """A file as the browser's file dialog gives it."""
+    return {"name": name, "mimeType": "text/csv", "buffer": text.encode()}
+
+
+def choose(page: Page, *files: FilePayload) -> None:
+    """Put files into the file dialog of the view."""
+    page.locator("#measurement-files").set_input_files(list(files))
+
+
+def diagnosed(page: Page) -> None:
+    """Wait until the numbers on screen belong to the model and the diagnosis is complete."""
+    expect(page.locator(".error-card")).not_to_have_class(re.compile("stale"), timeout=20_000)
+    expect(page.locator("html")).to_have_attribute("data-diagnosis", "done", timeout=60_000)
+
+
+def opened(page: Page, *files: FilePayload) -> None:
+    """The view with these files, compared and diagnosed."""
+    open_compare(page)
+    choose(page, *files)
+    expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
+    diagnosed(page)
+
+
+def error(page: Page) -> float:
+    """The error on screen [N]."""
+    found = re.match(r"([\d.]+)\s*N", page.locator("#error-now").inner_text())
+    assert found
+    return float(found[1])
+
+
+def changed(page: Page, act: Callable[[], object]) -> float:
+    """Do something that changes the model; the error after it."""
+    before = page.locator("#error-now").inner_text()
+    act()
+    expect(page.locator("#error-now")).not_to_have_text(before, timeout=20_000)
+    diagnosed(page)
+    return error(page)
+
+
+@pytest.fixture(scope="module")
+def sweeps() -> FilePayload:
+    """The measurement with three hidden effects."""
+    return file("sweeps.csv", measured(1))
+
+
+@pytest.fixture(autouse=True)
+def no_mysteries(page_guard: PageGuard) -> None:
+    """A server without mysteries answers 404, which the console tells."""
+    page_guard.allow("status of 404")
+
+
+def test_from_the_empty_page_to_the_noise_in_five_clicks(page: Page, sweeps: FilePayload) -> None:
+    page.goto("/")
+    clicks = 0
+
+    def click(name: str | re.Pattern[str]) -> None:
+        nonlocal clicks
+        page.get_by_role("button", name=name).first.click()
+        clicks += 1
+
+    click("Compare & diagnose")
+    with page.expect_file_chooser() as dialog:
+        click("Choose a measurement file")
+    dialog.value.set_files([sweeps])
+    expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
+    diagnosed(page)
+    start = error(page)
+    assert start > 50 * NOISE
+    expect(page.locator(".where-words")).to_contain_text("contraction")
+    path = [start]
+    while error(page) > 1.15 * NOISE:
+        path.append(changed(page, lambda: click(ADD)))
+    assert clicks <= 5
+    assert len(path) == 4
+    assert path == sorted(path, reverse=True)
+    expect(page.locator("#verdict-status")).to_have_text("Adequate")
+    expect(page.locator("#error-change")).to_contain_text("−")
+    expect(page.locator(".path-table tbody tr")).to_have_count(4)
+    # The values are those the file was made with, within their errors.
+    fields = page.locator(".model-card .parameter")
+    shown = {
+        fields.nth(i).locator("label").inner_text(): float(
+            fields.nth(i).locator("input").input_value().replace("−", "-")
+        )
+        for i in range(fields.count())
+    }
+    values = sorted(abs(value) for value in shown.values() if value)
+    assert values == pytest.approx(sorted([C10 / 1e6, FRICTION, PRESTRESS]), rel=0.02)
+
+
+def test_all_at_once_undo_remove_and_refit(page: Page, sweeps: FilePayload) -> None:
+    opened(page, sweeps)
+    start = error(page)
+    noise = changed(page, page.locator("#add-all").click)
+    assert noise <= 1.15 * NOISE
+    assert changed(page, lambda: page.keyboard.press("Control+z")) == start
+    expect(page.locator(".path-table tr.past")).to_have_count(0)
+    assert changed(page, lambda: redo(page)) == noise
+    removed = changed(page, page.locator(".in-model").get_by_role("button").first.click)
+    assert removed > 2 * noise
+    expect(page.locator(".in-model")).to_have_count(2)
+    again = changed(page, page.locator(".candidate").get_by_role("button", name=ADD).first.click)
+    assert again < removed
+    back = page.locator(".path-table tr.past").first.get_by_role("button")
+    assert changed(page, back.click) == start
+    expect(page.locator(".path-table tr.past")).to_have_count(0)
+
+
+def test_before_and_after_flip_with_b(page: Page, sweeps: FilePayload) -> None:
+    opened(page, sweeps)
+    expect(page.locator("#show-before")).to_be_disabled()
+    changed(page, page.locator("#add-all").click)
+    model = page.locator("#overlay-force .js-line").last
+    after = model.get_attribute("d")
+    page.keyboard.press("b")
+    expect(page.locator("#show-before")).to_have_attribute("aria-pressed", "true")
+    expect(page.locator(".before-tag")).to_contain_text("Before")
+    expect(model).not_to_have_attribute("d", after or "")
+    page.keyboard.press("b")
+    expect(page.locator(".before-tag")).to_be_hidden()
+    expect(model).to_have_attribute("d", after or "")
+
+
+def test_r_fits_again_after_a_value_was_changed(page: Page, sweeps: FilePayload) -> None:
+    opened(page, sweeps)
+    noise = changed(page, page.locator("#add-all").click)
+    value = page.locator(".model-card .parameter input").first
+    value.fill("0.1")
+    assert changed(page, lambda: value.press("Enter")) > 5 * noise
+    page.locator("h1").click()
+    assert changed(page, lambda: page.keyboard.press("r")) == pytest.approx(noise, rel=0.05)
+
+
+def test_a_range_of_the_residual_and_a_cell_of_the_map(page: Page, sweeps: FilePayload) -> None:
+    opened(page, sweeps)
+    whole = error(page)
+    edge = page.get_by_role("slider", name="Chosen range, from")
+    edge.focus()
+    for _ in range(4):
+        page.keyboard.press("Shift+ArrowRight")
+    told = page.locator("#brush-rms b")
+    expect(told).to_contain_text("N")
+    assert float(re.findall(r"[\d.]+", told.inner_text())[0]) > whole
+    page.keyboard.press("Escape")
+    expect(told).to_be_hidden()
+    page.locator(".heat button").last.click()
+    expect(page.locator("#brush-rms")).to_contain_text("pressure")
+    page.get_by_role("button", name="Clear the chosen range").click()
+    box = page.locator("#residual .brush-area").bounding_box()
+    assert box
+    page.mouse.move(box["x"] + 0.1 * box["width"], box["y"] + 20)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 30, steps=4)
+    page.mouse.up()
+    expect(page.locator("#brush-rms")).to_contain_text("contraction")
+    for name in ("pressure", "time"):
+        page.get_by_role("button", name=f"Residual over {name}").click()
+        expect(page.locator("#residual .xtitle")).to_contain_text(name.capitalize())
+    page.get_by_role("button", name="How often each size").click()
+    expect(page.locator("#residual .js-line")).to_have_count(2)
+
+
+def test_a_second_file_checks_the_first(page: Page, sweeps: FilePayload) -> None:
+    opened(page, sweeps, file("check.csv", measured(2)))
+    uses = page.get_by_role("radiogroup", name="Use of check.csv")
+    uses.get_by_role("radio", name="Check").click()
+    expect(page.locator("#validation-error")).to_contain_text("N", timeout=20_000)
+    diagnosed(page)
+    changed(page, page.locator("#add-all").click)
+    found = re.match(r"([\d.]+)", page.locator("#validation-error").inner_text())
+    assert found
+    assert float(found[1]) <= 1.15 * NOISE
+    uses.get_by_role("radio", name="Off").click()
+    expect(page.locator("#validation-error")).to_be_hidden(timeout=20_000)
+
+
+def test_a_wrong_column_is_corrected_before_the_file_is_taken(page: Page) -> None:
+    open_compare(page)
+    rows = "\n".join(f"3,{300 - i},{700 - 9 * i},{20 + i % 3}" if i != 7 else "3,293,x,21" for i in range(30))
+    choose(page, file("bench.csv", f"p [bar],L [mm],T [N],extra\n{rows}\n"))
+    dialog = page.get_by_role("dialog", name="How bench.csv is read")
+    use = dialog.get_by_role("button", name="Use these columns")
+    expect(dialog.get_by_role("status")).to_contain_text("30 rows")
+    expect(use).to_be_disabled()
+    dialog.get_by_label("Channel of T [N]").select_option("force")
+    dialog.get_by_label("Channel of extra").select_option("")
+    dialog.get_by_label("Leave out 1 row").check()
+    expect(dialog.get_by_role("status")).to_contain_text("29 can be used, 1 skipped")
+    dialog.get_by_label("Unit of L [mm]").select_option("cm")
+    expect(dialog.locator(".range")).to_contain_text("3.00 m")
+    dialog.get_by_label("Unit of L [mm]").select_option("mm")
+    expect(dialog.locator(".range")).to_contain_text("0.300 m")
+    use.click()
+    expect(page.locator(".file")).to_contain_text("29 of 29 rows; left out: 1 not a number")
+    expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
+    page.get_by_role("button", name="Mapping…").click()
+    expect(dialog.get_by_label("Channel of T [N]")).to_have_value("force")
+    page.keyboard.press("Escape")
+    expect(page.locator(".file")).to_have_count(1)
+
+
+def test_a_file_that_is_no_measurement_says_so(page: Page, page_guard: PageGuard) -> None:
+    page_guard.allow(REFUSED)
+    open_compare(page)
+    choose(page, file("notes.csv", "only words\nand more words\n"))
+    told = page.locator(".measurements [role=alert]").or_(page.locator("dialog [role=alert]"))
+    expect(told.first).to_contain_text("notes.csv")
+    assert run(page, "return document.querySelectorAll('.file').length;") == 0
+
+
+def test_dropped_anywhere(page: Page, sweeps: FilePayload) -> None:
+    page.goto("/")
+    expect(page.locator("#preset option", has_text="DMSP-20")).to_be_attached()
+    run(
+        page,
+        """
+        const transfer = new DataTransfer();
+        transfer.items.add(new File([argument], "dropped.csv", { type: "text/csv" }));
+        document.body.dispatchEvent(
+          new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+        """,
+        sweeps["buffer"].decode(),
+    )
+    expect(page.locator(".file")).to_contain_text("dropped.csv")
+    expect(page.locator("#compare-preset")).to_have_value("DMSP-20")
+    expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
+
+
+def test_a_built_in_map_opens_with_one_click_and_guides(page: Page) -> None:
+    open_compare(page)
+    page.get_by_role("button", name="Guided example").click()
+    expect(page.locator(".guide")).to_be_visible()
+    diagnosed(page)
+    expect(page.locator(".guide")).to_contain_text("Press Add")
+    page.get_by_role("button", name="Skip the guide").click()
+    expect(page.locator(".guide")).to_be_hidden()
+    page.get_by_role("button", name="Remove Martens").click()
+    page.locator(".tile", has_text="DMSP-20-300").click()
+    expect(page.locator("#compare-preset")).to_have_value("DMSP-20")
+    diagnosed(page)
+    assert error(page) > 100
+    expect(page.locator(".measurements")).to_contain_text("60 of 126 rows; left out: 66 slack")
+
+
+def test_the_link_restores_data_model_and_history(page: Page, sweeps: FilePayload) -> None:
+    opened(page, sweeps)
+    changed(page, page.locator("#add-all").click)
+    left = error(page)
+    link = link_of(page)
+    page.goto("about:blank")
+    page.goto(f"/{link}")
+    expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
+    assert error(page) == left
+    expect(page.locator(".path-table tbody tr")).to_have_count(4)
+    expect(page.locator(".in-model")).to_have_count(3)
+    expect(page.locator(".file")).to_contain_text("480 of 480 rows")
+
+
+def test_data_and_residuals_as_csv(page: Page, sweeps: FilePayload, tmp_path: Path) -> None:
+    opened(page, sweeps)
+    page.get_by_role("button", name="Export").click()
+    with page.expect_download() as saved:
+        page.get_by_role("menuitem").filter(has_text="Data and residuals").click()
+    target = tmp_path / "residuals.csv"
+    saved.value.save_as(target)
+    rows = list(csv.DictReader(target.read_text(encoding="utf-8").splitlines()))
+    assert len(rows) == 2 * POINTS * len(REACH)
+    squares = [float(row["residual [N]"]) ** 2 for row in rows]
+    assert math.sqrt(sum(squares) / len(squares)) == pytest.approx(error(page), rel=0.01)
+    row = rows[POINTS // 2]
+    difference = float(row["measured [N]"]) - float(row["predicted [N]"])
+    assert difference == pytest.approx(float(row["residual [N]"]), abs=1e-3)
+
+
+def test_a_diagnosis_can_be_cancelled_and_asked_for_again(page: Page, sweeps: FilePayload) -> None:
+    open_compare(page)
+    page.route("**/api/diagnoses", lambda route: None)  # never answered
+    choose(page, sweeps)
+    page.get_by_role("button", name="Cancel").click(timeout=20_000)
+    expect(page.locator(".verdict-card")).to_contain_text("cancelled")
+    page.unroute("**/api/diagnoses")
+    page.get_by_role("button", name="Diagnose", exact=True).click()
+    diagnosed(page)
+
+
+def test_an_impossible_muscle_says_so_at_its_field(
+    page: Page, page_guard: PageGuard, sweeps: FilePayload
+) -> None:
+    page_guard.allow(REFUSED)
+    opened(page, sweeps)
+    page.get_by_text("Geometry", exact=True).click()
+    angle = page.locator("[data-field='compare.braid_angle']")
+    angle.locator("input").fill("88")
+    angle.locator("input").press("Enter")
+    expect(angle.locator(".error")).not_to_be_empty()
+    expect(page.locator(".error-card")).to_have_class(re.compile("stale"))
+    page.get_by_role("button", name="Undo: braid angle").click()
+    expect(page.locator(".compare .notice.bad")).to_be_hidden()
+    diagnosed(page)
