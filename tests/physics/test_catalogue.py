@@ -60,7 +60,7 @@ def test_a_new_file_appears_and_works(tmp_path: Path) -> None:
     assert catalogue.problems == []
     effect = catalogue["rope_drag"]
     state = {"muscle": Muscle(0.3, 0.02, 0.45), "length": 0.28, "pressure": 3e5, "direction": 1.0}
-    change = Model([effect]).evaluate(values={"rope_drag": {"force": 10.0}}, **state).force
+    change = Model([effect]).evaluate(values={"rope_drag": {**effect.defaults, "force": 10.0}}, **state).force
     assert change - Model().evaluate(values={}, **state).force == pytest.approx(20.0, rel=1e-12)
 
 
@@ -69,7 +69,7 @@ def test_a_new_file_appears_and_works(tmp_path: Path) -> None:
     [
         ("EFFECT = Effect(", "FRICTION = Effect(", "no module-level EFFECT"),
         ("EFFECT = Effect(", "EFFECT = dict(", "no module-level EFFECT"),
-        ("direction: Value, force", "velocty: Value, force", "asks for 'velocty'"),
+        ("*, direction: Value", "*, velocty: Value", "asks for 'velocty'"),
         (
             "def friction(*, direction",
             "def friction(direction",
@@ -131,7 +131,8 @@ def test_an_id_that_exists_is_refused(tmp_path: Path) -> None:
     catalogue = Catalogue([tmp_path])
     (problem,) = catalogue.problems
     assert "an effect 'coulomb_friction' exists already; rename the file" in problem.message
-    assert catalogue["coulomb_friction"].call("friction", {"direction": 1.0}, {"force": 1.0}) == 1.0
+    own = catalogue["coulomb_friction"]
+    assert own.call("friction", {"direction": 1.0, "velocity": 0.0}, own.defaults) == 10.0
 
 
 def test_two_folders_with_one_id(tmp_path: Path) -> None:

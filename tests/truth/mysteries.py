@@ -1,7 +1,7 @@
 """Eight cases as data sets to practise on: a story, the start model, the readings, and the sealed answer.
 
-``python -m tests.truth.mysteries FOLDER`` writes ``<id>.json`` for each into the folder. The seal is base64 of
-JSON: enough that nobody reads the answer by accident.
+``python -m tests.truth.mysteries FOLDER`` writes ``<id>.json`` for each into the folder. The seal is base64
+of JSON: enough that nobody reads the answer by accident.
 """
 
 from __future__ import annotations
@@ -69,7 +69,9 @@ def columns_of(made: Case) -> dict[str, Array]:
     """The readings of a case in SI, by channel; what a style writes as contraction comes back as length."""
     (text,) = made.files.values()
     lines = [line for line in text.splitlines() if not line.startswith("#")]
-    style = max(STYLES, key=lambda style: sum(name in style.names.values() for name in _cells(lines[0], style)))
+    style = max(
+        STYLES, key=lambda style: sum(name in style.names.values() for name in _cells(lines[0], style))
+    )
     channels = {header: channel for channel, header in style.names.items()}
     header = _cells(lines[0], style)
     table = [_cells(line, style) for line in lines[1:]]

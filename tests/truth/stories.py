@@ -30,31 +30,32 @@ MYSTERIES = (
         "weaker-than-drawn",
         "Weaker than drawn",
         "A new sample was pulled slowly to and fro on the tensile tester at five pressures. Bore, braid and "
-        "angle are those of the drawing, and yet it pulls less than the ideal formula says. At 1 bar the share "
-        "that is lost is frightening, at 6 bar hardly anybody would notice.",
+        "angle are those of the drawing, and yet it pulls less than the ideal formula says. At the lowest "
+        "pressure the share that is lost is frightening, at the highest it is a few percent.",
         "bladder-yeoh-isobaric",
         (
             (
                 "Rubber of the wall",
-                "The wall is stretched around and pressed along as the muscle shortens; it pushes back with a "
-                "force that depends on the contraction and not on the pressure.",
+                "The wall is stretched around and pressed along as the muscle shortens; it pushes back "
+                "with a force that depends on the contraction and not on the pressure.",
             ),
         ),
-        "The rubber follows a Yeoh law, not the Mooney-Rivlin law of the catalogue; on one sweep the two look "
-        "alike, and either explains the measurement down to its noise.",
+        "The rubber follows a Yeoh law, not the Mooney-Rivlin law of the catalogue; on one sweep the two "
+        "look alike, and either explains the measurement down to its noise.",
+        seed=1,
     ),
     Mystery(
         "after-the-service",
         "After the service",
-        "The tester came back from its yearly service on Monday and this muscle was the first one on it. Last "
-        "week the ideal model fitted a sister sample well. Now the curves lie beside the model at every "
-        "pressure, the more the steeper they are.",
+        "The tester came back from its yearly service on Monday and this muscle was the first one on it. "
+        "Last week the ideal model fitted a sister sample well. Now the curves lie beside the model at "
+        "every pressure, the more the steeper they are.",
         "length-zero-isobaric",
         (
             (
                 "Zero of the length scale",
-                "The carriage was put back with its scale shifted: every length is read too long or too short "
-                "by the same amount.",
+                "The carriage was put back with its scale shifted: every length is read too long or too "
+                "short by the same amount.",
             ),
         ),
         "Nothing is wrong with the muscle. An error that follows the slope of the curves, and so grows with "
@@ -64,9 +65,9 @@ MYSTERIES = (
     Mystery(
         "two-lines-per-pressure",
         "Two lines per pressure",
-        "Quasi-static loops at five pressures and two speeds on a muscle from stock. The test engineer reports "
-        "that the way back never lies on the way there, however slowly she goes, and that the middle line is "
-        "off as well.",
+        "Quasi-static loops at five pressures and two speeds on a muscle from stock. The test engineer "
+        "reports that the way back never lies on the way there, however slowly she goes, and that the "
+        "middle line is off as well.",
         "pair-bladder-coulomb-isobaric",
         (
             (
@@ -79,15 +80,16 @@ MYSTERIES = (
                 "fraction of a millimetre after each reversal.",
             ),
         ),
-        "The middle line of the loops gives the elastic part, their half width the friction. Two speeds and the "
-        "same width: no damping.",
+        "The middle line of the loops gives the elastic part, their half width the friction. Two speeds "
+        "and the same width: no damping.",
+        seed=2,
     ),
     Mystery(
         "three-at-once",
         "Three at once",
-        "An old muscle from a test rig that was taken apart, measured at five pressures and two speeds before "
-        "it is used again. The curves are too low, they do not meet where they should, and they are loops. "
-        "How much of that can be told apart from one afternoon on the tester?",
+        "An old muscle from a test rig that was taken apart, measured at five pressures and two speeds "
+        "before it is used again. The curves are too low, they do not meet where they should, and they are "
+        "loops. How much of that can be told apart from one afternoon on the tester?",
         "triple-bladder-prestress-coulomb-isobaric",
         (
             (
@@ -105,17 +107,19 @@ MYSTERIES = (
         ),
         "The constant part may be called prestress or force offset: only a reading of the sensor without the "
         "muscle tells them apart.",
+        seed=1,
     ),
     Mystery(
         "much-ado",
         "The complaint",
-        "A customer sent this record with the remark that the model is useless: the residual is up to several "
-        "newtons and never zero. Loops at four pressures, a decent bench, the data sheet geometry. What will "
-        "you answer?",
+        "A customer sent this record with the remark that the model is useless: the residual is up to "
+        "several newtons and never zero. Loops at five pressures, a decent bench, the data sheet geometry. "
+        "What will you answer?",
         "nothing-isobaric",
         (),
-        "The ideal model is right down to the noise of the sensors, and an effect added here would fit noise. "
-        "To say so is the right answer.",
+        "The ideal model is right down to the noise of the sensors, and an effect added here would fit "
+        "noise. To say so is the right answer.",
+        seed=1,
     ),
     Mystery(
         "the-dip",
@@ -131,15 +135,16 @@ MYSTERIES = (
                 "catalogue of muscle effects has it; a term of your own over the contraction describes it.",
             ),
         ),
-        "An effect that nobody has catalogued: the honest verdict is that something is missing, where it acts "
-        "and how large it is. Looking at the bench finds the magnet.",
+        "An effect that nobody has catalogued: the honest verdict is that something is missing, where it "
+        "acts and how large it is. Looking at the bench finds the magnet.",
+        seed=2,
     ),
     Mystery(
         "slow-to-let-go",
         "Slow to let go",
-        "A muscle lifts a hanging load; a five-way valve fills and vents it through equal ways, and the model "
-        "knows valve, load and damping. The lift looks right, but the load comes down later than it should, "
-        "and on the machine nobody has touched the valve for years.",
+        "A muscle lifts a hanging load; a five-way valve fills and vents it through equal ways, and the "
+        "model knows valve, load and damping. The lift looks right, but the load comes down later than it "
+        "should, and on the machine nobody has touched the valve for years.",
         "silencer-steps",
         (
             (
@@ -148,8 +153,9 @@ MYSTERIES = (
                 "filling is not concerned.",
             ),
         ),
-        "Only venting is slow, so whatever works in both directions (flow factor, dead volume, delay) is out.",
-        seed=1,
+        "Only venting is slow, so whatever works in both directions (flow factor, dead volume, delay) is "
+        "out.",
+        seed=2,
     ),
     Mystery(
         "the-calm-load",
@@ -165,7 +171,8 @@ MYSTERIES = (
                 "and weaker on lengthening.",
             ),
         ),
-        "The catalogue's linear damping comes close; the power 0.8 of the speed and the dependence on pressure "
-        "are details that this record shows only weakly.",
+        "The catalogue's linear damping comes close; the power 0.8 of the speed and the dependence on "
+        "pressure are details that this record shows only weakly.",
+        seed=2,
     ),
 )

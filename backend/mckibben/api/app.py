@@ -21,8 +21,11 @@ from mckibben.api.routes import (
     health,
     inverse,
     measurements,
+    mysteries,
     presets,
+    reports,
     simulations,
+    sizings,
 )
 from mckibben.api.security import BodyLimitMiddleware, SecurityMiddleware
 from mckibben.api.settings import Settings
@@ -42,9 +45,12 @@ _TAGS = [
     {"name": "curves", "description": "Static characteristics of a muscle."},
     {"name": "inverse", "description": "Which pressure, which contraction, which range?"},
     {"name": "simulations", "description": "Drives through time."},
+    {"name": "sizings", "description": "From a task to drives."},
     {"name": "measurements", "description": "Measurement files."},
     {"name": "comparisons", "description": "A model beside a measurement."},
     {"name": "diagnoses", "description": "Which physical effect a model is missing."},
+    {"name": "reports", "description": "Comparison and diagnosis as a file to keep."},
+    {"name": "mysteries", "description": "Measurements with hidden effects, to practise on."},
 ]
 
 
@@ -89,12 +95,15 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         curves,
         simulations,
         inverse,
+        sizings,
         comparisons,
         diagnoses,
         health,
         effects,
         presets,
         measurements,
+        reports,
+        mysteries,
         static,
     ):
         app.include_router(noun.router)

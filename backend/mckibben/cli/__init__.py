@@ -148,6 +148,9 @@ def diagnose(
     noise: Annotated[
         float | None, typer.Option("--noise", min=0.0, help="Noise of the predicted channel in SI, if known.")
     ] = None,
+    report: Annotated[
+        Path | None, typer.Option("--report", metavar="FILE", help="Also write it as one HTML file.")
+    ] = None,
     as_json: AsJson = False,
     presets: PresetsFolder = None,
     effects: EffectsFolders = None,
@@ -167,6 +170,7 @@ def diagnose(
         free=free or [],
         noise=noise or None,
         as_json=as_json,
+        report=report,
     )
 
 
@@ -186,6 +190,21 @@ def simulate(
     from mckibben.cli.simulate import run
 
     run(open_studio(presets, effects, data), drive=drive, out=out, as_json=as_json)
+
+
+@app.command()
+def size(
+    task: Annotated[str, typer.Argument(metavar="TASK", help="A sizing task (JSON file).")],
+    as_json: AsJson = False,
+    presets: PresetsFolder = None,
+    effects: EffectsFolders = None,
+    data: DataFolder = None,
+) -> None:
+    """From a task to ranked drives of the catalogue, and why not the others."""
+    from mckibben.cli.options import open_studio
+    from mckibben.cli.size import run
+
+    run(open_studio(presets, effects, data), task=task, as_json=as_json)
 
 
 def one_line(error: InputError) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 
 from mckibben.api.answers.asked import Asked
 from mckibben.api.answers.diagnoses import prepare
@@ -26,8 +27,9 @@ def run(
     free: Sequence[str],
     noise: float | None,
     as_json: bool,
+    report: Path | None = None,
 ) -> None:
-    """Print the diagnosis.
+    """Print the diagnosis, and write it down if asked.
 
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
@@ -39,6 +41,10 @@ def run(
     work = prepare(question, studio)
     with progress("trying effects") as watch:
         answer = work(watch)
+    if report is not None:
+        from mckibben.cli.report import write
+
+        write(report, studio, question, answer)
     if as_json:
         write_json(answer)
         return

@@ -13,13 +13,16 @@ from mckibben.identification.node import Node
 from mckibben.identification.noise import channel_noise
 from mckibben.identification.setting import Setting, free_geometry, free_numbers
 from mckibben.identification.subjects import Quasistatic, Subject, subject_of
+from mckibben.physics.custom import CUSTOM, TERM
 from mckibben.physics.effect import Effect
+from mckibben.physics.errors import InputError
 from mckibben.physics.muscle import GEOMETRY, Muscle
 from mckibben.simulation.parts import Drive
 from mckibben.simulation.static import EffectValues, checked_values
 
 _TIGHT = 1e-10  # tolerance of a fit with exact derivatives
 _STARTS = 4
+_LOST = 1e3  # times the largest value: misfit of a row where a guess of the fit has no finite value
 
 
 @dataclass(frozen=True)
@@ -31,8 +34,8 @@ class Comparison:
         setting: the model compared, fitted numbers in place.
         predicted: the model's values.
         rmse: root mean square of the residual; over the noise of each channel when there are several.
-        holdout_rmse: the same over groups that the fit did not see; equals rmse without a fit, None when there
-            is only one group.
+        holdout_rmse: the same over groups that the fit did not see; equals rmse without a fit, None when
+            there is only one group.
         noise: estimated standard deviation of the noise, None when the sweeps are too short to tell.
         fit: the fit, None when nothing was fitted.
         rows: of the measurement.
@@ -177,6 +180,7 @@ def compare(
     values = checked_values(effects, catalogue)
     setting = Setting(muscle.checked(), tuple(catalogue[name] for name in values), values)
     subject = subject_of(measurement, muscle, drive)
+    check_finite(subject, setting)
     geometry = free_geometry(muscle, free, tolerance or {})
     messages = list(subject.messages)
     choice = free_numbers(setting, geometry, freed, load=subject.unknown_load) if fit else ()
@@ -212,8 +216,26 @@ def compare(
     )
 
 
+def check_finite(subject: Subject, setting: Setting) -> None:
+    """Refuse a model without a finite value somewhere in the data, as a typed term may be.
+
+    Raises:
+        InputError: says at how many rows.
+    """
+    if not isinstance(subject, Quasistatic):
+        return  # a run that breaks off is far off
+    with np.errstate(all="ignore"):
+        lost = np.count_nonzero(~np.isfinite(subject.predict(setting, clipped=False)))
+    if lost:
+        raise InputError(
+            f"the model has no finite value at {lost} of {len(subject.measured)} rows",
+            field=f"effects.{CUSTOM}.{TERM}" if CUSTOM in setting.ids else "effects",
+            hint="look for a division by zero, a root or an exponential, or give other parameters",
+        )
+
+
 def noise_floor_of(subject: Subject, scaled: np.ndarray, given: float | None) -> float | None:
-    """Noise of a residual over its scale: given, or 1 for several channels, or estimated; None if it cannot."""
+    """Noise of a residual over its scale: given, 1 for several channels, or estimated; None if it cannot."""
     if len(subject.channels) > 1:
         return 1.0
     return given if given is not None else channel_noise(subject, scaled, subject.channels[0])
@@ -232,8 +254,12 @@ def fit_of(
         key = numbers.tobytes()
         if key not in last:
             last.clear()
-            predicted, jacobian = subject.linearised(setting.with_numbers(names, numbers), choice)
-            last[key] = (predicted - subject.measured) / subject.scale, jacobian / subject.scale[:, None]
+            with np.errstate(all="ignore"):
+                predicted, jacobian = subject.linearised(setting.with_numbers(names, numbers), choice)
+            misfit, slopes = (predicted - subject.measured) / subject.scale, jacobian / subject.scale[:, None]
+            lost = ~(np.isfinite(misfit) & np.isfinite(slopes).all(axis=1))
+            misfit[lost], slopes[lost] = _LOST * np.max(np.abs(subject.measured / subject.scale)), 0.0
+            last[key] = misfit, slopes
         return last[key]
 
     exact = isinstance(subject, Quasistatic)

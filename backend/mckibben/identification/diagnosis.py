@@ -156,12 +156,15 @@ def _diagnose(
     variables = variables_of(subject, setting.muscle.nominal_length)
     before = seen(root.residual, variables)
     where = profiles(start.residual, variables, subject.folds[0])
-    singles = []
-    for number, effect in enumerate(candidates):
+    fitted = {effect.id for effect in work.promising(root, candidates)[: subject.tried]}
+    singles, guesses = [], []
+    for number, effect in enumerate(sorted(candidates, key=lambda effect: effect.id not in fitted)):
         progress.share = 0.45 * number / max(len(candidates), 1)
-        node = work.adding(root, effect)
-        singles.append((effect, node))
-        found(_candidate(work, root, effect, node, before, ()))
+        if effect.id in fitted:
+            singles.append((effect, work.adding(root, effect)))
+            found(_candidate(work, root, *singles[-1], before, ()))
+        else:
+            guesses.append((effect, work.guessed(root, effect)))
     progress.share, progress.end = 0.45, 0.85
     best = search(work, root, singles=[node for _, node in singles])
     work.noise, how = _noise_of(subject, best, noise)
@@ -173,7 +176,10 @@ def _diagnose(
     fit = _final_fit(subject, best)
     alike = same_predictions([(effect.id, node) for effect, node in singles], level)
     ranked = sorted(
-        (_candidate(work, root, effect, node, before, alike[effect.id]) for effect, node in singles),
+        (
+            _candidate(work, root, effect, node, before, alike.get(effect.id, ()))
+            for effect, node in (*singles, *guesses)
+        ),
         key=lambda candidate: candidate.score,
     )
     rest = _structure(subject, best.residual, variables)

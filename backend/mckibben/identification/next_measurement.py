@@ -8,7 +8,7 @@ the expected separation in standard deviations of one reading.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -82,18 +82,12 @@ def separation(
     best, most = "", 0.0
     for protocol in protocols:
         bare = Quasistatic(protocol.task)
-        subject = Quasistatic(_measuring(protocol.task, bare.predict(truth)))
+        subject = Quasistatic(replace(protocol.task, measured=bare.predict(truth)))
         node = fitted_node(subject, other, free_numbers(other, geometry))
         apart = node.rmse / noise
         if apart > most:
             best, most = protocol.words, apart
     return best, most
-
-
-def _measuring(task: Task, values: np.ndarray) -> Task:
-    from dataclasses import replace
-
-    return replace(task, measured=values)
 
 
 def protocols(setting: Setting, *, largest_pressure: float) -> list[Protocol]:
@@ -104,15 +98,17 @@ def protocols(setting: Setting, *, largest_pressure: float) -> list[Protocol]:
     most = 0.6 * ideal
     rest = muscle.nominal_length
     high = largest_pressure
-    found = [
-        _sweep("isobaric loops at three pressures and three speeds two decades apart",
-               [(share * high, speed) for share in (0.3, 0.6, 1.0) for speed in (0.002, 0.02, 0.2)], 0.0, most, rest),
-        _sweep("isobaric loops of three amplitudes within each other", [(0.6 * high, 0.02)], 0.0, most, rest, nested=True),
-        _ramps("pressure ramps up and down at five lengths, from vented", high, np.linspace(0.0, most, 5), rest),
+    speeds = [(share * high, speed) for share in (0.3, 0.6, 1.0) for speed in (0.002, 0.02, 0.2)]
+    loops = "isobaric loops at three pressures and three speeds two decades apart"
+    nested = "isobaric loops of three amplitudes within each other"
+    lengths = np.linspace(0.0, most, 5)
+    return [
+        _sweep(loops, speeds, 0.0, most, rest),
+        _sweep(nested, [(0.6 * high, 0.02)], 0.0, most, rest, nested=True),
+        _ramps("pressure ramps up and down at five lengths, from vented", high, lengths, rest),
         _sweep("a pull beyond the nominal length without pressure", [(0.0, 0.01)], -0.02, 0.05, rest),
         _hold("a hold of 60 s after a fast contraction", 0.6 * high, most, rest),
-    ]  # fmt: skip
-    return found
+    ]
 
 
 def _sweep(
@@ -148,7 +144,8 @@ def _hold(words: str, pressure: float, contraction: float, rest: float) -> Proto
 
 
 def _task(parts: list[tuple[np.ndarray, np.ndarray, np.ndarray, int]]) -> Task:
-    time, pressure, length, label = ([part[i] for part in parts] for i in range(4))
+    time, pressure = [part[0] for part in parts], [part[1] for part in parts]
+    length, label = [part[2] for part in parts], [part[3] for part in parts]
     velocity = np.concatenate([np.gradient(x, t) for t, x in zip(time, length, strict=True)])
     labels = np.repeat(label, [len(t) for t in time])
     count = len(labels)

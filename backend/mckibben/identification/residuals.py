@@ -1,4 +1,4 @@
-"""Where a model fails: the residual over pressure, contraction, velocity, time; its loops; whether it is noise."""
+"""Where a model fails: the residual over pressure, contraction, velocity, time; its loops; is it noise."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ def _range(name: str, low: float, high: float) -> str:
 
 @dataclass(frozen=True)
 class HeatMap:
-    """Mean and rms of the residual over two variables, shape (y bins, x bins); NaN where there are no rows."""
+    """Mean and rms of the residual over two variables, shape (y bins, x bins); NaN without rows."""
 
     x: str
     y: str
@@ -160,7 +160,7 @@ def heat_map(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> HeatM
         mean = np.bincount(flat, residual, minlength=size) / count
         rms = np.sqrt(np.bincount(flat, residual**2, minlength=size) / count)
     shape = (_MAP[1], _MAP[0])
-    return HeatMap(x, y, *edges, mean.reshape(shape), rms.reshape(shape), count.reshape(shape))
+    return HeatMap(x, y, edges[0], edges[1], mean.reshape(shape), rms.reshape(shape), count.reshape(shape))
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,11 @@ The score of a model, lower is better, is
 
 .. math:: S = n_e\,\sum_g w_g\ln h_g + k\ln n_e
 
-with the mean square :math:`h_g` of fold g when it is left out, its share :math:`w_g` of the rows (the mean over
-the ways of leaving out), the number
-k of free numbers, and the effective number of rows :math:`n_e`, because neighbouring residuals are alike as
-long as something is missing. A number at the bound of what is plausible, or one that others can stand in for,
-costs as much as an addition must bring. The logarithm makes the folds equal: an effect whose size grows with pressure
-would otherwise be judged by the highest pressure alone.
+with the mean square :math:`h_g` of fold g when it is left out, its share :math:`w_g` of the rows (the mean
+over the ways of leaving out), the number k of free numbers, and the effective number of rows :math:`n_e`,
+because neighbouring residuals are alike as long as something is missing. A number at the bound of what is
+plausible, or one that others can stand in for, costs as much as an addition must bring. The logarithm makes
+the folds equal: an effect whose size grows with pressure would otherwise be judged by the highest alone.
 """
 
 from __future__ import annotations

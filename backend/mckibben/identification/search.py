@@ -25,8 +25,9 @@ _TRIED = 8  # candidates fitted per model, by what they promise to first order
 _PATIENCE = 2  # rounds without a better model
 _ALIKE = 0.02  # of the mean square: models whose residuals differ by less go on as one
 _DEEPEST = 7  # effects added
-_AT_FLOOR = 1.03  # of the noise: below, nothing more can be learnt
+_AT_FLOOR = 1.05  # of the noise: below, nothing more can be learnt
 _NEAR_FLOOR = 1.2  # of the noise: below, only an effect that shows by itself is tried
+_WITHIN = 1.3  # of the best error, near the floor
 _STUCK = 0.999  # of the error before: a fit that gains less starts once more
 _LEAST_PROMISE = 0.02  # of the mean square, near the floor
 
@@ -81,7 +82,7 @@ class Search:
         return found
 
     def freeing(self, node: Node, effect: Effect) -> list[Node]:
-        """The model with the further constants of an effect freed: together, or each where that is too much."""
+        """The model with further constants of an effect freed: together, or each where that is too much."""
         names = {f"{effect.id}.{p.name}" for p in effect.parameters if not p.fitted} - node.freed
         names -= self._blind(node, names)
         if not names:
@@ -112,12 +113,31 @@ class Search:
             )
             gains.append(float(np.sum((rest[:, seen] / size[seen] @ found) ** 2)))
         order = np.argsort(gains)[::-1]
-        near = self.noise is not None and node.rmse < _NEAR_FLOOR * self.noise
-        least = _LEAST_PROMISE * float(left @ left) if near else 0.0
+        least = _LEAST_PROMISE * float(left @ left) if _near_floor(self, node) else 0.0
         return [effects[index] for index in order if gains[index] > least]
 
+    def guessed(self, node: Node, effect: Effect) -> Node:
+        """The model with one more effect of the size that is best to first order, nothing else refitted."""
+        free = tuple(
+            p
+            for p in free_numbers(node.setting.adding(effect, effect.off), (), node.freed)
+            if p.name.startswith(f"{effect.id}.")
+        )
+        off = {p.name: p.off for p in effect.parameters if p.off is not None and p.fitted}
+        reach = np.array([_between(effect, off)[name] - value for name, value in off.items()])
+        columns = self.changes(node, effect)
+        size = np.linalg.lstsq(columns, node.residual, rcond=1e-6)[0] * reach
+        named = {f"{effect.id}.{name}": value + x for (name, value), x in zip(off.items(), size, strict=True)}
+        inside = {p.name: float(np.clip(named[p.name], p.lower, p.upper)) for p in free if p.name in named}
+        setting = node.setting.adding(effect, effect.off)
+        setting = setting.with_numbers(list(inside), list(inside.values()))
+        left = (self.subject.measured - self.subject.trial(setting)) / self.subject.scale
+        if float(np.mean(left**2)) > node.mean_square:
+            setting, left = node.setting.adding(effect, effect.off), node.residual
+        return Node(setting, node.free, node.freed, left, node.jacobian, node.folds)
+
     def changes(self, node: Node, effect: Effect) -> np.ndarray:
-        """How the prediction changes by each number of an effect of moderate size, shape (values, numbers)."""
+        """Change of the prediction by each number of an effect of moderate size, (values, numbers)."""
         off = {p.name: p.off for p in effect.parameters if p.off is not None and p.fitted}
         before = self.subject.measured - node.residual * self.subject.scale
         columns = []
@@ -161,6 +181,10 @@ def search(work: Search, root: Node, *, singles: Sequence[Node]) -> Node:
             break
         rows = _rows(work, min(children, key=lambda node: node.rmse))
         children.sort(key=lambda node: score(node, rows=rows, noise=work.noise))
+        first = next((node for node in children if not node.implausible), children[0])
+        if _at_floor(work, first) and better(first, best, rows=_rows(work, first), noise=work.noise):
+            best = first
+            break
         beam = _different([with_further_constants(work, node) for node in children[: 2 * _BEAM]])[:_BEAM]
         leader = min(beam, key=lambda node: (node.implausible > 0, score(node, rows=rows, noise=work.noise)))
         idle += 1
@@ -168,11 +192,16 @@ def search(work: Search, root: Node, *, singles: Sequence[Node]) -> Node:
             best, idle = leader, 0
         if idle >= _PATIENCE or _at_floor(work, best):
             break
+        if _near_floor(work, best):  # what is far from it now will not come first
+            beam = [node for node in beam if node.rmse < _WITHIN * best.rmse]
         children = []
         for node in beam:
             inside = set(node.setting.ids)
             others = [effect for effect in work.candidates if effect.id not in inside]
-            children += [work.adding(node, effect) for effect in work.promising(node, others)[:_TRIED]]
+            children += [
+                work.adding(node, effect)
+                for effect in work.promising(node, others)[: min(_TRIED, work.subject.tried)]
+            ]
     return _polished(work, best, root)
 
 
@@ -203,6 +232,8 @@ def _polished(work: Search, best: Node, root: Node) -> Node:
             if not better(best, less, rows=rows, noise=work.noise):
                 best = less
                 break
+            if _at_floor(work, best):
+                continue
             inside = set(best.setting.ids)
             others = [effect for effect in work.candidates if effect.id not in inside]
             swaps = [work.adding(less, effect) for effect in work.promising(less, others)[:_BEAM]]
@@ -228,6 +259,10 @@ def _different(nodes: Sequence[Node]) -> list[Node]:
 
 def _rows(work: Search, node: Node) -> float:
     return effective_rows(node.residual, work.subject.sweeps, work.subject.folds)
+
+
+def _near_floor(work: Search, node: Node) -> bool:
+    return work.noise is not None and node.rmse < _NEAR_FLOOR * work.noise
 
 
 def _at_floor(work: Search, node: Node) -> bool:

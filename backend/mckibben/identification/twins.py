@@ -10,8 +10,8 @@ import numpy as np
 from mckibben.identification.node import Node
 from mckibben.identification.search import Search, with_further_constants
 
-#: Fitted predictions that differ by less than this share of the noise are the same prediction: data of another
-#: functional form than ours differ from the best fit by as much.
+#: Fitted predictions that differ by less than this share of the noise are the same prediction: data of
+#: another functional form than ours differ from the best fit by as much.
 SAME = 0.5
 _COSINE = 0.99
 _AS_GOOD = 1.05  # rmse of an exchange whose sensitivity is parallel
@@ -74,4 +74,4 @@ def _cosine(first: np.ndarray, second: np.ndarray) -> float:
         for b in second.T
         if np.any(a) and np.any(b)
     ]
-    return max(pairs, key=abs, default=0.0)
+    return float(max(pairs, key=abs, default=0.0))

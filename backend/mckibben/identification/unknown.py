@@ -1,4 +1,4 @@
-"""Structure that no catalogued effect explains: how much there is, in what, and a term that would take it away.
+"""Structure that no catalogued effect explains: how much, in what, and a term that would take it away.
 
 The share comes from a regression without any physics, judged on blocks it did not see. The term is found by
 orthogonal matching pursuit over products that a force can physically be made of: powers of the pressure,

@@ -9,11 +9,15 @@ from __future__ import annotations
 
 import ast
 import math
+import re
 from collections.abc import Callable, Mapping
 from functools import lru_cache
 from inspect import Parameter as Argument
 from inspect import Signature as CallSignature
 from typing import Any
+
+import numpy as np
+import symengine as se
 
 from mckibben.physics import ops
 from mckibben.physics.effect import Effect, Example, Signature, StateVariable
@@ -21,6 +25,7 @@ from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
+from mckibben.physics.slots import SLOTS
 
 CUSTOM = "custom"
 TERM = "term"
@@ -35,8 +40,16 @@ FUNCTIONS: Mapping[str, Callable[[Value], Value]] = {
 }  # fmt: skip
 _LONGEST = 500
 _DEEPEST = 40
+_LONGEST_NAME = 64
+_USABLE = re.compile(r"[A-Za-z0-9_+\-*/^().,\s]*")
+# What symengine writes for a number that is not finite or not real.
+_UNREAL = re.compile(r"\b(zoo|nan|oo|inf|I)\b")
+# Names with another meaning: what the effect's functions are given, its state, and the term itself.
+_TAKEN = {*SLOTS["friction"].context, "elapsed", TERM}
 _LARGEST = 1e12  # SI; bounds of a parameter whose size nobody stated
 _REACH = 1e3  # times the stated value
+
+_ALLOWED = f"numbers, + - * / **, {', '.join((*SYMBOLS, 'sign', *FUNCTIONS))} and parameters"
 
 _Make = Callable[[Mapping[str, Value]], Value]
 
@@ -55,6 +68,8 @@ def custom_effect(term: str, given: Mapping[str, float] | None = None) -> Effect
         raise _error("the term is empty", hint="e.g. -c*sign(v)*P")
     if len(term) > _LONGEST:
         raise _error(f"the term has {len(term)} characters, at most {_LONGEST}")
+    if odd := term[_USABLE.match(term).end() :]:  # type: ignore[union-attr] - it matches the empty text
+        raise _error(f"'{odd[0]}' cannot be part of a term", hint=_ALLOWED)
     try:
         tree = ast.parse(term.strip().replace("^", "**"), mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
@@ -62,9 +77,13 @@ def custom_effect(term: str, given: Mapping[str, float] | None = None) -> Effect
     names: dict[str, None] = {}
     make = _node(tree.body, names, 0)
     parameters = [name for name in names if name not in SYMBOLS]
+    for name in parameters:
+        if name in _TAKEN or name.startswith("_") or len(name) > _LONGEST_NAME:
+            raise _error(f"'{name[:80]}' cannot be the name of a parameter", hint="e.g. c, c1, stiffness")
     timed = "t" in names
     if not parameters:
         raise _error("the term has no parameter that could be fitted", hint="e.g. c*sign(v)*P")
+    _check_real(make, names, term)
     unknown = [name for name in given or {} if name not in parameters]
     if unknown:
         raise InputError(
@@ -130,6 +149,9 @@ def typed_effect(given: Mapping[str, float | str]) -> tuple[Effect, str]:
         except ValueError as error:
             where = f"effects.{CUSTOM}.{name}"
             raise InputError(f"'{str(value)[:40]}' is not a number", field=where, hint="in SI") from error
+        if not abs(values[name]) <= _LARGEST:
+            where = f"effects.{CUSTOM}.{name}"
+            raise InputError(f"{name} is {values[name]:g}, beyond {_LARGEST:g}", field=where, hint="in SI")
     term = given.get(TERM)
     if not isinstance(term, str):
         raise _error("a custom effect needs its term as a text", hint="e.g. c*sign(v)*P")
@@ -153,15 +175,43 @@ def _declare(function: Callable[..., Value], names: list[str]) -> None:
     function.__signature__ = CallSignature(arguments)  # type: ignore[attr-defined]
 
 
+def _check_real(make: _Make, names: Mapping[str, None], term: str) -> None:
+    """Refuse a term that is nowhere finite and real, or whose derivatives are not."""
+    symbols = {name: se.Symbol(name) for name in (*names, "direction")} | {"pi": math.pi}
+    value = se.sympify(make(symbols))
+    left = [value, *(value.diff(x) for x in symbols.values() if ops.is_symbolic(x))]
+    seen: set[se.Basic] = set()  # each part once: a nested abs doubles what is written out with every level
+    while left:
+        part = left.pop()
+        if part in seen:
+            continue
+        seen.add(part)
+        left += part.args
+        if isinstance(part, se.Number) and _UNREAL.search(str(part)):
+            raise _error(f"'{term[:80]}' has no finite value", hint="look for a division by zero or a root")
+
+
 def _node(node: ast.expr, names: dict[str, None], depth: int) -> _Make:
-    """A function of the known values from a whitelisted part of the formula."""
+    """A function of the known values from a whitelisted part of the formula; its numbers are worked out."""
+    make = _part(node, names, depth)
+    try:
+        with np.errstate(all="raise"):
+            number = make({"pi": math.pi})
+    except KeyError:  # it has symbols or parameters
+        return make
+    except ArithmeticError:
+        number = math.nan
+    if isinstance(number, complex) or not math.isfinite(number):
+        raise _error(f"'{ast.unparse(node)[:60]}' is not a number that can be used")
+    return lambda _: float(number)
+
+
+def _part(node: ast.expr, names: dict[str, None], depth: int) -> _Make:
     if depth > _DEEPEST:
         raise _error("the term is nested too deeply")
-    if isinstance(node, ast.Constant) and isinstance(node.value, int | float):
-        number = float(node.value)
-        if not math.isfinite(number):
-            raise _error(f"{number} is not a number that can be used")
-        return lambda _: number
+    if isinstance(node, ast.Constant) and type(node.value) in (int, float):
+        written: Any = node.value
+        return lambda _: float(written)
     if isinstance(node, ast.Name):
         name = node.id
         names.setdefault(name)
@@ -177,10 +227,7 @@ def _node(node: ast.expr, names: dict[str, None], depth: int) -> _Make:
         return lambda known: operate(left(known), right(known))
     if isinstance(node, ast.Call):
         return _call(node, names, depth)
-    raise _error(
-        f"'{ast.unparse(node)[:60]}' cannot be part of a term",
-        hint=f"numbers, + - * / **, {', '.join((*SYMBOLS, 'sign', *FUNCTIONS))} and parameters",
-    )
+    raise _error(f"'{ast.unparse(node)[:60]}' cannot be part of a term", hint=_ALLOWED)
 
 
 def _call(node: ast.Call, names: dict[str, None], depth: int) -> _Make:

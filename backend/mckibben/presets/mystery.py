@@ -64,12 +64,13 @@ class Answer(Strict):
 
 
 class MysteryPreset(Preset):
-    """A measurement to practise on; ``sealed`` is the answer, base64 of JSON, so that nobody reads it by accident.
+    """A measurement to practise on; the answer is in it, but nobody reads it by accident.
 
     Attributes:
         story: what an engineer would tell of it.
         muscle, effects, drive: what a comparison takes as the start model.
         conditions: of the measurement, e.g. ``load_mass``.
+        sealed: the answer as base64 of JSON.
     """
 
     kind: Literal["mystery"]

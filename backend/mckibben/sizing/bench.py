@@ -29,8 +29,11 @@ _ROWS_UP, _ROWS_DOWN = 160, 120
 _TOLERANCE = 1e-5
 _THREADS = 2
 _LEVEL = 1  # of the machine code: hundreds of runs share a structure
-#: How far from the stop a load still rests on it [m].
-_ON_STOP = 2e-5
+#: How far from its stop a load still rests on it [m]; it presses the stop in.
+ON_STOP = 2e-6
+#: Share of the fill, at its end, during which it must: a load that is too heavy swings below the stop.
+HELD_SHARE = 0.25
+_HOLDS_BACK = 0.999  # friction holds a load, it does not lift it
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -50,7 +53,7 @@ class Figures:
 
     Attributes:
         time, time_down: to the end of the stroke and back; None when it is not reached in the time watched.
-        held: whether the load is still there when the valve stops filling.
+        held: whether the load stays there until the valve stops filling.
         reached: largest stroke of the load [m].
     """
 
@@ -60,6 +63,10 @@ class Figures:
     air: float
     peak_force: float
     reached: float
+
+
+#: Of a run that does not come about.
+NOTHING = Figures(None, None, False, 0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +93,11 @@ class Bench:
         self._timelines: dict[tuple[object, ...], _Timeline] = {}
 
     def each(
-        self, function: Callable[[Item], Result], items: Iterable[Item], share: tuple[float, float], count: int
+        self,
+        function: Callable[[Item], Result],
+        items: Iterable[Item],
+        share: tuple[float, float],
+        count: int,
     ) -> Iterator[Result]:
         """Results of a function over items, in order, from two threads.
 
@@ -125,7 +136,7 @@ class Bench:
         try:
             return prepared.figures(prepared.parameters, prepared.inputs, self.task.returns)
         except InputError:  # no rest position at all: the stretched counter muscle is too strong
-            return Figures(None, None, False, 0.0, 0.0, 0.0)
+            return NOTHING
 
     def _timeline(self, group: Group, drive: Drive) -> _Timeline:
         key = (group.duty.pair, group.valve.id, group.tube.id)
@@ -170,6 +181,31 @@ class Prepared:
         """Position of a parameter."""
         return list(self.compiled.model.parameters).index(name)
 
+    def built(self, shift: float, friction: float, pressure: float, returns: bool) -> Figures:
+        """Run as it may turn out when it is built.
+
+        Args:
+            shift: added to the contraction ratio.
+            friction: of one muscle, against the motion both ways [N].
+            pressure: factor of the supply pressure.
+            returns: whether the way back counts.
+        """
+        drive, duty = self.drive, self.design.group.duty
+        parameters, inputs = self.parameters.copy(), self.inputs
+        parameters[self.place("precontraction")] += shift * drive.muscle.nominal_length
+        supply = drive.supply_pressure * pressure + drive.ambient_pressure
+        parameters[self.place("supply_pressure")] = supply
+        forward = back = friction * duty.lever_ratio
+        if not duty.pair:  # what pulls back at the begin of the stroke, where a spring does not yet
+            pulling = float(duty.load(np.zeros(1))[0]) / self.design.group.parallel
+            back = min(back, _HOLDS_BACK * max(pulling, 0.0))
+        filling = inputs[:, INPUTS.index("opening")] > 0.0
+        inputs[:, INPUTS.index("external_force")] += np.where(filling, forward, -back)
+        try:
+            return self.figures(parameters, inputs, returns)
+        except InputError:  # nothing holds this specimen's load before the run
+            return NOTHING
+
     def figures(self, parameters: np.ndarray, inputs: np.ndarray, returns: bool) -> Figures:
         """Run with these numbers.
 
@@ -181,7 +217,7 @@ class Prepared:
             solution = integrate(
                 compiled,
                 parameters=parameters,
-                start=self._start(parameters, inputs),
+                start=self.start(parameters, inputs),
                 times=line.times,
                 inputs=inputs,
                 grid=line.grid,
@@ -190,7 +226,7 @@ class Prepared:
             )
         rows = solution.rows
         if len(rows) < _ROWS_UP or not np.isfinite(rows).all():
-            return Figures(None, None, False, 0.0, 0.0, 0.0)
+            return NOTHING
         names = [state.name for state in compiled.model.states]
         low, high = self.drive.stops
         stroke, speed = rows[:, names.index("stroke")], rows[:, names.index("speed")]
@@ -199,31 +235,41 @@ class Prepared:
         time = _arrival(line.grid[up] - line.on, stroke[up], speed[up], acceleration[up], high)
         back = None
         if returns:
-            back = _arrival(line.grid[down] - line.off, -stroke[down], -speed[down], -acceleration[down], -low)
+            back = _arrival(
+                line.grid[down] - line.off, -stroke[down], -speed[down], -acceleration[down], -low
+            )
         taken = [names.index(name) for name in ("supplied", f"supplied{COUNTER}") if name in names]
         air = float(np.sum(rows[-1, taken] - rows[0, taken])) * self.design.group.parallel
         force = rows[:, size + compiled.model.output_names.index("force")]
         return Figures(
             time,
             back,
-            bool(stroke[_ROWS_UP - 1] >= high - _ON_STOP),
+            bool(np.min(stroke[up][-int(HELD_SHARE * _ROWS_UP) :]) >= high - ON_STOP),
             air / ANR_DENSITY,
             float(force.max()),
             float(np.max(stroke[up]) - low) / self.drive.load.lever_ratio,
         )
 
-    def _start(self, parameters: np.ndarray, inputs: np.ndarray) -> np.ndarray:
-        """The load on its lower stop, if it rests there; else where it does rest."""
+    def start(self, parameters: np.ndarray, inputs: np.ndarray) -> np.ndarray:
+        """The load on its lower stop, if it rests there; else where it does rest.
+
+        A pair is let go there: its second muscle holds it there before anything is looked at.
+        """
         compiled, line = self.compiled, self.timeline
         before = line.before.copy()
         before[INPUTS.index("external_force")] = self.drive.load.force
         names = [state.name for state in compiled.model.states]
         plain = not any(state.settled for state in compiled.model.states) and "gas_mass" not in names
-        if not plain or self.drive.pair:
+        if not plain:
             return start_of(self.drive, compiled, parameters, before)
         absolute = self.drive.start_pressure + self.drive.ambient_pressure
-        start = np.array([absolute if state.initial is None else state.initial for state in compiled.model.states])
+        start = np.array(
+            [absolute if state.initial is None else state.initial for state in compiled.model.states]
+        )
         index, low = names.index("stroke"), self.drive.stops[0]
+        if self.drive.pair:
+            start[index] = low
+            return start
         start[index] = low + 1e-6
         packed = np.concatenate([start, parameters, before])
         rate = compiled.size + OUTPUTS.index("acceleration")

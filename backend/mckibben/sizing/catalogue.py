@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
 
 from mckibben.physics import gas
 from mckibben.physics.effect import Effect
@@ -74,7 +75,7 @@ class Catalogue:
     tubes: tuple[TubePart, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Group:
     """A choice of parts; nominal length and pressure remain."""
 
@@ -84,13 +85,13 @@ class Group:
     valve: ValvePart
     tube: TubePart
 
-    @property
+    @cached_property
     def effects(self) -> tuple[Effect, ...]:
         """Of all parts; a later part's take the place of an earlier one's."""
         found = {effect.id: effect for part in self._parts for effect in part.effects}
         return tuple(found.values())
 
-    @property
+    @cached_property
     def values(self) -> dict[str, Mapping[str, float]]:
         """Parameters of the effects."""
         return {name: own for part in self._parts for name, own in dict(part.values).items()}
@@ -124,9 +125,7 @@ class Group:
             pressure: of the supply, gauge [Pa].
         """
         duty, count = self.duty, self.parallel
-        model = StaticModel.of(
-            self.muscle.muscle._replace(nominal_length=length), self.effects, self.values
-        )
+        model = StaticModel.of(self.muscle.muscle._replace(nominal_length=length), self.effects, self.values)
         model.limits = self.muscle.limits
         flow = self.valve.valve
         force, spring = duty.straight()
@@ -166,7 +165,12 @@ def switch_on(task: Task, duty: Duty) -> float:
 def command_of(task: Task, duty: Duty) -> Signal:
     """Fill, then vent."""
     on = switch_on(task, duty)
-    given = {"shape": "pulse", "on": on, "off": on + task.fill_time}
+    return _pulse(on, on + task.fill_time)
+
+
+@lru_cache(maxsize=64)
+def _pulse(on: float, off: float) -> Signal:
+    given = {"shape": "pulse", "on": on, "off": off}
     return signal_from(given, unit="1", field="command", rest=-1.0, limits=(-1.0, 1.0))
 
 

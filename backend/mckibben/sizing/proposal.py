@@ -13,7 +13,7 @@ from mckibben.simulation.outcome import Outcome
 from mckibben.simulation.parts import Drive
 from mckibben.simulation.timing import Trace, timing
 from mckibben.simulation.transient import Run, simulate
-from mckibben.sizing.bench import Bench, Figures
+from mckibben.sizing.bench import HELD_SHARE, ON_STOP, Bench, Figures
 from mckibben.sizing.catalogue import Design, switch_on
 from mckibben.sizing.chance import Chance
 from mckibben.sizing.trial import Trial, judged
@@ -21,7 +21,6 @@ from mckibben.sizing.trial import Trial, judged
 # As every run is read: at least so fine, so many rows.
 _FINEST, _FEWEST, _MOST = 1e-3, 2000, 20_000
 _MILLIMETRE, _PRESSURE_STEP = 1e-3, 1e3
-_ON_STOP = 2e-5  # m
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,11 +100,12 @@ def _measured(design: Design, bench: Bench) -> Proposal | None:
     up, down = table["extend"], table["retract"]
     end = int(np.searchsorted(run.time, off))
     begin = int(np.searchsorted(run.time, on))
+    late = int(np.searchsorted(run.time, off - HELD_SHARE * task.fill_time))
     time = up["positioning_time"] if up["impact_energy"] else None
     figures = Figures(
         time=time,
         time_down=down["positioning_time"] if down["impact_energy"] else None,
-        held=bool(run.states["stroke"][end] >= drive.stops[1] - _ON_STOP),
+        held=bool(np.min(run.states["stroke"][late : end + 1]) >= drive.stops[1] - ON_STOP),
         air=_air(run, begin) * group.parallel,
         peak_force=float(np.max(run.outputs["force"])),
         reached=float(np.max(trace.position[begin : end + 1])) - low,

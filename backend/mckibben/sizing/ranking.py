@@ -28,7 +28,7 @@ def ranked(proposals: list[Proposal], task: Task) -> list[Proposal]:
             probability = np.floor(min(probability, _SURE) / _CLASS + 1e-9)
         else:
             return -probability, proposal.trial.air
-        return -float(probability), proposal.trial.worth(task)
+        return -float(probability), proposal.trial.worth()
 
     found = sorted(proposals, key=order)
     front = front_of([proposal.trial for proposal in found])

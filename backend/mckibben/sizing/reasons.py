@@ -37,7 +37,9 @@ def why_at_rest(sheet: Sheet, parallel: int, found: Shortfall) -> str:
                 f"{length_text(least)}, and {part.id} is made up to {length_text(part.longest)}"
             )
         if part.shortest > room:
-            return f"{part.id} is made from {length_text(part.shortest)} on, and {length_text(room)} are there"
+            return (
+                f"{part.id} is made from {length_text(part.shortest)} on, and {length_text(room)} are there"
+            )
         if least > room:
             return (
                 f"{length_text(sheet.duty.pull)} at {most * 100:.3g} % contraction need a muscle of "
@@ -86,7 +88,7 @@ def remedies_text(sheet: Sheet, parallel: int, found: Shortfall, others: tuple[s
                 texts.append(f"{rest.pressure[index] / _BAR:.3g} bar ({more / _BAR:.2g} bar more)")
             case "contraction" if part.limits.max_contraction is not None:
                 if rest.contraction[index] <= part.limits.max_contraction * (1.0 + 1e-9):
-                    texts.append(f"{rest.contraction[index] * 100:.3g} % contraction allowed")
+                    texts.append(f"{rest.contraction[index] * 100:.3g} % contraction")
             case "force" if rest.capacity[index] > 0.0:
                 if rest.capacity[index] >= 1.0:
                     texts.append(f"a force reserve of {(rest.capacity[index] - 1.0) * 100:.2g} %")
@@ -102,9 +104,7 @@ def remedies_text(sheet: Sheet, parallel: int, found: Shortfall, others: tuple[s
             case _:
                 pass
     more_muscles = [
-        count
-        for count in range(parallel + 1, int(rest.parallel.max()) + 1)
-        if len(sheet.sound(count))
+        count for count in range(parallel + 1, int(rest.parallel.max()) + 1) if len(sheet.sound(count))
     ]
     if more_muscles:
         texts.append(f"{more_muscles[0]} in parallel")
@@ -133,7 +133,7 @@ def slow_text(trial: Trial | None, task: Task) -> str:
         case "cycle_time" if figures.time_down is None:
             return f"{at} does not come back within {task.vent_time:.3g} s"
         case "cycle_time":
-            both = figures.time + figures.time_down
+            both = figures.time + (figures.time_down or 0.0)
             return f"{at} takes {both:.3g} s up and down, and {task.cycle_time:.3g} s are demanded"
         case "force_limit":
             return f"{at} peaks at {figures.peak_force:.4g} N while it moves, above what the maker allows"
@@ -146,10 +146,13 @@ def slow_remedy(trial: Trial | None, task: Task, binding: str, works: bool) -> s
     texts = []
     demanded = {"time": task.time, "time_down": task.time_down, "cycle_time": task.cycle_time}.get(binding)
     if trial is not None and demanded is not None:
-        needed = demanded * trial.excess(task)
+        needed = demanded * trial.excess()
         if isfinite(needed):
-            texts.append(f"{needed:.3g} s are allowed (+{needed - demanded:.2g} s)")
-    texts.append("a valve or tube with more flow" + (", as proposed" if works else ""))
+            texts.append(f"{needed:.3g} s allowed (+{needed - demanded:.2g} s)")
+    if binding == "force_limit":
+        texts.append("a lower pressure, or a valve or tube with less flow")
+    else:
+        texts.append("a valve or tube with more flow" + (", as proposed" if works else ""))
     return "; or ".join(texts)
 
 

@@ -7,10 +7,10 @@ import numpy as np
 from mckibben.sizing.bench import Bench
 from mckibben.sizing.catalogue import Design
 from mckibben.sizing.statics import contraction_limit
-from mckibben.sizing.trial import Trial, trial_of
+from mckibben.sizing.trial import Trial, hard_trial_of
 
-_RUNS = 24
-_FIRST_STEP = (0.12, 0.1)  # of the logarithms of length and pressure
+_RUNS = 32
+_FIRST_STEP = (0.12, 0.2)  # of the logarithms of length and pressure
 
 
 def refined(trial: Trial, bench: Bench) -> Trial:
@@ -27,17 +27,17 @@ def refined(trial: Trial, bench: Bench) -> Trial:
     )
     low = np.log([lengths[0], 0.1 * highest])
     high = np.log([max(lengths), highest])
-    tried = [trial]
+    tried = [hard_trial_of(trial.design, bench)]
 
     def cost(point: np.ndarray) -> float:
         length, pressure = np.exp(np.clip(point, low, high))
-        tried.append(trial_of(Design(group, float(length), float(pressure)), bench))
-        return tried[-1].cost(task)
+        tried.append(hard_trial_of(Design(group, float(length), float(pressure)), bench))
+        return tried[-1].cost()
 
     begin = np.log([trial.design.length, trial.design.pressure])
     steps = np.where(begin + _FIRST_STEP > high, -1.0, 1.0) * _FIRST_STEP
-    simplex = np.array([begin, begin + [steps[0], 0.0], begin + [0.0, steps[1]]])
+    simplex = begin + np.array([[0.0, 0.0], [steps[0], 0.0], [0.0, steps[1]]])
     options = {"maxfev": _RUNS, "initial_simplex": simplex, "xatol": 1e-3, "fatol": 1e-3}
     minimize(cost, begin, method="Nelder-Mead", options=options)
     doing = [item for item in tried if item.does]
-    return min(doing, key=lambda item: item.cost(task)) if doing else trial
+    return min(doing, key=lambda item: item.cost()) if doing else trial

@@ -98,7 +98,7 @@ def slow_rejections(
     found: dict[tuple[str, int, str, str], Rejection] = {}
     for group, trial in failed:
         key = (group.muscle.id, group.parallel, group.valve.id, group.tube.id)
-        excess = _NEVER if trial is None else trial.excess(task) - 1.0
+        excess = _NEVER if trial is None else trial.excess() - 1.0
         if key in found and found[key].nearness <= excess:
             continue
         binding = "time" if trial is None else trial.binding

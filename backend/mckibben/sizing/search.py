@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -22,7 +24,9 @@ from mckibben.sizing.trial import Trial, trial_of
 
 # Shares of the work after each stage, for the progress.
 _PRUNED, _TRIED, _REFINED, _MEASURED = 0.1, 0.35, 0.65, 0.7
+_OF_ONE_KIND = 4  # proposals with the same muscles, while there are others
 _SPARE = 4  # refined beyond the number wanted: some fall behind when they are measured
+_MOST_GROUPS = 240  # tried by simulation
 _SECOND_LOOK = 2.0  # a group that misses a time by less gets more designs tried
 
 
@@ -36,7 +40,8 @@ class Sizing:
         explored: the best trial of each group that does the task.
         combinations: designs within the limits of space and pressure, times valves and tubes.
         pruned: how many of them the closed form sorted out.
-        simulated: transients, specimens included.
+        simulated: transients, specimens left out.
+        untried: groups that the closed form leaves and that were not simulated for lack of time.
     """
 
     proposals: list[Proposal] = field(default_factory=list)
@@ -45,6 +50,7 @@ class Sizing:
     combinations: int = 0
     pruned: int = 0
     simulated: int = 0
+    untried: int = 0
     outcome: Outcome = Outcome.COMPLETED
 
 
@@ -77,6 +83,12 @@ class Candidate:
     sheet: Sheet
     left: np.ndarray
 
+    @cached_property
+    def promise(self) -> float:
+        """What the closed form says of its best design, less is better: air times the root of the length."""
+        rest = self.sheet.rest
+        return float(np.min(rest.air[self.left] * np.sqrt(rest.length[self.left])))
+
     def design(self, index: int) -> Design:
         """The design at a position of the sheet."""
         rest = self.sheet.rest
@@ -99,11 +111,12 @@ class _Search:
         ]
         found.rejected = at_rest_rejections(sheets, self.catalogue, task)
         candidates, failed = self._prune(sheets)
+        candidates = self._likely(candidates)
         self._look(_PRUNED)
         good, slow = self._try(candidates)
         found.explored = good
         failed += slow
-        chosen = sorted(good, key=lambda trial: trial.cost(task))[: task.max_proposals + _SPARE]
+        chosen = _varied(sorted(good, key=lambda trial: trial.cost()), task.max_proposals + _SPARE)
         steps = bench.each(lambda trial: refined(trial, bench), chosen, (_TRIED, _REFINED), len(chosen))
         better = list(steps)
         proposals: list[Proposal] = []
@@ -140,6 +153,20 @@ class _Search:
         self.found.pruned = self.found.combinations - sum(len(candidate.left) for candidate in kept)
         return kept, failed
 
+    def _likely(self, candidates: list[Candidate]) -> list[Candidate]:
+        """Those worth simulating: of a pair's pulleys the best, not more groups than there is time for."""
+        ordered = sorted(candidates, key=lambda candidate: candidate.promise)
+        taken: Counter[tuple[str, int, str, str]] = Counter()
+        kept: list[Candidate] = []
+        for candidate in ordered:
+            group = candidate.group
+            key = (group.muscle.id, group.parallel, group.valve.id, group.tube.id)
+            taken[key] += 1
+            if taken[key] == 1 and len(kept) < _MOST_GROUPS:
+                kept.append(candidate)
+        self.found.untried = len(taken) - len(kept)
+        return kept
+
     def _quick(self, group: Group, sheet: Sheet, sound: np.ndarray) -> np.ndarray:
         """The designs of a group that the closed form does not show to be too slow."""
         task, most = self.task, group.valve.max_pressure
@@ -157,7 +184,7 @@ class _Search:
             (candidate, index)
             for candidate, trials in ran.items()
             if not any(trial.does for trial in trials)
-            and min(trial.excess(self.task) for trial in trials) <= _SECOND_LOOK
+            and min(trial.excess() for trial in trials) <= _SECOND_LOOK
             for index in _second_choice(candidate)
         ]
         for candidate, trials in self._run(again, (0.8 * _TRIED, _TRIED)).items():
@@ -167,9 +194,9 @@ class _Search:
         for candidate, trials in ran.items():
             doing = [trial for trial in trials if trial.does]
             if doing:
-                good.append(min(doing, key=lambda trial: trial.cost(self.task)))
+                good.append(min(doing, key=lambda trial: trial.cost()))
             else:
-                slow.append((candidate.group, min(trials, key=lambda trial: trial.cost(self.task))))
+                slow.append((candidate.group, min(trials, key=lambda trial: trial.cost())))
         return good, slow
 
     def _run(
@@ -177,26 +204,45 @@ class _Search:
     ) -> dict[Candidate, list[Trial]]:
         found: dict[Candidate, list[Trial]] = {}
         trials = self.bench.each(
-            lambda job: trial_of(job[0].design(job[1]), self.bench), jobs, share, len(jobs)
+            lambda job: trial_of(job[0].design(job[1]), self.bench, job[0].sheet.rest.only(job[1])),
+            jobs,
+            share,
+            len(jobs),
         )
         for (candidate, _), trial in zip(jobs, trials, strict=True):
             found.setdefault(candidate, []).append(trial)
         return found
 
     def _with_chances(self, proposals: list[Proposal]) -> list[Proposal]:
-        if not self.task.uncertainty.specimens:
+        specimens = self.task.uncertainty.specimens
+        if not specimens:
             return proposals
         width = (1.0 - _MEASURED) / max(len(proposals), 1)
         done = [
             replace(
                 proposal,
                 chance=chance(
-                    self.bench, proposal.design, (_MEASURED + i * width, _MEASURED + (i + 1) * width)
+                    self.bench,
+                    proposal.design,
+                    (_MEASURED + i * width, _MEASURED + (i + 1) * width),
+                    specimens,
                 ),
             )
             for i, proposal in enumerate(proposals)
         ]
         return ranked(done, self.task)
+
+
+def _varied(trials: list[Trial], count: int) -> list[Trial]:
+    """The first so many, but of one choice of muscles only a few while there are others."""
+    taken: Counter[tuple[str, int]] = Counter()
+    first: list[Trial] = []
+    rest: list[Trial] = []
+    for trial in trials:
+        key = (trial.design.group.muscle.id, trial.design.group.parallel)
+        taken[key] += 1
+        (first if taken[key] <= _OF_ONE_KIND else rest).append(trial)
+    return [*first, *rest][:count]
 
 
 def _first_choice(candidate: Candidate) -> list[int]:

@@ -125,17 +125,15 @@ def shortfall(sheet: Sheet, parallel: int) -> Shortfall:
             remedies[name] = index, _share(float(margin[index]))
     stated = {name: share for name, (index, share) in remedies.items() if _movable(sheet, name, index)}
     inside = own[sheet.allowed[own]]
-    worst = np.min([margin for margin in sheet.margins.values()], axis=0)
+    worst = np.min(list(sheet.margins.values()), axis=0)
     best = int(inside[np.argmax(worst[inside])]) if len(inside) else None
     if stated:
         binding = min(stated, key=lambda name: stated[name])
     elif best is not None:
         binding = min(sheet.margins, key=lambda name: float(sheet.margins[name][best]))
-    elif remedies:
-        binding = min(remedies, key=lambda name: remedies[name][1])
-    else:
-        nearest = int(own[np.argmax(worst[own])])
-        binding = min(sheet.margins, key=lambda name: float(sheet.margins[name][nearest]))
+    else:  # not made in any length that would do, or in none that fits
+        too_long = sheet.duty.pull / contraction_limit(sheet.part, sheet.task) > sheet.part.longest
+        binding = "contraction" if too_long else "length"
     return Shortfall(binding, best, remedies)
 
 

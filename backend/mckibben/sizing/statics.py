@@ -5,7 +5,7 @@ It is the static model with the muscle's own effects (`mckibben.simulation.stati
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -85,6 +85,10 @@ class Rest:
     blocked: Array
     life: Array
 
+    def only(self, index: int) -> Rest:
+        """One of the designs."""
+        return Rest(*(getattr(self, item.name)[index : index + 1] for item in fields(self)))
+
     @property
     def air(self) -> Array:
         """Air that all muscles of one side take for a full fill, at ANR and ambient temperature [m^3]."""
@@ -154,7 +158,7 @@ def at_rest(
 
 
 def margins(rest: Rest, part: MusclePart, task: Task) -> dict[str, Array]:
-    """How far each limit is kept, as a share of the limit; negative where it is not. Shape (designs,) each."""
+    """How far each limit is kept, as a share of it; negative where it is not. Shape (designs,) each."""
     limits = task.limits
     most = contraction_limit(part, task)
     none = np.full(len(rest.length), AMPLE)
@@ -179,9 +183,7 @@ def contraction_limit(part: MusclePart, task: Task) -> float:
     return task.limits.max_contraction if own is None else min(own, task.limits.max_contraction)
 
 
-def least_time(
-    rest: Rest, duty: Duty, task: Task, *, conductance: float
-) -> Array:
+def least_time(rest: Rest, duty: Duty, task: Task, *, conductance: float) -> Array:
     """A time below which no stroke of these designs can be [s]; shape (designs,).
 
     Until the load lifts, at least the air for that pressure must have come in at choked flow; from then on

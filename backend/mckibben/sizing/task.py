@@ -108,7 +108,7 @@ class Task:
 
     @property
     def fill_time(self) -> float:
-        """How long the valve fills [s]: twice the time demanded, so that it is seen whether the load stays."""
+        """How long the valve fills [s]: twice the time demanded, to see whether the load stays."""
         whole = _least(self.time, self.cycle_time)
         return _UNTIMED if whole is None else max(2.0 * whole, _SHORTEST_FILL)
 

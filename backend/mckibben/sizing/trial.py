@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf, log
 
 import numpy as np
 
 from mckibben.sizing.bench import Bench, Figures
 from mckibben.sizing.catalogue import Design
+from mckibben.sizing.spread import weak
 from mckibben.sizing.statics import AMPLE, Rest, at_rest, margins
 from mckibben.sizing.task import Task
 
@@ -18,16 +19,24 @@ _SOFT = ("force", "stiffness", "time", "time_down", "cycle_time")
 _KEPT = 0.08
 # What it costs to come nearer (1 = a factor e in air), and to break a limit.
 _NEAR, _BROKEN = 1.0, 30.0
+# By which share a weak specimen may be late for the same.
+_WEAK = 0.08
 
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """A design, its statics (arrays of one entry), and what a run shows; margins by limit."""
+    """A design, its statics (arrays of one entry), and what a run shows; margins by limit.
+
+    Attributes:
+        weak: what a run of a weak specimen shows; None where none was run.
+    """
 
     design: Design
     rest: Rest
     figures: Figures
     margins: dict[str, float]
+    task: Task
+    weak: Figures | None = None
 
     @property
     def binding(self) -> str:
@@ -49,13 +58,14 @@ class Trial:
         """Share by which the static force exceeds the load where it does least."""
         return float(self.rest.capacity[0]) - 1.0
 
-    def excess(self, task: Task) -> float:
+    def excess(self) -> float:
         """Largest ratio of a time taken to the time demanded; infinite when an end is not reached."""
-        ratios = [ratio for ratio in times_over(self.figures, task).values()]
+        ratios = times_over(self.figures, self.task).values()
         return max(ratios, default=0.0 if self.figures.time is not None else inf)
 
-    def worth(self, task: Task) -> float:
+    def worth(self) -> float:
         """What the task ranks by, less is better; logarithms, so that shares count."""
+        task = self.task
         length = self.design.length + task.limits.end_fittings
         match task.rank_by:
             case "air":
@@ -72,40 +82,49 @@ class Trial:
             case _:
                 return log(max(self.air, 1e-12)) + 0.5 * log(length * self.design.group.muscles)
 
-    def cost(self, task: Task) -> float:
+    def cost(self) -> float:
         """Worth with what it costs to come near a limit, or to break one."""
-        total = self.worth(task) if self.figures.time is not None else 10.0
+        total = self.worth() if self.figures.time is not None else 10.0
         for name, margin in self.margins.items():
             if margin < 0.0:
                 total += _NEAR + _BROKEN * min(-margin, 10.0)
             elif name in _SOFT:
                 total += _NEAR * (max(0.0, _KEPT - margin) / _KEPT) ** 2
+        if self.weak is not None:
+            late = max(times_over(self.weak, self.task).values(), default=1.0)
+            if not late < 2.0:  # not in the time watched; the stroke that is missing tells which way is up
+                late = 3.0 - min(self.weak.reached / self.design.group.duty.stroke, 1.0)
+            total += _NEAR * (max(late - 1.0, 0.0) / _WEAK) ** 2
+            total += 0.0 if self.weak.held else _NEAR / _WEAK
         return total if self.figures.held else total + _BROKEN
 
 
-def trial_of(design: Design, bench: Bench) -> Trial:
-    """Run a design."""
-    return judged(design, bench.run(design), bench.task)
+def trial_of(design: Design, bench: Bench, rest: Rest | None = None) -> Trial:
+    """Run a design; its statics may be known already."""
+    return judged(design, bench.run(design), bench.task, rest)
 
 
-def judged(design: Design, figures: Figures, task: Task) -> Trial:
+def hard_trial_of(design: Design, bench: Bench) -> Trial:
+    """Run a design, and a weak specimen of it."""
+    poor = bench.prepared(design).built(*weak(design, bench.task), bench.task.returns)
+    bench.runs += 1
+    return replace(trial_of(design, bench), weak=poor)
+
+
+def judged(design: Design, figures: Figures, task: Task, rest: Rest | None = None) -> Trial:
     """A design with what a run of it showed."""
     group = design.group
-    rest = at_rest(
-        group.muscle,
-        group.duty,
-        task,
-        np.array([design.length]),
-        np.array([design.pressure]),
-        np.array([float(group.parallel)]),
-    )
+    if rest is None:
+        single = (np.array([value]) for value in (design.length, design.pressure, float(group.parallel)))
+        rest = at_rest(group.muscle, group.duty, task, *single)
     found = {name: float(margin[0]) for name, margin in margins(rest, group.muscle, task).items()}
     for name, ratio in times_over(figures, task).items():
         found[name] = 1.0 / ratio - 1.0
     most = group.muscle.limits.max_force
     if most is not None and figures.peak_force > 0.0:
         found["force_limit"] = min(found["force_limit"], most / figures.peak_force - 1.0)
-    return Trial(design, rest, figures, {name: value for name, value in found.items() if value < AMPLE})
+    kept = {name: value for name, value in found.items() if value < AMPLE}
+    return Trial(design, rest, figures, kept, task)
 
 
 def times_over(figures: Figures, task: Task) -> dict[str, float]:

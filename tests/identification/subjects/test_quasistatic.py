@@ -184,6 +184,31 @@ def test_length_under_an_unknown_load():
     assert np.all(exact > 0.0)
 
 
+def test_dry_friction_holds_a_length_between_two_branches():
+    """Pressure up and down under a load: the length follows one branch, sticks, and follows the other."""
+    pressure = np.concatenate([np.linspace(3e5, 6e5, 31), np.linspace(5.9e5, 3e5, 30)])
+    branches = {sign: np.array([length_under(250.0 + sign * 40.0, p) for p in pressure]) for sign in (1, -1)}
+    # Shortening the muscle pulls the load and the friction, lengthening the friction helps.
+    short, long = np.minimum(branches[1], branches[-1]), np.maximum(branches[1], branches[-1])
+    expected = [float(long[0])]
+    for low, high in zip(short[1:], long[1:], strict=True):
+        expected.append(min(max(expected[-1], low), high))
+    rows = [
+        f"{0.5 * k},{p / 1e5:.10g},{1e3 * length:.10g}"
+        for k, (p, length) in enumerate(zip(pressure, expected, strict=True))
+    ]
+    subject = subject_of(
+        csv(rows, "time_s,pressure_bar,length_mm", "kind: isotonic", "load_force: 250 N"), MUSCLE
+    )
+    model = setting(coulomb_friction={"force": 40.0})
+    found = subject.predict(model)
+    assert found[1:] == pytest.approx(subject.measured[1:], abs=1e-6)
+    assert np.ptp(found[31:34]) < 1e-9  # it sticks at the turn
+    gradient = subject.linearised(model, free_numbers(model))[1][:, 0]
+    assert isinstance(subject, Quasistatic)
+    assert_alike(gradient[2:], central(subject, model, "coulomb_friction.force", 0.01)[2:], 1e-2)
+
+
 def test_a_load_beyond_the_braid_lock_ends_there():
     subject = isotonic("load_force: 50 kN")
     assert subject.predict(setting()) == pytest.approx(0.9999 * float(MUSCLE.braid.thread_length))

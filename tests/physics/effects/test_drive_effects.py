@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from mckibben.physics import gas
 from mckibben.physics.catalogue import default_catalogue
@@ -100,6 +101,38 @@ def test_closed_muscle_leaks_with_its_time_constant() -> None:
     flow = leak.call("leakage", context, leak.defaults | {"conductance": conductance})
     rate = gas.GAS_CONSTANT * 293.15 * flow / volume
     assert 7e5 / rate == pytest.approx(volume / (conductance * p0), rel=1e-12)
+
+
+def leak_flow(pressure: object, *, temperature: float = 293.15, **values: float) -> np.ndarray:
+    """Mass flow of a leak of 1e-10 m3/(s Pa) against 1 bar [kg/s]."""
+    leak = CATALOGUE["leak"]
+    context = {"absolute_pressure": pressure, "ambient_pressure": 1e5, "gas_temperature": temperature}
+    return leak.call("leakage", context, leak.defaults | {"conductance": 1e-10} | values)
+
+
+def test_a_laminar_leak_goes_with_the_difference_of_squares() -> None:
+    """7 to 2 bar as 48 to 3; 4 bar as through the orifice, whatever the share; 0.5 bar back as -0.75 to 3."""
+    flows = leak_flow(np.array([7e5, 2e5, 1e5, 0.5e5]), laminar_share=1.0)
+    assert flows / flows[1] == pytest.approx([16.0, 1.0, 0.0, -0.25], rel=1e-12)
+    for share in (0.0, 0.3, 1.0):
+        assert leak_flow(4e5, laminar_share=share) == pytest.approx(1e-10 * 1.185 * 4e5, rel=1e-12)
+    pressures = np.linspace(0.6e5, 9e5, 200)
+    assert (np.diff(leak_flow(pressures, laminar_share=0.5)) > 0.0).all()
+
+
+def test_a_closed_muscle_with_a_laminar_leak_decays_as_a_hyperbolic_cotangent() -> None:
+    """dp/dt = -K (p^2 - p_a^2) from 7 bar, isothermal: p = p_a coth(K p_a t + arcoth 7)."""
+    volume = 1e-4
+    rate = 1e-10 * gas.ANR_DENSITY * gas.GAS_CONSTANT * 293.15 / (volume * 3.75e5)
+    time = np.linspace(0.0, 30.0, 7)
+
+    def falling(_: float, p: np.ndarray) -> np.ndarray:
+        return -gas.GAS_CONSTANT * 293.15 / volume * leak_flow(p, laminar_share=1.0)
+
+    got = solve_ivp(falling, (0.0, 30.0), [7e5], t_eval=time, rtol=1e-10, atol=1e-3).y[0]
+    want = 1e5 / np.tanh(rate * 1e5 * time + np.arctanh(1.0 / 7.0))
+    assert got == pytest.approx(want, rel=1e-8)
+    assert got[-1] < 2e5, "most of it has gone"
 
 
 def test_heat_flows_from_warm_to_cold_over_the_wall() -> None:

@@ -21,10 +21,9 @@ def loop_width(
 ) -> np.ndarray:
     """Force on lengthening minus force on shortening [N]."""
     model = Model([CATALOGUE[effect_id]])
+    own = {effect_id: CATALOGUE[effect_id].defaults | values}
     up, down = (
-        model.evaluate(
-            muscle=MUSCLE, values={effect_id: values}, velocity=sign * speed, direction=sign, **state
-        )
+        model.evaluate(muscle=MUSCLE, values=own, velocity=sign * speed, direction=sign, **state)
         for sign in (1.0, -1.0)
     )
     return up.force - down.force
@@ -40,6 +39,24 @@ def test_coulomb_loop_takes_force_times_travel() -> None:
     """A cycle of stroke dx: 2 F_c dx."""
     width = loop_width("coulomb_friction", {"force": 10.0}, length=np.linspace(0.25, 0.29, 5), pressure=3e5)
     assert np.mean(width) * 0.04 == pytest.approx(2.0 * 10.0 * 0.04, rel=1e-9)
+
+
+def test_coulomb_falls_from_static_to_kinetic_with_a_static_share() -> None:
+    """F_s = 1.4 F_c at rest, F_c at high speed, 1/e of the difference at the Stribeck speed."""
+    values = {"force": 10.0, "static_share": 0.4, "stribeck_speed": 0.02}
+    for speed, half in ((0.0, 14.0), (1e-12, 14.0), (0.02, 10.0 + 4.0 / np.e), (2.0, 10.0)):
+        width = loop_width("coulomb_friction", values, speed=speed, length=0.28, pressure=3e5)
+        assert width == pytest.approx(2.0 * half, rel=1e-9)
+
+
+def test_coulomb_with_a_static_share_is_odd_and_takes_work() -> None:
+    effect = CATALOGUE["coulomb_friction"]
+    speeds = np.linspace(-0.1, 0.1, 401)
+    own = {parameter.name: parameter.upper for parameter in effect.parameters}
+    got = effect.call("friction", {"velocity": speeds, "direction": np.sign(speeds)}, own)
+    np.testing.assert_allclose(got, -got[::-1], rtol=1e-11)
+    assert (got * speeds >= 0.0).all()
+    assert got[200] == 0.0
 
 
 def test_pressure_friction_grows_with_pressure() -> None:

@@ -18,7 +18,8 @@ MUSCLE = Muscle(0.3, 0.0218, radians(26.5))
 
 def force(effect_id: str, values: dict[str, float], length: object, pressure: object = 0.0) -> np.ndarray:
     model = Model([CATALOGUE[effect_id]])
-    return model.evaluate(muscle=MUSCLE, values={effect_id: values}, length=length, pressure=pressure).force
+    own = {effect_id: CATALOGUE[effect_id].defaults | values}
+    return model.evaluate(muscle=MUSCLE, values=own, length=length, pressure=pressure).force
 
 
 def test_braid_stiffening_is_a_continuous_spring_that_only_pulls() -> None:
@@ -58,6 +59,17 @@ def test_braid_lock_ends_the_contraction_at_any_pressure() -> None:
     for pressure in (2e5, 8e5):
         assert float(force("braid_lock", values, at, pressure)) > 0.0
         assert float(force("braid_lock", values, at - 0.0002, pressure)) < 0.0
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.3, 2.0, 3.0])
+def test_braid_lock_stiffens_with_the_power_of_the_way(exponent: float) -> None:
+    """1 % of 300 mm beyond the lock the force is stiffness times way; at twice the way 2^m times that."""
+    values = {"stiffness": 1e5, "lock_angle": radians(45.0), "exponent": exponent}
+    lock = float(MUSCLE.braid.thread_length * np.cos(radians(45.0)))
+    got = force("braid_lock", values, lock - np.array([-0.01, 0.0, 0.003, 0.006]))
+    assert got == pytest.approx([0.0, 0.0, -300.0, -300.0 * 2.0**exponent], rel=1e-9)
+    near = force("braid_lock", values, lock - np.geomspace(1e-12, 1e-2, 300))
+    assert (np.diff(near) <= 0.0).all(), "no step where the law begins"
 
 
 def test_no_force_below_the_threshold_pressure() -> None:

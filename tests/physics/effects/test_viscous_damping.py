@@ -1,10 +1,12 @@
-"""Viscous damping: published coefficients, direction, and never a gain of work."""
+"""Viscous damping: published coefficients, direction, power of the speed, and never a gain of work."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
+import symengine as se
 
+from mckibben.physics import ops
 from mckibben.physics.catalogue import default_catalogue
 
 DAMPING = default_catalogue()["viscous_damping"]
@@ -29,3 +31,24 @@ def test_damping_vanishes_at_rest_and_only_takes_work() -> None:
         assert got[50] == 0.0
         assert (got * speeds >= 0.0).all()
     np.testing.assert_allclose(force(2.0 * speeds), 2.0 * force(speeds), rtol=1e-12)
+
+
+@pytest.mark.parametrize("exponent", [0.3, 0.7, 1.0, 2.0])
+def test_force_goes_with_the_power_of_the_speed(exponent: float) -> None:
+    """At 0.1 m/s it is coefficient times speed; 16 times the speed is 16^n times the force."""
+    assert force(-0.1, coefficient=300.0, exponent=exponent) == pytest.approx(-30.0, rel=1e-12)
+    slow, fast = force(np.array([0.025, 0.4]), exponent=exponent)
+    assert fast / slow == pytest.approx(16.0**exponent, rel=2e-5)
+
+
+@pytest.mark.parametrize("exponent", [0.3, 0.7, 1.0, 2.0])
+def test_power_of_the_speed_is_smooth_at_rest_and_only_takes_work(exponent: float) -> None:
+    """Odd and rising everywhere; at rest the slope is c (1e-4/0.1)^(n-1)."""
+    speeds = np.concatenate([-np.geomspace(1.0, 1e-9, 200), [0.0], np.geomspace(1e-9, 1.0, 200)])
+    got = force(speeds, exponent=exponent)
+    assert got[200] == 0.0
+    np.testing.assert_allclose(got, -got[::-1], rtol=1e-14)
+    assert (np.diff(got) > 0.0).all()
+    speed = se.Symbol("v")
+    slope = ops.derivative(lambda v: force(v, exponent=exponent), speed).subs({speed: 0.0})
+    assert float(slope) == pytest.approx(200.0 * 1e-3 ** (exponent - 1.0), rel=1e-6)

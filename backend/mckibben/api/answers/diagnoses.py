@@ -10,7 +10,7 @@ import numpy as np
 from mckibben.api.answers.asked import Asked
 from mckibben.api.answers.start import Json, geometry_json
 from mckibben.api.answers.wording import sentence_of
-from mckibben.identification.compare import parameter_table
+from mckibben.identification.compare import check_finite, parameter_table
 from mckibben.identification.diagnosis import Candidate, Diagnosis, diagnose
 from mckibben.identification.next_measurement import declared
 from mckibben.identification.node import Node
@@ -48,6 +48,7 @@ def prepare(asked: Asked, studio: Studio) -> Callable[[Watch], Json]:
         used = less.measurement
         notes.append(less.message)
     subject = subject_of(used, setting.muscle, asked.drive)
+    check_finite(subject, setting)
     geometry = free_geometry(
         setting.muscle, asked.free, {} if asked.start.preset is None else asked.start.preset.tolerance
     )

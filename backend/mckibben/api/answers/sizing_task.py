@@ -8,10 +8,11 @@ from typing import TypeVar
 from mckibben.api.schemas.drives import TubeInput, ValveInput
 from mckibben.api.schemas.sizings import SizingTask, TaskLoad
 from mckibben.drive_input.parts import tube_of, unverified_of, valve_of
+from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.presets import MusclePreset, Preset, TubePreset, ValvePreset
 from mckibben.sizing import Catalogue, Limits, MusclePart, Pair, Task, TubePart, Uncertainty, ValvePart
-from mckibben.sizing.catalogue import Part
+from mckibben.sizing.catalogue import Part, Values
 from mckibben.studio import Studio
 
 Found = TypeVar("Found", bound=Part)
@@ -108,6 +109,8 @@ def catalogue_of(document: SizingTask, studio: Studio) -> Catalogue:
             hint="0 for none, or at least 50 mm",
         )
     muscles = _parts(studio, "muscles", given.muscles, lambda preset: _muscle(preset, studio), _complete)
+    if given.muscles is None:
+        muscles = _different(muscles)
     valves = _parts(studio, "valves", given.valves, lambda preset: _valve(preset, studio), _switches)
     if not length:
         return Catalogue(muscles, valves, (TubePart("", tube=None),))
@@ -138,6 +141,15 @@ def _parts(
     return tuple(found.values())
 
 
+def _different(muscles: tuple[MusclePart, ...]) -> tuple[MusclePart, ...]:
+    """The first of those that are one model under several names."""
+    found: dict[str, MusclePart] = {}
+    for part in muscles:
+        geometry = part.muscle._replace(nominal_length=1.0)
+        found.setdefault(repr((geometry, part.values, part.limits, part.shortest, part.longest)), part)
+    return tuple(found.values())
+
+
 def _complete(preset: Preset) -> bool:
     return isinstance(preset, MusclePreset) and all(name in preset.data for name in _COMPLETE)
 
@@ -149,7 +161,7 @@ def _switches(preset: Preset) -> bool:
 def _muscle(preset: Preset, studio: Studio) -> MusclePart:
     assert isinstance(preset, MusclePreset)  # noqa: S101 - of its folder
     facts = studio.facts(preset.id)
-    data = {name: quantity for name, quantity in preset.data.items()}
+    data = preset.data
     ends = [data[name].si("K") if name in data else None for name in _COMPLETE]
     return MusclePart(
         id=preset.id,
@@ -169,34 +181,38 @@ def _muscle(preset: Preset, studio: Studio) -> MusclePart:
 def _valve(preset: Preset, studio: Studio) -> ValvePart:
     assert isinstance(preset, ValvePreset)  # noqa: S101 - of its folder
     if preset.regulator is not None:
-        raise InputError(f"{preset.id} is a pressure regulator", hint="name a switching or proportional valve")
+        raise InputError(
+            f"{preset.id} is a pressure regulator", hint="name a switching or proportional valve"
+        )
     try:
-        flow = valve_of(ValveInput(preset=preset.id), preset)
+        flow = valve_of(ValveInput.model_validate({"preset": preset.id}), preset)
     except InputError as error:
         raise InputError(error.message, hint="take another valve") from error
     most = preset.data.get("max_pressure")
+    effects, values = _effects(preset, studio)
     return ValvePart(
         id=preset.id,
         unverified=unverified_of(preset, with_effects=True),
         valve=flow,
         max_pressure=None if most is None else most.si("Pa"),
-        **_effects(preset, studio),
+        effects=effects,
+        values=values,
     )
 
 
 def _tube(preset: Preset, studio: Studio, length: float) -> TubePart:
     assert isinstance(preset, TubePreset)  # noqa: S101 - of its folder
+    effects, values = _effects(preset, studio)
     return TubePart(
         id=preset.id,
+        effects=effects,
+        values=values,
         unverified=unverified_of(preset, with_effects=True),
         tube=tube_of(TubeInput(preset=preset.id, length=length), preset),
-        **_effects(preset, studio),
     )
 
 
-def _effects(preset: ValvePreset | TubePreset, studio: Studio) -> dict[str, object]:
+def _effects(preset: ValvePreset | TubePreset, studio: Studio) -> tuple[tuple[Effect, ...], Values]:
     own = preset.effect_values()
-    return {
-        "effects": tuple(studio.catalogue[name] for name in own),
-        "values": {name: studio.catalogue[name].defaults | values for name, values in own.items()},
-    }
+    effects = tuple(studio.catalogue[name] for name in own)
+    return effects, {effect.id: effect.defaults | own[effect.id] for effect in effects}

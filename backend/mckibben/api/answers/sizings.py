@@ -16,11 +16,11 @@ from mckibben.sizing.trial import Trial
 from mckibben.studio import Studio
 
 _MESSAGES = {
-    Outcome.TIMED_OUT: "The search took longer than 10 s and was stopped. Name fewer muscles, valves or tubes, or "
-    "fewer specimens.",
+    Outcome.TIMED_OUT: "The search took too long and was stopped. Name fewer muscles, valves or tubes, or "
+    "ask for fewer specimens.",
     Outcome.CANCELLED: "The search was cancelled.",
 }
-_ROUNDING = 9  # digits of the figures in a drive document
+_TIME_LIMIT = 30.0  # s; a search is many runs
 
 
 def prepare_sizing(document: SizingTask, studio: Studio) -> Callable[[Watch], Json]:
@@ -32,6 +32,7 @@ def prepare_sizing(document: SizingTask, studio: Studio) -> Callable[[Watch], Js
     task, catalogue = task_of(document), catalogue_of(document, studio)
 
     def work(watch: Watch) -> Json:
+        watch.time_limit = max(watch.time_limit, _TIME_LIMIT)
         began = time.perf_counter()
         found = size(task, catalogue, watch)
         return answer_of(found, task, document, (time.perf_counter() - began) * 1e3)
@@ -58,10 +59,18 @@ def answer_of(found: Sizing, task: Task, document: SizingTask, wall_ms: float) -
         "simulated": found.simulated,
         "specimens": specimens,
         "outcome": found.outcome.label,
-        "message": _MESSAGES.get(found.outcome),
+        "message": _MESSAGES.get(found.outcome) or _untried(found),
         "flags": _flags(proposals, document),
         "wall_ms": wall_ms,
     }
+
+
+def _untried(found: Sizing) -> str | None:
+    if not found.untried:
+        return None
+    return (
+        f"{found.untried} choices of parts that take more air and room were not simulated; name fewer parts."
+    )
 
 
 def _proposal(proposal: Proposal, task: Task, document: SizingTask) -> Json:
@@ -155,8 +164,8 @@ def _notes(proposal: Proposal, task: Task, document: SizingTask) -> list[str]:
     found = []
     if group.parallel > 1:
         found.append(
-            f"The drive document is that of one of {group.parallel} parallel muscles: it has its share of the "
-            "load and of the valve's flow. Equal muscles move alike."
+            f"The drive document is that of one of {group.parallel} parallel muscles: it has its share of "
+            "the load and of the valve's flow. Equal muscles move alike."
         )
     if group.duty.pair:
         found.append(

@@ -22,9 +22,7 @@ def list_mysteries(studio: StudioDep) -> JsonAnswer:
     return JsonAnswer(mysteries_answer(studio.library))
 
 
-@router.post(
-    "/{mystery_id}/reveal", response_model=RevealAnswer, responses=errors(400, 404, 413, 415, 422)
-)
+@router.post("/{mystery_id}/reveal", response_model=RevealAnswer, responses=errors(400, 404, 413, 415, 422))
 def reveal_mystery(
     mystery_id: Annotated[str, Path(max_length=64, description="Its id.", examples=["the-dip"])],
     body: RevealRequest,

@@ -9,8 +9,8 @@ from pydantic import Field
 from mckibben.api.schemas.common import Flag, Strict, si_field
 
 Binding = Literal[
-    "length", "pressure", "contraction", "force", "force_limit", "diameter", "stiffness", "life", "temperature",
-    "time", "time_down", "cycle_time",
+    "length", "pressure", "contraction", "force", "force_limit", "diameter", "stiffness", "life",
+    "temperature", "time", "time_down", "cycle_time",
 ]  # fmt: skip
 _MARGINS = "Limit -> share of it that is left; limits that are not set are left out."
 
@@ -44,7 +44,9 @@ class ProposalAnswer(Strict):
     pulley_radius: float | None = si_field("m", "Of a pair.")
     pressure: float = si_field("Pa", "Of the supply at the valve, gauge; a regulator sets it.")
     time: float = si_field("s", "For the stroke, to the end stop.")
-    time_down: float | None = si_field("s", "For the way back; null when it does not end in the time watched.")
+    time_down: float | None = si_field(
+        "s", "For the way back; null when it does not end in the time watched."
+    )
     contraction: float = si_field("1", "At the end of the stroke.")
     force_reserve: float = si_field("1", "Share by which the static force exceeds the load at least.")
     needed_pressure: float | None = si_field("Pa", "That just carries the load at the end of the stroke.")
@@ -91,7 +93,9 @@ class SizingAnswer(Strict):
     proposals: list[ProposalAnswer] = Field(description="Empty when nothing does; that is an answer too.")
     rejected: list[RejectedAnswer] = Field(description="Nearest first.")
     explored: list[ExploredDesign] = Field(description="One for each choice of parts that does the task.")
-    combinations: int = Field(description="Muscle, length, number, pressure, valve and tube within the limits.")
+    combinations: int = Field(
+        description="Muscle, length, number, pressure, valve and tube within the limits."
+    )
     pruned: int = Field(description="Of these sorted out in closed form.")
     simulated: int = Field(description="Transients run, specimens left out.")
     specimens: int = Field(description="Transients run for probabilities.")

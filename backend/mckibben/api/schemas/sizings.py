@@ -1,14 +1,14 @@
-"""The task of ``/api/sizings`` and ``mckibben size``. The reason for each default stands in its description."""
+"""The task of ``/api/sizings`` and ``mckibben size``; each default has its reason in its description."""
 
 from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import ConfigDict, Field
+from pydantic import ConfigDict, Field, JsonValue
 
 from mckibben.api.schemas.common import Id, Strict
 from mckibben.api.schemas.drives import Inclination, LeverRatio, Mass, PulleyRadius, Stiffness
-from mckibben.api.schemas.quantity import Diameter, Force, Length, PositivePressure, Quantity, Temperature
+from mckibben.api.schemas.quantity import Diameter, Force, PositivePressure, Quantity, Temperature
 
 Stroke = Annotated[float, Quantity("m", "60 mm", above=1e-5, at_most=10.0)]
 TaskTime = Annotated[float, Quantity("s", "0.5 s", above=1e-3, at_most=60.0)]
@@ -87,14 +87,16 @@ class TaskLimits(Strict):
     )
     force_reserve: Reserve = Field(
         0.1,
-        description="Share by which the static force exceeds the load everywhere on the stroke. 10 %: so much "
-        "do specimens differ.",
+        description="Share by which the static force exceeds the load everywhere on the stroke. 10 %: so "
+        "much do specimens differ.",
     )
     pressure_reserve: Share = Field(
-        0.0, description="Share of the supply that is not counted on. 0: the supply tolerance has its own field."
+        0.0,
+        description="Share of the supply that is not counted on. 0: the supply tolerance has its own field.",
     )
     max_length: Room = Field(
-        1.0, description="Installed, without pressure. 1 m: longer muscles are made, machines seldom have room."
+        1.0,
+        description="Installed, without pressure. 1 m: longer muscles are made, machines seldom have room.",
     )
     end_fittings: Room = Field(
         0.0, description="What both end fittings take of it. 0: no verified figure is known; add yours."
@@ -107,8 +109,8 @@ class TaskLimits(Strict):
     )
     life: Cycles | None = Field(
         None,
-        description="Load cycles. None: makers publish no curve; what is told is an estimate (100 000 cycles at "
-        "full force or contraction, 10 million without load, unverified).",
+        description="Load cycles. None: makers publish no curve; what is told is an estimate (100 000 cycles "
+        "at full force or contraction, 10 million without load, unverified).",
     )
 
 
@@ -146,7 +148,7 @@ class TaskUncertainty(Strict):
     )
     hysteresis: Share | None = Field(
         None,
-        description="Largest width of the loop, share of the nominal length. Left out: the catalogue's figure.",
+        description="Largest width of the loop, share of the nominal length. Left out: the catalogue's.",
     )
     supply_pressure: Share = Field(
         0.03, description="Largest deviation of the supply. 3 %: a usual service regulator."
@@ -156,7 +158,7 @@ class TaskUncertainty(Strict):
     )
 
 
-_EXAMPLES = [
+_EXAMPLES: list[JsonValue] = [
     {
         "load": {"mass": "20 kg", "inclination": "90 deg", "force": "0 N"},
         "stroke": "60 mm",
@@ -171,13 +173,22 @@ _EXAMPLES = [
         },
     },
     {
-        "title": "ProPneu, figure 24: 200 mm at 6 bar with DMSP-20",
+        "title": "ProPneu, figure 24: 200 mm at 6 bar with 20 mm",
         "load": {"mass": "10.41 kg"}, "stroke": "200 mm", "time": "0.4 s",
-        "limits": {"max_contraction": "25 %", "max_length": "1 m"}, "catalogue": {"muscles": ["DMSP-20"]},
+        "limits": {"max_contraction": "25 %"},
+        "catalogue": {"muscles": ["DMSP-20"], "valves": ["MPYE-5-1/4", "MPYE-5-3/8"]},
+    },
+    {
+        "title": "ProPneu: the same stroke with 10 mm",
+        "load": {"mass": "9.79 kg"}, "stroke": "200 mm", "time": "0.4 s", "limits": {"max_length": "2 m"},
+        "catalogue": {"muscles": ["DMSP-10"], "valves": ["MPYE-5-1/4", "MPYE-5-3/8"]},
     },
     {
         "title": "Joint of an antagonist pair",
-        "load": {"pair": {"angle": "60 deg", "torque": "2 N*m", "inertia": "0.02 kg*m^2"}}, "time": "0.5 s",
+        "load": {
+            "pair": {"angle": "60 deg", "torque": "2 N*m", "inertia": 0.02, "pulley_radius": "30 mm"},
+        },
+        "time": "0.5 s", "catalogue": {"valves": ["MPYE-5-1/8-LF"]},
     },
 ]  # fmt: skip
 
@@ -213,8 +224,8 @@ class SizingTask(Strict):
     uncertainty: TaskUncertainty = Field(default_factory=lambda: TaskUncertainty.model_validate({}))
     rank_by: Literal["balanced", "air", "time", "length", "reserve", "probability"] = Field(
         "balanced",
-        description="Balanced: air times the root of installed length and number of muscles, because air costs "
-        "every day and room once. Drives that probably fail come last in any order.",
+        description="Balanced: air times the root of installed length and number of muscles, because air "
+        "costs every day and room once. Drives that probably fail come last in any order.",
     )
     max_proposals: Annotated[int, Field(ge=1, le=30)] = Field(
         10, description="Proposals wanted. 10: more nobody compares."

@@ -43,9 +43,10 @@ def predicted_lengths(evaluation: Evaluation, setting: Setting, names: Sequence[
 
 def _rubs(effect: Effect) -> bool:
     """Whether an effect opposes the motion whatever its speed, without memory of its own."""
-    return any(
-        slot in effect.slots and "direction" in effect.wanted(slot) for slot in ("friction", "guide")
-    ) and not effect.states
+    return (
+        any(slot in effect.slots and "direction" in effect.wanted(slot) for slot in ("friction", "guide"))
+        and not effect.states
+    )
 
 
 def _stuck(evaluation: Evaluation, shortening: Found, lengthening: Found) -> Found:
@@ -73,7 +74,8 @@ def _balance(evaluation: Evaluation, setting: Setting, names: Sequence[str], sta
     task = evaluation.task
     rest = setting.muscle.nominal_length
     low, high = _SHORTEST * rest, 0.9999 * float(setting.muscle.braid.thread_length)
-    length = np.clip(task.measured if task.channel == "length" else np.full(len(task.measured), rest), low, high)
+    first = task.measured if task.channel == "length" else np.full(len(task.measured), rest)
+    length = np.clip(first, low, high)
     load = _load(task.state["load"], setting, state, length)
     for _ in range(_NEWTON_STEPS):
         out, _ = evaluation.at(setting, (), {**state, "length": length})

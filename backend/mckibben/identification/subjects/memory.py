@@ -57,7 +57,7 @@ class Memory:
         return self._kept[key]
 
     def by_parameters(self, setting: Setting, names: Sequence[str]) -> dict[str, dict[str, np.ndarray]]:
-        """Derivatives of the states by those of the named parameters that move them: name -> state -> rows."""
+        """Derivatives of the states by the named parameters that move them: name -> state -> rows."""
         found: dict[str, dict[str, np.ndarray]] = {}
         for name in names:
             effect_id, _, parameter = name.partition(".")

@@ -6,8 +6,7 @@ displacement that the measured pressure brings about. Several channels are scale
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -29,11 +28,10 @@ from mckibben.simulation.signals import Table
 from mckibben.simulation.static import StaticModel
 from mckibben.simulation.transient import simulate
 
-_MOST_ROWS = 1500  # per record; more are thinned evenly
+_MOST_ROWS = 1000  # per record; more are thinned evenly
 _FEW_LEVELS = 0.2  # share of rows with another command than the row before, up to which it is held
 _LOST = 1e3  # noises by which a run that broke off is said to miss
 _TIME_LIMIT = 2.0  # s; a run that takes longer is a bad guess of a fit
-_WORKERS = 2
 # What only acts on the way of the air, and is not there when the pressure is measured.
 _AIR = (
     "extra_volume", "heat", "leakage", "command_delay", "opening", "fill_conductance", "exhaust_conductance",
@@ -75,8 +73,10 @@ class Moving(Subject):
     """
 
     step = 2e-2
-    tolerance = 1e-4
-    evaluations = 25
+    one_sided = True
+    tolerance = 1e-3
+    evaluations = 12
+    tried = 12
 
     def __init__(self, measurement: Measurement, drive: Drive) -> None:
         columns = measurement.columns
@@ -99,7 +99,8 @@ class Moving(Subject):
                 f"{measurement.name}: neither command nor pressure was measured", field="pressure"
             )
         rows = np.concatenate([record.rows for record in self._records])
-        self.rows, count, self.channels = rows, len(rows), ()
+        self.rows, count = rows, len(rows)
+        channels: list[Channel] = []
         self.rows_used, self.messages = count, measurement.messages
         self.excluded = {reason: number for reason, number in measurement.exclusions.items() if number}
         for number, (name, unit, values) in enumerate(found):
@@ -107,7 +108,8 @@ class Moving(Subject):
             full_scale = float(np.max(np.abs(values)))
             noise = noise_floor(values, sweeps) or 1e-3 * full_scale
             place = slice(number * count, (number + 1) * count)
-            self.channels += (Channel(name, unit, place, max(noise, 1e-6 * full_scale), full_scale),)
+            channels.append(Channel(name, unit, place, max(noise, 1e-6 * full_scale), full_scale))
+        self.channels = tuple(channels)
         self.measured = np.concatenate([values[rows] for _, _, values in found])
         several = len(found) > 1
         self.scale = np.concatenate(
@@ -166,14 +168,6 @@ class Moving(Subject):
                 part.append(np.concatenate([values, lost]))
         found = np.concatenate([np.concatenate(part) for part in parts])
         return np.where(np.isfinite(found), found, self.measured + _LOST * self._noises())
-
-    def differences(self, setting: Setting, free: Sequence[Free]) -> np.ndarray:
-        """Central differences, two runs at a time."""
-        one: Callable[[Free], np.ndarray] = lambda p: Subject.differences(self, setting, [p])  # noqa: E731
-        if not free:
-            return np.empty((len(self.measured), 0))
-        with ThreadPoolExecutor(_WORKERS) as pool:
-            return np.column_stack(list(pool.map(one, free)))
 
     def _noises(self) -> np.ndarray:
         return np.repeat([channel.noise for channel in self.channels], len(self.rows))

@@ -113,7 +113,7 @@ class Quasistatic(Subject):
         return length[self._counted], gradient[self._counted]
 
     def _delayed_linearised(self, setting: Setting, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
-        """Differences by the numbers of the delays; the others act as if they came at once, which is close."""
+        """Differences by the numbers of the delays; the others act as if nothing were late."""
         predicted = self.predict(setting, clipped=False)
         ids = {effect.id for effect in setting.effects if _late(effect)}
         at_once = replace(setting, effects=tuple(e for e in setting.effects if e.id not in ids))
@@ -131,7 +131,8 @@ class Quasistatic(Subject):
         if "length" in self.task.state:
             return self._evaluation.at(setting)[0]["diameter"]
         length, _ = predicted_lengths(self._evaluation, setting)
-        return self._evaluation.at(setting, (), {**self._evaluation.state(setting), "length": length})[0]["diameter"]
+        state = {**self._evaluation.state(setting), "length": length}
+        return self._evaluation.at(setting, (), state)[0]["diameter"]
 
     def _delayed(self, model: StaticModel) -> np.ndarray:
         """The force of a model with lags or skew of the channels, along each record."""

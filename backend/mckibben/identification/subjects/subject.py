@@ -13,7 +13,6 @@ from mckibben.identification.setting import Setting
 from mckibben.physics.effect import Effect
 
 
-
 @dataclass(frozen=True)
 class Channel:
     """One predicted channel.
@@ -48,9 +47,10 @@ class Subject(ABC):
         records: label of the uninterrupted record, shape (values,).
         sweeps: indices of the values of each smooth sweep, in order.
         inputs: what the residual may depend on, name -> shape (values,), SI.
-        step: of central differences, over the size of a number or its usual change.
+        step: of differences, over the size of a number or its usual change; one_sided: half the runs.
+        tried: how many candidates are fitted to one model, those that promise most.
         tolerance, evaluations: of a fit in a search.
-        rows_used, excluded, messages: rows of the measurement that count, why others do not, what was assumed.
+        rows_used, excluded, messages: rows that count, why others do not, what was assumed.
         unknown_load: bounds of the load where it has to be fitted.
     """
 
@@ -67,6 +67,8 @@ class Subject(ABC):
     excluded: Mapping[str, int]
     messages: tuple[str, ...]
     step: float = 5e-3
+    one_sided: bool = False
+    tried: int = 40
     tolerance: float = 1e-6
     evaluations: int = 60
     unknown_load: Free | None = None
@@ -89,15 +91,23 @@ class Subject(ABC):
 
     def linearised(self, setting: Setting, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
         """Predicted values and their derivatives by the free numbers, shape (values, free)."""
-        return self.predict(setting, clipped=False), self.differences(setting, free)
+        predicted = self.predict(setting, clipped=False)
+        return predicted, self.differences(setting, free, predicted if self.one_sided else None)
 
-    def differences(self, setting: Setting, free: Sequence[Free]) -> np.ndarray:
-        """Central differences of `predict`, one-sided at a bound."""
+    def differences(
+        self, setting: Setting, free: Sequence[Free], here: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Differences of `predict`, shape (values, free): central, or from what is predicted ``here``."""
         columns = []
         for parameter in free:
-            here = setting.number(parameter.name)
-            step = self.step * min(parameter.upper - parameter.lower, max(abs(here), parameter.typical))
-            low, high = max(here - step, parameter.lower), min(here + step, parameter.upper)
+            value = setting.number(parameter.name)
+            step = self.step * min(parameter.upper - parameter.lower, max(abs(value), parameter.typical))
+            low, high = max(value - step, parameter.lower), min(value + step, parameter.upper)
+            if here is not None:
+                other = high if high - value >= value - low else low
+                moved = self.predict(setting.with_numbers([parameter.name], [other]), clipped=False)
+                columns.append((moved - here) / (other - value))
+                continue
             ends = [
                 self.predict(setting.with_numbers([parameter.name], [end]), clipped=False)
                 for end in (low, high)

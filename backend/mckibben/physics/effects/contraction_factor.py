@@ -4,12 +4,12 @@ The braid in the middle contracts by :math:`k\varepsilon` while the muscle contr
 the volume is :math:`V_k(L) = V_0 + \frac1k\left[V_i(L_0(1-k\varepsilon)) - V_0\right]`, so that
 :math:`-dV_k/dL` is the ideal area at :math:`k\varepsilon` and force and gas balance agree.
 
-With :math:`k(P) = k + a_k e^{-P/P_k}` and the force :math:`-P\,\partial V_k/\partial L`, no work is lost or gained
-over a closed path in P and L only when the ends store energy U: the gas fills
-:math:`V = \partial(P V_k)/\partial P`, and the ends pull with :math:`F_e` besides :math:`-P\,\partial V/\partial L`:
+With :math:`k(P) = k + a_k e^{-P/P_k}` the force stays :math:`-P\,\partial V_k/\partial L`. So that a closed
+path in P and L gains no work, the ends then store an energy U: the gas fills V instead of :math:`V_k`, and
+besides :math:`-P\,\partial V/\partial L` the ends pull with :math:`F_e`,
 
-.. math:: V = V_k + U/P,\quad F_e = \frac{\partial U}{\partial L},\quad
-   U = P^2\,\frac{a_k}{P_k}e^{-P/P_k}\,\frac{s^2\bigl(3L_0-2k(P)s\bigr)}{4\pi n^2},\quad s = L_0 - L
+.. math:: V = \frac{\partial (P V_k)}{\partial P} = V_k + \frac UP,\quad F_e = \frac{\partial U}{\partial L},
+   \quad U = P^2\,\frac{a_k}{P_k}e^{-P/P_k}\,\frac{s^2\bigl(3L_0-2k(P)s\bigr)}{4\pi n^2},\quad s = L_0 - L
 
 U is that of the ideal braid, also where other effects change the volume.
 """
@@ -73,8 +73,8 @@ EFFECT = Effect(
     type="static",
     cause="Towards its fittings the muscle is conical and takes no part in the contraction. The cylindrical "
     "middle therefore contracts k times as much as the muscle as a whole.",
-    equation=r"F = P A_0\left[\frac{3}{\tan^2\theta_0}(1-k_P\,\varepsilon)^2 - \frac{1}{\sin^2\theta_0}\right],\quad "
-    r"k_P = k + a_k e^{-P/P_k}",
+    equation=r"F = P A_0\left[\frac{3}{\tan^2\theta_0}(1-k_P\varepsilon)^2 - \frac{1}{\sin^2\theta_0}\right]"
+    r",\quad k_P = k + a_k e^{-P/P_k}",
     parameters=(
         Parameter(
             "factor",

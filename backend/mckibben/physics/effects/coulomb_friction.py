@@ -15,14 +15,14 @@ from mckibben.physics.parameter import Parameter, Source
 def friction(
     *, direction: Value, force: Value, velocity: Value, static_share: Value, stribeck_speed: Value
 ) -> Value:
-    """F_c (1 + s exp(-|v|/v_s)) sgn(v) [N]: tension is higher on lengthening, lower on shortening, 0 at rest."""
+    """F_c (1 + s exp(-|v|/v_s)) sgn(v) [N]: higher tension on lengthening, lower on shortening, 0 at rest."""
     fading = ops.exp(-ops.absolute(velocity) / stribeck_speed)
     return force * direction * (1.0 + static_share * fading)
 
 
 _CHOU = Source("Chou & Hannaford, IEEE Trans. Robotics Autom. 12 (1996) 90: about 2.5 N", "M")
 _RANGE = Source("1-2.5 % of the maximum force", "E")
-_STRIBECK = Source("Armstrong-Helouvry, Dupont & Canudas de Wit, Automatica 30 (1994) 1083", "M")
+_STRIBECK = Source("Armstrong-Helouvry, Dupont & Canudas de Wit, Automatica 30 (1994) 1083: some mm/s", "M")
 _DEFINITION = Source("definition: half the loop width", "D")
 _BY_HAND = Source("10 (1 + 0.3/e) at the Stribeck speed", "D")
 _SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
@@ -64,7 +64,7 @@ EFFECT = Effect(
             0.005,
             0.001,
             0.1,
-            Source("1-50 mm/s for lubricated and dry sliding", "E"),
+            _STRIBECK,
             "Speed at which 1/e of the static share is left.",
             fitted=False,
         ),
@@ -83,7 +83,7 @@ EFFECT = Effect(
         Twin("viscous_damping", "three speeds: Coulomb friction does not change"),
         Twin("prestress", "both directions: friction changes sign, the prestress does not"),
     ),
-    references=(_CHOU, _STRIBECK),
+    references=(_CHOU,),
     examples=(
         Example(
             "force_change",

@@ -4,7 +4,7 @@ r"""Leak from the muscle to the atmosphere: an orifice after ISO 6358, a laminar
    + \lambda\,\frac{T_0}{T}\,\frac{p^2-p_a^2}{p_r}\Bigr], \quad p_r = 3.75\,bar
 
 Choked, the pressure of a closed muscle falls exponentially with :math:`V/(C_l p_0)`; through a gap it falls
-faster when it is high and slower when it is low. The laminar share is that of isothermal flow of constant viscosity.
+faster when it is high and slower when it is low (isothermal flow of constant viscosity).
 With :math:`p_r` both laws pass the same at 20 degC from 4 to 1 bar (absolute), where an orifice of
 :math:`b_l \ge 0.25` is choked. Below the atmosphere the flow turns round.
 """
@@ -86,8 +86,8 @@ EFFECT = Effect(
             0.0,
             1.0,
             Source("0 for a hole, 1 for long narrow gaps and porous walls", "E"),
-            "Share of the flow that is laminar, in proportion to p^2 - p_a^2; at 3 bar above the atmosphere it "
-            "makes no difference.",
+            "Share of the flow that is laminar, in proportion to p^2 - p_a^2; at 3 bar above the atmosphere "
+            "it makes no difference.",
             fitted=False,
         ),
     ),

@@ -14,7 +14,7 @@ export function brushLayer(chart, o) {
   const band = h("div", { class: "brush-band", hidden: true });
   const area = h(
     "div",
-    { class: "brush-area", title: "Drag to choose a range, double click to clear" },
+    { class: "brush-area", hidden: true, title: "Drag to choose a range, double click to clear" },
     band,
   );
   /** @type {["from" | "to", 0 | 1][]} */
@@ -22,6 +22,7 @@ export function brushLayer(chart, o) {
   const handles = sides.map(([name, side]) =>
     h("div", {
       class: `brush-handle ${name}`,
+      hidden: true,
       tabindex: 0,
       role: "slider",
       "aria-label": `Chosen range, ${name}`,

@@ -12,7 +12,8 @@
 /** A model and its error; `values`: of the geometry. `label` says how it came about.
  * @typedef {{label: string, effects: Effects | null, freed: string[], values: Record<string, number>,
  *   fit: Fit, rmse: number | null, holdout: number | null}} Step */
-/** @typedef {"contraction" | "pressure" | "velocity" | "time" | "histogram"} Tab */
+/** “auto”: what the overlay is drawn over.
+ * @typedef {"auto" | "contraction" | "pressure" | "velocity" | "time" | "histogram"} Tab */
 /** Ranges of variables in SI. @typedef {Record<string, [number, number]>} Brush */
 /** `effects`: null = those of the preset. `history`: the models before this one, the start first.
  * @typedef {{files: Chosen[], muscle: Muscle, start: "ideal" | "preset", effects: Effects | null,
@@ -41,7 +42,7 @@ export const defaultCompare = () => ({
   noise: null,
   mystery: null,
   guided: false,
-  tab: "contraction",
+  tab: "auto",
   over: null,
   channel: null,
   brush: null,
@@ -101,7 +102,7 @@ const CHECKS = {
   noise: (x) => x === null || isNumber(x),
   mystery: isName,
   guided: isBoolean,
-  tab: (x) => ["contraction", "pressure", "velocity", "time", "histogram"].includes(String(x)),
+  tab: (x) => ["auto", "contraction", "pressure", "velocity", "time", "histogram"].includes(String(x)),
   over: isName,
   channel: isName,
   brush: (x) => x === null || (isObject(x) && Object.values(x).every(isRange)),

@@ -5,7 +5,7 @@ import { computed, signal } from "../../reactive.js";
 import { units } from "../../state.js";
 import { brief } from "../../format.js";
 import { spoken } from "../../ui/sources.js";
-import { answer, compare, diagnosis, previous, stale, steps } from "./model.js";
+import { answer, compare, diagnosis, fault, previous, stale, steps } from "./model.js";
 import { allSeries } from "./pictures.js";
 import { fitting, refit } from "./history.js";
 import { saveReport } from "./exports.js";
@@ -130,6 +130,7 @@ export function errorCard() {
     h("p", { class: "unseen", "aria-live": "polite" }, () => spokenError.value),
     () => {
       const a = answer.value;
+      if (!a && fault.value) return h("p", { class: "muted" }, "There is no comparison yet.");
       if (!a) return h("div", { class: "skeleton number" });
       return [
         h("p", { class: "big", id: "error-now" }, say(a.rmse)),

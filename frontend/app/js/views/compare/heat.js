@@ -3,7 +3,7 @@
 import { h } from "../../dom.js";
 import { units } from "../../state.js";
 import { number, scaleOf, toShown } from "../../format.js";
-import { brush, lookCompare, shown, stale, steps } from "./model.js";
+import { brush, fault, lookCompare, shown, stale, steps } from "./model.js";
 import { channelScale, errorText, rangeText, VARIABLES } from "./words.js";
 
 /** @typedef {import("./types.js").HeatMap} HeatMap */
@@ -186,6 +186,7 @@ export function whereCard() {
     h("div", { class: "card-head" }, h("h2", null, "Where it fails")),
     () => {
       const a = shown.value;
+      if (!a && fault.value) return h("p", { class: "muted" }, "There is no comparison yet.");
       if (!a) return h("div", { class: "skeleton block-tall" });
       return [a.heat_map ? grid(a, a.heat_map) : null, inWords(a)].flat();
     },

@@ -239,7 +239,7 @@ const kindField = ({ preview, mapping, change }) =>
 
 /** Conditions that are asked for, and those that were found. @param {Context} c */
 function conditionFields({ preview, mapping, change }) {
-  /** Fields stay once they were asked for: an answer must not take its field away. */
+  // A field stays once it was asked for and answered: the answer must not take it away.
   const asked = signal(/** @type {import("./types.js").Missing[]} */ ([]));
   effect(() => {
     const seen = asked.peek();
@@ -254,7 +254,11 @@ function conditionFields({ preview, mapping, change }) {
       asked.value.map((m) =>
         h(
           "div",
-          { class: () => `field${open(m.key) ? " wanted" : ""}`, "data-field": `conditions.${m.key}` },
+          {
+            class: () => `field${open(m.key) ? " wanted" : ""}`,
+            hidden: () => !open(m.key) && !mapping.value.conditions?.[m.key],
+            "data-field": `conditions.${m.key}`,
+          },
           h(
             "div",
             { class: "field-head" },

@@ -1,7 +1,7 @@
 // @ts-check
 // Measured points with the model over them; one plot for each predicted channel.
 import { h, icon } from "../../dom.js";
-import { computed, effect, signal } from "../../reactive.js";
+import { computed, effect } from "../../reactive.js";
 import { units, view } from "../../state.js";
 import { Chart } from "../../plots/chart.js";
 import { writeLabels } from "../../plots/overlay.js";
@@ -10,7 +10,7 @@ import { chartMenu } from "../../plots/export.js";
 import { menuButton } from "../../ui/menu.js";
 import { spoken } from "../../ui/sources.js";
 import { plotlyReady } from "../design/charts.js";
-import { answer, compare, isBefore, lookCompare, previous, shown, stale, steps } from "./model.js";
+import { compare, fault, isBefore, lookCompare, previous, shown, stale, steps } from "./model.js";
 import { channels, over, variables, viewOf } from "./pictures.js";
 import { colours, overlaySpec, pressureText } from "./specs.js";
 import { VARIABLES } from "./words.js";
@@ -129,13 +129,12 @@ function plotCard(name, first) {
 
 export function overlayCards() {
   const names = computed(() => channels.value.join());
-  const built = signal(0);
   return h(
     "div",
-    { class: () => `column${stale.value ? " stale" : ""}`, "data-built": () => built.value },
+    { class: () => `column${stale.value ? " stale" : ""}` },
     () => {
       overlays.length = 0;
-      if (!names.value) return answer.peek() ? null : skeleton();
+      if (!names.value) return fault.value ? null : skeleton();
       return names.value.split(",").map((name, i) => plotCard(name, i === 0));
     },
   );

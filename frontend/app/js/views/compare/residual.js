@@ -60,7 +60,8 @@ function setBrush(range) {
 /** "contraction 5 to 10 %: RMS 63 N, 120 rows" */
 function inside() {
   const b = brush.value, a = shown.value, system = units.value;
-  if (!b || !a) return h("span", { class: "muted" }, "Drag over the plot: error in a range");
+  if (!a) return null;
+  if (!b) return h("span", { class: "muted" }, "Drag over the plot: error in a range");
   const { rms, rows } = rmsInside(residuals.value, b);
   const unit = residuals.value[0]?.unit ?? a.unit;
   const ranges = Object.entries(b).map(([name, range]) => rangeText(name, range, system)).filter(Boolean);

@@ -138,6 +138,7 @@ export function rigCard() {
           field("supply.pressure", "Supply pressure", "pressure"),
           field("load.mass", "Mass", "mass"),
           field("tube.length", "Tube length", "length"),
+          field("stops.max_contraction", "Upper stop", "ratio"),
         ]
         : null,
     h("button", { type: "button", class: "link", onclick: take }, "Take the rig of the Transient view"),

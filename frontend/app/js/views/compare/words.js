@@ -82,8 +82,17 @@ export function rmsInside(all, brush) {
   return { rms: rows ? Math.sqrt(sum / rows) : null, rows };
 }
 
-/** Share of the spread that the model explains: 100 % is perfect. @param {Series[]} all */
+/** Share of the spread that the model explains, the mean of the channels: 100 % is perfect.
+ * @param {Series[]} all */
 export function fitPercent(all) {
+  const shares = [...new Set(all.map((s) => s.channel))].flatMap((name) =>
+    fitOfChannel(all.filter((s) => s.channel === name)) ?? []
+  );
+  return shares.length ? shares.reduce((sum, one) => sum + one, 0) / shares.length : null;
+}
+
+/** @param {Series[]} all */
+function fitOfChannel(all) {
   const measured = all.flatMap((s) => s.measured.filter((v, i) => v != null && s.residual[i] != null));
   if (measured.length < 2) return null;
   const mean = measured.reduce((/** @type {number} */ sum, v) => sum + (v ?? 0), 0) / measured.length;

@@ -70,16 +70,11 @@ function parameterField(c, e, p) {
 
 /** The parameters in one line, for an effect that is folded. @param {Panel} c @param {Effect} e */
 function summary(c, e) {
-  return e.parameters.slice(0, 3).map((p, i) => {
+  return e.parameters.slice(0, 3).flatMap((p, i) => {
     const quantity = quantityOf(p.unit, p.name);
     const s = quantity ? scaleOf(quantity, units.value) : plainScale(p.unit);
-    return h(
-      "span",
-      { class: "pair" },
-      i ? ", " : "",
-      mathml(p.symbol_mathml),
-      ` = ${number(toShown(valueOf(c, e, p), s), s.digits)} ${s.unit}`,
-    );
+    const value = ` = ${number(toShown(valueOf(c, e, p), s), s.digits)} ${s.unit}`;
+    return [i ? ", " : "", h("span", { class: "pair" }, mathml(p.symbol_mathml), value)];
   });
 }
 

@@ -64,10 +64,13 @@ export function within(range, duration) {
   return range[1] <= duration ? range : [range[0], duration];
 }
 
-/** How long the run takes [s]. */
-export const duration = computed(() => numberAt("duration") ?? LASTS);
+/** How long the run takes [s]. @param {Transient} t */
+const durationOf = (t) => siNumber(t.drive.duration) ?? LASTS;
+export const duration = computed(() => durationOf(transient.value));
+/** @param {Transient} t */
+const windowOf = (t) => within(t.window, durationOf(t));
 /** The times looked at; null = the whole run. */
-export const timeWindow = computed(() => within(transient.value.window, duration.value));
+export const timeWindow = computed(() => windowOf(transient.value));
 
 /** The preset of a part of the drive. @param {"valves" | "tubes"} kind @param {string} path */
 export const partPreset = (kind, path) =>
@@ -171,7 +174,7 @@ export const runRequest = (document, rows) => ({
   ...(rows ? { from: rows[0], to: rows[1] } : {}),
 });
 
-const request = computed(() => JSON.stringify(runRequest(documentNow(), timeWindow.value)));
+const request = computed(() => JSON.stringify(runRequest(documentNow(), windowOf(transient.value))));
 
 /** @param {unknown} body @param {AbortSignal} [control] @returns {Promise<Run>} */
 export const simulate = (body, control) => post("/api/simulations", body, control);

@@ -1,0 +1,48 @@
+"""Reports: one HTML file with data, model, error and verdict."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Request, Response
+from fastapi.concurrency import run_in_threadpool
+from fastapi.responses import HTMLResponse
+
+from mckibben.api.answer import StrictRoute
+from mckibben.api.answers.asked import asked
+from mckibben.api.answers.diagnoses import TIME_LIMIT
+from mckibben.api.answers.reports import Told, prepare
+from mckibben.api.context import StoreDep, StudioDep
+from mckibben.api.long_work import finished
+from mckibben.api.schemas.common import errors
+from mckibben.api.schemas.reports import ReportAnswer, ReportRequest
+from mckibben.api.store import MeasurementStore
+from mckibben.drive_input import drive_of
+from mckibben.physics.errors import InputError
+from mckibben.studio import Studio
+
+router = APIRouter(prefix="/api/reports", tags=["reports"], route_class=StrictRoute)
+
+
+@router.post(
+    "",
+    response_class=HTMLResponse,
+    responses={**ReportAnswer, **errors(400, 404, 413, 415, 422)},
+)
+async def write_report(body: ReportRequest, request: Request, studio: StudioDep, store: StoreDep) -> Response:
+    """The comparison and the diagnosis of a model as one file to keep and to print."""
+    question = await run_in_threadpool(asked, body, studio, store)
+    told = await run_in_threadpool(_told, body, studio, store)
+    work = await run_in_threadpool(prepare, question, studio, told, diagnose=body.diagnose)
+    return HTMLResponse(str(await finished(request, work, time_limit=TIME_LIMIT)))
+
+
+def _told(body: ReportRequest, studio: Studio, store: MeasurementStore) -> Told:
+    history = []
+    for place, step in enumerate(body.history):
+        changed = {"effects": step.effects, "freed": step.freed, "muscle": step.muscle or body.muscle}
+        try:
+            history.append((step.label, asked(body.model_copy(update=changed), studio, store)))
+        except InputError as error:
+            field = f"history.{place}.{error.field or 'effects'}"
+            raise InputError(error.message, field=field, hint=error.hint, code=error.code) from error
+    unverified = {} if body.drive is None else drive_of(body.drive, studio).unverified
+    return Told(body.title, history, unverified, body.fit)

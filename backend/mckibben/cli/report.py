@@ -1,0 +1,28 @@
+"""``--report``: a diagnosis as an HTML file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from mckibben.api.answers.asked import Asked
+from mckibben.api.answers.reports import Told, report_of
+from mckibben.api.answers.start import Json
+from mckibben.cli.output import remark
+from mckibben.physics.errors import InputError
+from mckibben.studio import Studio
+
+
+def write(path: Path, studio: Studio, question: Asked, diagnosis: Json) -> None:
+    """Write the report of a diagnosis.
+
+    Raises:
+        InputError: the file cannot be written.
+    """
+    text = report_of(question, studio, Told(), diagnosis)
+    try:
+        path.write_text(text, encoding="utf-8", newline="\n")
+    except OSError as error:
+        raise InputError(
+            f"--report {path}: cannot be written: {error.strerror or error}", hint="name a file in a folder"
+        ) from error
+    remark(f"report: {path}")

@@ -1,0 +1,96 @@
+"""``mckibben size``: from a task to ranked drives."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from mckibben.api.answers.sizings import sizing_answer
+from mckibben.api.answers.start import Json
+from mckibben.api.schemas.sizings import SizingTask
+from mckibben.cli.options import located
+from mckibben.cli.output import figure, remark, write_json, write_table
+from mckibben.physics.errors import InputError
+from mckibben.presets.reading import BadDocumentError, read_file
+from mckibben.studio import Studio
+
+_REJECTED_SHOWN = 12
+
+
+def run(studio: Studio, *, task: str, as_json: bool) -> None:
+    """Search, and print the proposals and the reasons against the rest, or the answer.
+
+    Raises:
+        InputError: names the file, the field, what is wrong and what would be right.
+    """
+    try:
+        answer = sizing_answer(read_task(read_file(Path(task), follow_links=True)), studio)
+    except BadDocumentError as bad:
+        finding = bad.findings[0]
+        raise InputError(f"{task}: {located(finding.field, finding.message)}", hint=finding.hint) from bad
+    except InputError as error:
+        message = located(error.field, error.message).removesuffix(".")
+        raise InputError(f"{task}: {message}", hint=error.hint) from error
+    if as_json:
+        write_json(answer)
+    else:
+        _write_tables(task, answer)
+    for item in answer["flags"]:
+        remark(item["message"])
+    if answer["message"] is not None:
+        remark(answer["message"])
+
+
+def read_task(document: object) -> SizingTask:
+    """A task from JSON.
+
+    Raises:
+        InputError: says what is wrong, its ``field`` the path in the document.
+    """
+    from pydantic import ValidationError
+
+    from mckibben.api.sentences import first_problem
+
+    try:
+        return SizingTask.model_validate(document)
+    except ValidationError as error:
+        problem = first_problem(error.errors(), SizingTask, document, "the task")
+        raise InputError(
+            problem.message, field=problem.field, hint=problem.hint, code=problem.code
+        ) from error
+
+
+def _write_tables(name: str, answer: Json) -> None:
+    rows: list[Sequence[str]] = [
+        [
+            f"{item['parallel']} × {item['muscle']}" if item["parallel"] > 1 else item["muscle"],
+            figure(item["nominal_length"] * 1e3, unit=" mm"),
+            item["valve"],
+            item["tube"] or "–",
+            figure(item["pressure"] / 1e5, 3, " bar"),
+            figure(item["time"], 3, " s"),
+            figure(item["contraction"] * 100.0, 3, " %"),
+            figure(item["force_reserve"] * 100.0, 3, " %"),
+            figure(item["air_volume_anr"] * 1e3, 3, " l"),
+            figure(item["impact_energy"], 3, " J"),
+            "–" if item["probability"] is None else figure(item["probability"] * 100.0, 3, " %"),
+            item["binding"].replace("_", " "),
+        ]
+        for item in answer["proposals"]
+    ]
+    header = [
+        "muscle", "length", "valve", "tube", "supply", "time", "contraction", "force reserve", "air a cycle",
+        "impact", "does it", "nearest limit",
+    ]  # fmt: skip
+    counted = f"{answer['combinations']} combinations, {answer['simulated']} simulated"
+    if rows:
+        write_table(f"{name}: drives, best first ({counted})", header, rows)
+    else:
+        write_table(f"{name}: nothing in the catalogue does this ({counted})", ["no drive"], [])
+    shown = answer["rejected"][:_REJECTED_SHOWN]
+    for item in shown:
+        remark(
+            f"– {item['why']} [{item['binding'].replace('_', ' ')}]; it would do with {item['would_work_if']}"
+        )
+    if len(answer["rejected"]) > len(shown):
+        remark(f"– and {len(answer['rejected']) - len(shown)} further choices of parts")

@@ -1,0 +1,130 @@
+"""The error of a model in figures, and where it is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mckibben.report.chart import Axis
+from mckibben.report.diagnosis.material import Json
+from mckibben.report.document import Column, bullets, figure_of, paragraph, table
+from mckibben.report.figures import Scale, figure, percent, variable
+from mckibben.report.heat import heat
+from mckibben.report.html import Child, Html, html
+
+#: What errors of several channels together are told in.
+TIMES_NOISE = Scale("× noise")
+
+
+def error_scale(answer: Json) -> Scale:
+    """What errors of a comparison or diagnosis are shown in."""
+    if answer["unit"] == "1" and "," in answer["predicted"]:
+        return TIMES_NOISE
+    return variable(answer["predicted"])[1] if answer["unit"] != "1" else Scale("")
+
+
+def error_table(columns: Sequence[tuple[str, Json]]) -> Html:
+    """Error figures of one or more comparisons side by side."""
+    first = columns[0][1]
+    scale = error_scale(first)
+    rows: list[list[Child]] = [
+        ["RMS error", *(figure(answer["rmse"], scale) for _, answer in columns)],
+        ["… of the largest measured value", *(_percent(answer["nrmse_percent"]) for _, answer in columns)],
+        [
+            "RMS error with whole groups left out of the fit",
+            *(figure(answer["holdout_rmse"], scale) for _, answer in columns),
+        ],
+        ["mean of the residual", *(figure(answer["residual_mean"], scale) for _, answer in columns)],
+        [
+            f"noise of the data ({first['noise_how']})",
+            *(figure(answer["noise_floor"], scale) for _, answer in columns),
+        ],
+        ["rows used", *(str(answer["rows_used"]) for _, answer in columns)],
+        [
+            "does the residual look like noise?",
+            *("yes" if answer["whiteness"]["white"] else "no, it has structure" for _, answer in columns),
+        ],
+    ]
+    for name in first["channels"]:
+        words, own = variable(name)
+        rows.append(
+            [
+                f"RMS error of {words}",
+                *(figure(answer["channels"][name]["rmse"], own) for _, answer in columns),
+            ]
+        )
+        rows.append(
+            [
+                f"noise of {words}",
+                *(figure(answer["channels"][name]["noise_floor"], own) for _, answer in columns),
+            ]
+        )
+    if any(answer["validation"] for _, answer in columns):
+        checks = [answer["validation"] or {} for _, answer in columns]
+        rows.append(["RMS error on the validation data", *(figure(c.get("rmse"), scale) for c in checks)])
+        rows.append(
+            [
+                "… of the largest measured value",
+                *(_percent(check.get("nrmse_percent")) for check in checks),
+            ]
+        )
+    names = [Column("", False), *(Column(name, number=True) for name, _ in columns)]
+    return table(names, rows, caption=f"Error of the predicted {words_of(first['predicted'])}.")
+
+
+def words_of(predicted: str) -> str:
+    """The predicted channels in words."""
+    return " and ".join(variable(name.strip())[0] for name in predicted.split(","))
+
+
+def _percent(value: float | None) -> Html:
+    return percent(None if value is None else value / 100.0, 3)
+
+
+def where_it_fails(answer: Json) -> Html:
+    """The residual over each variable as a table, over two of them as a map, and in words."""
+    scale = error_scale(answer)
+    rows = [
+        [
+            variable(profile["over"])[0],
+            percent(profile["share_explained"]),
+            profile["worst"],
+            figure(profile["rmse"], scale, 3),
+        ]
+        for profile in answer["where"]
+    ]
+    columns = [
+        Column("Variable"), Column("Share of the squared error that it alone predicts", number=True),
+        Column("Worst range"), Column("RMS error there", number=True),
+    ]  # fmt: skip
+    parts: list[Child] = [bullets(f"{sentence}." for sentence in answer["sentences"])]
+    if rows:
+        parts.append(table(columns, rows))
+    found = answer["heat_map"]
+    if found is not None:
+        (across, x_scale), (up, y_scale) = variable(found["x"]), variable(found["y"])
+        mean = [scale.all(row) for row in found["mean"]]
+        drawing = heat(
+            Axis(across.capitalize(), x_scale.unit), Axis(up.capitalize(), y_scale.unit),
+            x_scale.all(found["x_edges"]), y_scale.all(found["y_edges"]), mean,
+            title=f"Mean residual over {across} and {up}",
+        )  # fmt: skip
+        unit = f" in {scale.unit}" if scale.unit else ""
+        if scale == TIMES_NOISE:
+            unit = " as a multiple of the noise"
+        parts.append(
+            figure_of(
+                drawing, f"Mean residual{unit} over {across} and {up}; red: more was measured than modelled."
+            )
+        )
+    areas = [loop["area"] for loop in answer["loops"]]
+    if areas:
+        parts.append(
+            paragraph(
+                "Area of the residual over a closed way, mean of ", str(len(areas)), " loops: ",
+                figure(float(np.mean(areas)), Scale("J"), 3),
+                ". Positive: friction that the model does not have takes this energy out of the motion.",
+            )
+        )  # fmt: skip
+    return html(parts)

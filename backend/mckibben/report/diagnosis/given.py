@@ -1,0 +1,152 @@
+"""What was compared, and on what grounds: data, muscle, assumptions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from mckibben.report.diagnosis.material import Json, Material, Source
+from mckibben.report.diagnosis.model import named, source_text
+from mckibben.report.document import Column, bullets, facts, heading, paragraph, table
+from mckibben.report.figures import Scale, figure, pretty, scale_of, variable, with_error
+from mckibben.report.html import Child, Html, html, tag
+
+
+def data_section(material: Material) -> Html:
+    """Every measurement: what it is, its rows and channels."""
+    return html(_measurement(source) for source in material.sources)
+
+
+def _measurement(source: Source) -> Html:
+    about = source.about
+    left_out = dict(source.left_out) | dict(about["excluded"])
+    rows = about["rows"] + sum(source.left_out.values())
+    used = about["usable_rows"]
+    kind = about["kind"] + (f" (detected: {about['kind_reason']})" if about["kind_detected"] else "")
+    pairs: list[tuple[Child, Child]] = [
+        ("Kind", kind),
+        ("Used to", "fit the model" if source.use == "fit" else "judge the model only (validation)"),
+        ("Rows", f"{rows}, of which {used} can be used"),
+    ]
+    if left_out:
+        reasons = "; ".join(f"{count} {reason.replace('_', ' ')}" for reason, count in left_out.items())
+        pairs.append(("Left out", reasons))
+    if source.identity:
+        pairs.append(("SHA-256", tag("code", source.identity, class_="hash")))
+    if source.origin:
+        pairs.append(("Source", source.origin))
+    conditions = [_condition(name, value) for name, value in about["conditions"].items()]
+    if conditions:
+        pairs.append(("Conditions", "; ".join(conditions)))
+    columns = [Column("Channel"), Column("Smallest", number=True), Column("Largest", number=True)]
+    channels = [_channel(channel) for channel in about["channels"]]
+    if source.identity:  # a built-in measurement has no columns of a file
+        columns += [Column("Column of the file"), Column("Its unit")]
+        for row, channel in zip(channels, about["channels"], strict=True):
+            row += [channel["column"], pretty(channel["unit"]) if channel["unit"] != "1" else "–"]
+    return html(heading(source.name), facts(pairs), table(columns, channels))
+
+
+def _channel(channel: Json) -> list[Child]:
+    words, scale = variable(channel["name"])
+    low, high = (figure(channel[end], scale, exact=True) for end in ("minimum", "maximum"))
+    return [words, low, high]
+
+
+def _condition(name: str, value: float | str) -> str:
+    unit = {"load_mass": " kg", "load_force": " N", "supply_pressure": " Pa"}.get(name, "")
+    shown = value if isinstance(value, str) else f"{value:g}{unit}"
+    return f"{name.replace('_', ' ')} {shown}"
+
+
+_GEOMETRY = (
+    ("nominal_length", "Nominal length", "m"),
+    ("braid_diameter", "Braid diameter at the braid angle", "m"),
+    ("braid_angle", "Braid angle to the axis", "rad"),
+    ("wall_thickness", "Wall thickness", "m"),
+    ("inside_diameter", "Bore", "m"),
+    ("thread_length", "Length of a thread", "m"),
+    ("turns", "Turns of a thread", "1"),
+)
+
+
+def muscle_section(material: Material) -> Html:
+    """Geometry at rest with its sources, limits, and the drive around the muscle."""
+    known = material.muscle
+    geometry = material.comparison["geometry"]
+    fitted = material.comparison["parameters"].get("geometry", {})
+    rows = []
+    for name, words, unit in _GEOMETRY:
+        if name in fitted:
+            value, origin = (
+                with_error(geometry[name], fitted[name]["stderr"], scale_of(unit)),
+                html("fitted to these data"),
+            )
+        elif name in ("thread_length", "turns"):
+            value, origin = (
+                figure(geometry[name], scale_of(unit), 5, exact=True),
+                html("follows from the above"),
+            )
+        elif not geometry[name]:
+            value, origin = html("not known"), html("")
+        else:
+            found = known.figures.get(name)
+            value = figure(geometry[name], scale_of(unit), 5, exact=True)
+            origin = html("given") if found is None else source_text(found)
+        rows.append([words, value, origin])
+    parts: list[Child] = []
+    if known.preset:
+        parts.append(paragraph(f"Based on the preset {known.preset}."))
+    parts.append(table([Column("At rest"), Column("Value", number=True), Column("Source")], rows))
+    if known.limits:
+        limits = [
+            [
+                name.replace("_", " ").capitalize(),
+                figure(value, _limit_scale(unit), exact=True),
+                source_text(found),
+            ]
+            for name, (value, unit, found) in known.limits.items()
+        ]
+        parts.append(table([Column("Limit"), Column("Value", number=True), Column("Source")], limits))
+    if material.drive:
+        parts += [heading("Drive around it"), facts(material.drive)]
+    return html(parts)
+
+
+def _limit_scale(unit: str) -> Scale:
+    """A limit is a pressure, a force or a contraction."""
+    return variable({"Pa": "pressure", "1": "contraction"}.get(unit, "force"))[1]
+
+
+def _in_words(message: str, material: Material) -> str:
+    """A message with parameters named as on the page."""
+    return re.sub(
+        r"\b([a-z_]+)\.([a-z_]+)\b",
+        lambda found: named(found[0], material) if found[1] in material.catalogue else found[0],
+        message,
+    )
+
+
+def assumptions_section(material: Material) -> Html:
+    """What was assumed, and what nobody verified."""
+    lines: list[str] = []
+    answers: Iterable[Json | None] = (material.comparison, material.diagnosis)
+    for answer in answers:
+        lines += [] if answer is None else answer["messages"]
+    for source in material.sources:
+        lines += [f"{source.name}: {message}" for message in source.about["messages"]]
+    found = list(dict.fromkeys(_in_words(line, material) for line in lines))
+    own = {line.partition(": ")[2] for line in found}
+    found = [line for line in found if line not in own]  # said once with the name of the file
+    parts: list[Child] = [bullets(f"{line}." for line in found)] if found else [paragraph("None.")]
+    parts.append(heading("Figures that nobody verified"))
+    if material.unverified:
+        parts += [
+            paragraph(
+                "General knowledge or estimates (grades M and E); a result that rests on them may be off."
+            ),
+            bullets(material.unverified),
+        ]
+    else:
+        parts.append(paragraph("None that enter this model."))
+    return html(parts)

@@ -1,0 +1,114 @@
+"""What the report of a diagnosis is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import datetime
+from typing import Any, NamedTuple
+
+from mckibben.physics.effect import Effect
+
+Json = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Source:
+    """One measurement.
+
+    Attributes:
+        name: of the file, or the id of a built-in measurement.
+        identity: SHA-256 of an uploaded file, "" of a built-in measurement.
+        origin: who measured a built-in one.
+        use: "fit" or "validation".
+        about: the measurement as `/api/measurements` tells it.
+        left_out: why rows were left out -> how many.
+    """
+
+    name: str
+    identity: str
+    origin: str
+    use: str
+    about: Json
+    left_out: Mapping[str, int]
+
+
+class Figure(NamedTuple):
+    """Where a figure comes from: short source and grade."""
+
+    source: str
+    grade: str
+
+
+@dataclass(frozen=True)
+class MuscleFacts:
+    """What is known of the muscle besides its geometry.
+
+    Attributes:
+        preset: id and title of the preset it is based on, "" without one.
+        figures: geometry field -> source, of what is the preset's own.
+        limits: what the maker allows: name -> value, SI unit, source.
+    """
+
+    preset: str = ""
+    figures: Mapping[str, Figure] = field(default_factory=dict)
+    limits: Mapping[str, tuple[float, str, Figure]] = field(default_factory=dict)
+
+
+class PastModel(NamedTuple):
+    """A model on the way to this one: its name, its effects, its comparison."""
+
+    label: str
+    effects: Sequence[str]
+    comparison: Json
+
+
+@dataclass(frozen=True)
+class Command:
+    """How the figures are had again: lines to type, files they need (name -> text), what they cannot say."""
+
+    lines: Sequence[str]
+    files: Mapping[str, str] = field(default_factory=dict)
+    notes: Sequence[str] = ()
+
+
+@dataclass(frozen=True)
+class Material:
+    """Everything the report tells.
+
+    Attributes:
+        title: of the report.
+        made: when.
+        versions: program -> version.
+        sources: the measurements.
+        muscle: what is known of it.
+        catalogue: effect id -> declaration, of all that are named.
+        comparison: the model as given beside the data, as `/api/comparisons` answers.
+        figures: "effect.parameter" -> where the given value comes from.
+        diagnosis: as `/api/diagnoses` answers, None when none was asked for.
+        proposed: comparison of the model that the diagnosis ends with, None without one.
+        history: models on the way to the given one.
+        drive: valve, tube, load and the like in words, of transient measurements.
+        unverified: figures that nobody verified, in words.
+        command: how to repeat it.
+    """
+
+    title: str
+    made: datetime
+    versions: Mapping[str, str]
+    sources: Sequence[Source]
+    muscle: MuscleFacts
+    catalogue: Mapping[str, Effect]
+    comparison: Json
+    figures: Mapping[str, Figure]
+    command: Command
+    diagnosis: Json | None = None
+    proposed: Json | None = None
+    history: Sequence[PastModel] = ()
+    drive: Sequence[tuple[str, str]] = ()
+    unverified: Sequence[str] = ()
+
+    def title_of(self, effect: str) -> str:
+        """An effect in the field's own words."""
+        known = self.catalogue.get(effect)
+        return known.title if known else effect.replace("_", " ")

@@ -1,0 +1,160 @@
+"""The effects of a model: equations, parameters, and what a fit could not determine."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from mckibben.physics.effect import Effect
+from mckibben.physics.parameter import GRADES, UNVERIFIED_GRADES, Parameter
+from mckibben.report.diagnosis.material import Figure, Json, Material
+from mckibben.report.document import Column, bullets, heading, mark, paragraph, table
+from mckibben.report.figures import Scale, figure, scale_of, with_error
+from mckibben.report.formula import formula
+from mckibben.report.html import Child, Html, html, tag
+
+# Standard error over the value from which a fitted value says little.
+_VAGUE = 0.5
+_NOTHING = 1e-6  # of the bounds
+
+
+def source_text(figure_: Figure) -> Html:
+    """Source and grade of a figure, with a mark where nobody verified it."""
+    text = f"{figure_.source} (grade {figure_.grade}: {GRADES.get(figure_.grade, 'unknown')})"
+    return html(text, " ", mark("not verified")) if figure_.grade in UNVERIFIED_GRADES else html(text)
+
+
+def model_cards(
+    parameters: Mapping[str, Mapping[str, Json]],
+    material: Material,
+    *,
+    figures: Mapping[str, Figure] | None = None,
+    added: Sequence[str] = (),
+    terms: Mapping[str, Any] | None = None,
+) -> Html:
+    """Every effect with its equation and parameters.
+
+    Args:
+        parameters: as comparisons and diagnoses answer them.
+        figures: where given values come from; the others were fitted.
+        added: effects that the diagnosis added.
+        terms: effects as a request takes them; a typed term stands in there.
+    """
+    if not parameters:
+        return paragraph(
+            "The ideal model: the gas works on a cylinder of the braid's diameter, the wall has no "
+            "thickness, nothing rubs and nothing gives."
+        )
+    return html(
+        _card(name, own, material, figures or {}, name in added, (terms or {}).get(name, {}))
+        for name, own in parameters.items()
+    )
+
+
+def _card(
+    name: str,
+    own: Mapping[str, Json],
+    material: Material,
+    figures: Mapping[str, Figure],
+    new: bool,
+    given: Json,
+) -> Html:
+    effect = material.catalogue.get(name)
+    declared = {p.name: p for p in effect.parameters} if effect else {}
+    rows = [
+        [
+            _symbol(declared.get(key), key),
+            html(_words(declared.get(key), key)),
+            with_error(_settled(declared.get(key), item), item["stderr"], _scale(declared.get(key), item)),
+            _bounds(declared.get(key), item),
+            _origin(item, figures.get(f"{name}.{key}")),
+        ]
+        for key, item in own.items()
+    ]
+    columns = [
+        Column("Symbol"), Column("Parameter"), Column("Value ± standard error", number=True),
+        Column("Bounds", number=True), Column("Where from"),
+    ]  # fmt: skip
+    if effect is None:
+        return html(heading("Geometry and load"), table(columns, rows))
+    title = html(effect.title, " ", mark("added by the diagnosis")) if new else html(effect.title)
+    return html(
+        heading(title),
+        paragraph(effect.cause),
+        tag("div", _equation(effect, given), class_="equation"),
+        table(columns, rows) if rows else None,
+    )
+
+
+def _equation(effect: Effect, given: Json) -> Html:
+    term = given.get("term")
+    if isinstance(term, str):  # as it was typed: it is no LaTeX
+        return html("F = ", tag("code", term))
+    return formula(effect.equation, block=True)
+
+
+def _symbol(parameter: Parameter | None, key: str) -> Html:
+    return formula(parameter.symbol) if parameter and parameter.symbol != key else tag("code", key)
+
+
+def _words(parameter: Parameter | None, key: str) -> str:
+    return parameter.description if parameter else key.replace("_", " ")
+
+
+def _scale(parameter: Parameter | None, item: Json) -> Scale:
+    """A unit for the value and its bounds; a value of nearly nothing goes by its bounds."""
+    size = abs(item["value"])
+    if parameter is not None and size < _NOTHING * abs(parameter.upper):
+        size = abs(parameter.upper)
+    return scale_of(item["unit"], size)
+
+
+def _settled(parameter: Parameter | None, item: Json) -> float:
+    """The value; exactly the bound where a fit stopped a hair beside it."""
+    value = item["value"]
+    if parameter is not None and item["at_bound"]:
+        nearest = min((parameter.lower, parameter.upper), key=lambda bound: abs(bound - value))
+        if abs(nearest - value) < _NOTHING * (parameter.upper - parameter.lower):
+            return nearest
+    return value
+
+
+def _bounds(parameter: Parameter | None, item: Json) -> Html:
+    if parameter is None:
+        return html("–")
+    scale = _scale(parameter, item)
+    low = figure(parameter.lower, Scale("", scale.size), 3, exact=True)
+    return html(low, " to ", figure(parameter.upper, scale, 3, exact=True))
+
+
+def _origin(item: Json, found: Figure | None) -> Html:
+    if not item["fitted"]:
+        return html("given") if found is None or found.grade == "user" else source_text(found)
+    said: list[Child] = ["fitted to these data"]
+    if item["at_bound"]:
+        said += ["; ", mark("stopped at its bound")]
+    if item["stderr"] is None:
+        said += ["; ", mark("not determined by these data")]
+    elif item["stderr"] > _VAGUE * abs(item["value"]):
+        said += ["; ", mark("hardly determined: the error is of its size")]
+    return html(said)
+
+
+def correlations(answer: Json, material: Material) -> Html:
+    """Fitted numbers that can stand in for each other."""
+    found = [item for item in answer["correlations"] if abs(item["value"]) > 0.9]
+    if not found:
+        return html()
+    lines = [
+        f"{named(item['a'], material)} and {named(item['b'], material)}: "
+        f"correlation {item['value']:.3f}; only a combination of the two is determined"
+        for item in sorted(found, key=lambda item: -abs(item["value"]))
+    ]
+    return html(heading("Fitted numbers that cannot be told apart"), bullets(lines))
+
+
+def named(path: str, material: Material) -> str:
+    """A number "effect.parameter" (or of the geometry) in words."""
+    effect, _, name = path.rpartition(".")
+    words = name.replace("_", " ")
+    return f"{words} ({material.title_of(effect)})" if effect else words

@@ -1,0 +1,86 @@
+"""The sections of the report in their order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from mckibben.report.diagnosis.errors import error_scale, error_table, where_it_fails
+from mckibben.report.diagnosis.given import assumptions_section, data_section, muscle_section
+from mckibben.report.diagnosis.material import Command, Material
+from mckibben.report.diagnosis.model import correlations, model_cards
+from mckibben.report.diagnosis.pictures import pictures
+from mckibben.report.diagnosis.verdict import candidates_section, path_section, verdict_section
+from mckibben.report.document import Column, Section, bullets, code, document, heading, paragraph, table
+from mckibben.report.figures import figure
+from mckibben.report.html import Child, Html, html
+
+
+def diagnosis_report(material: Material) -> str:
+    """One HTML file that needs nothing else."""
+    return document(
+        kind="diagnosis report",
+        title=material.title,
+        made=material.made,
+        versions=material.versions,
+        sections=_sections(material),
+    )
+
+
+def _sections(material: Material) -> Iterator[Section]:
+    answer, found, proposed = material.comparison, material.diagnosis, material.proposed
+    yield Section("Verdict" if found else "Result", verdict_section(material))
+    yield Section("Data", data_section(material))
+    yield Section("Muscle", muscle_section(material))
+    cards = model_cards(
+        answer["parameters"], material, figures=material.figures, terms=answer["model"]["effects"]
+    )
+    yield Section("Model", html(cards, correlations(answer, material)))
+    columns = [("the model as given", answer), *([("the proposed model", proposed)] if proposed else [])]
+    yield Section("Error", html(error_table(columns), pictures(answer, "model as given")))
+    yield Section("Where it fails", where_it_fails(answer))
+    yield Section("Path of the error", path_section(material))
+    if found is not None:
+        yield Section("What is missing", candidates_section(material, found))
+        yield Section("Proposed model" if proposed else "The model refitted", _proposed(material))
+    if material.history:
+        yield Section("History", _history(material))
+    yield Section("Assumptions", assumptions_section(material))
+    yield Section("To repeat it", _command(material.command))
+
+
+def _proposed(material: Material) -> Html:
+    found = material.diagnosis
+    assert found is not None  # noqa: S101 - of a section that only a diagnosis has
+    cards = model_cards(
+        found["parameters"], material, added=found["verdict"]["effects"], terms=found["model"]["effects"]
+    )
+    parts: list[Child] = [cards, correlations(found, material)]
+    if material.proposed is not None:
+        parts += [
+            heading("Beside the data"),
+            pictures(material.proposed, "proposed model"),
+            bullets(f"{sentence}." for sentence in material.proposed["sentences"]),
+        ]
+    return html(parts)
+
+
+def _history(material: Material) -> Html:
+    scale = error_scale(material.comparison)
+    rows = [
+        [
+            past.label,
+            ", ".join(material.title_of(name) for name in past.effects) or "ideal model",
+            figure(past.comparison["rmse"], scale),
+        ]
+        for past in material.history
+    ]
+    columns = [Column("Step"), Column("Effects"), Column("RMS error", number=True)]
+    return table(columns, rows, caption="Models before this one, the oldest first.")
+
+
+def _command(command: Command) -> Html:
+    parts: list[Child] = [code("\n".join(command.lines))]
+    for name, text in command.files.items():
+        parts += [paragraph(name, ":"), code(text)]
+    parts += [paragraph(note, note=True) for note in command.notes]
+    return html(parts)

@@ -1,0 +1,128 @@
+"""The frame of a report and its parts: sections, tables, facts, callouts, figures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Literal
+
+from mckibben.report.html import Child, Html, html, tag
+from mckibben.report.style import CSS
+
+Tone = Literal["plain", "good", "warn", "bad"]
+# Nothing is loaded and nothing runs, whatever a text of a user should turn out to be.
+_POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
+
+
+@dataclass(frozen=True)
+class Section:
+    """A numbered part of the report."""
+
+    title: str
+    content: Html
+
+
+def document(
+    *, kind: str, title: str, made: datetime, versions: Mapping[str, str], sections: Iterable[Section]
+) -> str:
+    """The whole file.
+
+    Args:
+        kind: what sort of report this is.
+        title: of this one.
+        made: when.
+        versions: program -> version that the numbers come from.
+        sections: numbered in this order.
+    """
+    programs = ", ".join(f"{name} {version}" for name, version in versions.items())
+    when = made.isoformat(" ", "minutes")
+    body = [
+        tag(
+            "header",
+            tag("div", f"mckibben · {kind}", class_="kind"),
+            tag("h1", title),
+            tag("p", tag("time", when, datetime=made.isoformat()), f" · {programs}"),
+        ),
+        *(
+            tag("section", tag("h2", f"{number} {section.title}"), section.content)
+            for number, section in enumerate(sections, 1)
+        ),
+    ]
+    head = [
+        tag("meta", charset="utf-8"),
+        tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
+        tag("meta", http_equiv="Content-Security-Policy", content=_POLICY),
+        tag("meta", name="generator", content=f"mckibben {versions.get('mckibben', '')}"),
+        tag("title", f"{title} – {kind}"),
+        tag("style", Html(CSS)),
+    ]
+    return f"<!DOCTYPE html>\n{tag('html', tag('head', head), tag('body', body), lang='en')}\n"
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table; numbers stand at the right."""
+
+    title: Child
+    number: bool = False
+
+
+def table(columns: Sequence[Column], rows: Iterable[Sequence[Child]], *, caption: Child = None) -> Html:
+    """A table whose head is repeated on every printed page."""
+    kinds = ["number" if column.number else None for column in columns]
+    head = tag("tr", [tag("th", c.title, class_=k, scope="col") for c, k in zip(columns, kinds, strict=True)])
+    body = [
+        tag("tr", [tag("td", cell, class_=k) for cell, k in zip(row, kinds, strict=True)]) for row in rows
+    ]
+    top = None if caption is None else tag("caption", caption)
+    return tag("table", top, tag("thead", head), tag("tbody", body))
+
+
+def facts(pairs: Iterable[tuple[Child, Child]]) -> Html:
+    """Names and what they are."""
+    return tag("dl", [html(tag("dt", name), tag("dd", value)) for name, value in pairs])
+
+
+def tiles(pairs: Iterable[tuple[Child, Child]]) -> Html:
+    """The few figures that matter most, large."""
+    return tag(
+        "div",
+        [tag("div", tag("small", name), tag("strong", value), class_="tile") for name, value in pairs],
+        class_="tiles",
+    )
+
+
+def callout(title: Child, *text: Child, tone: Tone = "plain") -> Html:
+    """What must not be overlooked."""
+    return tag("div", tag("b", title), [tag("p", one) for one in text], class_=f"callout {tone}")
+
+
+def figure_of(drawing: Html, caption: Child) -> Html:
+    """A drawing with its caption."""
+    return tag("figure", drawing, tag("figcaption", caption))
+
+
+def bullets(items: Iterable[Child]) -> Html:
+    """A list."""
+    return tag("ul", [tag("li", item) for item in items])
+
+
+def paragraph(*content: Child, note: bool = False) -> Html:
+    """A paragraph; a note is smaller."""
+    return tag("p", *content, class_="note" if note else None)
+
+
+def heading(text: Child) -> Html:
+    """A heading inside a section."""
+    return tag("h3", text)
+
+
+def code(text: str) -> Html:
+    """Lines to be copied."""
+    return tag("pre", text)
+
+
+def mark(text: str) -> Html:
+    """A remark that qualifies a number."""
+    return tag("span", text, class_="mark")

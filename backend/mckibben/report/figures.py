@@ -1,0 +1,137 @@
+"""Numbers as people read them: everyday units, as many digits as mean something, the exact value beside."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from mckibben.report.html import Html, html, tag
+
+_SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_SMALLEST, _LARGEST = 1e-3, 1e5  # beyond, a power of ten is written
+
+
+class Scale(NamedTuple):
+    """A unit to show: SI value = shown value * size."""
+
+    unit: str
+    size: float = 1.0
+
+    def of(self, value: float) -> float:
+        """An SI value in this unit."""
+        return value / self.size
+
+    def all(self, values: Iterable[float | None]) -> list[float]:
+        """SI values in this unit; what is missing is not a number."""
+        return [math.nan if value is None else float(value) / self.size for value in values]
+
+
+PLAIN = Scale("")
+
+#: SI unit -> what it is shown in.
+_SCALES = {
+    "m": Scale("mm", 1e-3),
+    "rad": Scale("°", math.pi / 180.0),
+    "m^3": Scale("cm³", 1e-6),
+    "m^3/(s*Pa)": Scale("l/(s·bar)", 1e-8),
+    "1": Scale(""),
+    "SI": Scale("SI"),
+}
+#: Channel or variable -> name in words and scale.
+VARIABLES = {
+    "pressure": ("pressure", Scale("bar", 1e5)),
+    "contraction": ("contraction", Scale("%", 0.01)),
+    "length": ("length", Scale("mm", 1e-3)),
+    "displacement": ("displacement", Scale("mm", 1e-3)),
+    "diameter": ("diameter", Scale("mm", 1e-3)),
+    "velocity": ("velocity", Scale("mm/s", 1e-3)),
+    "force": ("force", Scale("N")),
+    "load": ("load", Scale("N")),
+    "time": ("time", Scale("s")),
+    "temperature": ("temperature", Scale("K")),
+    "command": ("command", Scale("")),
+    "direction": ("direction of motion", Scale("")),
+    "group": ("group", Scale("")),
+}
+
+
+def variable(name: str) -> tuple[str, Scale]:
+    """A channel or variable in words, and the unit it is shown in."""
+    return VARIABLES.get(name, (name.replace("_", " "), Scale("")))
+
+
+def scale_of(unit: str, value: float | None = None) -> Scale:
+    """What an SI unit is shown in; pascals by the size of the value: Pa, kPa or MPa."""
+    if unit == "Pa":
+        size = abs(value or 0.0)
+        return Scale("MPa", 1e6) if size >= 1e5 else Scale("kPa", 1e3) if size >= 100.0 else Scale("Pa")
+    return _SCALES.get(unit) or Scale(pretty(unit))
+
+
+def pretty(unit: str) -> str:
+    """A unit text with superscripts and middle dots: "N*s/m^2" is N·s/m²."""
+    words = unit.replace("*", "·").split("^")
+    if len(words) == 1:
+        return words[0]
+    powers = [word[:1].translate(_SUPERSCRIPT) + word[1:] for word in words[1:]]
+    return "".join([words[0], *powers])
+
+
+def plain(value: float | None, digits: int = 4, *, exact: bool = False) -> str:
+    """A number with so many significant digits; a dash for none. ``exact``: zeros at the end say nothing."""
+    if value is None or not math.isfinite(value):
+        return "–"
+    if value == 0.0:
+        return "0"
+    rounded = float(f"{value:.{digits - 1}e}")
+    size = abs(rounded)
+    if not _SMALLEST <= size < _LARGEST:
+        exponent = math.floor(math.log10(size))
+        factor = f"{rounded / 10.0**exponent:.{digits - 1}f}".rstrip("0").rstrip(".")
+        return _signed(f"{factor}·10{str(exponent).translate(_SUPERSCRIPT)}")
+    decimals = max(digits - 1 - math.floor(math.log10(size)), 0)
+    text = f"{rounded:.{decimals}f}"
+    return _signed(text.rstrip("0").rstrip(".") if exact and decimals else text)
+
+
+def _signed(text: str) -> str:
+    return text.replace("-", "\u2212")
+
+
+def figure(value: float | None, scale: Scale = PLAIN, digits: int = 4, *, exact: bool = False) -> Html:
+    """A value in SI as ``<data value="SI">shown unit</data>``; a dash for none. ``exact`` as in `plain`."""
+    if value is None or not math.isfinite(value):
+        return html("–")
+    shown = plain(scale.of(value), digits, exact=exact)
+    return tag("data", _with_unit(shown, scale.unit), value=repr(float(value)))
+
+
+def with_error(value: float, error: float | None, scale: Scale) -> Html:
+    """Value and standard error, rounded where the error has two digits: (0.9047 ± 0.0088) MPa."""
+    if error is None or not math.isfinite(error) or error <= 0.0:
+        return figure(value, scale, exact=True)
+    shown, spread = scale.of(value), scale.of(error)
+    # A value far below its error still shows one digit of the error.
+    size = max(abs(shown), spread)
+    digits = math.floor(math.log10(size)) - math.floor(math.log10(spread)) + 2
+    if not _SMALLEST <= size < _LARGEST:
+        exponent = math.floor(math.log10(size))
+        small = [f"{part / 10.0**exponent:.{max(min(digits, 9) - 1, 0)}f}" for part in (shown, spread)]
+        text = f"({small[0]} ± {small[1]})·10{str(exponent).translate(_SUPERSCRIPT)}"
+    else:
+        decimals = max(1 - math.floor(math.log10(spread)), 0)
+        text = f"{shown:.{decimals}f} ± {spread:.{decimals}f}"
+        text = f"({text})" if scale.unit else text
+    return tag("data", _with_unit(_signed(text), scale.unit), value=repr(float(value)))
+
+
+def percent(share: float | None, digits: int = 2) -> Html:
+    """A share of one in percent."""
+    return figure(share, Scale("%", 0.01), digits)
+
+
+def _with_unit(text: str, unit: str) -> str:
+    if not unit:
+        return text
+    return f"{text}{'' if unit == '°' else chr(0xA0)}{unit}"

@@ -1,0 +1,82 @@
+"""A quantity over two others as coloured cells with their numbers, as SVG."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from mckibben.report.chart import EDGE, INK, SOFT, Axis, label, margin, text
+from mckibben.report.figures import plain
+from mckibben.report.html import Html, tag
+
+_LOW, _ZERO, _HIGH = (33, 102, 172), (247, 247, 247), (178, 24, 43)
+_TOP, _BOTTOM, _CELL = 8.0, 44.0, 26.0
+_DARK = 0.55  # share of the scale from which white numbers are easier to read
+
+Values = Sequence[Sequence[float]]
+
+
+def heat(
+    x: Axis, y: Axis, x_edges: Sequence[float], y_edges: Sequence[float], values: Values, *, title: str,
+    width: float = 720.0,
+) -> Html:  # fmt: skip
+    """The drawing: blue below zero, red above; cells without a value stay empty.
+
+    Args:
+        x, y: the axes, in the units of the edges.
+        x_edges, y_edges: limits of the cells, one more than cells.
+        values: rows of y from the lowest, shape (y cells, x cells); NaN where there is none.
+        title: what is shown, for those who cannot see it.
+        width: of the drawing; on the page it fills the width.
+    """
+    rows, columns = len(y_edges) - 1, len(x_edges) - 1
+    begin = margin([_edge(edge, y_edges) for edge in y_edges])
+    wide, bottom = (width - begin - 24.0) / columns, _TOP + _CELL * rows
+    most = max((abs(v) for row in values for v in row if not math.isnan(v)), default=0.0) or 1.0
+    parts: list[Html] = []
+    for j, row in enumerate(values):
+        for i, value in enumerate(row):
+            left, top = begin + wide * i, bottom - _CELL * (j + 1)
+            share = None if math.isnan(value) else value / most
+            parts.append(
+                tag(
+                    "rect", x=f"{left:.1f}", y=f"{top:.1f}", width=f"{wide:.1f}", height=f"{_CELL:g}",
+                    fill="#fff" if share is None else _colour(share), stroke="#fff",
+                )
+            )  # fmt: skip
+            if share is not None:
+                ink = "#fff" if abs(share) > _DARK else INK
+                parts.append(
+                    text(plain(value, 2), f"{left + 0.5 * wide:.1f}", top + 17.0, anchor="middle", colour=ink)
+                )
+    for i, edge in enumerate(x_edges):
+        parts.append(text(_edge(edge, x_edges), f"{begin + wide * i:.1f}", bottom + 16.0, anchor="middle"))
+    for j, edge in enumerate(y_edges):
+        parts.append(text(_edge(edge, y_edges), begin - 7.0, bottom - _CELL * j + 4.0, anchor="end"))
+    frame = f"M{begin:g} {_TOP:g}V{bottom:g}H{begin + wide * columns:.1f}"
+    parts.append(tag("path", d=frame, stroke=EDGE, fill="none"))
+    middle, centre = begin + 0.5 * wide * columns, 0.5 * (_TOP + bottom)
+    parts.append(text(x.text, f"{middle:.1f}", bottom + 36.0, anchor="middle", colour=INK))
+    turned = f"rotate(-90 14 {centre:.1f})"
+    parts.append(text(y.text, 14.0, centre, anchor="middle", colour=INK, transform=turned))
+    return tag(
+        "svg",
+        tag("title", title),
+        *parts,
+        viewBox=f"0 0 {width:g} {bottom + _BOTTOM:g}",
+        role="img",
+        fill=SOFT,
+        xmlns="http://www.w3.org/2000/svg",
+    )
+
+
+def _colour(share: float) -> str:
+    end, size = _LOW if share < 0.0 else _HIGH, min(abs(share), 1.0)
+    mixed = [round(a + (b - a) * size) for a, b in zip(_ZERO, end, strict=True)]
+    return f"rgb({mixed[0]},{mixed[1]},{mixed[2]})"
+
+
+def _edge(value: float, edges: Sequence[float]) -> str:
+    """As many digits as tell neighbours apart."""
+    step = (edges[-1] - edges[0]) / max(len(edges) - 1, 1) or 1.0
+    return label(round(value, max(1 - math.floor(math.log10(step)), 0)))

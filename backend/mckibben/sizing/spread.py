@@ -1,0 +1,92 @@
+"""How specimens, friction and supply differ from what was computed.
+
+- The blocked force is normally distributed, two standard deviations = the spread the task states. Between
+  specimens and laboratories the curves are displaced along the contraction axis (the length at which a
+  muscle is called uncontracted differs), so a specimen starts from a contraction of its own: its force at
+  kappa is that of the computed muscle at kappa + shift, and the shift makes its blocked force differ.
+- Hysteresis is evenly distributed between none and the full width of the loop: a force that opposes the
+  motion both ways, half the loop wide.
+- The supply pressure is evenly distributed within its tolerance.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import ndtri
+
+from mckibben.sizing.catalogue import Design
+from mckibben.sizing.statics import outputs
+from mckibben.sizing.task import Task
+
+_SEED = 20260
+_STEP = 1e-3  # of contraction, for a slope
+# All three at once: as rare as the worst of one alone.
+_WEAK, _USUAL = 1.5, 0.6
+
+
+@dataclass(frozen=True, slots=True)
+class Deviation:
+    """Of one muscle: standard deviation of the shift [-], half of the loop at its widest [N]."""
+
+    shift: float
+    friction: float
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """Deviations of specimens, shape (specimens,) each.
+
+    Attributes:
+        shift: added to the contraction ratio.
+        friction: force of one muscle against the motion [N].
+        pressure: factor of the supply pressure.
+    """
+
+    shift: np.ndarray
+    friction: np.ndarray
+    pressure: np.ndarray
+
+
+def deviation_of(design: Design, task: Task) -> Deviation:
+    """Linear at the blocked force for the shift, and at the end of the stroke for the loop."""
+    part, given, end = design.group.muscle, task.uncertainty, design.contraction
+    points = np.array([0.0, _STEP, end, end + _STEP])
+    force = _force(design, task, points)
+    lost = np.maximum(force[[0, 2]] - force[[1, 3]], 1e-9) / _STEP  # N per contraction
+    width = part.hysteresis if given.hysteresis is None else given.hysteresis
+    shift = 0.5 * given.blocked_force * max(float(force[0]), 0.0) / float(lost[0])
+    return Deviation(shift, 0.5 * width * float(lost[1]))
+
+
+def weak(design: Design, task: Task) -> tuple[float, float, float]:
+    """Shift, friction and pressure factor of a specimen that about 19 of 20 are better than."""
+    deviation = deviation_of(design, task)
+    shift = _WEAK * deviation.shift
+    return shift, _USUAL * deviation.friction, 1.0 - (1.0 - _USUAL) * task.uncertainty.supply_pressure
+
+
+def spread_of(design: Design, task: Task, count: int) -> Spread:
+    """Deviations of so many specimens: a Latin hypercube, the same at every call."""
+    random = np.random.default_rng(_SEED)
+    cells = np.array([random.permutation(count) for _ in range(3)])
+    even = (cells + random.uniform(size=cells.shape)) / count
+    deviation = deviation_of(design, task)
+    normal = ndtri(np.clip(even[0], 1e-12, 1.0 - 1e-12))
+    return Spread(
+        deviation.shift * normal,
+        deviation.friction * even[1],
+        1.0 + task.uncertainty.supply_pressure * (2.0 * even[2] - 1.0),
+    )
+
+
+def _force(design: Design, task: Task, contraction: np.ndarray) -> np.ndarray:
+    size = len(contraction)
+    return outputs(
+        design.group.muscle,
+        length=np.full(size, design.length),
+        contraction=contraction,
+        pressure=np.full(size, design.pressure),
+        temperature=task.temperature,
+    )["force"]

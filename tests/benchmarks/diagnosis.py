@@ -1,0 +1,203 @@
+"""How often the hidden effect is found: every case of `tests.truth`, as a table. One command, one run:
+
+    python -m tests.benchmarks.diagnosis [--seeds 0,1,2] [--only TEXT] [--kind transient]
+
+The diagnosis sees the file, the muscle or drive document and the start model; the answer is opened afterwards.
+Errors are over the true noise of the case. *Found*: every hidden effect is named or in a named group of twins.
+*Surplus*: a named group that holds none of them. For an effect that is in no catalogue the proposed term is
+added and refitted: *taken* is the share of the excess over the noise that it takes away.
+"""
+
+from __future__ import annotations
+
+import argparse
+import multiprocessing
+import os
+import statistics
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from tests.truth.cases import Case
+from tests.truth.generate import all_cases
+
+_STATE: dict[str, Any] = {}
+
+
+@dataclass
+class Line:
+    """What became of one case; errors over its true noise."""
+
+    case: str
+    seed: int
+    kind: str
+    hidden: int
+    unknown: bool
+    status: str = ""
+    named: list[str] = field(default_factory=list)
+    found: int = 0
+    surplus: list[str] = field(default_factory=list)
+    before: float = float("nan")
+    after: float = float("nan")
+    floor: float = float("nan")
+    taken: float | None = None
+    seconds: float = float("nan")
+    problem: str = ""
+
+    @property
+    def right(self) -> bool:
+        """Whether the verdict is the right one."""
+        if self.unknown:
+            return self.status == "unknown_effect"
+        return not self.problem and (self.found == self.hidden if self.hidden else not self.named)
+
+
+def diagnosed(case: Case) -> Line:
+    """Diagnose one case and open its answer."""
+    from mckibben.identification.diagnosis import diagnose
+
+    line = Line(case.name, case.seed, case.kind, len(case.hidden), case.unknown is not None)
+    studio = _studio()
+    try:
+        subject, setting = subject_and_start(case, studio)
+        began = time.perf_counter()
+        result = diagnose(subject, setting, catalogue=studio.catalogue)
+        line.seconds = time.perf_counter() - began
+    except Exception as error:  # a case that breaks is a line of the table, not its end
+        line.problem = f"{type(error).__name__}: {error}"[:120]
+        return line
+    floor = true_floor(case, subject)
+    groups = [{name, *(a.effect for a in result.alternatives if a.of == name)} for name in result.added]
+    named = set().union(*groups) if groups else set()
+    line.status, line.named = result.status, list(result.added)
+    line.found = sum(bool(hidden & named) for hidden in case.hidden)
+    line.surplus = [sorted(group)[0] for group in groups if not any(group & h for h in case.hidden)]
+    line.before, line.after = result.start.rmse / floor, result.best.rmse / floor
+    line.floor = (result.noise or float("nan")) / floor
+    if line.unknown and result.term is not None:
+        line.taken = _taken(subject, result, floor)
+    return line
+
+
+def subject_and_start(case: Case, studio: Any) -> tuple[Any, Any]:
+    """What a user would give of a case: measurement, muscle or drive, start model."""
+    from mckibben.api.answers.measured import Points, joined
+    from mckibben.api.answers.simulations import read_document
+    from mckibben.api.schemas.convert import given_muscle
+    from mckibben.api.schemas.muscle import MuscleInput
+    from mckibben.drive_input import drive_of
+    from mckibben.identification.read import read_measurement
+    from mckibben.identification.setting import Setting
+    from mckibben.identification.subjects import subject_of
+
+    files = [Points(read_measurement(text.encode(), name)) for name, text in case.files.items()]
+    measurement = joined(files).measurement
+    if case.drive is not None:
+        document = {"effects": case.effects, **case.drive}
+        drive = drive_of(read_document(document, "the drive"), studio).drive
+        model = drive.model
+    else:
+        start = studio.start_model(given_muscle(MuscleInput.model_validate(case.muscle)), case.effects)
+        drive, model = None, studio.static_model(start)
+    setting = Setting(model.muscle, model.effects, model.values)
+    return subject_of(measurement, setting.muscle, drive), setting
+
+
+def true_floor(case: Case, subject: Any) -> float:
+    """Rms of the true noise over the scale of the subject's residual."""
+    if len(subject.channels) == 1:
+        return next(iter(case.noise.values()))
+    shares = [(case.noise[channel.name] / channel.noise) ** 2 for channel in subject.channels]
+    return float(np.sqrt(np.mean(shares)))
+
+
+def _taken(subject: Any, result: Any, floor: float) -> float:
+    from mckibben.identification.node import fitted_node
+    from mckibben.identification.setting import free_numbers
+    from mckibben.physics.custom import custom_effect
+
+    effect = custom_effect(result.term.formula, result.term.coefficients)
+    setting = result.best.setting.adding(effect)
+    node = fitted_node(subject, setting, free_numbers(setting, (), result.best.freed))
+    excess = result.best.mean_square - floor**2
+    return 1.0 - max(node.mean_square - floor**2, 0.0) / excess if excess > 0.0 else 1.0
+
+
+def _studio() -> Any:
+    if not _STATE:
+        from mckibben.resources import presets_folder
+        from mckibben.simulation.engine import kernel
+        from mckibben.studio import Studio
+
+        kernel.warm().join()
+        _STATE["studio"] = Studio(presets=presets_folder())
+    return _STATE["studio"]
+
+
+def summary(lines: Sequence[Line]) -> list[tuple[str, str, str]]:
+    """The figures that were promised: name, reached, wanted."""
+    known = [line for line in lines if not line.unknown]
+    single = [line for line in known if line.hidden == 1]
+    several = [line for line in known if line.hidden > 1]
+    nothing = [line for line in known if not line.hidden]
+    unknown = [line for line in lines if line.unknown]
+    taken = [line for line in unknown if line.taken is not None and line.taken >= 0.8]
+
+    def share(chosen: Sequence[Line], holds: Callable[[Line], bool]) -> str:
+        count = sum(map(holds, chosen))
+        return f"{count} of {len(chosen)} ({100.0 * count / max(len(chosen), 1):.0f} %)"
+
+    return [
+        ("single effect found", share(single, lambda line: line.right), ">= 95 %"),
+        ("single: error <= 1.15 x noise", share(single, lambda line: line.after <= 1.15), ">= 95 %"),
+        ("pairs and triples: all found", share(several, lambda line: line.right), ">= 85 %"),
+        ("nothing missing: false alarms", share(nothing, lambda line: bool(line.named)), "<= 5 %"),
+        ("not in the catalogue: flagged", share(unknown, lambda line: line.right), ">= 80 %"),
+        ("proposed term takes >= 80 %", f"{len(taken)} of {len(unknown)}", ">= half"),
+        ("with surplus effects", share(known, lambda line: bool(line.surplus)), ""),
+        ("seconds, median", f"{statistics.median([line.seconds for line in lines]):.1f}", ""),
+    ]
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--seeds", default="0,1,2")
+    parser.add_argument("--only", default="", help="part of the case's name")
+    parser.add_argument("--kind", default="", help="transient, isobaric, ...; 'static' is all but transient")
+    given = parser.parse_args()
+    seeds = tuple(int(seed) for seed in given.seeds.split(","))
+    chosen = [
+        case
+        for case in all_cases(seeds=seeds)
+        if given.only in case.name
+        and (
+            not given.kind
+            or case.kind == given.kind
+            or (given.kind == "static") == (case.kind != "transient")
+        )
+    ]
+    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+        os.environ.setdefault(name, "1")
+    lines = []
+    with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
+        for line in pool.imap_unordered(diagnosed, [replace(case) for case in chosen]):
+            lines.append(line)
+            mark = "ok " if line.right else "-- "
+            taken = "" if line.taken is None else f" term takes {100.0 * line.taken:.0f} %"
+            surplus = f" surplus {', '.join(line.surplus)}" if line.surplus else ""
+            print(
+                f"{mark}{line.case + ' ' + str(line.seed):46}{line.status:16}{line.before:6.1f} ->{line.after:6.2f} "
+                f"floor {line.floor:4.2f} {line.seconds:5.1f} s  {', '.join(line.named)}{surplus}{taken}{line.problem}",
+                flush=True,
+            )
+    print()
+    for name, reached, wanted in summary(lines):
+        print(f"{name:34}{reached:>18}   {wanted}")
+
+
+if __name__ == "__main__":
+    main()

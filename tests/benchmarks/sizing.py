@@ -1,0 +1,111 @@
+"""How long a sizing takes, and the same transients under scipy's odeint. One command, one run:
+
+    python -m tests.benchmarks.sizing
+
+The task: 20 kg up by 60 mm in 0.5 s at 6 bar, with every muscle, valve and tube of the catalogue; 10
+proposals with 100 specimens each. Beside it run 100 of its own transients (designs that the search tries)
+under odeint with the same equations as Python source at the same tolerance, and 1000 specimens of the best
+proposal.
+
+Seconds of processor time tell what the machine could do when others use it too.
+"""
+
+from __future__ import annotations
+
+import statistics
+import sys
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from scipy.integrate import odeint
+
+from mckibben.api.answers.sizing_task import catalogue_of, task_of
+from mckibben.api.schemas.sizings import SizingTask
+from mckibben.resources import presets_folder
+from mckibben.simulation.engine import kernel
+from mckibben.simulation.outcome import Watch
+from mckibben.sizing import Sizing, size
+from mckibben.sizing.bench import Bench, Prepared
+from mckibben.sizing.catalogue import Design
+from mckibben.sizing.chance import chance
+from mckibben.studio import Studio
+from tests.benchmarks.engine import say
+from tests.benchmarks.translated import translated
+
+TASK: dict[str, Any] = {"load": {"mass": "20 kg"}, "stroke": "60 mm", "time": "0.5 s"}
+ROUNDS, RUNS, SPECIMENS, TOLERANCE = 5, 100, 1000, 1e-5
+
+
+def timed(work: Callable[[], Any]) -> tuple[Any, float, float]:
+    """Result, seconds by the clock, seconds of processor time."""
+    began, used = time.perf_counter(), time.process_time()
+    found = work()
+    return found, time.perf_counter() - began, time.process_time() - used
+
+
+def by_odeint(prepared: Prepared, rates: Callable[[list[float]], list[float]]) -> float:
+    """The stroke at the end of a run."""
+    line = prepared.timeline
+    state = prepared.start(prepared.parameters, prepared.inputs)
+    for index, inputs in enumerate(prepared.inputs):
+        begin, end = line.times[index], line.times[index + 1]
+        rest = [*prepared.parameters.tolist(), *inputs.tolist()]
+        within = line.grid[(line.grid > begin) & (line.grid < end)]
+        found = odeint(
+            lambda y, t, rest=rest: rates([*y.tolist(), *rest]),
+            state,
+            np.concatenate([[begin], within, [end]]),
+            rtol=TOLERANCE,
+            atol=TOLERANCE * prepared.compiled.scales,
+            mxstep=100_000,
+        )
+        state = found[-1]
+    return float(state[0])
+
+
+def ratio(bench: Bench, designs: list[Design]) -> None:
+    """Our transients beside odeint's, one after the other in one thread."""
+    prepared = [bench.prepared(design) for design in designs]
+    written: dict[int, Any] = {}
+    for item in prepared:
+        written.setdefault(id(item.compiled), translated(item.compiled.model, "python"))
+    _, ours, ours_used = timed(lambda: [bench.run(design) for design in designs])
+    _, theirs, theirs_used = timed(lambda: [by_odeint(item, written[id(item.compiled)]) for item in prepared])
+    say(
+        f"{len(designs)} transients, one thread: ours {ours:.2f} s ({ours_used:.2f} s of processor), odeint "
+        f"{theirs:.2f} s ({theirs_used:.2f} s): {theirs_used / ours_used:.0f} times"
+    )
+
+
+def main() -> int:
+    """Measure everything and print it."""
+    kernel.warm().join()
+    studio = Studio(presets=presets_folder())
+    document = SizingTask.model_validate(TASK)
+    task, catalogue = task_of(document), catalogue_of(document, studio)
+    found = Sizing()
+    clock: list[float] = []
+    used: list[float] = []
+    for _ in range(ROUNDS):
+        found, took, processor = timed(lambda: size(task, catalogue))
+        clock.append(took)
+        used.append(processor)
+    specimens = sum(item.chance.specimens for item in found.proposals if item.chance)
+    say(
+        f"sizing: {found.combinations} combinations, {found.pruned} pruned in closed form, {found.simulated} "
+        f"transients, {specimens} specimens: first {clock[0]:.2f} s, best {min(clock):.2f} s, median "
+        f"{statistics.median(clock):.2f} s ({statistics.median(used):.2f} s of processor on two threads)"
+    )
+    bench = Bench(task, Watch())
+    ratio(bench, [trial.design for trial in found.explored][:RUNS])
+    best = found.proposals[0].design
+    for _ in range(3):
+        likely, took, processor = timed(lambda: chance(bench, best, (0.0, 1.0), SPECIMENS))
+        say(f"{SPECIMENS} specimens: {took:.2f} s ({processor:.2f} s of processor), {likely.probability:.3f}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

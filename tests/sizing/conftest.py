@@ -1,0 +1,35 @@
+"""Presets, opened once, and tasks made of documents."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from mckibben.api.answers.sizing_task import catalogue_of, task_of
+from mckibben.api.schemas.sizings import SizingTask
+from mckibben.resources import presets_folder
+from mckibben.sizing import Catalogue, Task
+from mckibben.studio import Studio
+
+LIFT: dict[str, Any] = {
+    "load": {"mass": "20 kg"},
+    "stroke": "60 mm",
+    "time": "0.5 s",
+    "limits": {"max_length": "600 mm", "max_diameter": "60 mm"},
+    "catalogue": {
+        "muscles": ["DMSP-10", "DMSP-20", "DMSP-40"], "valves": ["MPYE-5-1/8-HF"], "tubes": ["PUN-H-6x1"],
+    },
+    "uncertainty": {"specimens": 0},
+}  # fmt: skip
+
+
+@pytest.fixture(scope="session")
+def studio() -> Studio:
+    return Studio(presets=presets_folder())
+
+
+def understood(document: dict[str, Any], studio: Studio) -> tuple[Task, Catalogue]:
+    """Task and catalogue of a document."""
+    given = SizingTask.model_validate(document)
+    return task_of(given), catalogue_of(given, studio)

@@ -1,0 +1,190 @@
+"""The search as a whole: its drives are what it says of them, it can be watched and ended."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import pytest
+
+from mckibben.api.answers.runs import grid_of
+from mckibben.api.answers.simulations import read_document, simulation_answer
+from mckibben.api.answers.sizings import drive_document, sizing_answer
+from mckibben.api.schemas.sizing_answer import SizingAnswer
+from mckibben.api.schemas.sizings import SizingTask
+from mckibben.drive_input import drive_of
+from mckibben.physics.errors import InputError
+from mckibben.simulation.engine import compiled_drive
+from mckibben.simulation.outcome import Outcome, Watch
+from mckibben.simulation.transient import parameters_of
+from mckibben.sizing import size
+from mckibben.studio import Studio
+from tests.sizing.conftest import LIFT, understood
+
+PAIR: dict[str, Any] = {
+    **LIFT,
+    "load": {"pair": {"angle": "60 deg", "torque": "2 N*m", "inertia": 0.02, "pulley_radius": "30 mm"}},
+    "limits": {"max_length": "300 mm"},
+}
+del PAIR["stroke"]
+TASKS: dict[str, dict[str, Any]] = {
+    "lift": LIFT,
+    "both ways": {**LIFT, "time_down": "0.4 s", "cycle_time": "0.8 s"},
+    "slope with a spring": {
+        **LIFT,
+        "load": {"mass": "30 kg", "inclination": "30 deg", "spring": "500 N/m"},
+        "catalogue": {**LIFT["catalogue"], "tube_length": 0.0},
+    },
+    "lever": {**LIFT, "load": {"mass": "10 kg", "lever_ratio": 0.5}, "stroke": "120 mm"},
+    "counterweight": {**LIFT, "load": {"mass": "30 kg", "counterweight": "10 kg"}},
+    "force over the stroke": {
+        **LIFT,
+        "load": {"mass": "5 kg", "force_over_stroke": {"strokes": [0.0, 0.06], "forces": [20.0, 90.0]}},
+    },
+    "warm": {**LIFT, "ambient_temperature": "50 degC"},
+    "pair": PAIR,
+}
+
+
+def answer_of(task: dict[str, Any], studio: Studio) -> dict[str, Any]:
+    return sizing_answer(SizingTask.model_validate(task), studio)
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_every_proposal_is_a_drive_that_runs_as_it_says(studio: Studio, name: str) -> None:
+    answer = answer_of(TASKS[name], studio)
+    assert answer["proposals"]
+    for proposal in answer["proposals"]:
+        document = read_document(proposal["drive"], "the drive")
+        grid = grid_of(duration=document.duration, begin=0.0, end=document.duration, points=2001)
+        run = simulation_answer(drive_of(document, studio), grid, engine="rodas")
+        assert run["outcome"] == "completed"
+        up, down = run["timing"]["extend"], run["timing"]["retract"]
+        assert up["positioning_time"] == pytest.approx(proposal["time"], rel=2e-3)
+        if proposal["time_down"] is not None:
+            assert down["positioning_time"] == pytest.approx(proposal["time_down"], rel=5e-3)
+        share = proposal["parallel"]
+        assert share * up["impact_energy"] == pytest.approx(proposal["impact_energy"], rel=0.02, abs=1e-3)
+        if name != "pair":  # its second muscle takes air on the way back
+            # The timing table sums rows, in which the jump of the flow at the begin is one row wide.
+            assert share * up["air_volume_anr"] == pytest.approx(proposal["air_volume_anr"], rel=0.02)
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_the_document_means_the_numbers_that_were_simulated(studio: Studio, name: str) -> None:
+    task, catalogue = understood(TASKS[name], studio)
+    for proposal in size(task, catalogue).proposals:
+        design = proposal.design
+        own = design.group.drive(task, design.length, design.pressure)
+        given = drive_of(read_document(drive_document(design, task), "the drive"), studio).drive
+        assert given.structure.effects == own.structure.effects
+        compiled = compiled_drive(own.structure)
+        assert parameters_of(given, compiled) == pytest.approx(parameters_of(own, compiled), rel=1e-12)
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_proposals_keep_every_limit(studio: Studio, name: str) -> None:
+    answer = answer_of(TASKS[name], studio)
+    SizingAnswer.model_validate(answer)
+    for proposal in answer["proposals"]:
+        assert min(proposal["margins"].values()) >= -1e-9
+        assert proposal["margins"][proposal["binding"]] == min(proposal["margins"].values())
+        assert proposal["time"] <= 0.5
+        assert proposal["installed_length"] <= 0.6
+        assert proposal["pressure"] <= 6e5
+        assert proposal["force_reserve"] >= 0.1
+        assert proposal["drive"]["supply"]["pressure"] == proposal["pressure"]
+        assert proposal["unverified"]
+
+
+@pytest.mark.parametrize("aim", ["air", "time", "length", "reserve"])
+def test_it_ranks_by_what_is_asked_for(studio: Studio, aim: str) -> None:
+    figures = {
+        "air": "air_volume_anr",
+        "time": "time",
+        "length": "nominal_length",
+        "reserve": "force_reserve",
+    }
+    found = [item[figures[aim]] for item in answer_of({**LIFT, "rank_by": aim}, studio)["proposals"]]
+    assert found == sorted(found, reverse=aim == "reserve")
+
+
+def test_it_ranks_by_probability(studio: Studio) -> None:
+    task = {**LIFT, "rank_by": "probability", "uncertainty": {"specimens": 40}}
+    found = [item["probability"] for item in answer_of(task, studio)["proposals"]]
+    assert found == sorted(found, reverse=True)
+    assert found[0] >= 0.9
+
+
+def test_nothing_beats_the_front(studio: Studio) -> None:
+    answer = answer_of({**LIFT, "catalogue": {**LIFT["catalogue"], "tubes": None, "valves": None}}, studio)
+    names = {"air_volume_anr": 1, "time": 1, "nominal_length": 1, "force_reserve": -1, "stiffness": -1}
+    designs = answer["explored"]
+    assert any(item["front"] for item in designs)
+    for item in designs:
+        beaten = any(
+            all(sign * other[name] <= sign * item[name] for name, sign in names.items())
+            and any(sign * other[name] < sign * item[name] for name, sign in names.items())
+            for other in designs
+        )
+        assert item["front"] is not beaten
+
+
+def test_what_would_help_does_help(studio: Studio) -> None:
+    task = {
+        **LIFT,
+        "load": {"mass": "80 kg"},
+        "stroke": "50 mm",
+        "limits": {"max_length": "400 mm", "max_parallel": 1},
+        "catalogue": {**LIFT["catalogue"], "muscles": ["DMSP-20"]},
+    }
+    (no,) = answer_of(task, studio)["rejected"]
+    assert no["binding"] == "length"
+    (needed,) = re.findall(r"(\d+) mm long", no["would_work_if"])
+    task = {**task, "limits": {"max_length": f"{int(needed) + 1} mm", "max_parallel": 1}}
+    assert answer_of(task, studio)["proposals"]
+
+
+def test_a_search_tells_its_progress(studio: Studio) -> None:
+    seen: list[float] = []
+    watch = Watch()
+    task, catalogue = understood({**LIFT, "uncertainty": {"specimens": 20}}, studio)
+    asked = watch.ended
+    watch.ended = lambda share: (seen.append(share), asked(share))[1]  # type: ignore[method-assign]
+    size(task, catalogue, watch)
+    assert seen == sorted(seen)
+    assert 0.0 <= seen[0] < 0.2
+    assert 0.7 < seen[-1] <= 1.0
+
+
+def test_a_search_ends_when_nobody_waits(studio: Studio) -> None:
+    task, catalogue = understood(LIFT, studio)
+    found = size(task, catalogue, Watch(cancelled=lambda: True))
+    assert found.outcome is Outcome.CANCELLED
+    assert found.proposals == []
+    assert found.simulated == 0
+
+
+@pytest.mark.parametrize(
+    ("change", "field"),
+    [
+        ({"load": {"mass": 0.0}}, "load"),
+        ({"load": {"mass": 20.0, "inclination": "-10 deg"}}, "load"),
+        ({"stroke": None}, "stroke"),
+        ({"speed": "1 m/s"}, "speed"),
+        ({"load": {"pair": {"angle": 1.0}}}, "stroke"),
+        ({"load": {"pair": {"angle": 1.0}, "mass": 2.0}, "stroke": None}, "load.mass"),
+        ({"load": {"mass": 1.0, "force_over_stroke": {"strokes": [0.0], "forces": [1.0, 2.0]}}},
+         "load.force_over_stroke"),
+        ({"catalogue": {"muscles": ["DMSP-21"]}}, "catalogue.muscles.0"),
+        ({"catalogue": {"valves": ["VPPM-6"]}}, "catalogue.valves.0"),
+        ({"catalogue": {"valves": []}}, "catalogue.valves"),
+        ({"catalogue": {"tube_length": "1 mm"}}, "catalogue.tube_length"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_meant_is_refused_with_its_field(
+    studio: Studio, change: dict[str, Any], field: str
+) -> None:
+    with pytest.raises(InputError) as caught:
+        answer_of({**LIFT, **change}, studio)
+    assert caught.value.field == field

@@ -1,0 +1,97 @@
+"""``mckibben size``: JSON, tables, one line for whatever is wrong."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mckibben import cli
+from mckibben.api.schemas.sizing_answer import SizingAnswer
+from tests.api.test_sizings import IMPOSSIBLE, TASK
+
+Run = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture(autouse=True)
+def _own_folders(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("MCKIBBEN_DATA", str(tmp_path / "data"))
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture
+def run(capsysbinary: pytest.CaptureFixture[bytes]) -> Run:
+    """Run a command line in this process: exit code, stdout, stderr."""
+
+    def call(*arguments: str) -> tuple[int, str, str]:
+        code = cli.run([*arguments])
+        captured = capsysbinary.readouterr()
+        return code, captured.out.decode(), captured.err.decode()
+
+    return call
+
+
+def write(name: str, content: object) -> str:
+    Path(name).write_text(content if isinstance(content, str) else json.dumps(content), "utf-8")
+    return name
+
+
+def test_a_task_gives_one_json_object_and_its_drive_runs(run: Run) -> None:
+    code, out, _ = run("size", write("task.json", TASK), "--json")
+    assert code == 0
+    assert out.count("\n") == 1
+    answer = json.loads(out)
+    SizingAnswer.model_validate(answer)
+    best = answer["proposals"][0]
+    code, out, _ = run("simulate", write("drive.json", best["drive"]), "--json")
+    assert code == 0
+    timing: dict[str, Any] = json.loads(out)["timing"]
+    # One process per run integrates by LSODA, the search by the kernel.
+    assert timing["extend"]["positioning_time"] == pytest.approx(best["time"], rel=0.01)
+
+
+def test_tables_name_the_drives_and_the_reasons(run: Run) -> None:
+    code, out, err = run("size", write("task.json", TASK))
+    assert code == 0
+    assert "DMSP-20" in out
+    assert "combinations" in out
+    assert "it would do with" in err
+
+
+def test_nothing_found_is_an_answer(run: Run) -> None:
+    task = write("task.json", IMPOSSIBLE)
+    code, out, err = run("size", task)
+    assert code == 0
+    assert "nothing in the catalogue does this" in out
+    assert "times the load" in err
+    assert json.loads(run("size", task, "--json")[1])["proposals"] == []
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        ("{", ["task.json"]),
+        ("[]", ["task.json"]),
+        ({"load": {"mass": "20 kg"}}, ["task.json", "stroke"]),
+        ({**TASK, "stroek": 1}, ["stroek", "stroke"]),
+        ({**TASK, "load": {"mass": "20 kgg"}}, ["load.mass"]),
+        ({**TASK, "catalogue": {"muscles": ["DMSP-21"]}}, ["catalogue.muscles.0", "DMSP-20"]),
+    ],
+)
+def test_what_is_wrong_is_said_in_one_line(run: Run, content: object, words: list[str]) -> None:
+    code, out, err = run("size", write("task.json", content), "--json")
+    assert code == 2
+    assert out == ""
+    assert len(err.strip().splitlines()) == 1
+    assert "Traceback" not in err
+    for word in words:
+        assert word in err
+
+
+def test_a_missing_file_is_named(run: Run) -> None:
+    code, _, err = run("size", "nowhere.json")
+    assert code == 2
+    assert "nowhere.json" in err
