@@ -71,8 +71,8 @@ def test_a_new_file_appears_and_works(tmp_path: Path) -> None:
         ("EFFECT = Effect(", "EFFECT = dict(", "no module-level EFFECT"),
         ("*, direction: Value", "*, velocty: Value", "asks for 'velocty'"),
         (
-            "def friction(*, direction",
-            "def friction(direction",
+            "*, direction: Value",
+            "direction: Value",
             "'direction' of slot 'friction' must be keyword-only",
         ),
         (

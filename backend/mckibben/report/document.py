@@ -11,6 +11,7 @@ from mckibben.report.html import Child, Html, html, tag
 from mckibben.report.style import CSS
 
 Tone = Literal["plain", "good", "warn", "bad"]
+_SHORT = 14  # rows of a table that is not broken between pages
 # Nothing is loaded and nothing runs, whatever a text of a user should turn out to be.
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
 
@@ -76,7 +77,8 @@ def table(columns: Sequence[Column], rows: Iterable[Sequence[Child]], *, caption
         tag("tr", [tag("td", cell, class_=k) for cell, k in zip(row, kinds, strict=True)]) for row in rows
     ]
     top = None if caption is None else tag("caption", caption)
-    return tag("table", top, tag("thead", head), tag("tbody", body))
+    short = "short" if len(body) <= _SHORT else None
+    return tag("table", top, tag("thead", head), tag("tbody", body), class_=short)
 
 
 def facts(pairs: Iterable[tuple[Child, Child]]) -> Html:

@@ -57,6 +57,7 @@ pre { background: var(--tint); padding: 8px 12px; white-space: pre-wrap;
   section { margin-top: 20px; }
   h2, h3, caption { break-after: avoid; }
   figure, .callout, .tiles, tr, .equation, dl { break-inside: avoid; }
+  table.short { break-inside: avoid; }
   thead { display: table-header-group; }
   .callout, .equation, pre, svg { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 }

@@ -81,13 +81,13 @@ def report_of(asked: Asked, studio: Studio, told: Told, diagnosis: Json | None) 
     parts = [*_sources(asked.points, "fit")]
     if asked.validation is not None:
         parts += _sources(asked.validation, "validation")
-    names = ", ".join(source.name for source in parts if source.use == "fit")
+    names = [source.name for source in parts if source.use == "fit"]
     preset = asked.start.preset
     known = {} if preset is None else dict(quantities(studio.library.muscle(preset.id)))
     catalogue = {**studio.catalogue, **asked.start.catalogue}
     return diagnosis_report(
         Material(
-            title=told.title.strip() or names,
+            title=told.title.strip() or ", ".join(names),
             made=datetime.now().astimezone(),
             versions={
                 "mckibben": __version__,
@@ -221,13 +221,13 @@ def with_model(
     return replace(asked, start=start, drive=drive, free=())
 
 
-def _command(asked: Asked, comparison: Json, names: str, *, diagnosed: bool) -> Command:
+def _command(asked: Asked, comparison: Json, names: Sequence[str], *, diagnosed: bool) -> Command:
     geometry = comparison["geometry"]
     model = {
         "muscle": {name: geometry[name] for name in GEOMETRY if geometry[name]},
         "effects": comparison["model"]["effects"],
     }
-    files = [_typed(name) for name in names.split(", ")]
+    files = [_typed(name) for name in names]
     free = [f"--free {name}" for name in asked.free]
     noise = [] if asked.noise is None else [f"--noise {asked.noise!r}"]
     shared = [*files, f"--drive {_MODEL_FILE}"]

@@ -104,6 +104,7 @@ def candidates_section(material: Material, found: Json) -> Html:
     scale = error_scale(found)
     verdict = found["verdict"]
     useful = [c for c in found["candidates"] if c["gain_percent"] >= _HELPS]
+    useful.sort(key=lambda candidate: -candidate["gain_percent"])
     rows = [
         [
             c["title"],

@@ -1,0 +1,59 @@
+"""The diagnosis on data whose hidden effect follows other formulas than ours; the whole table: see the README.
+
+A choice of cases of `tests.truth`; `python -m tests.benchmarks.diagnosis` runs all of them with three seeds.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.benchmarks.diagnosis import diagnosed
+from tests.truth.generate import case
+
+FOUND = (
+    "bladder-ogden-isometric",
+    "bladder-eight-chain-isotonic",
+    "threshold-isometric",
+    "end-caps-isobaric",
+    "threads-isometric",
+    "coulomb-isobaric",
+    "coulomb-isotonic",
+    "pressure-zero-isobaric",
+    "force-zero-isobaric",
+    "length-zero-diameter",
+    "pressure-scale-map",
+    "dead-volume-steps",
+    "delay-pulses",
+)
+TOGETHER = ("pair-bladder-ends-isobaric", "pair-bladder-length-zero-map", "triple-bladder-prestress-coulomb-isobaric")
+NOTHING = ("nothing-isobaric", "nothing-thread-form-map", "nothing-isotonic", "nothing-diameter", "nothing-steps")
+UNKNOWN = ("unknown-ripple-isobaric", "unknown-magnet-map", "unknown-humidity-isometric")
+
+
+@pytest.mark.parametrize("name", FOUND)
+def test_a_single_hidden_effect_is_found_and_the_error_falls_to_the_noise(name: str) -> None:
+    line = diagnosed(case(name, 0))
+    assert not line.problem
+    assert line.right, line
+    assert line.after <= 1.15, line
+    assert line.status in ("missing_effects", "ambiguous")
+
+
+@pytest.mark.parametrize("name", TOGETHER)
+def test_hidden_effects_are_found_together(name: str) -> None:
+    line = diagnosed(case(name, 0))
+    assert line.right, line
+    assert line.after <= 1.15, line
+
+
+@pytest.mark.parametrize("name", NOTHING)
+def test_nothing_is_said_to_be_missing_when_nothing_is(name: str) -> None:
+    line = diagnosed(case(name, 0))
+    assert line.status == "adequate", line
+    assert line.named == []
+
+
+@pytest.mark.parametrize("name", UNKNOWN)
+def test_what_no_catalogue_holds_is_said_to_be_unknown(name: str) -> None:
+    line = diagnosed(case(name, 0))
+    assert line.status == "unknown_effect", line

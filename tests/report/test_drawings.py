@@ -1,0 +1,102 @@
+"""Drawings: geometry of the marks, ticks, and what is said for those who cannot see them."""
+
+from __future__ import annotations
+
+import math
+import re
+from xml.etree import ElementTree
+
+import pytest
+
+from mckibben.report.bars import Bar, bars
+from mckibben.report.chart import Axis, Band, Dots, Line, chart, family, ticks
+from mckibben.report.heat import heat
+
+SVG = "{http://www.w3.org/2000/svg}"
+X, Y = Axis("Contraction", "%"), Axis("Force", "N")
+
+
+def paths(drawing: str) -> list[ElementTree.Element]:
+    """Paths with a course inside the axes, in the order of drawing."""
+    return ElementTree.fromstring(drawing).findall(f"{SVG}svg/{SVG}path")
+
+
+def points(path: ElementTree.Element) -> list[tuple[float, float]]:
+    """Corners of a path."""
+    return [(float(a), float(b)) for a, b in re.findall(r"[ML](-?[\d.]+) (-?[\d.]+)", path.attrib["d"])]
+
+
+def texts(drawing: str) -> list[str]:
+    """All words of a drawing."""
+    return ["".join(element.itertext()) for element in ElementTree.fromstring(drawing).iter(f"{SVG}text")]
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "expected"),
+    [
+        (0.0, 10.0, [0, 2, 4, 6, 8, 10]),
+        (-0.1, 0.35, [-0.1, 0.0, 0.1, 0.2, 0.3]),
+        (1e5, 1.02e5, [1e5, 1.005e5, 1.01e5, 1.015e5, 1.02e5]),
+    ],
+)
+def test_ticks_are_round_and_inside(low: float, high: float, expected: list[float]) -> None:
+    assert ticks(low, high) == pytest.approx(expected)
+
+
+def test_a_straight_line_is_drawn_straight_and_to_scale() -> None:
+    drawing = chart(X, Y, [Line([0, 5, 10], [0, 50, 100], "model")], title="t")
+    (x0, y0), (x1, y1), (x2, y2) = points(paths(drawing)[0])
+    assert x1 == pytest.approx((x0 + x2) / 2, abs=0.1)
+    assert y1 == pytest.approx((y0 + y2) / 2, abs=0.1)
+    assert x0 < x2
+    assert y0 > y2  # up is more
+    words = texts(drawing)
+    assert {"Contraction [%]", "Force [N]", "model", "0", "100"} <= set(words)
+
+
+def test_gaps_break_a_line_and_leave_out_dots() -> None:
+    values = [1.0, None, 3.0, math.nan, 5.0]
+    drawing = chart(X, Y, [Line(range(5), values), Dots(range(5), values)], title="t")
+    line, dots = paths(drawing)
+    assert line.attrib["d"].count("M") == 3
+    assert dots.attrib["d"].count("h0") == 3
+    assert "nan" not in drawing
+
+
+@pytest.mark.parametrize("values", [[], [2.0], [0.0, 0.0], [1e-9, 1e9], [-5.0, -5.0]])
+def test_any_range_has_a_drawing(values: list[float]) -> None:
+    drawing = chart(X, Axis("a<b", zero=True), [Dots(values, values, "x"), Band(-1, 1, "noise")], title="<t>")
+    root = ElementTree.fromstring(drawing)
+    assert root.attrib["role"] == "img"
+    assert root.findtext(f"{SVG}title") == "<t>"
+
+
+def test_a_long_legend_names_first_and_last_and_counts_the_rest() -> None:
+    marks = [Line([0, 1], [k, k], f"series {k}") for k in range(30)]
+    words = texts(chart(X, Y, marks, title="t"))
+    assert {"series 0", "series 29", "and 18 between"} <= set(words)
+
+
+def test_colours_of_a_family_differ() -> None:
+    assert len(set(family(12))) == 12
+    assert family(1) == ["rgb(34,154,136)"]
+
+
+def test_bars_are_as_long_as_their_values() -> None:
+    drawing = bars(
+        [Bar("a", 10.0, "10 N"), Bar("b", 5.0, "5 N", tick=6.0)], axis="N", title="t", level=(1, "noise")
+    )
+    widths = [float(e.attrib["width"]) for e in ElementTree.fromstring(drawing).iter(f"{SVG}rect")]
+    assert widths[0] == pytest.approx(2 * widths[1], rel=1e-3)
+    assert {"a", "b", "10 N", "5 N", "noise"} <= set(texts(drawing))
+
+
+def test_bars_of_nothing_have_a_drawing() -> None:
+    ElementTree.fromstring(bars([Bar("a", 0.0, "0")], axis="N", title="t"))
+
+
+def test_heat_colours_by_sign_and_leaves_gaps_empty() -> None:
+    drawing = heat(X, Y, [0, 1, 2], [0, 1, 2], [[-4.0, 2.0], [math.nan, 0.0]], title="t")
+    fills = [e.attrib["fill"] for e in ElementTree.fromstring(drawing).iter(f"{SVG}rect")]
+    assert fills == ["rgb(33,102,172)", "rgb(212,136,145)", "#fff", "rgb(247,247,247)"]
+    assert {"\u22124.0", "2.0", "0"} <= set(texts(drawing))
