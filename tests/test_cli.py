@@ -203,6 +203,17 @@ def test_a_fit_beats_the_given_parameters(run: Run) -> None:
     assert ideal > given > fitted > rmse("--fit", "--free", "braid_angle")
 
 
+def test_compare_tells_where_the_model_fails(run: Run) -> None:
+    code, out, err = run("compare", "martens-dmsp-20-300", "--muscle", "DMSP-20", "--ideal")
+    assert code == 0
+    assert "noise floor" in out
+    assert "rms; this variable alone predicts" in err
+    assert "the residual is not noise: it has structure" in err
+    answer = json.loads(run("compare", "martens-dmsp-20-300", "--muscle", "DMSP-20", "--ideal", "--json")[1])
+    assert {"where", "heat_map", "whiteness", "loops", "sentences", "channels", "validation"} <= answer.keys()
+    assert answer["validation"] is None
+
+
 # --- one line for whatever is wrong
 
 WRONG = [
@@ -217,7 +228,7 @@ WRONG = [
     (["curves"], ["--muscle", "--help"]),
     (["curves", "--muscl", "DMSP-20"], ["--muscl", "--muscle"]),
     (["curve", "--muscle", "DMSP-20"], ["curve", "curves"]),
-    (["size", "x.json"], ["size"]),
+    (["size", "x.json"], ["x.json", "No such file"]),
     (["curves", "--muscle", "DMSP-20", "--pressure", "1"], ["--pressure", "1 bar,3 bar"]),
     (["curves", "--muscle", "DMSP-20", "--pressure", "1 bar,,3 bar"], ["--pressure", "empty"]),
     (["curves", "--muscle", "DMSP-20", "--pressure", "-1 bar"], ["-1 bar", "between"]),
@@ -309,11 +320,13 @@ def test_help_lists_only_commands_that_exist(run: Run) -> None:
         "serve",
         "curves",
         "compare",
+        "diagnose",
         "simulate",
+        "size",
     }
 
 
-@pytest.mark.parametrize("command", ["serve", "curves", "compare"])
+@pytest.mark.parametrize("command", ["serve", "curves", "compare", "diagnose", "simulate", "size"])
 def test_every_command_has_help(run: Run, command: str) -> None:
     code, out, err = run(command, "--help")
     assert (code, err) == (0, "")

@@ -7,6 +7,9 @@ export interface paths {
   "/api/curves": {
     post: operations["compute_curves"];
   };
+  "/api/diagnoses": {
+    post: operations["diagnose_model"];
+  };
   "/api/effects": {
     get: operations["list_effects"];
   };
@@ -19,8 +22,17 @@ export interface paths {
   "/api/measurements": {
     put: operations["upload_measurement"];
   };
+  "/api/measurements/preview": {
+    post: operations["preview_measurement"];
+  };
   "/api/measurements/{measurement_id}": {
     get: operations["read_measurement"];
+  };
+  "/api/mysteries": {
+    get: operations["list_mysteries"];
+  };
+  "/api/mysteries/{mystery_id}/reveal": {
+    post: operations["reveal_mystery"];
   };
   "/api/presets/muscles": {
     post: operations["save_muscle"];
@@ -31,13 +43,45 @@ export interface paths {
   "/api/presets/{kind}/{preset_id}": {
     get: operations["read_preset"];
   };
+  "/api/reports": {
+    post: operations["write_report"];
+  };
   "/api/simulations": {
     post: operations["simulate_drive"];
+  };
+  "/api/sizings": {
+    post: operations["size_drives"];
   };
 }
 
 export interface components {
   schemas: {
+    /** The start model as given. */
+    Baseline: {
+      rmse: number;
+      nrmse_percent: number | null;
+      holdout_rmse: number;
+    };
+    /** The start model with one more effect, all numbers refitted. */
+    Candidate: {
+      effect: string;
+      title: string;
+      rmse: number;
+      holdout_rmse: number;
+      gain_percent: number;
+      /** Change of the Bayes-type score; negative is better. */
+      delta_bic: number;
+      parameters: { [key: string]: components["schemas"]["FittedParameter"] };
+      /** Candidates that these data cannot tell from it. */
+      twins: string[];
+      why: string;
+      /** LaTeX. */
+      equation: string;
+      freed: string[];
+      /** What would tell it from its first twin. */
+      next_measurement: string | null;
+      model: components["schemas"]["ModelJson"];
+    };
     /** One column of a measurement that is used. */
     Channel: {
       /** Name of the channel. */
@@ -52,6 +96,20 @@ export interface components {
       minimum: number | null;
       /** Largest value, SI. */
       maximum: number | null;
+    };
+    /** What a column can be mapped to. */
+    ChannelChoice: {
+      name: string;
+      si_unit: string;
+      /** Usual units; others are accepted too. */
+      units: string[];
+    };
+    /** Error of one of several predicted channels, SI. */
+    ChannelError: {
+      rmse: number;
+      unit: string;
+      noise_floor: number;
+      full_scale: number;
     };
     /** Figures of the muscle at one pressure. */
     Characteristics: {
@@ -87,9 +145,9 @@ export interface components {
       kind: string;
       rows: number;
       rows_used: number;
-      /** The predicted channel. */
+      /** The predicted channel, or several. */
       predicted: string;
-      /** SI unit of the predicted channel. */
+      /** SI unit of the error; "1": over the noise of each channel. */
       unit: string;
       /** Root mean square of the residual. */
       rmse: number | null;
@@ -101,42 +159,74 @@ export interface components {
       holdout_rmse: number | null;
       /** Noise of the data, when it can be told. */
       noise_floor: number | null;
+      /** From what the noise was told. */
+      noise_how: string;
       residual_mean: number | null;
+      /** Each channel when there are several. */
+      channels: { [key: string]: components["schemas"]["ChannelError"] };
       /** Effect -> parameter -> value. */
       parameters: { [key: string]: { [key: string]: components["schemas"]["FittedParameter"] } };
       correlations: components["schemas"]["Correlation"][];
       /** Why rows were left out -> how many. */
       excluded: { [key: string]: number };
+      where: components["schemas"]["ResidualProfile"][];
+      heat_map: components["schemas"]["HeatMap"] | null;
+      whiteness: components["schemas"]["WhitenessAnswer"];
+      loops: components["schemas"]["Loop"][];
+      /** Where the model fails, in words. */
+      sentences: string[];
+      validation: components["schemas"]["ValidationAnswer"] | null;
       messages: string[];
       geometry: components["schemas"]["MuscleGeometry"];
       series: components["schemas"]["ComparisonSeries"][];
+      /** Effects and values as a request takes them. */
+      model: { [key: string]: { [key: string]: { [key: string]: number | string } } };
       flags: components["schemas"]["Flag"][];
     };
-    /** Which model beside which measurement, and whether to fit it. */
+    /** Which model beside which measurements, and whether to fit it. */
     ComparisonRequest: {
-      muscle: components["schemas"]["MuscleInput"];
+      /** Null: the drive's. */
+      muscle?: components["schemas"]["MuscleInput"] | null;
       effects?: { [key: string]: { [key: string]: number | string } } | null;
-      /** SHA-256 id of an uploaded file, or id of a preset measurement or reference curve. */
-      measurement: string;
-      /** Fit the effects' parameters to the data. */
-      fit?: boolean;
+      /** Valve, tube, supply and load of transient measurements with a command channel. */
+      drive?: components["schemas"]["DriveDocument"] | null;
+      /** One measurement to fit to. */
+      measurement?: string | null;
+      measurements?: components["schemas"]["UsedMeasurement"][];
       /** Geometry that is fitted too, within its tolerance. */
       free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
+      /** Further constants that are fitted, as effect.parameter. */
+      freed?: string[];
+      /** Standard deviation of the predicted channel in SI, when it is known. */
+      noise?: number | null;
+      /** Fit the effects' parameters to the data. */
+      fit?: boolean;
     };
     /** One curve of the comparison, e.g. all points of one pressure. */
     ComparisonSeries: {
       label: string;
+      /** The predicted channel. */
+      channel: string;
+      /** SI unit of measured, predicted and residual. */
+      unit: string;
+      use: "fit" | "validation";
       /** Pressure of the series, when it has one. [Pa] */
       pressure: number | null;
+      /** Time of each point. [s] */
+      time: (number | null)[] | null;
       /** Contraction of each point. [1] */
       contraction: (number | null)[];
       /** Length of each point. [m] */
       length: (number | null)[];
       /** Pressure of each point. [Pa] */
       x_pressure: (number | null)[];
-      /** Measured, in the unit of the answer. */
+      /** dL/dt of each point. [m/s] */
+      velocity: (number | null)[];
+      /** -1 shortening, 1 lengthening, 0 held or unknown. */
+      direction: (number | null)[];
+      /** Measured. */
       measured: (number | null)[];
-      /** Predicted, in the unit of the answer. */
+      /** Predicted. */
       predicted: (number | null)[];
       /** Measured minus predicted. */
       residual: (number | null)[];
@@ -391,6 +481,45 @@ export interface components {
       /** With the program, or the user's own. */
       origin: "built-in" | "user";
     };
+    /** What the model is missing, and how sure that is. */
+    DiagnosisAnswer: {
+      kind: string;
+      rows: number;
+      rows_used: number;
+      predicted: string;
+      unit: string;
+      baseline: components["schemas"]["Baseline"];
+      noise_floor: components["schemas"]["NoiseFloor"];
+      channels: { [key: string]: components["schemas"]["ChannelError"] };
+      where: components["schemas"]["ResidualProfile"][];
+      candidates: components["schemas"]["Candidate"][];
+      path: components["schemas"]["PathStep"][];
+      verdict: components["schemas"]["Verdict"];
+      parameters: { [key: string]: { [key: string]: components["schemas"]["FittedParameter"] } };
+      correlations: components["schemas"]["Correlation"][];
+      geometry: components["schemas"]["MuscleGeometry"];
+      /** Muscle and effects; can be given to a comparison as a drive. */
+      model: { [key: string]: unknown };
+      freed: string[];
+      messages: string[];
+    };
+    /** The start model and the measurements that it should explain. */
+    DiagnosisRequest: {
+      /** Null: the drive's. */
+      muscle?: components["schemas"]["MuscleInput"] | null;
+      effects?: { [key: string]: { [key: string]: number | string } } | null;
+      /** Valve, tube, supply and load of transient measurements with a command channel. */
+      drive?: components["schemas"]["DriveDocument"] | null;
+      /** One measurement to fit to. */
+      measurement?: string | null;
+      measurements?: components["schemas"]["UsedMeasurement"][];
+      /** Geometry that is fitted too, within its tolerance. */
+      free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
+      /** Further constants that are fitted, as effect.parameter. */
+      freed?: string[];
+      /** Standard deviation of the predicted channel in SI, when it is known. */
+      noise?: number | null;
+    };
     /** A drive document to start from; its content is checked by the API that runs it. */
     DriveAnswer: {
       schema: 1;
@@ -613,6 +742,36 @@ export interface components {
       index: number;
       why: string;
     };
+    /** What would separate two effects that look alike. */
+    Experiment: {
+      pair: string[];
+      declared: string;
+      protocol: string;
+      /** Standard deviations of one reading. */
+      separation: number;
+    };
+    /** A simulated design that does the task; coarse figures, for a picture of the choices. */
+    ExploredDesign: {
+      muscle: string;
+      /** Of each muscle. [m] */
+      nominal_length: number;
+      /** Muscles side by side. */
+      parallel: number;
+      valve: string;
+      tube: string | null;
+      /** Of the supply, gauge. [Pa] */
+      pressure: number;
+      /** For the stroke. [s] */
+      time: number;
+      /** In a cycle. [m^3] */
+      air_volume_anr: number;
+      /** Share by which the static force exceeds the load. [1] */
+      force_reserve: number;
+      /** At the load, valve open. [N/m] */
+      stiffness: number;
+      /** No other explored design is better in everything. */
+      front: boolean;
+    };
     /** A file that was not loaded, and why. */
     FileProblem: {
       file: string;
@@ -662,6 +821,13 @@ export interface components {
       /** While lengthening. [N] */
       venting: (number | null)[];
     };
+    /** A force that depends on where the load is, linear between the points. */
+    ForceOverStroke: {
+      /** Strokes of the load, ascending. */
+      strokes: (number | string)[];
+      /** Force against the pull there. */
+      forces: (number | string)[];
+    };
     /** The air and its surroundings. */
     GasInput: {
       /** 1 isothermal, 1.4 adiabatic. [1] */
@@ -696,6 +862,33 @@ export interface components {
       plotly: string;
       /** Whether the server has a folder for the user's presets. */
       can_save_presets: boolean;
+    };
+    /** The residual over two variables; rows are y, null where there is no point. */
+    HeatMap: {
+      x: string;
+      y: string;
+      x_edges: (number | null)[];
+      y_edges: (number | null)[];
+      mean: ((number | null)[])[];
+      rms: ((number | null)[])[];
+      count: number[][];
+    };
+    /** One thing that the start model lacks. */
+    Hidden: {
+      title: string;
+      /** What it does, and how it shows. */
+      what: string;
+      /** Effect ids that are right answers. */
+      effects: string[];
+    };
+    /** A model on the way to the one of the report. */
+    HistoryStep: {
+      label: string;
+      /** As in the request itself. */
+      effects?: { [key: string]: { [key: string]: number | string } } | null;
+      freed?: string[];
+      /** Null: that of the request. */
+      muscle?: components["schemas"]["MuscleInput"] | null;
     };
     /** The value asked for, in SI, with what to know about it. */
     InverseAnswer: {
@@ -843,9 +1036,17 @@ export interface components {
       /** Of both muscles of a pair at the middle; 10 % when left out. [1] */
       precontraction?: number | string | null;
     };
+    /** Area of the force residual over a closed way: energy that the model lacks or has too much. */
+    Loop: {
+      group: number;
+      /** Positive: friction takes it out of the motion. [J] */
+      area: number;
+      /** Way between the turns. [m] */
+      span: number;
+    };
     /** A measurement as it was understood. */
     MeasurementAnswer: {
-      /** SHA-256 of the file's content. */
+      /** SHA-256 of the file's content (and of the mapping, if one was given). */
       id: string;
       /** Name of the file. */
       name: string;
@@ -853,14 +1054,25 @@ export interface components {
       kind: string;
       /** Detected from the data, not given in the file. */
       kind_detected: boolean;
+      /** Why this kind was detected; empty when it was given. */
+      kind_reason: string;
       rows: number;
+      /** Rows that hold what was to be measured. */
+      usable_rows: number;
+      /** Why rows of the measurement are not usable -> how many. */
+      excluded: { [key: string]: number };
+      /** Why rows of the file could not be read -> how many. */
+      skipped: { [key: string]: number };
       channels: components["schemas"]["Channel"][];
       /** Columns that are not used. */
       ignored: string[];
       /** Conditions of the test, SI. */
       conditions: { [key: string]: string | number | null };
+      /** Conditions to ask for. */
+      missing: components["schemas"]["MissingCondition"][];
       /** How many sweeps or cycles the rows belong to. */
       groups: number;
+      segments: components["schemas"]["Segmentation"];
       /** What to know about the file. */
       messages: string[];
     };
@@ -872,7 +1084,7 @@ export interface components {
     };
     /** A measurement with its data. */
     MeasurementDetail: {
-      /** SHA-256 of the file's content. */
+      /** SHA-256 of the file's content (and of the mapping, if one was given). */
       id: string;
       /** Name of the file. */
       name: string;
@@ -880,17 +1092,28 @@ export interface components {
       kind: string;
       /** Detected from the data, not given in the file. */
       kind_detected: boolean;
+      /** Why this kind was detected; empty when it was given. */
+      kind_reason: string;
       rows: number;
+      /** Rows that hold what was to be measured. */
+      usable_rows: number;
+      /** Why rows of the measurement are not usable -> how many. */
+      excluded: { [key: string]: number };
+      /** Why rows of the file could not be read -> how many. */
+      skipped: { [key: string]: number };
       channels: components["schemas"]["Channel"][];
       /** Columns that are not used. */
       ignored: string[];
       /** Conditions of the test, SI. */
       conditions: { [key: string]: string | number | null };
+      /** Conditions to ask for. */
+      missing: components["schemas"]["MissingCondition"][];
       /** How many sweeps or cycles the rows belong to. */
       groups: number;
+      segments: components["schemas"]["Segmentation"];
       /** What to know about the file. */
       messages: string[];
-      /** Channel -> values in SI; 'slack' marks rows without pulling force. */
+      /** Channel -> values in SI; 'slack' marks rows without pulling force, 'usable' those that hold what was to be measured, 'sweep' and 'cycle' number them, 'motion' is -1 shortening, +1 lengthening, 0 held. */
       columns: { [key: string]: (number | boolean | null)[] };
     };
     /** Published measured points; ``slack`` marks rows where the muscle did not pull (not a measured zero). */
@@ -917,9 +1140,26 @@ export interface components {
       /** With the program, or the user's own. */
       origin: "built-in" | "user";
     };
+    /** A condition that a comparison of this kind needs and the file does not say. */
+    MissingCondition: {
+      /** Name of the condition. */
+      key: string;
+      /** Its SI unit. */
+      unit: string;
+      /** What it is needed for. */
+      why: string;
+      /** A right value. */
+      example: string;
+      /** Conditions that do as well. */
+      alternatives: string[];
+    };
     /** The effects that were used, with all their values in SI. */
     ModelAnswer: {
       effects: { [key: string]: { [key: string]: number } };
+    };
+    /** A model as a request takes it. */
+    ModelJson: {
+      effects: { [key: string]: { [key: string]: number | string } };
     };
     /** A muscle: geometry, limits, catalogue data and the effects its model has by default. */
     MuscleAnswer: {
@@ -999,6 +1239,28 @@ export interface components {
       reference_curve?: string | null;
       measurement?: string | null;
     };
+    /** A measurement to practise on; says nothing of what is hidden. */
+    Mystery: {
+      id: string;
+      title: string;
+      /** What an engineer would tell of it. */
+      story: string;
+      /** Measurement kind. */
+      kind: string;
+      /** As a comparison takes it. */
+      muscle: { [key: string]: unknown };
+      /** As a comparison takes it; null where none is needed. */
+      drive: { [key: string]: unknown } | null;
+      /** The start model. */
+      effects: { [key: string]: { [key: string]: number | string } };
+      /** Id by which comparisons and diagnoses take the measurement. */
+      measurement: string;
+    };
+    /** Below this error there is nothing to learn. */
+    NoiseFloor: {
+      rmse: number | null;
+      how: string;
+    };
     /** Where the muscle holds the load at one pressure. */
     OperatingPoint: {
       /** Gauge pressure. [Pa] */
@@ -1050,12 +1312,31 @@ export interface components {
       /** Share of the height. [1] */
       overshoot: number;
     };
+    /** Two equal muscles that pull a pulley against each other. */
+    PairInput: {
+      /** Whole swing, from one end to the other. [rad] */
+      angle: number | string;
+      /** Against the first muscle, over the whole swing. 0: a pulley turns about its centre. [N*m] */
+      torque?: number | string;
+      /** Of everything that turns. 0: then the muscles' own air decides the time. [kg*m^2] */
+      inertia?: number | string;
+      /** Left out, eight radii from 10 to 120 mm are tried: a free choice of the designer. [m] */
+      pulley_radius?: number | string | null;
+    };
     /** What a publication prints of a drive. Attributes: figure: number of the figure. figures: "extend.rise_time" -> value; names of the timing table, or told in the description. tolerance: share by which a figure may be missed, by the same names. excluded: why a figure is not compared, by the same names. */
     PaperFigures: {
       figure: string;
       figures?: { [key: string]: components["schemas"]["Quantity"] };
       tolerance?: { [key: string]: number };
       excluded?: { [key: string]: string };
+    };
+    /** The error after each addition; the first is the start model as given. */
+    PathStep: {
+      added: string | null;
+      rmse: number;
+      holdout_rmse: number;
+      model: components["schemas"]["ModelJson"];
+      freed: string[];
     };
     /** A preset file that was not loaded, and why. */
     PresetProblem: {
@@ -1088,6 +1369,142 @@ export interface components {
       /** The contraction; or give the length. [1] */
       contraction?: number | string | null;
     };
+    /** What a file would be read as; nothing is kept. */
+    PreviewAnswer: {
+      name: string;
+      /** csv, xlsx, mat or tdms. */
+      format: string;
+      /** All columns of the file, in its order. */
+      columns: components["schemas"]["PreviewColumn"][];
+      /** The first rows as they are written, up to 8. */
+      sample: string[][];
+      /** Rows below the header. */
+      rows: number;
+      /** Rows that can be read. */
+      valid_rows: number;
+      skipped: components["schemas"]["SkippedRows"][];
+      /** The kind; null while the file cannot be used. */
+      kind: string | null;
+      kind_detected: boolean;
+      kind_reason: string;
+      /** Conditions found or given, SI. */
+      conditions: { [key: string]: string | number | null };
+      /** Conditions to ask for. */
+      missing: components["schemas"]["MissingCondition"][];
+      /** As it would be kept, without the skipped rows; null while the file cannot be used. */
+      measurement: components["schemas"]["MeasurementAnswer"] | null;
+      /** What PUT would refuse it for. */
+      problem: components["schemas"]["ErrorDetail"] | null;
+      /** Only bad rows stand in the way: the mapping {'bad_rows': 'skip'} leaves them out. */
+      only_bad_rows: boolean;
+      /** What was assumed. */
+      messages: string[];
+      channel_choices: components["schemas"]["ChannelChoice"][];
+      kind_choices: string[];
+    };
+    /** One column of the file, used or not. */
+    PreviewColumn: {
+      /** Header of the file; the key of a mapping. */
+      header: string;
+      /** The guessed or chosen channel; null = not used. */
+      channel: string | null;
+      /** The guessed, given or chosen unit; null = not used. */
+      unit: string | null;
+      /** The unit stands in the header (or was chosen), it is no guess. */
+      unit_given: boolean;
+      /** A pressure above vacuum; null = not said, gauge is assumed. */
+      absolute: boolean | null;
+      /** Smallest value of the channel, SI. */
+      minimum: number | null;
+      /** Largest value of the channel, SI. */
+      maximum: number | null;
+      /** Why the column cannot be used as its header says. */
+      why: string | null;
+    };
+    /** A drive that does the task. Figures of all muscles together where it says so, else of each. */
+    ProposalAnswer: {
+      /** Id of the preset. */
+      muscle: string;
+      /** Of each muscle. [m] */
+      nominal_length: number;
+      /** Muscles side by side (on each side of a pair). */
+      parallel: number;
+      /** All muscles of the drive. */
+      muscles: number;
+      /** One for all parallel muscles; a pair has one on each side. */
+      valve: string;
+      /** One from the valve to each muscle. */
+      tube: string | null;
+      /** 0 without a tube. [m] */
+      tube_length: number;
+      /** Of a pair. [m] */
+      pulley_radius: number | null;
+      /** Of the supply at the valve, gauge; a regulator sets it. [Pa] */
+      pressure: number;
+      /** For the stroke, to the end stop. [s] */
+      time: number;
+      /** For the way back; null when it does not end in the time watched. [s] */
+      time_down: number | null;
+      /** At the end of the stroke. [1] */
+      contraction: number;
+      /** Share by which the static force exceeds the load at least. [1] */
+      force_reserve: number;
+      /** That just carries the load at the end of the stroke. [Pa] */
+      needed_pressure: number | null;
+      /** In the muscle when the load leaves its stop. [Pa] */
+      pressure_start: number;
+      /** In the muscle on arrival. [Pa] */
+      pressure_end: number;
+      /** Of all muscles in a cycle. [m^3] */
+      air_volume_anr: number;
+      /** Of the whole load on the end stop. [J] */
+      impact_energy: number;
+      /** Of the load there. [m/s] */
+      end_speed: number;
+      /** Of the load. [m/s] */
+      max_speed: number;
+      /** Largest tension of a muscle. [N] */
+      peak_force: number;
+      /** Of the load at the end of the stroke, valve open. [N/m] */
+      stiffness: number;
+      /** The same with the valve closed. [N/m] */
+      stiffness_closed: number;
+      /** Nominal length and end fittings. [m] */
+      installed_length: number;
+      /** Outside, bulged at the end of the stroke. [m] */
+      diameter: number;
+      /** Load cycles; an estimate, not verified. [1] */
+      life: number;
+      /** That what is built does the task; null without specimens. [1] */
+      probability: number | null;
+      /** Its standard error. [1] */
+      probability_error: number | null;
+      /** Simulated for it. */
+      specimens: number;
+      /** Limit -> share of it that is left; limits that are not set are left out. */
+      margins: { [key: string]: number };
+      /** The limit with the least margin. */
+      binding: "length" | "pressure" | "contraction" | "force" | "force_limit" | "diameter" | "stiffness" | "life" | "temperature" | "time" | "time_down" | "cycle_time";
+      /** Why it stands where it stands. */
+      reason: string;
+      /** No other proposal is better in everything. */
+      front: boolean;
+      /** What to know when it is built. */
+      notes: string[];
+      /** Figures that enter and nobody verified, by preset. */
+      unverified: string[];
+      /** A drive document for /api/simulations; of one of the muscles. */
+      drive: { [key: string]: unknown };
+    };
+    /** A formula for what no catalogued effect explains. */
+    ProposedTerm: {
+      formula: string;
+      coefficients: { [key: string]: number };
+      /** Share of the residual's mean square that it takes away. */
+      share: number;
+      model: components["schemas"]["ModelJson"];
+      curve: components["schemas"]["TermCurve"];
+    };
     /** A value with its unit (text), source (short) and grade (a key of `physics.parameter.GRADES`). */
     Quantity: {
       value: number;
@@ -1117,6 +1534,77 @@ export interface components {
       range: components["schemas"]["Quantity"];
       time: components["schemas"]["Quantity"];
     };
+    /** A candidate that does not do. */
+    RejectedAnswer: {
+      muscle: string;
+      parallel: number;
+      /** Null: whatever the valve. */
+      valve: string | null;
+      /** Null: whatever the tube. */
+      tube: string | null;
+      /** In figures. */
+      why: string;
+      /** The limit that must move by the least share when no other moves. */
+      binding: "length" | "pressure" | "contraction" | "force" | "force_limit" | "diameter" | "stiffness" | "life" | "temperature" | "time" | "time_down" | "cycle_time";
+      /** What would help, least change first. */
+      would_work_if: string;
+      /** How many combinations it stands for. */
+      combinations: number;
+    };
+    /** What a comparison takes, and what else the report tells. */
+    ReportRequest: {
+      /** Null: the drive's. */
+      muscle?: components["schemas"]["MuscleInput"] | null;
+      effects?: { [key: string]: { [key: string]: number | string } } | null;
+      /** Valve, tube, supply and load of transient measurements with a command channel. */
+      drive?: components["schemas"]["DriveDocument"] | null;
+      /** One measurement to fit to. */
+      measurement?: string | null;
+      measurements?: components["schemas"]["UsedMeasurement"][];
+      /** Geometry that is fitted too, within its tolerance. */
+      free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
+      /** Further constants that are fitted, as effect.parameter. */
+      freed?: string[];
+      /** Standard deviation of the predicted channel in SI, when it is known. */
+      noise?: number | null;
+      /** Fit the effects' parameters to the data. */
+      fit?: boolean;
+      /** The oldest first. */
+      history?: components["schemas"]["HistoryStep"][];
+      /** Empty: names of the measurements. */
+      title?: string;
+      /** Find out what the model is missing; takes some seconds. */
+      diagnose?: boolean;
+    };
+    /** The residual over one variable. */
+    ResidualProfile: {
+      over: string;
+      /** Share of its mean square that this variable predicts. */
+      share_explained: number;
+      /** The range with the largest error. */
+      worst: string;
+      /** Error in that range. */
+      rmse: number;
+      /** Limits of the ranges, SI; one more than ranges. */
+      edges: (number | null)[];
+      mean: (number | null)[];
+      rms: (number | null)[];
+      count: number[];
+    };
+    /** What is hidden, beside what was found. */
+    RevealAnswer: {
+      hidden: components["schemas"]["Hidden"][];
+      /** For each hidden effect: is it among the given ones? */
+      found: boolean[];
+      /** Given effects that are neither hidden nor of the start model. */
+      surplus: string[];
+      text: string;
+    };
+    /** The user's own diagnosis. */
+    RevealRequest: {
+      /** Ids of the effects of the user's model. */
+      effects?: string[];
+    };
     /** The lattice of the braid. */
     RhombusAnswer: {
       /** Side of one rhombus. [m] */
@@ -1134,6 +1622,19 @@ export interface components {
       along: number | string;
       /** Rhombi around the muscle. [1] */
       around: number | string;
+    };
+    /** How the rows fall into sweeps. */
+    Segmentation: {
+      /** The channel that decides. */
+      signal: string;
+      /** Number of sweeps. */
+      sweeps: number;
+      /** Number of cycles. */
+      cycles: number;
+      /** Rows in which nothing moves. */
+      held_rows: number;
+      /** Mean speed of each level, ascending [SI unit of the signal per s]; empty without time. */
+      speeds: (number | null)[];
     };
     /** How the effect shows in the residual. */
     Signature: {
@@ -1229,6 +1730,67 @@ export interface components {
       /** Last row; the end of the run when left out. [s] */
       to?: number | string | null;
     };
+    /** Proposals best first, and everything else with its reason; SI, pressures gauge. */
+    SizingAnswer: {
+      /** Empty when nothing does; that is an answer too. */
+      proposals: components["schemas"]["ProposalAnswer"][];
+      /** Nearest first. */
+      rejected: components["schemas"]["RejectedAnswer"][];
+      /** One for each choice of parts that does the task. */
+      explored: components["schemas"]["ExploredDesign"][];
+      /** Muscle, length, number, pressure, valve and tube within the limits. */
+      combinations: number;
+      /** Of these sorted out in closed form. */
+      pruned: number;
+      /** Transients run, specimens left out. */
+      simulated: number;
+      /** Transients run for probabilities. */
+      specimens: number;
+      outcome: "completed" | "timed_out" | "cancelled";
+      /** What to do when the search did not complete. */
+      message: string | null;
+      flags: components["schemas"]["Flag"][];
+      /** Time of the whole search in ms. */
+      wall_ms: number;
+    };
+    /** A task; only the load, and a stroke or a pair, must be given. Plain numbers are in SI units. */
+    SizingTask: {
+      /** Version of the document. */
+      schema?: 1;
+      /** For people. */
+      title?: string;
+      load: components["schemas"]["TaskLoad"];
+      /** Of the load; a pair has an angle instead. [m] */
+      stroke?: number | string | null;
+      /** For the stroke. None: the drives are compared by what they take. [s] */
+      time?: number | string | null;
+      /** For the way back. None: it may take its time. [s] */
+      time_down?: number | string | null;
+      /** Up and down together. None: see the times. [s] */
+      cycle_time?: number | string | null;
+      /** Average speed in place of the time. None: the time says it. [m/s] */
+      speed?: number | string | null;
+      /** Wanted against the load at the end of the stroke, valve open (a closed valve holds stiffer). None: it is told instead. [N/m] */
+      stiffness?: number | string | null;
+      /** Gauge. 6 bar: the usual net, and the limit of most muscles. [Pa] */
+      supply_pressure?: number | string;
+      /** 20 °C: a workshop. [K] */
+      ambient_temperature?: number | string;
+      limits?: components["schemas"]["TaskLimits"];
+      catalogue?: components["schemas"]["TaskCatalogue"];
+      uncertainty?: components["schemas"]["TaskUncertainty"];
+      /** Balanced: air times the root of installed length and number of muscles, because air costs every day and room once. Drives that probably fail come last in any order. */
+      rank_by?: "balanced" | "air" | "time" | "length" | "reserve" | "probability";
+      /** Proposals wanted. 10: more nobody compares. */
+      max_proposals?: number;
+    };
+    /** Rows of the file that cannot be read, for one reason. */
+    SkippedRows: {
+      reason: string;
+      rows: number;
+      /** Where the first of them is. */
+      first: string;
+    };
     /** Where a figure comes from, and how sure it is. */
     SourceText: {
       /** Short source. */
@@ -1261,6 +1823,73 @@ export interface components {
     SupplyInput: {
       /** Gauge pressure before the valve. [Pa] */
       pressure?: number | string;
+    };
+    /** What may be used. */
+    TaskCatalogue: {
+      /** Muscle presets. Left out: all with complete catalogue data, because then every limit is known. */
+      muscles?: string[] | null;
+      /** Valve presets. Left out: all whose flow is known; regulators switch too slowly. */
+      valves?: string[] | null;
+      /** Tube presets. Left out: all. */
+      tubes?: string[] | null;
+      /** From the valve to each muscle; 0 for none. 1 m: valves seldom sit on the muscle. [m] */
+      tube_length?: number | string;
+    };
+    /** What a drive must keep to. */
+    TaskLimits: {
+      /** At the end of the stroke. 20 %: makers allow 25 %, but the last of it hardly pulls; the maker's own limit holds where it is lower. [1] */
+      max_contraction?: number | string;
+      /** Share by which the static force exceeds the load everywhere on the stroke. 10 %: so much do specimens differ. [1] */
+      force_reserve?: number | string;
+      /** Share of the supply that is not counted on. 0: the supply tolerance has its own field. [1] */
+      pressure_reserve?: number | string;
+      /** Installed, without pressure. 1 m: longer muscles are made, machines seldom have room. [m] */
+      max_length?: number | string;
+      /** What both end fittings take of it. 0: no verified figure is known; add yours. [m] */
+      end_fittings?: number | string;
+      /** Outside, bulged at the end of the stroke. None: the figure is told instead. [m] */
+      max_diameter?: number | string | null;
+      /** Muscles side by side. 2: more seldom share a load evenly. */
+      max_parallel?: number;
+      /** Load cycles. None: makers publish no curve; what is told is an estimate (100 000 cycles at full force or contraction, 10 million without load, unverified). [1] */
+      life?: number | string | null;
+    };
+    /** What is moved. Everything is counted at the load; forces are positive against the pull. */
+    TaskLoad: {
+      /** Moved mass. 0: only what is stated is moved. [kg] */
+      mass?: number | string;
+      /** Of the way against the horizontal. 90 deg: a muscle can only pull, so most loads hang. [rad] */
+      inclination?: number | string;
+      /** Constant force besides the weight. 0: only what is stated pulls back. [N] */
+      force?: number | string;
+      /** Further force, by the stroke. The closed form takes it as it is; a run takes the lowest straight line that is nowhere below it and does not fall. */
+      force_over_stroke?: components["schemas"]["ForceOverStroke"] | null;
+      /** Against the contraction, slack at the begin. 0: a weight pulls a muscle long again. [N/m] */
+      spring?: number | string;
+      /** Hangs on the other side of a pulley and pulls with the muscle. 0: none is usual. [kg] */
+      counterweight?: number | string;
+      /** Stroke of the muscle per stroke of the load. 1: the muscle pulls directly. [1] */
+      lever_ratio?: number | string;
+      /** An antagonist pair on a pulley instead: it takes no other field of the load. */
+      pair?: components["schemas"]["PairInput"] | null;
+    };
+    /** How far what is built may differ from what was computed. */
+    TaskUncertainty: {
+      /** Two standard deviations between specimens. 10 % of the blocked force: published curves of the same size differ by so much. [1] */
+      blocked_force?: number | string;
+      /** Largest width of the loop, share of the nominal length. Left out: the catalogue's. [1] */
+      hysteresis?: number | string | null;
+      /** Largest deviation of the supply. 3 %: a usual service regulator. [1] */
+      supply_pressure?: number | string;
+      /** Simulated for each proposal; 0 for none. 100: within 5 % of the probability. */
+      specimens?: number;
+    };
+    /** The proposed term and the residual it is for, over one variable. */
+    TermCurve: {
+      x: string;
+      values: (number | null)[];
+      term: (number | null)[];
+      residual: (number | null)[];
     };
     /** The timing table of the first fill and the exhaust after it. */
     Timing: {
@@ -1320,6 +1949,20 @@ export interface components {
       /** The experiment that tells the two apart. */
       separated_by: string;
     };
+    /** A measurement, and what for. */
+    UsedMeasurement: {
+      /** SHA-256 id of an uploaded file, or id of a preset measurement or reference curve. */
+      id: string;
+      /** Fitted to, or only judged by. */
+      use?: "fit" | "validation";
+    };
+    /** The model on measurements it was not fitted to. */
+    ValidationAnswer: {
+      rmse: number | null;
+      nrmse_percent: number | null;
+      rows_used: number;
+      series: components["schemas"]["ComparisonSeries"][];
+    };
     /** A valve, or with ``regulator`` a pressure regulator; its conductances are needed to simulate it. */
     ValveAnswer: {
       schema: 1;
@@ -1351,6 +1994,29 @@ export interface components {
       exhaust_critical_pressure_ratio?: number | string | null;
       /** Standard nominal flow (6 to 5 bar gauge, normal litres) in place of a conductance. [m^3/s] */
       nominal_flow?: number | string | null;
+    };
+    /** The answer. */
+    Verdict: {
+      status: "adequate" | "missing_effects" | "ambiguous" | "unknown_effect";
+      effects: string[];
+      indistinguishable: string[][];
+      unexplained_share: number;
+      unexplained_in: string[];
+      proposed_term: components["schemas"]["ProposedTerm"] | null;
+      next_measurement: string | null;
+      experiments: components["schemas"]["Experiment"][];
+      sentence: string;
+    };
+    /** Whether the residual looks like noise. */
+    WhitenessAnswer: {
+      autocorrelation: (number | null)[];
+      /** Half-width of the 95 % band of noise. */
+      band: number;
+      /** Share of the lags outside of it. */
+      outside: number;
+      /** Runs of one sign over what noise would have. */
+      runs: number;
+      white: boolean;
     };
     /** Which stroke is there from the preload without pressure to the load at the highest pressure? It begins venting and ends filling, whatever ``direction`` says. */
     WorkingRangeQuestion: {
@@ -1385,7 +2051,7 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
-  /** The model's error on a measurement in numbers, with or without a fit, and the points of both. */
+  /** The model's error on measurements, with or without a fit: numbers, where it fails, the points. */
   compare_with_measurement: {
     requestBody: { content: { "application/json": components["schemas"]["ComparisonRequest"] } };
     responses: {
@@ -1412,10 +2078,32 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
+  /** The missing effects with reasons, twins, path and verdict; closing the connection ends the search. */
+  diagnose_model: {
+    requestBody: { content: { "application/json": components["schemas"]["DiagnosisRequest"] } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["DiagnosisAnswer"]; "text/event-stream": string } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
   /** Every effect with its equation, parameters, sources and what it is confused with. */
   list_effects: {
     responses: {
       200: { content: { "application/json": components["schemas"]["EffectsAnswer"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Every mystery with its story and the start model; comparisons take its measurement by the id. */
+  list_mysteries: {
+    responses: {
+      200: { content: { "application/json": components["schemas"]["Mystery"][] } };
       403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
@@ -1429,6 +2117,22 @@ export interface operations {
       200: { content: { "application/json": components["schemas"]["PresetsAnswer"] } };
       403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** How a file would be understood: columns, units, rows, kind, conditions. Nothing is kept. */
+  preview_measurement: {
+    parameters: {
+      query: { name: string; mapping?: string | null };
+    };
+    requestBody: { content: { "application/csv": Blob | ArrayBuffer | string; "application/octet-stream": Blob | ArrayBuffer | string; "application/vnd.ms-excel": Blob | ArrayBuffer | string; "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet": Blob | ArrayBuffer | string; "application/x-matlab-data": Blob | ArrayBuffer | string; "text/csv": Blob | ArrayBuffer | string; "text/plain": Blob | ArrayBuffer | string; "text/tab-separated-values": Blob | ArrayBuffer | string } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["PreviewAnswer"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
@@ -1467,6 +2171,23 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
+  /** What is hidden in a mystery, held against one's own diagnosis. */
+  reveal_mystery: {
+    parameters: {
+      path: { mystery_id: string };
+    };
+    requestBody: { content: { "application/json": components["schemas"]["RevealRequest"] } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["RevealAnswer"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
   /** Keep a muscle among the user's presets; one of the same id is replaced, a built-in one never. */
   save_muscle: {
     requestBody: { content: { "application/json": components["schemas"]["MusclePreset"] } };
@@ -1494,17 +2215,44 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
-  /** Send a measurement file; the answer says how it was understood. Sent twice it is kept once. */
+  /** Ranked drives of the catalogue for a task, and why not the others; closing ends the search. */
+  size_drives: {
+    requestBody: { content: { "application/json": components["schemas"]["SizingTask"] } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["SizingAnswer"]; "text/event-stream": string } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Send a measurement file; the answer says how it was understood. Sent twice it is kept once. With a mapping the measurement has an id of its own: both readings of a file can be compared. */
   upload_measurement: {
     parameters: {
-      query: { name: string };
+      query: { name: string; mapping?: string | null };
     };
-    requestBody: { content: { "application/csv": Blob | ArrayBuffer | string; "application/octet-stream": Blob | ArrayBuffer | string; "application/vnd.ms-excel": Blob | ArrayBuffer | string; "text/csv": Blob | ArrayBuffer | string; "text/plain": Blob | ArrayBuffer | string; "text/tab-separated-values": Blob | ArrayBuffer | string } };
+    requestBody: { content: { "application/csv": Blob | ArrayBuffer | string; "application/octet-stream": Blob | ArrayBuffer | string; "application/vnd.ms-excel": Blob | ArrayBuffer | string; "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet": Blob | ArrayBuffer | string; "application/x-matlab-data": Blob | ArrayBuffer | string; "text/csv": Blob | ArrayBuffer | string; "text/plain": Blob | ArrayBuffer | string; "text/tab-separated-values": Blob | ArrayBuffer | string } };
     responses: {
       200: { content: { "application/json": components["schemas"]["MeasurementAnswer"] } };
       400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** The comparison and the diagnosis of a model as one file to keep and to print. */
+  write_report: {
+    requestBody: { content: { "application/json": components["schemas"]["ReportRequest"] } };
+    responses: {
+      200: { content: { "text/html": string } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };

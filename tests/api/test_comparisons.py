@@ -8,7 +8,12 @@ from fastapi.testclient import TestClient
 from mckibben.api.answers.comparisons import MAX_POINTS_PER_SERIES
 from mckibben.api.schemas.comparisons import ComparisonAnswer
 from tests.api.conftest import CSV, assert_error, post
+from tests.identification.synthetic import CYCLE_HEADER, cycle_rows, text
 
+IDEAL = {
+    "braid_diameter": "21.8 mm", "braid_angle": "26.5 deg", "nominal_length": "300 mm",
+    "wall_thickness": "1.8 mm", "inside_diameter": "20 mm",
+}  # fmt: skip
 PROMISED = {
     "kind", "rows", "rows_used", "predicted", "unit", "rmse", "nrmse_percent", "holdout_rmse", "noise_floor",
     "residual_mean", "parameters", "full_scale", "excluded", "correlations", "messages", "geometry", "series",
@@ -88,8 +93,148 @@ def test_an_unknown_measurement_is_not_found(shared_client: TestClient) -> None:
     assert "send the file again" in error["hint"]
 
 
-def test_a_transient_measurement_is_refused_with_the_reason(client: TestClient) -> None:
+# --- where it fails
+
+
+@pytest.fixture(scope="module")
+def rubbing(shared_client: TestClient) -> str:
+    """Cycles of the ideal muscle with 15 N of friction that the model does not have."""
+    rows = cycle_rows(lambda direction, **_: 15.0 * direction, noise=1.0, each=40)
+    content = text(rows, CYCLE_HEADER, "kind: isobaric").encode()
+    return shared_client.put("/api/measurements?name=rubbing.csv", content=content).json()["id"]
+
+
+def test_friction_is_seen_over_the_direction_and_in_the_loops(
+    shared_client: TestClient, rubbing: str
+) -> None:
+    answer = compare(shared_client, IDEAL, rubbing)
+    first = answer["where"][0]
+    assert first["over"] == "direction"
+    assert first["share_explained"] > 0.95
+    assert first["mean"] == pytest.approx([-15.0, 15.0], abs=0.5)
+    assert sum(first["count"]) == answer["rows_used"]
+    assert len(first["edges"]) == len(first["count"]) + 1
+    # Each pressure is cycled twice over 48 mm: 2 F_c times the way.
+    assert len(answer["loops"]) == 3
+    for loop in answer["loops"]:
+        assert loop["area"] == pytest.approx(2 * 2 * 15.0 * 0.048, rel=0.05)
+        assert loop["span"] == pytest.approx(0.048, rel=1e-6)
+    assert answer["whiteness"]["white"] is False
+    assert "direction" in answer["sentences"][0] or "lengthening" in answer["sentences"][0]
+    assert answer["sentences"][-1] == "the residual is not noise: it has structure"
+
+
+def test_the_right_model_leaves_noise(shared_client: TestClient, rubbing: str) -> None:
+    answer = compare(shared_client, IDEAL, rubbing, effects={"coulomb_friction": {"force": 15.0}})
+    assert answer["rmse"] == pytest.approx(1.0, rel=0.1)
+    assert answer["noise_floor"] == pytest.approx(1.0, rel=0.2)
+    assert answer["noise_how"] == "third differences of the residual within sweeps"
+    assert answer["whiteness"]["white"] is True
+    assert all(profile["share_explained"] < 0.1 for profile in answer["where"])
+    assert answer["sentences"] == ["the residual looks like noise"]
+    assert all(abs(loop["area"]) < 0.2 for loop in answer["loops"])
+
+
+def test_the_map_covers_pressure_and_contraction(shared_client: TestClient, rubbing: str) -> None:
+    chart = compare(shared_client, IDEAL, rubbing)["heat_map"]
+    assert (chart["x"], chart["y"]) == ("contraction", "pressure")
+    assert len(chart["x_edges"]) == len(chart["y_edges"]) == 9
+    assert chart["x_edges"][0] == pytest.approx(0.0, abs=1e-9)
+    assert chart["x_edges"][-1] == pytest.approx(0.16)
+    assert sum(map(sum, chart["count"])) == 480
+    for means, counts in zip(chart["mean"], chart["count"], strict=True):
+        for mean, count in zip(means, counts, strict=True):
+            assert (mean is None) == (count == 0)
+
+
+def test_curves_carry_what_plots_need(shared_client: TestClient, rubbing: str) -> None:
+    answer = compare(shared_client, IDEAL, rubbing)
+    for series in answer["series"]:
+        assert (series["channel"], series["unit"], series["use"]) == ("force", "N", "fit")
+        count = len(series["measured"])
+        for name in ("time", "contraction", "length", "x_pressure", "velocity", "direction", "residual"):
+            assert len(series[name]) == count, name
+        assert series["length"] == pytest.approx([0.3 * (1 - kappa) for kappa in series["contraction"]])
+        expected = [m - p for m, p in zip(series["measured"], series["predicted"], strict=True)]
+        assert series["residual"] == pytest.approx(expected, abs=1e-9)
+        assert set(series["direction"]) <= {-1.0, 0.0, 1.0}
+
+
+def test_a_stated_noise_and_freed_constants(shared_client: TestClient, rubbing: str) -> None:
+    stated = compare(shared_client, IDEAL, rubbing, noise=1.5)
+    assert (stated["noise_floor"], stated["noise_how"]) == (1.5, "given")
+    effects = {"dahl": {"force": 10.0}}
+    usual = compare(shared_client, IDEAL, rubbing, effects=effects, fit=True)
+    freed = compare(shared_client, IDEAL, rubbing, effects=effects, fit=True, freed=["dahl.break_strain"])
+    assert not usual["parameters"]["dahl"]["break_strain"]["fitted"]
+    assert freed["parameters"]["dahl"]["break_strain"]["fitted"]
+    assert freed["rmse"] < usual["rmse"]
+    assert freed["parameters"]["dahl"]["break_strain"]["value"] < 1e-3  # Coulomb friction yields at once
+
+
+def test_a_fitted_model_goes_back_in(shared_client: TestClient, rubbing: str) -> None:
+    fitted = compare(shared_client, IDEAL, rubbing, effects={"coulomb_friction": {}}, fit=True)
+    again = compare(shared_client, IDEAL, rubbing, effects=fitted["model"]["effects"])
+    assert again["rmse"] == pytest.approx(fitted["rmse"], rel=1e-9)
+    assert again["model"] == fitted["model"]
+
+
+def test_a_typed_term_is_compared_and_fitted(shared_client: TestClient, rubbing: str) -> None:
+    custom = {"term": "c*sign(v)", "c": 3.0}
+    given = compare(shared_client, IDEAL, rubbing, effects={"custom": custom})
+    assert given["model"]["effects"]["custom"] == custom
+    assert given["rmse"] == pytest.approx((12.0**2 + 1.0) ** 0.5, rel=0.02)
+    fitted = compare(shared_client, IDEAL, rubbing, effects={"custom": custom}, fit=True)
+    assert fitted["parameters"]["custom"]["c"]["value"] == pytest.approx(15.0, abs=0.3)
+    assert fitted["model"]["effects"]["custom"]["term"] == "c*sign(v)"
+
+
+@pytest.mark.parametrize("term", ["c/(L - 0.3)", "c*exp(P)", "c*sqrt(-P)"])
+def test_a_term_without_a_value_in_the_data_is_refused(
+    shared_client: TestClient, rubbing: str, term: str
+) -> None:
+    for fit in (False, True):
+        body = {"muscle": IDEAL, "measurement": rubbing, "effects": {"custom": {"term": term}}, "fit": fit}
+        assert_error(post(shared_client, "/api/comparisons", body), 422, field="effects.custom.term")
+
+
+def test_a_guess_of_a_fit_without_a_value_is_only_a_bad_guess(
+    shared_client: TestClient, rubbing: str
+) -> None:
+    # Most values of a between -1000 and 1000 leave a root of a negative number.
+    custom = {"term": "c*sign(v)*sqrt(a - kappa)", "a": 1.0, "c": 10.0}
+    answer = compare(shared_client, IDEAL, rubbing, effects={"custom": custom}, fit=True)
+    assert answer["rmse"] < 1.5
+
+
+def test_validation_is_judged_by_and_not_fitted_to(shared_client: TestClient, rubbing: str) -> None:
+    rows = cycle_rows(lambda direction, **_: 30.0 * direction, noise=1.0, each=40, levels=(5e5,), seed=9)
+    # A held pressure is read with its noise.
+    rows = [row.replace(",500000.0,", f",{500000 + k % 3},") for k, row in enumerate(rows)]
+    content = text(rows, CYCLE_HEADER, "kind: isobaric").encode()
+    judge = shared_client.put("/api/measurements?name=judge.csv", content=content).json()["id"]
+    used = [{"id": rubbing, "use": "fit"}, {"id": judge, "use": "validation"}]
+    body = {"muscle": IDEAL, "measurements": used, "effects": {"coulomb_friction": {}}, "fit": True}
+    response = post(shared_client, "/api/comparisons", body)
+    ComparisonAnswer.model_validate_json(response.content)
+    answer = response.json()
+    assert answer["parameters"]["coulomb_friction"]["force"]["value"] == pytest.approx(15.0, abs=0.3)
+    assert answer["rows_used"] == 480
+    validation = answer["validation"]
+    assert validation["rows_used"] == 160
+    assert validation["rmse"] == pytest.approx((15.0**2 + 1.0) ** 0.5, rel=0.03)
+    assert {series["use"] for series in validation["series"]} == {"validation"}
+    assert compare(shared_client, IDEAL, rubbing)["validation"] is None
+
+
+def test_a_driven_transient_needs_its_load(client: TestClient) -> None:
     content = b"# kind: transient\ntime_s,pressure_bar,length_mm\n0,1,300\n0.1,2,290\n0.2,3,280\n"
     identity = client.put("/api/measurements?name=t.csv", content=content).json()["id"]
     body = {"muscle": {"preset": "DMSP-20"}, "measurement": identity}
-    assert "transient" in assert_error(post(client, "/api/comparisons", body), 422)["message"]
+    error = assert_error(post(client, "/api/comparisons", body), 422, field="load_mass")
+    assert "transient" in error["message"]
+    loaded = b"# load_mass: 20 kg\n" + content
+    identity = client.put("/api/measurements?name=u.csv", content=loaded).json()["id"]
+    answer = compare(client, {"preset": "DMSP-20"}, identity)
+    assert (answer["predicted"], answer["unit"]) == ("displacement", "m")
+    assert answer["series"][0]["time"] == [0.0, 0.1, 0.2]

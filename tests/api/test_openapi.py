@@ -25,6 +25,9 @@ PATHS = {
     "/api/measurements/preview": {"post"},
     "/api/measurements/{measurement_id}": {"get"},
     "/api/comparisons": {"post"},
+    "/api/reports": {"post"},
+    "/api/mysteries": {"get"},
+    "/api/mysteries/{mystery_id}/reveal": {"post"},
     "/api/simulations": {"post"},
     "/api/sizings": {"post"},
 }

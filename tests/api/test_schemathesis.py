@@ -37,7 +37,8 @@ CHECKS = [
 ]
 OPERATIONS = [(method, path) for path, methods in PATHS.items() for method in sorted(methods)]
 # Without parameters and body nothing can be sent wrong.
-FALLIBLE = [(method, path) for method, path in OPERATIONS if path not in ("/api/health", "/api/effects")]
+INFALLIBLE = [("get", path) for path in ("/api/health", "/api/effects", "/api/mysteries")]
+FALLIBLE = [operation for operation in OPERATIONS if operation not in INFALLIBLE]
 MODELS = ["/api/curves", "/api/inverse", "/api/comparisons"]
 EXAMPLES = 80
 HOST = {"host": "127.0.0.1"}

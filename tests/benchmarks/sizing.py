@@ -27,9 +27,10 @@ from mckibben.resources import presets_folder
 from mckibben.simulation.engine import kernel
 from mckibben.simulation.outcome import Watch
 from mckibben.sizing import Sizing, size
-from mckibben.sizing.bench import Bench, Prepared
+from mckibben.sizing.bench import Bench
 from mckibben.sizing.catalogue import Design
 from mckibben.sizing.chance import chance
+from mckibben.sizing.prepared import Prepared
 from mckibben.studio import Studio
 from tests.benchmarks.engine import say
 from tests.benchmarks.translated import translated

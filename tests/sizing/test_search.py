@@ -41,6 +41,7 @@ TASKS: dict[str, dict[str, Any]] = {
         **LIFT,
         "load": {"mass": "5 kg", "force_over_stroke": {"strokes": [0.0, 0.06], "forces": [20.0, 90.0]}},
     },
+    "without a mass": {**LIFT, "load": {"force": "150 N", "spring": "1000 N/m"}, "time_down": "0.5 s"},
     "warm": {**LIFT, "ambient_temperature": "50 degC"},
     "pair": PAIR,
 }

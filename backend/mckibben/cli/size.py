@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from mckibben.cli.options import located
 from mckibben.cli.output import figure, remark, write_json, write_table
 from mckibben.physics.errors import InputError
 from mckibben.presets.reading import BadDocumentError, read_file
+from mckibben.simulation.outcome import Watch
 from mckibben.studio import Studio
 
 _REJECTED_SHOWN = 12
@@ -24,7 +26,8 @@ def run(studio: Studio, *, task: str, as_json: bool) -> None:
         InputError: names the file, the field, what is wrong and what would be right.
     """
     try:
-        answer = sizing_answer(read_task(read_file(Path(task), follow_links=True)), studio)
+        document = read_task(read_file(Path(task), follow_links=True))
+        answer = sizing_answer(document, studio, Watch(progress=_show if sys.stderr.isatty() else None))
     except BadDocumentError as bad:
         finding = bad.findings[0]
         raise InputError(f"{task}: {located(finding.field, finding.message)}", hint=finding.hint) from bad
@@ -39,6 +42,12 @@ def run(studio: Studio, *, task: str, as_json: bool) -> None:
         remark(item["message"])
     if answer["message"] is not None:
         remark(answer["message"])
+
+
+def _show(share: float) -> None:
+    """The progress, in one line that the next thing said overwrites."""
+    sys.stderr.write(f"\r{share * 100:3.0f} %\r")
+    sys.stderr.flush()
 
 
 def read_task(document: object) -> SizingTask:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mckibben.identification.fit import FitResult, Free, least_squares_fit
-from mckibben.identification.next_measurement import Proposal, declared, protocols, separation
+from mckibben.identification.next_measurement import Proposal
 from mckibben.identification.node import Node
 from mckibben.identification.noise import channel_noise
 from mckibben.identification.residuals import Profile, profiles, variables_of
@@ -17,15 +17,12 @@ from mckibben.identification.search import CancelledError, Search, search
 from mckibben.identification.setting import Setting
 from mckibben.identification.subjects.subject import Subject
 from mckibben.identification.twins import Alternative, alternatives, same_predictions
-from mckibben.identification.unknown import Structure, Term, proposed_term, structure
+from mckibben.identification.unknown import Structure, Term, proposed_term
+from mckibben.identification.vent import Vented, vented
+from mckibben.identification.verdict import is_force, left_structure, messages, proposals, status_of
 from mckibben.identification.why import Seen, seen, why
 from mckibben.physics.effect import Effect
 from mckibben.simulation.outcome import Outcome, Watch
-
-_AT_FLOOR = 1.15  # of the noise: nothing more is asked for
-_FAR = 2.0  # of the noise: structure that is left is said to be unknown whatever was explained before
-_STRUCTURED = 0.3  # share of the residual a regression predicts, from which it is structure
-_EXPLAINED = 0.98  # of the excess over the noise
 
 
 @dataclass(frozen=True)
@@ -145,13 +142,26 @@ def _diagnose(
         if effect.id not in inside and subject.reveals(effect) and _has_needs(effect, setting)
     )
     progress = _Progress(watch or Watch(time_limit=np.inf))
-    work = Search(subject, tuple(geometry), candidates, None, progress.tell)
+    work = Search(subject, tuple(geometry), candidates, None, tell=progress.tell)
     subject.prepare(setting, candidates, geometry)
     start = Node(
         setting, (), frozenset(), subject.residual(setting) / subject.scale,
         np.empty((len(subject.measured), 0)), subject.folds,
     )  # fmt: skip
-    root = work.fit(setting)
+    readings = subject.inputs.get("pressure")
+    vent = None if readings is None else vented(readings, candidates)
+    first = setting
+    if vent is not None:
+        work.held = frozenset({f"{vent.effect.id}.{vent.parameter}"})
+        first = setting.adding(vent.effect, {vent.parameter: vent.value})
+        candidates = tuple(effect for effect in candidates if effect is not vent.effect)
+        work.candidates = candidates
+    root = work.fit(first)
+    if subject.unknown_load is not None and root.implausible:
+        # The start model has a constant tension of its own, which takes the place of the load.
+        subject.unknown_load = None
+        work.known.clear()
+        root = work.fit(first)
     work.noise, how = _noise_of(subject, root, noise)
     variables = variables_of(subject, setting.muscle.nominal_length)
     before = seen(root.residual, variables)
@@ -162,7 +172,7 @@ def _diagnose(
         progress.share = 0.45 * number / max(len(candidates), 1)
         if effect.id in fitted:
             singles.append((effect, work.adding(root, effect)))
-            found(_candidate(work, root, *singles[-1], before, ()))
+            found(_candidate(work, root, effect, singles[-1][1], before, ()))
         else:
             guesses.append((effect, work.guessed(root, effect)))
     progress.share, progress.end = 0.45, 0.85
@@ -170,9 +180,10 @@ def _diagnose(
     work.noise, how = _noise_of(subject, best, noise)
     level = work.noise or best.rmse
     progress.share, progress.end = 0.85, 0.95
-    path = _path(work, start, root, best)
+    path = _path(work, start, root, best, vent)
     added = tuple(step.added for step in path if step.added)
-    others = tuple(alternatives(work, best, added, level))
+    proven = () if vent is None else (vent.effect.id,)
+    others = tuple(alternatives(work, best, [name for name in added if name not in proven], level))
     fit = _final_fit(subject, best)
     alike = same_predictions([(effect.id, node) for effect, node in singles], level)
     ranked = sorted(
@@ -182,16 +193,16 @@ def _diagnose(
         ),
         key=lambda candidate: candidate.score,
     )
-    rest = _structure(subject, best.residual, variables)
-    status = _status(start, best, work.noise, added, others, rest)
+    rest = left_structure(subject, best.residual, variables)
+    status = status_of(start, best, work.noise, added, others, rest)
     term = None
-    if status == "unknown_effect" and _is_force(subject):
+    if status == "unknown_effect" and is_force(subject):
         term = proposed_term(best.residual, variables, best.jacobian[:, best.inner])
     progress.share = 0.95
     return Diagnosis(
         subject, start, root, work.noise, how, tuple(where), before, tuple(ranked), path, best, fit, status,
-        added, others, rest, term, tuple(_proposals(best, others, catalogue, level, subject)),
-        tuple(_messages(work, best, fit)),
+        added, others, rest, term, tuple(proposals(best, others, catalogue, level, subject)),
+        (*([] if vent is None else [vent.message]), *messages(work, best, fit)),
     )  # fmt: skip
 
 
@@ -231,8 +242,10 @@ def _candidate(
     return Candidate(effect, node, gain, change, tuple(twins), why(effect, before, gain=gain))
 
 
-def _path(work: Search, start: Node, root: Node, best: Node) -> tuple[Step, ...]:
+def _path(work: Search, start: Node, root: Node, best: Node, vent: Vented | None) -> tuple[Step, ...]:
     steps = [Step(None, start)]
+    if vent is not None:
+        steps.append(Step(vent.effect.id, root))
     node, left = root, [e for e in best.setting.effects if e.id not in set(root.setting.ids)]
     while len(left) > 1:
         nexts = [(effect, work.adding(node, effect)) for effect in left]
@@ -256,69 +269,3 @@ def _final_fit(subject: Subject, best: Node) -> FitResult | None:
         best.free,
         starts=1,
     )
-
-
-def _structure(subject: Subject, residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> Structure:
-    """Structure left in the residual: of each channel, together by their mean squares."""
-    parts = []
-    for channel in subject.channels:
-        own = {name: values[channel.rows] for name, values in variables.items()}
-        left = residual[channel.rows]
-        parts.append((float(np.mean(left**2)), structure(left, own)))
-    whole = sum(size for size, _ in parts) or 1.0
-    lost: dict[str, float] = {}
-    for size, part in parts:
-        for name, share in part.variables:
-            lost[name] = lost.get(name, 0.0) + share * size / whole
-    order = tuple(sorted(lost.items(), key=lambda pair: -pair[1]))
-    return Structure(sum(size * part.share for size, part in parts) / whole, order)
-
-
-def _status(
-    start: Node,
-    best: Node,
-    noise: float | None,
-    added: Sequence[str],
-    others: Sequence[Alternative],
-    rest: Structure,
-) -> str:
-    floor = noise or 0.0
-    excess = max(start.mean_square - floor**2, 1e-300)
-    explained = 1.0 - max(best.mean_square - floor**2, 0.0) / excess
-    above = best.rmse > _AT_FLOOR * floor and rest.share > _STRUCTURED
-    if above and (best.rmse > _FAR * floor or explained < _EXPLAINED):
-        return "unknown_effect"
-    if not added:
-        return "adequate"
-    return "ambiguous" if others else "missing_effects"
-
-
-def _is_force(subject: Subject) -> bool:
-    return [channel.name for channel in subject.channels] == ["force"]
-
-
-def _proposals(
-    best: Node, others: Sequence[Alternative], catalogue: Mapping[str, Effect], noise: float, subject: Subject
-) -> list[Proposal]:
-    found = []
-    pressure = subject.inputs.get("pressure")
-    high = float(np.max(pressure)) if pressure is not None else 6e5
-    for other in others:
-        words, apart = "", 0.0
-        if _is_force(subject) and high > 0.0:
-            tests = protocols(best.setting, largest_pressure=high)
-            words, apart = separation(best.setting, other.node.setting, tests, noise=noise)
-        text = declared(catalogue[other.of], catalogue[other.effect])
-        found.append(Proposal(other.of, other.effect, text, words, apart))
-    return found
-
-
-def _messages(work: Search, best: Node, fit: FitResult | None) -> list[str]:
-    found = []
-    if work.noise is None:
-        found.append("the sweeps are too short to estimate the noise: state it to know when to stop")
-    for name in (p.name for p in work.geometry):
-        first, last = work.known[next(iter(work.known))].setting.number(name), best.setting.number(name)
-        if abs(last / first - 1.0) > 0.005:
-            found.append(f"the fit moved {name.replace('_', ' ')} by {100.0 * (last / first - 1.0):+.1f} %")
-    return [*found, *(fit.messages if fit else ())]

@@ -45,6 +45,7 @@ class Search:
         geometry: geometry that every fit may change.
         candidates: effects that may be added.
         noise: of the residual over its scale, None when it cannot be told.
+        held: names of numbers that no fit changes, because something else has told them.
         tell: told now and then what is being done; may raise `CancelledError`.
     """
 
@@ -52,6 +53,7 @@ class Search:
     geometry: tuple[Free, ...]
     candidates: tuple[Effect, ...]
     noise: float | None
+    held: frozenset[str] = frozenset()
     tell: Callable[[str], None] = lambda _: None
     known: dict[tuple[frozenset[str], frozenset[str]], Node] = field(default_factory=dict)
     twice: set[tuple[frozenset[str], frozenset[str]]] = field(default_factory=set)
@@ -65,6 +67,7 @@ class Search:
         if key not in self.known or (again and key not in self.twice):
             self.tell(", ".join(setting.ids))
             free = free_numbers(setting, self.geometry, freed, load=self.subject.unknown_load)
+            free = [parameter for parameter in free if parameter.name not in self.held]
             node = fitted_node(self.subject, setting, free, freed=freed)
             if again:
                 self.twice.add(key)

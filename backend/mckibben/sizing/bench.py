@@ -7,33 +7,24 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
-from itertools import islice
+from dataclasses import replace
+from itertools import count, islice
 from typing import TypeVar
 
 import numpy as np
 
-from mckibben.physics.drive_terms import COUNTER, INPUTS, OUTPUTS
+from mckibben.physics.drive_terms import INPUTS, Structure
 from mckibben.physics.errors import InputError
-from mckibben.physics.gas import ANR_DENSITY
-from mckibben.simulation.engine import CompiledDrive, compiled_drive, integrate
+from mckibben.simulation.engine import compiled_drive
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.parts import Drive
-from mckibben.simulation.rest import start_of
 from mckibben.simulation.transient import constants_of, segments_of
 from mckibben.sizing.catalogue import Design, Group, switch_on
+from mckibben.sizing.prepared import NOTHING, ROWS_DOWN, ROWS_UP, Figures, Prepared, Timeline
 from mckibben.sizing.task import Task
 
-_ROWS_UP, _ROWS_DOWN = 160, 120
-# Coarse: a time within 0.1 %; what is proposed is run again at the usual tolerance.
-_TOLERANCE = 1e-5
 _THREADS = 2
 _LEVEL = 1  # of the machine code: hundreds of runs share a structure
-#: How far from its stop a load still rests on it [m]; it presses the stop in.
-ON_STOP = 2e-6
-#: Share of the fill, at its end, during which it must: a load that is too heavy swings below the stop.
-HELD_SHARE = 0.25
-_HOLDS_BACK = 0.999  # friction holds a load, it does not lift it
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -47,38 +38,6 @@ class EndedError(Exception):
         self.outcome = outcome
 
 
-@dataclass(frozen=True, slots=True)
-class Figures:
-    """What a run shows: times [s], air of all muscles in a cycle at ANR [m^3], largest tension [N].
-
-    Attributes:
-        time, time_down: to the end of the stroke and back; None when it is not reached in the time watched.
-        held: whether the load stays there until the valve stops filling.
-        reached: largest stroke of the load [m].
-    """
-
-    time: float | None
-    time_down: float | None
-    held: bool
-    air: float
-    peak_force: float
-    reached: float
-
-
-#: Of a run that does not come about.
-NOTHING = Figures(None, None, False, 0.0, 0.0, 0.0)
-
-
-@dataclass(frozen=True, eq=False)
-class _Timeline:
-    times: np.ndarray
-    inputs: np.ndarray
-    before: np.ndarray
-    grid: np.ndarray
-    on: float
-    off: float
-
-
 class Bench:
     """Runs designs of one task.
 
@@ -89,15 +48,16 @@ class Bench:
 
     def __init__(self, task: Task, watch: Watch) -> None:
         self.task, self.watch = task, watch
+        self._runs = count()
         self.runs = 0
-        self._timelines: dict[tuple[object, ...], _Timeline] = {}
+        self._timelines: dict[tuple[object, ...], Timeline] = {}
 
     def each(
         self,
         function: Callable[[Item], Result],
         items: Iterable[Item],
         share: tuple[float, float],
-        count: int,
+        total: int,
     ) -> Iterator[Result]:
         """Results of a function over items, in order, from two threads.
 
@@ -105,7 +65,7 @@ class Bench:
             function: lets go of the interpreter for most of its time.
             items: what it takes.
             share: of the whole work that is done before and after.
-            count: of the items.
+            total: number of items.
 
         Raises:
             EndedError: the watch says so.
@@ -114,11 +74,19 @@ class Bench:
         done = 0
         with ThreadPoolExecutor(_THREADS) as pool:
             while chunk := list(islice(source, 8 * _THREADS)):
-                ended = self.watch.ended(begin + (share[1] - begin) * done / max(count, 1))
+                ended = self.watch.ended(begin + (share[1] - begin) * done / max(total, 1))
                 if ended is not None:
                     raise EndedError(ended)
                 yield from pool.map(function, chunk)
                 done += len(chunk)
+
+    def counted(self) -> None:
+        """One run more; from any thread."""
+        self.runs = next(self._runs) + 1
+
+    def compile(self, group: Group) -> None:
+        """Get the equations of a group ready, so that no two threads do it at the same time."""
+        compiled_drive(Structure(group.effects, group.tube.tube is not None, False, group.duty.pair), _LEVEL)
 
     def prepared(self, design: Design) -> Prepared:
         """A design ready to run."""
@@ -131,14 +99,14 @@ class Bench:
 
     def run(self, design: Design) -> Figures:
         """A design through one cycle, on few rows."""
-        self.runs += 1
+        self.counted()
         prepared = self.prepared(design)
         try:
             return prepared.figures(prepared.parameters, prepared.inputs, self.task.returns)
         except InputError:  # no rest position at all: the stretched counter muscle is too strong
             return NOTHING
 
-    def _timeline(self, group: Group, drive: Drive) -> _Timeline:
+    def _timeline(self, group: Group, drive: Drive) -> Timeline:
         key = (group.duty.pair, group.valve.id, group.tube.id)
         found = self._timelines.get(key)
         if found is None:
@@ -146,153 +114,15 @@ class Bench:
         return found
 
 
-def _timeline(task: Task, group: Group, drive: Drive) -> _Timeline:
+def _timeline(task: Task, group: Group, drive: Drive) -> Timeline:
     on = switch_on(task, group.duty)
     off = on + task.fill_time
-    grid = np.linspace(on, off, _ROWS_UP)
+    grid = np.linspace(on, off, ROWS_UP)
     if task.returns:
-        grid = np.concatenate([grid, np.linspace(off, off + task.vent_time, _ROWS_DOWN)[1:]])
+        grid = np.concatenate([grid, np.linspace(off, off + task.vent_time, ROWS_DOWN)[1:]])
     times, inputs, _ = segments_of(replace(drive, duration=float(grid[-1])))
     before = inputs[0].copy()
     held = drive.command.before
     for name, value in (("opening", held), ("counter_opening", drive.counter(held))):
         before[INPUTS.index(name)], before[INPUTS.index(f"{name}_slope")] = value, 0.0
-    return _Timeline(times, inputs, before, grid, on, off)
-
-
-@dataclass(frozen=True, eq=False)
-class Prepared:
-    """A design with its compiled equations; parameters and inputs may be varied."""
-
-    design: Design
-    drive: Drive
-    compiled: CompiledDrive
-    parameters: np.ndarray
-    timeline: _Timeline
-
-    @property
-    def inputs(self) -> np.ndarray:
-        """Inputs of each segment."""
-        inputs = self.timeline.inputs.copy()
-        inputs[:, INPUTS.index("external_force")] = self.drive.load.force
-        return inputs
-
-    def place(self, name: str) -> int:
-        """Position of a parameter."""
-        return list(self.compiled.model.parameters).index(name)
-
-    def built(self, shift: float, friction: float, pressure: float, returns: bool) -> Figures:
-        """Run as it may turn out when it is built.
-
-        Args:
-            shift: added to the contraction ratio.
-            friction: of one muscle, against the motion both ways [N].
-            pressure: factor of the supply pressure.
-            returns: whether the way back counts.
-        """
-        drive, duty = self.drive, self.design.group.duty
-        parameters, inputs = self.parameters.copy(), self.inputs
-        parameters[self.place("precontraction")] += shift * drive.muscle.nominal_length
-        supply = drive.supply_pressure * pressure + drive.ambient_pressure
-        parameters[self.place("supply_pressure")] = supply
-        forward = back = friction * duty.lever_ratio
-        if not duty.pair:  # what pulls back at the begin of the stroke, where a spring does not yet
-            pulling = float(duty.load(np.zeros(1))[0]) / self.design.group.parallel
-            back = min(back, _HOLDS_BACK * max(pulling, 0.0))
-        filling = inputs[:, INPUTS.index("opening")] > 0.0
-        inputs[:, INPUTS.index("external_force")] += np.where(filling, forward, -back)
-        try:
-            return self.figures(parameters, inputs, returns)
-        except InputError:  # nothing holds this specimen's load before the run
-            return NOTHING
-
-    def figures(self, parameters: np.ndarray, inputs: np.ndarray, returns: bool) -> Figures:
-        """Run with these numbers.
-
-        Raises:
-            InputError: nothing holds the load before the run.
-        """
-        line, compiled, size = self.timeline, self.compiled, self.compiled.size
-        with np.errstate(all="ignore"):
-            solution = integrate(
-                compiled,
-                parameters=parameters,
-                start=self.start(parameters, inputs),
-                times=line.times,
-                inputs=inputs,
-                grid=line.grid,
-                tolerance=_TOLERANCE,
-                engine="rodas",
-            )
-        rows = solution.rows
-        if len(rows) < _ROWS_UP or not np.isfinite(rows).all():
-            return NOTHING
-        names = [state.name for state in compiled.model.states]
-        low, high = self.drive.stops
-        stroke, speed = rows[:, names.index("stroke")], rows[:, names.index("speed")]
-        acceleration = rows[:, size + OUTPUTS.index("acceleration")]
-        up, down = slice(0, _ROWS_UP), slice(_ROWS_UP - 1, None)
-        time = _arrival(line.grid[up] - line.on, stroke[up], speed[up], acceleration[up], high)
-        back = None
-        if returns:
-            back = _arrival(
-                line.grid[down] - line.off, -stroke[down], -speed[down], -acceleration[down], -low
-            )
-        taken = [names.index(name) for name in ("supplied", f"supplied{COUNTER}") if name in names]
-        air = float(np.sum(rows[-1, taken] - rows[0, taken])) * self.design.group.parallel
-        force = rows[:, size + compiled.model.output_names.index("force")]
-        return Figures(
-            time,
-            back,
-            bool(np.min(stroke[up][-int(HELD_SHARE * _ROWS_UP) :]) >= high - ON_STOP),
-            air / ANR_DENSITY,
-            float(force.max()),
-            float(np.max(stroke[up]) - low) / self.drive.load.lever_ratio,
-        )
-
-    def start(self, parameters: np.ndarray, inputs: np.ndarray) -> np.ndarray:
-        """The load on its lower stop, if it rests there; else where it does rest.
-
-        A pair is let go there: its second muscle holds it there before anything is looked at.
-        """
-        compiled, line = self.compiled, self.timeline
-        before = line.before.copy()
-        before[INPUTS.index("external_force")] = self.drive.load.force
-        names = [state.name for state in compiled.model.states]
-        plain = not any(state.settled for state in compiled.model.states) and "gas_mass" not in names
-        if not plain:
-            return start_of(self.drive, compiled, parameters, before)
-        absolute = self.drive.start_pressure + self.drive.ambient_pressure
-        start = np.array(
-            [absolute if state.initial is None else state.initial for state in compiled.model.states]
-        )
-        index, low = names.index("stroke"), self.drive.stops[0]
-        if self.drive.pair:
-            start[index] = low
-            return start
-        start[index] = low + 1e-6
-        packed = np.concatenate([start, parameters, before])
-        rate = compiled.size + OUTPUTS.index("acceleration")
-        table = dict(zip(compiled.model.parameters, parameters, strict=True))
-        pressed = -float(compiled.rates(packed)[rate]) * (table["mass"] + table["own_mass"])
-        if not pressed > 0.0:
-            return start_of(self.drive, compiled, parameters, before)
-        start[index] = low - pressed / table["stop_stiffness"]
-        return start
-
-
-def _arrival(
-    time: np.ndarray, travel: np.ndarray, speed: np.ndarray, acceleration: np.ndarray, end: float
-) -> float | None:
-    """First instant at the end of the travel, ballistic from the row before; None when it is not reached."""
-    there = np.flatnonzero(travel >= end - 1e-9)
-    if not len(there):
-        return None
-    index = int(there[0])
-    if index == 0:
-        return 0.0
-    gap, v, a = end - travel[index - 1], speed[index - 1], acceleration[index - 1]
-    root = v * v + 2.0 * a * gap
-    width = float(time[index] - time[index - 1])
-    step = width if root < 0.0 or v + np.sqrt(root) <= 0.0 else float(2.0 * gap / (v + np.sqrt(root)))
-    return float(time[index - 1]) + min(step, width)
+    return Timeline(times, inputs, before, grid, on, off)

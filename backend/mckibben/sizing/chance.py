@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import sqrt
 
-from mckibben.sizing.bench import Bench, Prepared
+from mckibben.sizing.bench import Bench
 from mckibben.sizing.catalogue import Design
+from mckibben.sizing.prepared import Prepared
 from mckibben.sizing.spread import Spread, spread_of
 from mckibben.sizing.task import Task
 from mckibben.sizing.trial import times_over

@@ -13,9 +13,10 @@ from mckibben.simulation.outcome import Outcome
 from mckibben.simulation.parts import Drive
 from mckibben.simulation.timing import Trace, timing
 from mckibben.simulation.transient import Run, simulate
-from mckibben.sizing.bench import HELD_SHARE, ON_STOP, Bench, Figures
+from mckibben.sizing.bench import Bench
 from mckibben.sizing.catalogue import Design, switch_on
 from mckibben.sizing.chance import Chance
+from mckibben.sizing.prepared import HELD_SHARE, ON_STOP, Figures
 from mckibben.sizing.trial import Trial, judged
 
 # As every run is read: at least so fine, so many rows.
@@ -79,7 +80,7 @@ def _measured(design: Design, bench: Bench) -> Proposal | None:
     """A design run finely, whether it does or not; None when the run fails."""
     task, group = bench.task, design.group
     drive = group.drive(task, design.length, design.pressure)
-    bench.runs += 1
+    bench.counted()
     step = max(min(_FINEST, drive.duration / _FEWEST), drive.duration / _MOST)
     grid = np.linspace(0.0, drive.duration, ceil(drive.duration / step) + 1)
     with np.errstate(all="ignore"):
@@ -101,10 +102,11 @@ def _measured(design: Design, bench: Bench) -> Proposal | None:
     end = int(np.searchsorted(run.time, off))
     begin = int(np.searchsorted(run.time, on))
     late = int(np.searchsorted(run.time, off - HELD_SHARE * task.fill_time))
-    time = up["positioning_time"] if up["impact_energy"] else None
+    # Without an impact the table means 95 % of the stroke; here it is the stop.
+    time = up["positioning_time"] if trace.contact[late : end + 1].any() else None
     figures = Figures(
         time=time,
-        time_down=down["positioning_time"] if down["impact_energy"] else None,
+        time_down=down["positioning_time"] if trace.contact[-1] else None,
         held=bool(np.min(run.states["stroke"][late : end + 1]) >= drive.stops[1] - ON_STOP),
         air=_air(run, begin) * group.parallel,
         peak_force=float(np.max(run.outputs["force"])),

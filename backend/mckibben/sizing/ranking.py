@@ -76,7 +76,7 @@ def _reason(proposal: Proposal, best: dict[str, float]) -> str:
     aims = _aims(proposal.trial)
     firsts = [text for name, text in _NAMES.items() if aims[name] <= best[name] * 1.005]
     texts = [", ".join(firsts)] if firsts else []
-    if aims["air"] > best["air"] * 1.005:
+    if aims["air"] > best["air"] * 1.05:
         texts.append(f"{aims['air'] / best['air']:.2g} times the least air")
     if proposal.chance is not None:
         texts.append(f"does the task with {proposal.chance.probability * 100:.0f} % probability")

@@ -44,8 +44,10 @@ class Rejection:
     combinations: int = 0
 
 
-def at_rest_rejections(sheets: Sequence[Sheet], catalogue: Catalogue, task: Task) -> list[Rejection]:
-    """The muscles that the closed form rules out, whatever the valve."""
+def at_rest_rejections(
+    sheets: Sequence[Sheet], catalogue: Catalogue, task: Task, works: set[str]
+) -> list[Rejection]:
+    """The muscles that the closed form rules out, whatever the valve; ``works`` are those that do."""
     found = [
         Rejection(part.id, 1, why, "temperature", "another muscle, or another place for it")
         for part in catalogue.muscles
@@ -53,12 +55,11 @@ def at_rest_rejections(sheets: Sequence[Sheet], catalogue: Catalogue, task: Task
     ]
     counts = range(1, task.limits.max_parallel + 1)
     sound = {(sheet.part.id, count) for sheet in sheets for count in counts if len(sheet.sound(count))}
-    able = {name for name, _ in sound}
     pairs = len(catalogue.valves) * len(catalogue.tubes)
     for sheet in _nearest(sheets, task):
         name = sheet.part.id
         series = name.partition("-")[0]
-        others = tuple(sorted(able - {name}, key=lambda other: (other.partition("-")[0] != series, other)))
+        others = tuple(sorted(works - {name}, key=lambda other: (other.partition("-")[0] != series, other)))
         for count in counts:
             if (name, count) in sound:
                 continue

@@ -109,7 +109,7 @@ class _Search:
             for part in self.catalogue.muscles
             if temperature_text(part, task) is None
         ]
-        found.rejected = at_rest_rejections(sheets, self.catalogue, task)
+        found.rejected = at_rest_rejections(sheets, self.catalogue, task, set())
         candidates, failed = self._prune(sheets)
         candidates = self._likely(candidates)
         self._look(_PRUNED)
@@ -125,7 +125,9 @@ class _Search:
                 proposals.append(item)
             else:
                 failed.append((item.design.group, item))
-        found.rejected += slow_rejections(failed, task, {trial.design.group.muscle.id for trial in good})
+        works = {proposal.design.group.muscle.id for proposal in proposals}
+        found.rejected = at_rest_rejections(sheets, self.catalogue, task, works)
+        found.rejected += slow_rejections(failed, task, works)
         found.rejected.sort(key=lambda rejection: rejection.nearness)
         found.proposals = ranked(proposals, task)[: task.max_proposals]
         found.proposals = self._with_chances(found.proposals)
@@ -203,6 +205,8 @@ class _Search:
         self, jobs: list[tuple[Candidate, int]], share: tuple[float, float]
     ) -> dict[Candidate, list[Trial]]:
         found: dict[Candidate, list[Trial]] = {}
+        for candidate, _ in jobs:
+            self.bench.compile(candidate.group)
         trials = self.bench.each(
             lambda job: trial_of(job[0].design(job[1]), self.bench, job[0].sheet.rest.only(job[1])),
             jobs,

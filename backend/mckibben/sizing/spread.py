@@ -7,6 +7,8 @@
 - Hysteresis is evenly distributed between none and the full width of the loop: a force that opposes the
   motion both ways, half the loop wide.
 - The supply pressure is evenly distributed within its tolerance.
+
+All muscles of a drive deviate together, as muscles of one batch do; that is the harder case.
 """
 
 from __future__ import annotations

@@ -7,8 +7,9 @@ from math import inf, log
 
 import numpy as np
 
-from mckibben.sizing.bench import Bench, Figures
+from mckibben.sizing.bench import Bench
 from mckibben.sizing.catalogue import Design
+from mckibben.sizing.prepared import Figures
 from mckibben.sizing.spread import weak
 from mckibben.sizing.statics import AMPLE, Rest, at_rest, margins
 from mckibben.sizing.task import Task
@@ -107,7 +108,7 @@ def trial_of(design: Design, bench: Bench, rest: Rest | None = None) -> Trial:
 def hard_trial_of(design: Design, bench: Bench) -> Trial:
     """Run a design, and a weak specimen of it."""
     poor = bench.prepared(design).built(*weak(design, bench.task), bench.task.returns)
-    bench.runs += 1
+    bench.counted()
     return replace(trial_of(design, bench), weak=poor)
 
 

@@ -13,7 +13,7 @@ from mckibben.drive_input import drive_of
 from mckibben.identification.setting import Setting
 from mckibben.muscle_input import StartModel
 from mckibben.physics.custom import CUSTOM, TERM
-from mckibben.physics.errors import InputError
+from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.simulation.parts import Drive
 from mckibben.studio import Studio
 
@@ -78,6 +78,8 @@ def asked(request: ModelRequest, studio: Studio, store: MeasurementStore) -> Ask
         start = studio.start_model(given_muscle(request.muscle), request.effects)
     else:
         raise InputError("a muscle or a drive is needed", field="muscle", hint='e.g. {"preset": "DMSP-20"}')
+    studio.static_model(start)  # refuses values and a geometry that cannot be
+    _check_freed(request.freed, start)
     used: dict[str, list[Points]] = {"fit": [], "validation": []}
     for place, item in enumerate(request.chosen()):
         try:
@@ -89,3 +91,13 @@ def asked(request: ModelRequest, studio: Studio, store: MeasurementStore) -> Ask
         raise InputError("no measurement to fit to", field="measurements", hint='give one the use "fit"')
     validation = joined(used["validation"]) if used["validation"] else None
     return Asked(start, joined(used["fit"]), drive, validation, request.free, request.freed, request.noise)
+
+
+def _check_freed(freed: Sequence[str], start: StartModel) -> None:
+    known = {f"{effect.id}.{p.name}" for effect in start.catalogue.values() for p in effect.parameters}
+    for place, name in enumerate(freed):
+        if name not in known:
+            own = {each for each in known if each.startswith(name.partition(".")[0])} or known
+            raise InputError(
+                f"there is no constant '{name}'", field=f"freed.{place}", hint=did_you_mean(name, own)
+            )

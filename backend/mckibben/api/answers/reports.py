@@ -8,10 +8,8 @@ import shlex
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from datetime import datetime
+from importlib.metadata import version
 from typing import NamedTuple
-
-import numpy
-import scipy
 
 from mckibben import __version__
 from mckibben.api.answer import to_json
@@ -92,8 +90,8 @@ def report_of(asked: Asked, studio: Studio, told: Told, diagnosis: Json | None) 
             versions={
                 "mckibben": __version__,
                 "Python": platform.python_version(),
-                "numpy": numpy.__version__,
-                "scipy": scipy.__version__,
+                # Asked of their packages: importing scipy would delay the start of the server.
+                **{name: version(name) for name in ("numpy", "scipy")},
             },
             sources=parts,
             muscle=_muscle_facts(asked, studio, known),

@@ -24,7 +24,7 @@ router = APIRouter(prefix="/api/reports", tags=["reports"], route_class=StrictRo
 
 @router.post(
     "",
-    response_class=HTMLResponse,
+    response_class=Response,  # errors are JSON all the same
     responses={**ReportAnswer, **errors(400, 404, 413, 415, 422)},
 )
 async def write_report(body: ReportRequest, request: Request, studio: StudioDep, store: StoreDep) -> Response:

@@ -44,7 +44,8 @@ class Quasistatic(Subject):
         self.rows_used, self.excluded, self.messages = len(self.measured), task.excluded, task.messages
         within = "pressure" if task.kind in ("isometric", "isotonic") else "length"
         other = ranges_of(counted.state.get(within, counted.state["pressure"]))
-        self.folds = (folds_of(self.groups), other) if np.ptp(other) else (folds_of(self.groups),)
+        ways = [folds_of(self.groups), other]
+        self.folds = tuple(ways if np.ptp(other) else ways[:1])
         self.sweeps = sweeps_of(
             self.groups,
             self.records,

@@ -13,6 +13,7 @@ from mckibben.report.figures import Scale, figure, percent, variable
 from mckibben.report.heat import heat
 from mckibben.report.html import Child, Html, html
 
+_TOLD, _TELLING = 3, 0.05  # variables that are told in words: how many, from which share on
 #: What errors of several channels together are told in.
 TIMES_NOISE = Scale("× noise")
 
@@ -98,7 +99,15 @@ def where_it_fails(answer: Json) -> Html:
         Column("Variable"), Column("Share of the squared error that it alone predicts", number=True),
         Column("Worst range"), Column("RMS error there", number=True),
     ]  # fmt: skip
-    parts: list[Child] = [bullets(f"{sentence}." for sentence in answer["sentences"])]
+    words: list[Child] = [
+        html(
+            f"{profile['worst']}: ", figure(profile["rmse"], scale, 3), " rms; this variable alone predicts ",
+            percent(profile["share_explained"]), " of the squared error.",
+        )
+        for profile in answer["where"][:_TOLD]
+        if profile["share_explained"] > _TELLING
+    ]  # fmt: skip
+    parts: list[Child] = [bullets([*words, f"{answer['sentences'][-1]}."])]
     if rows:
         parts.append(table(columns, rows))
     found = answer["heat_map"]

@@ -20,9 +20,13 @@ _LEFT = 84.0  # where the axes of both drawings begin
 
 def pictures(answer: Json, name: str) -> Html:
     """Overlay and residual of every predicted channel; ``name`` is the model's."""
-    every = list(answer["series"])
+    parts = [_all(answer["series"], answer, name)]
     if answer["validation"]:
-        every += answer["validation"]["series"]
+        parts.append(_all(answer["validation"]["series"], answer, f"{name} on the validation data"))
+    return html(parts)
+
+
+def _all(every: Sequence[Json], answer: Json, name: str) -> Html:
     channels = dict.fromkeys(series["channel"] for series in every)
     return html(
         _channel([series for series in every if series["channel"] == channel], answer, channel, name)
@@ -76,8 +80,12 @@ def _channel(every: Sequence[Json], answer: Json, channel: str, name: str) -> Ht
 
 
 def _scattered(every: Sequence[Json], kind: str) -> bool:
-    """Points of a map that follow no line: most series hold no pressure."""
-    return kind in ("static", "diameter") and 2 * sum(s["pressure"] is None for s in every) > len(every)
+    """Points of a map that follow no line: most series hold neither pressure nor length."""
+    if kind not in ("static", "diameter"):
+        return False
+    whole = _span(np.concatenate([_values(series["contraction"]) for series in every]))
+    loose = [s["pressure"] is None and _span(_values(s["contraction"])) > 0.05 * whole for s in every]
+    return 2 * sum(loose) > len(every)
 
 
 def _parity(every: Sequence[Json], channel: str, size: float) -> Html:
@@ -126,7 +134,4 @@ def _rows(series: Json, key: str, *, sort: bool) -> np.ndarray:
 
 def _labels(series: Json, single: bool) -> tuple[str, str]:
     """Legend of dots and line: one entry for both where there are several series."""
-    if single:
-        return "measured", "model"
-    text = series["label"] + (" (validation)" if series["use"] == "validation" else "")
-    return text, text
+    return ("measured", "model") if single else (series["label"], series["label"])

@@ -35,8 +35,10 @@ def _sections(material: Material) -> Iterator[Section]:
         answer["parameters"], material, figures=material.figures, terms=answer["model"]["effects"]
     )
     yield Section("Model", html(cards, correlations(answer, material)))
-    columns = [("the model as given", answer), *([("the proposed model", proposed)] if proposed else [])]
-    yield Section("Error", html(error_table(columns), pictures(answer, "model as given")))
+    fitted = any(item["fitted"] for own in answer["parameters"].values() for item in own.values())
+    name = "fitted model" if fitted else "model as given"
+    columns = [(f"the {name}", answer), *([("the proposed model", proposed)] if proposed else [])]
+    yield Section("Error", html(error_table(columns), pictures(answer, name)))
     yield Section("Where it fails", where_it_fails(answer))
     yield Section("Path of the error", path_section(material))
     if found is not None:

@@ -112,7 +112,7 @@ function grid(a, map) {
       h(
         "tr",
         null,
-        h("th", null),
+        h("td", null),
         ...columns.map((ix) => h("th", { scope: "col" }, say(xs, bin(map.x_edges, ix)[0]))),
       ),
     ),

@@ -6,19 +6,14 @@ import { ApiError } from "../../api.js";
 import { brief } from "../../format.js";
 import { openDialog } from "../../ui/dialog.js";
 import { spoken } from "../../ui/sources.js";
+import { columnTable, valueOf } from "./mapping-columns.js";
 import { previewOf } from "./upload.js";
 
 /** @typedef {import("./types.js").Preview} Preview */
-/** @typedef {import("./types.js").PreviewColumn} PreviewColumn */
 /** @typedef {import("./types.js").Mapping} Mapping */
-/** @typedef {{preview: import("../../reactive.js").Signal<Preview>,
- *   mapping: import("../../reactive.js").Signal<Mapping>,
- *   change: (patch: Mapping) => void}} Context */
+/** @typedef {import("./mapping-columns.js").Context} Context */
 
-const SAMPLE_ROWS = 5, AFTER_MS = 200;
-
-/** @param {Event} event */
-const valueOf = (event) => /** @type {HTMLSelectElement | HTMLInputElement} */ (event.target).value;
+const AFTER_MS = 200;
 
 /** Shows how a file is read; the answer is what the user said, null when the file is not wanted.
  * @param {File} file @param {Preview} first @param {Mapping} start @returns {Promise<Mapping | null>} */
@@ -99,118 +94,6 @@ function counts(p) {
   const skipped = p.rows - p.valid_rows;
   const kind = p.kind ? `, kind ${p.kind}${p.kind_detected ? " (detected)" : ""}` : "";
   return `${p.format.toUpperCase()} · ${p.rows} rows: ${p.valid_rows} can be used, ${skipped} skipped${kind}.`;
-}
-
-/** @param {Context} c */
-function columnTable({ preview, mapping, change }) {
-  const p = preview.value;
-  const row = (/** @type {number} */ k) => p.sample[k] ?? [];
-  /** @param {PreviewColumn} column @param {any} choice */
-  const set = (column, choice) => change({ columns: { ...mapping.peek().columns, [column.header]: choice } });
-  const names = p.channel_choices.map((one) => one.name);
-  return h(
-    "table",
-    { class: "data" },
-    h("caption", { class: "unseen" }, "What each column is, and the first rows"),
-    h(
-      "thead",
-      null,
-      h(
-        "tr",
-        null,
-        ...p.columns.map((column) => h("th", { scope: "col", class: "text" }, column.header)),
-      ),
-    ),
-    h(
-      "tbody",
-      null,
-      h(
-        "tr",
-        null,
-        ...p.columns.map((column) => h("td", { class: "text" }, channelSelect(column, names, set))),
-      ),
-      h(
-        "tr",
-        null,
-        ...p.columns.map((column) => h("td", { class: "text" }, unitSelect(column, p, set))),
-      ),
-      ...Array.from(
-        { length: Math.min(SAMPLE_ROWS, p.sample.length) },
-        (_, k) =>
-          h("tr", { class: "sample" }, ...p.columns.map((_column, i) => h("td", null, row(k)[i] ?? ""))),
-      ),
-      h(
-        "tr",
-        { class: "range" },
-        ...p.columns.map((column) => h("td", null, h("small", null, rangeText(column, p)))),
-      ),
-    ),
-  );
-}
-
-/** @param {PreviewColumn} column @param {Preview} p */
-function rangeText(column, p) {
-  if (column.why) return h("span", { class: "error" }, column.why);
-  if (column.minimum === null || column.maximum === null) return "";
-  const si = p.channel_choices.find((one) => one.name === column.channel)?.si_unit ?? "";
-  return `${brief(column.minimum)} … ${brief(column.maximum)} ${si === "1" ? "" : si}`;
-}
-
-/** @param {PreviewColumn} column @param {string[]} names
- * @param {(column: PreviewColumn, choice: object | null) => void} set */
-function channelSelect(column, names, set) {
-  const all = column.channel && !names.includes(column.channel) ? [...names, column.channel] : names;
-  return h(
-    "select",
-    {
-      "aria-label": `Channel of ${column.header}`,
-      onchange: (/** @type {Event} */ e) => set(column, valueOf(e) ? { channel: valueOf(e) } : null),
-    },
-    h("option", { value: "", selected: !column.channel }, "not used"),
-    ...all.map((name) => h("option", { value: name, selected: name === column.channel }, spoken(name))),
-  );
-}
-
-/** @param {PreviewColumn} column @param {Preview} p
- * @param {(column: PreviewColumn, choice: object | null) => void} set */
-function unitSelect(column, p, set) {
-  const choice = p.channel_choices.find((one) => one.name === column.channel);
-  if (!column.channel || !choice) return "";
-  const { unit } = column;
-  const units = unit && !choice.units.includes(unit) ? [unit, ...choice.units] : choice.units;
-  const { absolute } = column;
-  const keep = {
-    channel: column.channel,
-    ...(unit ? { unit } : {}),
-    ...(absolute === null ? {} : { absolute }),
-  };
-  return [
-    h(
-      "select",
-      {
-        "aria-label": `Unit of ${column.header}`,
-        onchange: (/** @type {Event} */ e) => set(column, { ...keep, unit: valueOf(e) }),
-      },
-      unit ? null : h("option", { value: "", selected: true }, "unit?"),
-      ...units.map((one) =>
-        h("option", { value: one, selected: one === unit }, one === "1" ? "1 (plain)" : one)
-      ),
-    ),
-    column.unit_given ? null : h("small", { class: "guess" }, " guessed"),
-    choice.si_unit === "Pa"
-      ? h(
-        "label",
-        { class: "check" },
-        h("input", {
-          type: "checkbox",
-          checked: absolute === true,
-          onchange: (/** @type {Event} */ e) =>
-            set(column, { ...keep, absolute: /** @type {HTMLInputElement} */ (e.target).checked }),
-        }),
-        h("small", null, "above vacuum"),
-      )
-      : null,
-  ];
 }
 
 /** @param {Context} c */
@@ -316,7 +199,10 @@ function badRows({ preview, mapping, change }) {
 
 /** @param {Preview} p @param {string} wrong */
 function problem(p, wrong) {
-  const told = wrong || (p.problem ? new ApiError(p.problem.message, p.problem).words : "");
+  const { message = "", hint = null } = p.problem ?? {};
+  // The message starts with the name of the file, which keeps its first letter.
+  const told = wrong ||
+    (message && [`${message}.`, hint && new ApiError(hint).words].filter(Boolean).join(" "));
   return told ? h("p", { class: "flag bad", role: "alert" }, icon("warn"), h("span", null, told)) : null;
 }
 

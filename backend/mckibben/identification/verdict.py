@@ -1,0 +1,91 @@
+"""What a search amounts to: its status, what is left, what would separate twins, what has to be said."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from mckibben.identification.fit import FitResult
+from mckibben.identification.next_measurement import Proposal, declared, protocols, separation
+from mckibben.identification.node import Node
+from mckibben.identification.search import Search
+from mckibben.identification.subjects.subject import Subject
+from mckibben.identification.twins import Alternative
+from mckibben.identification.unknown import Structure, structure
+from mckibben.physics.effect import Effect
+
+_AT_FLOOR = 1.15  # of the noise: nothing more is asked for
+_FAR = 2.0  # of the noise: structure that is left is said to be unknown whatever was explained before
+_STRUCTURED = 0.3  # share of the residual a regression predicts, from which it is structure
+_EXPLAINED = 0.98  # of the excess over the noise
+
+
+def left_structure(subject: Subject, residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> Structure:
+    """Structure left in the residual: of each channel, together by their mean squares."""
+    parts = []
+    for channel in subject.channels:
+        own = {name: values[channel.rows] for name, values in variables.items()}
+        left = residual[channel.rows]
+        parts.append((float(np.mean(left**2)), structure(left, own)))
+    whole = sum(size for size, _ in parts) or 1.0
+    lost: dict[str, float] = {}
+    for size, part in parts:
+        for name, share in part.variables:
+            lost[name] = lost.get(name, 0.0) + share * size / whole
+    order = tuple(sorted(lost.items(), key=lambda pair: -pair[1]))
+    return Structure(sum(size * part.share for size, part in parts) / whole, order)
+
+
+def status_of(
+    start: Node,
+    best: Node,
+    noise: float | None,
+    added: Sequence[str],
+    others: Sequence[Alternative],
+    rest: Structure,
+) -> str:
+    """adequate, missing_effects, ambiguous or unknown_effect."""
+    floor = noise or 0.0
+    excess = max(start.mean_square - floor**2, 1e-300)
+    explained = 1.0 - max(best.mean_square - floor**2, 0.0) / excess
+    above = best.rmse > _AT_FLOOR * floor and rest.share > _STRUCTURED
+    if above and (best.rmse > _FAR * floor or explained < _EXPLAINED):
+        return "unknown_effect"
+    if not added:
+        return "adequate"
+    return "ambiguous" if others else "missing_effects"
+
+
+def is_force(subject: Subject) -> bool:
+    """Whether a force is predicted, to which a term can be added."""
+    return [channel.name for channel in subject.channels] == ["force"]
+
+
+def proposals(
+    best: Node, others: Sequence[Alternative], catalogue: Mapping[str, Effect], noise: float, subject: Subject
+) -> list[Proposal]:
+    """Experiments that would separate each added effect from what could stand in for it."""
+    found = []
+    pressure = subject.inputs.get("pressure")
+    high = float(np.max(pressure)) if pressure is not None else 6e5
+    for other in others:
+        words, apart = "", 0.0
+        if is_force(subject) and high > 0.0:
+            tests = protocols(best.setting, largest_pressure=high)
+            words, apart = separation(best.setting, other.node.setting, tests, noise=noise)
+        text = declared(catalogue[other.of], catalogue[other.effect])
+        found.append(Proposal(other.of, other.effect, text, words, apart))
+    return found
+
+
+def messages(work: Search, best: Node, fit: FitResult | None) -> list[str]:
+    """What has to be said of the noise, of geometry that took up an effect, and of the fit."""
+    found = []
+    if work.noise is None:
+        found.append("the sweeps are too short to estimate the noise: state it to know when to stop")
+    for name in (p.name for p in work.geometry):
+        first, last = work.known[next(iter(work.known))].setting.number(name), best.setting.number(name)
+        if abs(last / first - 1.0) > 0.005:
+            found.append(f"the fit moved {name.replace('_', ' ')} by {100.0 * (last / first - 1.0):+.1f} %")
+    return [*found, *(fit.messages if fit else ())]

@@ -1,0 +1,203 @@
+"""A design ready to run with numbers that may be varied, and what a run of it shows on few rows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mckibben.physics.drive_terms import COUNTER, INPUTS, OUTPUTS
+from mckibben.physics.errors import InputError
+from mckibben.physics.gas import ANR_DENSITY
+from mckibben.simulation.engine import CompiledDrive, integrate
+from mckibben.simulation.parts import Drive
+from mckibben.simulation.rest import start_of
+from mckibben.sizing.catalogue import Design
+
+ROWS_UP, ROWS_DOWN = 160, 120
+# Coarse: a time within 0.1 %; what is proposed is run again at the usual tolerance.
+_TOLERANCE = 1e-5
+#: How far from its stop a load still rests on it [m]; it presses the stop in.
+ON_STOP = 2e-6
+#: Share of the fill, at its end, during which it must: a load that is too heavy swings below the stop.
+HELD_SHARE = 0.25
+_HOLDS_BACK = 0.999  # friction holds a load, it does not lift it
+
+
+@dataclass(frozen=True, slots=True)
+class Figures:
+    """What a run shows: times [s], air of all muscles in a cycle at ANR [m^3], largest tension [N].
+
+    Attributes:
+        time, time_down: to the end of the stroke and back; None when it is not reached in the time watched.
+        held: whether the load stays there until the valve stops filling.
+        reached: largest stroke of the load [m].
+    """
+
+    time: float | None
+    time_down: float | None
+    held: bool
+    air: float
+    peak_force: float
+    reached: float
+
+
+#: Of a run that does not come about.
+NOTHING = Figures(None, None, False, 0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Timeline:
+    """What all designs of a task with the same parts have in common.
+
+    Attributes:
+        times, inputs: limits and inputs of the segments.
+        before: inputs before the run.
+        grid: instants of the rows, `ROWS_UP` of the fill and after them those of the way back.
+        on, off: when the fill begins and ends [s].
+    """
+
+    times: np.ndarray
+    inputs: np.ndarray
+    before: np.ndarray
+    grid: np.ndarray
+    on: float
+    off: float
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """A design with its compiled equations; parameters and inputs may be varied."""
+
+    design: Design
+    drive: Drive
+    compiled: CompiledDrive
+    parameters: np.ndarray
+    timeline: Timeline
+
+    @property
+    def inputs(self) -> np.ndarray:
+        """Inputs of each segment."""
+        inputs = self.timeline.inputs.copy()
+        inputs[:, INPUTS.index("external_force")] = self.drive.load.force
+        return inputs
+
+    def place(self, name: str) -> int:
+        """Position of a parameter."""
+        return list(self.compiled.model.parameters).index(name)
+
+    def built(self, shift: float, friction: float, pressure: float, returns: bool) -> Figures:
+        """Run as it may turn out when it is built.
+
+        Args:
+            shift: added to the contraction ratio.
+            friction: of one muscle, against the motion both ways [N].
+            pressure: factor of the supply pressure.
+            returns: whether the way back counts.
+        """
+        drive, duty = self.drive, self.design.group.duty
+        parameters, inputs = self.parameters.copy(), self.inputs
+        parameters[self.place("precontraction")] += shift * drive.muscle.nominal_length
+        supply = drive.supply_pressure * pressure + drive.ambient_pressure
+        parameters[self.place("supply_pressure")] = supply
+        forward = back = friction * duty.lever_ratio
+        if not duty.pair:  # what pulls back at the begin of the stroke, where a spring does not yet
+            pulling = float(duty.load(np.zeros(1))[0]) / self.design.group.parallel
+            back = min(back, _HOLDS_BACK * max(pulling, 0.0))
+        filling = inputs[:, INPUTS.index("opening")] > 0.0
+        inputs[:, INPUTS.index("external_force")] += np.where(filling, forward, -back)
+        try:
+            return self.figures(parameters, inputs, returns)
+        except InputError:  # nothing holds this specimen's load before the run
+            return NOTHING
+
+    def figures(self, parameters: np.ndarray, inputs: np.ndarray, returns: bool) -> Figures:
+        """Run with these numbers.
+
+        Raises:
+            InputError: nothing holds the load before the run.
+        """
+        line, compiled, size = self.timeline, self.compiled, self.compiled.size
+        with np.errstate(all="ignore"):
+            solution = integrate(
+                compiled,
+                parameters=parameters,
+                start=self.start(parameters, inputs),
+                times=line.times,
+                inputs=inputs,
+                grid=line.grid,
+                tolerance=_TOLERANCE,
+                engine="rodas",
+            )
+        rows = solution.rows
+        if len(rows) < ROWS_UP or not np.isfinite(rows).all():
+            return NOTHING
+        names = [state.name for state in compiled.model.states]
+        low, high = self.drive.stops
+        stroke, speed = rows[:, names.index("stroke")], rows[:, names.index("speed")]
+        acceleration = rows[:, size + OUTPUTS.index("acceleration")]
+        up, down = slice(0, ROWS_UP), slice(ROWS_UP - 1, None)
+        time = _arrival(line.grid[up] - line.on, stroke[up], speed[up], acceleration[up], high)
+        back = None
+        if returns:
+            back = _arrival(
+                line.grid[down] - line.off, -stroke[down], -speed[down], -acceleration[down], -low
+            )
+        taken = [names.index(name) for name in ("supplied", f"supplied{COUNTER}") if name in names]
+        air = float(np.sum(rows[-1, taken] - rows[0, taken])) * self.design.group.parallel
+        force = rows[:, size + compiled.model.output_names.index("force")]
+        return Figures(
+            time,
+            back,
+            bool(np.min(stroke[up][-int(HELD_SHARE * ROWS_UP) :]) >= high - ON_STOP),
+            air / ANR_DENSITY,
+            float(force.max()),
+            float(np.max(stroke[up]) - low) / self.drive.load.lever_ratio,
+        )
+
+    def start(self, parameters: np.ndarray, inputs: np.ndarray) -> np.ndarray:
+        """The load on its lower stop, if it rests there; else where it does rest.
+
+        A pair is let go there: its second muscle holds it there before anything is looked at.
+        """
+        compiled, line = self.compiled, self.timeline
+        before = line.before.copy()
+        before[INPUTS.index("external_force")] = self.drive.load.force
+        names = [state.name for state in compiled.model.states]
+        plain = not any(state.settled for state in compiled.model.states) and "gas_mass" not in names
+        if not plain:
+            return start_of(self.drive, compiled, parameters, before)
+        absolute = self.drive.start_pressure + self.drive.ambient_pressure
+        start = np.array(
+            [absolute if state.initial is None else state.initial for state in compiled.model.states]
+        )
+        index, low = names.index("stroke"), self.drive.stops[0]
+        if self.drive.pair:
+            start[index] = low
+            return start
+        start[index] = low + 1e-6
+        packed = np.concatenate([start, parameters, before])
+        rate = compiled.size + OUTPUTS.index("acceleration")
+        table = dict(zip(compiled.model.parameters, parameters, strict=True))
+        pressed = -float(compiled.rates(packed)[rate]) * (table["mass"] + table["own_mass"])
+        if not pressed > 0.0:
+            return start_of(self.drive, compiled, parameters, before)
+        start[index] = low - pressed / table["stop_stiffness"]
+        return start
+
+
+def _arrival(
+    time: np.ndarray, travel: np.ndarray, speed: np.ndarray, acceleration: np.ndarray, end: float
+) -> float | None:
+    """First instant at the end of the travel, ballistic from the row before; None when it is not reached."""
+    there = np.flatnonzero(travel >= end - 1e-9)
+    if not len(there):
+        return None
+    index = int(there[0])
+    if index == 0:
+        return 0.0
+    gap, v, a = end - travel[index - 1], speed[index - 1], acceleration[index - 1]
+    root = v * v + 2.0 * a * gap
+    width = float(time[index] - time[index - 1])
+    step = width if root < 0.0 or v + np.sqrt(root) <= 0.0 else float(2.0 * gap / (v + np.sqrt(root)))
+    return float(time[index - 1]) + min(step, width)

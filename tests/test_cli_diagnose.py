@@ -1,0 +1,315 @@
+"""``mckibben diagnose``: the promised JSON, tables, transients, models that go back in, bad input."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mckibben import cli
+from mckibben.api.schemas.diagnoses import DiagnosisAnswer
+from tests.identification.synthetic import CYCLE_HEADER, cycle_rows, text
+
+Run = Callable[..., tuple[int, str, str]]
+MUSCLE = {
+    "braid_diameter": "21.8 mm", "braid_angle": "26.5 deg", "nominal_length": "300 mm",
+    "wall_thickness": "1.8 mm", "inside_diameter": "20 mm",
+}  # fmt: skip
+DRIVE: dict[str, Any] = {
+    "schema": 1,
+    "muscle": MUSCLE,
+    "effects": {},
+    "supply": {"pressure": "6 bar"},
+    "valve": {"sonic_conductance": "0.4 l/(s*bar)", "critical_pressure_ratio": 0.3},
+    "load": {"mass": "12 kg"},
+    "command": {"shape": "pulse", "on": "0 s", "off": "1 s"},
+    "stops": {"min_contraction": 0.0, "max_contraction": 0.35},
+    "duration": "2 s",
+}
+
+
+@pytest.fixture(autouse=True)
+def _own_folders(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("MCKIBBEN_DATA", str(tmp_path / "data"))
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture
+def run(capsysbinary: pytest.CaptureFixture[bytes]) -> Run:
+    """Run a command line in this process: exit code, stdout, stderr."""
+
+    def call(*arguments: str) -> tuple[int, str, str]:
+        code = cli.run([*arguments])
+        captured = capsysbinary.readouterr()
+        return code, captured.out.decode(), captured.err.decode()
+
+    return call
+
+
+def write(name: str, content: object) -> str:
+    Path(name).write_text(content if isinstance(content, str) else json.dumps(content), "utf-8")
+    return name
+
+
+def rubbing(name: str = "rubbing.csv", **options: Any) -> str:
+    """Cycles with 15 N of friction; a bladder where asked for."""
+    rows = cycle_rows(lambda direction, **_: 15.0 * direction, noise=1.0, each=20, **options)
+    return write(name, text(rows, CYCLE_HEADER, "kind: isobaric"))
+
+
+def refused(result: tuple[int, str, str]) -> str:
+    code, out, err = result
+    assert code == 2, err
+    assert out == ""
+    assert err.count("\n") == 1
+    assert "Traceback" not in err
+    return err
+
+
+def answer_of(result: tuple[int, str, str]) -> dict[str, Any]:
+    code, out, err = result
+    assert code == 0, err
+    assert out.count("\n") == 1
+    answer = json.loads(out)
+    DiagnosisAnswer.model_validate(answer)
+    return answer
+
+
+def test_the_json_has_the_promised_shape(run: Run) -> None:
+    answer = answer_of(run("diagnose", rubbing(c10=0.4e6), "--muscle", write("m.json", MUSCLE), "--json"))
+    assert answer["kind"] == "isobaric"
+    assert answer["rows"] == 240
+    assert (answer["predicted"], answer["unit"]) == ("force", "N")
+    assert {"rmse", "nrmse_percent", "holdout_rmse"} <= answer["baseline"].keys()
+    assert {"rmse", "how"} <= answer["noise_floor"].keys()
+    for place in answer["where"]:
+        assert {"over", "share_explained", "worst", "rmse"} <= place.keys()
+    assert answer["candidates"]
+    for candidate in answer["candidates"]:
+        assert {
+            "effect", "rmse", "holdout_rmse", "gain_percent", "delta_bic", "parameters", "twins", "why"
+        } <= candidate.keys()  # fmt: skip
+        for parameter in candidate["parameters"].values():
+            assert {"value", "stderr", "unit", "at_bound"} <= parameter.keys()
+    for step in answer["path"]:
+        assert {"added", "rmse", "holdout_rmse"} <= step.keys()
+    assert answer["path"][0]["added"] is None
+    assert answer["path"][0]["rmse"] == answer["baseline"]["rmse"]
+    verdict = answer["verdict"]
+    assert {
+        "status", "effects", "indistinguishable", "unexplained_share", "proposed_term", "next_measurement"
+    } <= verdict.keys()  # fmt: skip
+    assert verdict["status"] == "missing_effects"
+    assert set(verdict["effects"]) == {"bladder_elasticity", "coulomb_friction"}
+    assert set(answer["model"]["effects"]) == {"bladder_elasticity", "coulomb_friction"}
+
+
+def test_tables_and_the_verdict(run: Run) -> None:
+    code, out, err = run("diagnose", rubbing(), "--muscle", write("m.json", MUSCLE))
+    assert code == 0
+    for word in ("start model", "coulomb_friction", "noise floor", "One effect alone", "Parameters", "gain"):
+        assert word in out
+    assert "Missing: " in err
+    assert "Traceback" not in err
+
+
+def test_what_cannot_be_told_apart_comes_with_an_experiment(run: Run) -> None:
+    rows = cycle_rows(noise=1.0, each=20, prestress=40.0)
+    file = write("shifted.csv", text(rows, CYCLE_HEADER, "kind: isobaric"))
+    code, _, err = run("diagnose", file, "--muscle", write("m.json", MUSCLE))
+    assert code == 0
+    assert "cannot tell" in err
+    assert "muscle removed" in err
+
+
+def test_the_start_model_is_ideal_named_or_the_presets(run: Run) -> None:
+    file, muscle = rubbing(), write("m.json", MUSCLE)
+
+    def start(*options: str) -> tuple[set[str], str]:
+        answer = answer_of(run("diagnose", file, *options, "--json"))
+        return set(answer["path"][0]["model"]["effects"]), answer["verdict"]["status"]
+
+    assert start("--muscle", muscle) == (set(), "missing_effects")
+    assert start("--muscle", muscle, "--effect", "coulomb_friction") == ({"coulomb_friction"}, "adequate")
+    own = start("--muscle", "DMSP-20")[0]
+    assert own == {"bladder_elasticity", "prestress"}
+    assert start("--muscle", "DMSP-20", "--ideal")[0] == set()
+
+
+def test_a_freed_geometry_and_a_stated_noise(run: Run) -> None:
+    rows = cycle_rows(noise=1.0, each=20, angle=25.5)
+    file = write("bent.csv", text(rows, CYCLE_HEADER, "kind: isobaric"))
+    options = ("--muscle", write("m.json", MUSCLE), "--free", "braid_angle", "--noise", "1.2", "--json")
+    answer = answer_of(run("diagnose", file, *options))
+    assert answer["noise_floor"] == {"rmse": 1.2, "how": "given"}
+    assert answer["verdict"]["status"] == "adequate"
+    angle = answer["parameters"]["geometry"]["braid_angle"]
+    assert np.degrees(angle["value"]) == pytest.approx(25.5, abs=0.05)
+
+
+def test_the_model_goes_back_into_compare(run: Run) -> None:
+    file, muscle = rubbing(c10=0.4e6), write("m.json", MUSCLE)
+    answer = answer_of(run("diagnose", file, "--muscle", muscle, "--free", "braid_angle", "--json"))
+    write("model.json", answer["model"])
+    code, out, _ = run("compare", file, "--drive", "model.json", "--json")
+    assert code == 0
+    assert json.loads(out)["rmse"] == pytest.approx(answer["path"][-1]["rmse"], rel=1e-6)
+    # Its muscle can be overridden; the effects stay.
+    code, out, _ = run("compare", file, "--drive", "model.json", "--muscle", "DMSP-20:300mm", "--json")
+    assert code == 0
+    assert set(json.loads(out)["parameters"]) == set(answer["model"]["effects"])
+    again = answer_of(run("diagnose", file, "--drive", "model.json", "--json"))
+    assert again["verdict"]["status"] == "adequate"
+    assert again["baseline"]["rmse"] == pytest.approx(answer["path"][-1]["rmse"], rel=1e-6)
+
+
+def test_a_proposed_term_goes_back_into_compare(run: Run) -> None:
+    rows = cycle_rows(lambda kappa, **_: 12.0 * float(np.sin(150.0 * kappa)), noise=1.0, each=40)
+    file, muscle = write("waved.csv", text(rows, CYCLE_HEADER, "kind: isobaric")), write("m.json", MUSCLE)
+    answer = answer_of(run("diagnose", file, "--muscle", muscle, "--json"))
+    term = answer["verdict"]["proposed_term"]
+    assert answer["verdict"]["status"] == "unknown_effect"
+    write("term.json", {"muscle": MUSCLE, **term["model"]})
+    code, out, err = run("compare", file, "--drive", "term.json", "--json")
+    assert code == 0, err
+    left = answer["path"][-1]["rmse"] * np.sqrt(1.0 - term["share"])
+    assert json.loads(out)["rmse"] == pytest.approx(left, rel=0.05)
+
+
+def test_several_files_are_diagnosed_together(run: Run) -> None:
+    first, second = rubbing(), rubbing("other.csv", levels=(3e5, 5e5), seed=8)
+    answer = answer_of(run("diagnose", first, second, "--muscle", write("m.json", MUSCLE), "--json"))
+    assert answer["rows"] == 400
+    assert answer["verdict"]["effects"] == ["coulomb_friction"]
+
+
+# --- transients
+
+
+@pytest.fixture
+def lifted(run: Run) -> str:
+    """A trace of the drive with a damping that the document does not have."""
+    damped = {**DRIVE, "effects": {"viscous_damping": {"coefficient": "300 N*s/m"}}}
+    code, _, err = run("simulate", write("damped.json", damped), "--out", "trace.csv")
+    assert code == 0, err
+    return "trace.csv"
+
+
+def test_a_trace_is_compared_with_its_drive(run: Run, lifted: str) -> None:
+    write("drive.json", DRIVE)
+    code, out, _ = run("compare", lifted, "--drive", "damped.json", "--json")
+    assert code == 0
+    same = json.loads(out)
+    assert same["unit"] == "1"
+    assert {"pressure", "displacement", "force"} == set(same["channels"])
+    for channel in same["channels"].values():
+        assert {"rmse", "unit", "noise_floor"} <= channel.keys()
+        assert channel["rmse"] < 2e-3 * channel["full_scale"]
+    code, out, _ = run("compare", lifted, "--drive", "drive.json", "--json")
+    assert code == 0
+    assert json.loads(out)["rmse"] > 3 * same["rmse"]
+    code, out, _ = run("compare", lifted, "--drive", "drive.json")
+    assert code == 0
+    assert "x noise" in out
+
+
+def test_a_trace_is_diagnosed_with_its_drive(run: Run, lifted: str) -> None:
+    """Every fifth row with the noise of sensors: the damping is found, or a twin of it is named with it."""
+    lines = Path(lifted).read_text("utf-8").splitlines()
+    head = next(number for number, line in enumerate(lines) if not line.startswith("#"))
+    names = lines[head].split(",")
+    kept = [names.index(name) for name in ("time_s", "command", "pressure_Pa", "displacement_m")]
+    random = np.random.default_rng(5)
+    rows = []
+    for line in lines[head + 1 :: 10]:
+        values = [float(line.split(",")[column]) for column in kept]
+        values[2] += random.normal(0.0, 500.0)
+        values[3] += random.normal(0.0, 5e-5)
+        rows.append(",".join(f"{value:.7g}" for value in values))
+    conditions = [line.lstrip("# ") for line in lines[:head]]
+    write("noisy.csv", text(rows, "time_s,command,pressure_Pa,displacement_m", *conditions))
+    write("drive.json", DRIVE)
+    answer = answer_of(run("diagnose", "noisy.csv", "--drive", "drive.json", "--json"))
+    assert (answer["kind"], answer["predicted"], answer["unit"]) == (
+        "transient",
+        "pressure, displacement",
+        "1",
+    )
+    assert set(answer["channels"]) == {"pressure", "displacement"}
+    for channel in answer["channels"].values():
+        assert {"rmse", "unit", "noise_floor"} <= channel.keys()
+    assert answer["noise_floor"]["rmse"] == 1.0
+    verdict = answer["verdict"]
+    alike = {name for group in verdict["indistinguishable"] for name in group}
+    assert "viscous_damping" in {*verdict["effects"], *alike}
+    assert answer["path"][-1]["rmse"] < 1.3 < answer["baseline"]["rmse"]
+    # The drive with the effects found predicts the run as well as the diagnosis said.
+    write("found.json", {**DRIVE, "effects": answer["model"]["effects"]})
+    code, out, err = run("compare", "noisy.csv", "--drive", "found.json", "--json")
+    assert code == 0, err
+    assert json.loads(out)["rmse"] == pytest.approx(answer["path"][-1]["rmse"], rel=1e-3)
+
+
+# --- one line for whatever is wrong
+
+WRONG = {
+    "missing file": (["rubbin.csv", "--muscle", "m.json"], ["rubbin.csv", "Did you mean 'rubbing.csv'?"]),
+    "folder": ([".", "--muscle", "m.json"], ["folder"]),
+    "no data": (["--muscle", "m.json"], ["DATA"]),
+    "no muscle": (["rubbing.csv"], ["--muscle is missing"]),
+    "unknown preset": (["rubbing.csv", "--muscle", "DMSP-21"], ["DMSP-21", "Did you mean 'DMSP-20'?"]),
+    "wrong effect": (
+        ["rubbing.csv", "--muscle", "m.json", "--effect", "prestres"], ["prestres", "Did you mean 'prestress'?"]
+    ),
+    "both": (["rubbing.csv", "--muscle", "m.json", "--ideal", "--effect", "prestress"], ["--ideal", "--effect"]),
+    "wrong geometry": (
+        ["rubbing.csv", "--muscle", "m.json", "--free", "braid_angel"], ["braid_angel", "braid_angle"]
+    ),
+    "geometry that is not known": (
+        ["rubbing.csv", "--muscle", "thin.json", "--free", "wall_thickness"], ["wall thickness"]
+    ),
+    "negative noise": (["rubbing.csv", "--muscle", "m.json", "--noise", "-1"], ["--noise"]),
+    "noise in words": (["rubbing.csv", "--muscle", "m.json", "--noise", "much"], ["--noise", "much"]),
+    "missing drive": (["rubbing.csv", "--drive", "none.json"], ["none.json", "No such file"]),
+    "drive that is a list": (["rubbing.csv", "--drive", "list.json", "--muscle", "m.json"], ["list.json", "object"]),
+    "unknown key": (["rubbing.csv", "--drive", "key.json", "--muscle", "m.json"], ["key.json", "effects"]),
+    "wrong term": (
+        ["rubbing.csv", "--drive", "term.json", "--muscle", "m.json"], ["log", "custom"]
+    ),
+    "bad row": (["bad.csv", "--muscle", "m.json"], ["bad.csv", "abc", "4"]),
+    "no table": (["text.csv", "--muscle", "m.json"], ["text.csv"]),
+    "two kinds": (["rubbing.csv", "map.csv", "--muscle", "m.json"], ["map.csv", "static", "isobaric"]),
+    "command without a drive": (["trace.csv", "--muscle", "m.json"], ["trace.csv", "--drive"]),
+    "transient without a load": (["pull.csv", "--muscle", "m.json"], ["pull.csv", "load_mass"]),
+    "noise of several channels": (["trace.csv", "--drive", "drive.json", "--noise", "5"], ["noise"]),
+    "unknown option": (["rubbing.csv", "--muscel", "m.json"], ["--muscel", "--muscle"]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_bad_input_is_one_line_that_says_what_would_be_right(run: Run, name: str) -> None:
+    arguments, words = WRONG[name]
+    rubbing(levels=(4e5, 6e5))
+    write("m.json", MUSCLE)
+    write("thin.json", {**MUSCLE, "wall_thickness": 0})
+    write("list.json", [])
+    write("key.json", {"effect": {}})
+    write("term.json", {"effects": {"custom": {"term": "c*log(P)"}}})
+    write("drive.json", DRIVE)
+    write(
+        "bad.csv",
+        "# kind: static\npressure_bar,length_mm,force_N\n1,290,100\n2,abc,200\n".replace("2,abc", "abc,290"),
+    )
+    write("text.csv", "just a text\n")
+    write("map.csv", "# kind: static\npressure_bar,length_mm,force_N\n1,290,100\n2,290,200\n3,280,210\n")
+    write("pull.csv", "time_s,pressure_bar,displacement_mm\n0,0,0\n0.1,1,2\n0.2,2,3\n0.3,2,3\n")
+    write(
+        "trace.csv", "time_s,command,pressure_bar,displacement_mm\n0,1,0,0\n0.1,1,1,2\n0.2,0,2,3\n0.3,0,2,3\n"
+    )
+    line = refused(run("diagnose", *arguments))
+    for word in words:
+        assert word in line
