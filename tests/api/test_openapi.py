@@ -25,6 +25,7 @@ PATHS = {
     "/api/measurements/preview": {"post"},
     "/api/measurements/{measurement_id}": {"get"},
     "/api/comparisons": {"post"},
+    "/api/diagnoses": {"post"},
     "/api/reports": {"post"},
     "/api/mysteries": {"get"},
     "/api/mysteries/{mystery_id}/reveal": {"post"},

@@ -2,10 +2,10 @@
 
     python -m tests.benchmarks.diagnosis [--seeds 0,1,2] [--only TEXT] [--kind transient]
 
-The diagnosis sees the file, the muscle or drive document and the start model; the answer is opened afterwards.
-Errors are over the true noise of the case. *Found*: every hidden effect is named or in a named group of twins.
-*Surplus*: a named group that holds none of them. For an effect that is in no catalogue the proposed term is
-added and refitted: *taken* is the share of the excess over the noise that it takes away.
+The diagnosis sees the file, the muscle or drive document and the start model; the answer is opened after it.
+Errors are over the true noise of the case. *Found*: every hidden effect is named or in a named group of
+twins. *Surplus*: a named group that holds none of them. For an effect that is in no catalogue the proposed
+term is added and refitted: *taken* is the share of the excess over the noise that it takes away.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import argparse
 import multiprocessing
 import os
 import statistics
+import sys
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
@@ -186,17 +187,29 @@ def main() -> None:
     with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
         for line in pool.imap_unordered(diagnosed, [replace(case) for case in chosen]):
             lines.append(line)
-            mark = "ok " if line.right else "-- "
-            taken = "" if line.taken is None else f" term takes {100.0 * line.taken:.0f} %"
-            surplus = f" surplus {', '.join(line.surplus)}" if line.surplus else ""
-            print(
-                f"{mark}{line.case + ' ' + str(line.seed):46}{line.status:16}{line.before:6.1f} ->{line.after:6.2f} "
-                f"floor {line.floor:4.2f} {line.seconds:5.1f} s  {', '.join(line.named)}{surplus}{taken}{line.problem}",
-                flush=True,
-            )
-    print()
+            say(text_of(line))
+    say("")
     for name, reached, wanted in summary(lines):
-        print(f"{name:34}{reached:>18}   {wanted}")
+        say(f"{name:34}{reached:>18}   {wanted}")
+
+
+def text_of(line: Line) -> str:
+    """A line of the table."""
+    parts = [
+        f"{'ok' if line.right else '--'} {line.case + ' ' + str(line.seed):46}{line.status:16}",
+        f"{line.before:6.1f} ->{line.after:6.2f} floor {line.floor:4.2f} {line.seconds:5.1f} s ",
+        ", ".join(line.named),
+        f"surplus {', '.join(line.surplus)}" if line.surplus else "",
+        "" if line.taken is None else f"term takes {100.0 * line.taken:.0f} %",
+        line.problem,
+    ]
+    return " ".join(part for part in parts if part)
+
+
+def say(text: str) -> None:
+    """One line, at once."""
+    sys.stdout.write(text + "\n")
+    sys.stdout.flush()
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The diagnosis on data whose hidden effect follows other formulas than ours; the whole table: see the README.
+"""The diagnosis on data whose hidden effect follows other formulas than ours.
 
 A choice of cases of `tests.truth`; `python -m tests.benchmarks.diagnosis` runs all of them with three seeds.
 """
@@ -25,8 +25,18 @@ FOUND = (
     "dead-volume-steps",
     "delay-pulses",
 )
-TOGETHER = ("pair-bladder-ends-isobaric", "pair-bladder-length-zero-map", "triple-bladder-prestress-coulomb-isobaric")
-NOTHING = ("nothing-isobaric", "nothing-thread-form-map", "nothing-isotonic", "nothing-diameter", "nothing-steps")
+TOGETHER = (
+    "pair-bladder-ends-isobaric",
+    "pair-bladder-length-zero-map",
+    "triple-bladder-prestress-coulomb-isobaric",
+)
+NOTHING = (
+    "nothing-isobaric",
+    "nothing-thread-form-map",
+    "nothing-isotonic",
+    "nothing-diameter",
+    "nothing-steps",
+)
 UNKNOWN = ("unknown-ripple-isobaric", "unknown-magnet-map", "unknown-humidity-isometric")
 
 

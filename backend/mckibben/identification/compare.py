@@ -236,9 +236,10 @@ def check_finite(subject: Subject, setting: Setting) -> None:
 
 def noise_floor_of(subject: Subject, scaled: np.ndarray, given: float | None) -> float | None:
     """Noise of a residual over its scale: given, 1 for several channels, or estimated; None if it cannot."""
-    if len(subject.channels) > 1:
+    first, *others = subject.channels
+    if others:
         return 1.0
-    return given if given is not None else channel_noise(subject, scaled, subject.channels[0])
+    return given if given is not None else channel_noise(subject, scaled, first)
 
 
 def fit_of(

@@ -225,11 +225,12 @@ def _has_needs(effect: Effect, setting: Setting) -> bool:
 
 
 def _noise_of(subject: Subject, node: Node, given: float | None) -> tuple[float | None, str]:
-    if given is not None and len(subject.channels) == 1:
-        return given, "given"
-    if len(subject.channels) > 1:
+    first, *others = subject.channels
+    if others:
         return 1.0, "third differences of each channel"
-    value = channel_noise(subject, node.residual, subject.channels[0])
+    if given is not None:
+        return given, "given"
+    value = channel_noise(subject, node.residual, first)
     return value, "third differences of the residual within sweeps"
 
 

@@ -22,7 +22,7 @@ from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.simulation.inverse import contraction_at
 from mckibben.simulation.static import StaticModel
 
-_CLEAR = 3.0  # standard deviations
+_FEWEST = 8  # rows in which the muscle pulls; a protocol with fewer is none
 
 
 @dataclass(frozen=True)
@@ -78,11 +78,18 @@ def separation(
     noise: float,
     geometry: tuple[Free, ...] = (),
 ) -> tuple[str, float]:
-    """The protocol where a refitted model misses another most, in words, and by how many sigma."""
+    """The protocol where a refitted model misses another most, in words, and by how many sigma.
+
+    Rows where the muscle would be slack are not readings of its force and do not count.
+    """
     best, most = "", 0.0
     for protocol in protocols:
         bare = Quasistatic(protocol.task)
-        subject = Quasistatic(replace(protocol.task, measured=bare.predict(truth)))
+        force = bare.predict(truth, clipped=False)
+        slack = bare.predict(truth) != force
+        if np.count_nonzero(~slack) < _FEWEST:
+            continue
+        subject = Quasistatic(replace(protocol.task, measured=force, turning=slack))
         node = fitted_node(subject, other, free_numbers(other, geometry))
         apart = node.rmse / noise
         if apart > most:

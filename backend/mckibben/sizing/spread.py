@@ -16,7 +16,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import ndtri
 
 from mckibben.sizing.catalogue import Design
 from mckibben.sizing.statics import outputs
@@ -71,6 +70,8 @@ def weak(design: Design, task: Task) -> tuple[float, float, float]:
 
 def spread_of(design: Design, task: Task, count: int) -> Spread:
     """Deviations of so many specimens: a Latin hypercube, the same at every call."""
+    from scipy.special import ndtri  # 0.2 s import, not paid at start
+
     random = np.random.default_rng(_SEED)
     cells = np.array([random.permutation(count) for _ in range(3)])
     even = (cells + random.uniform(size=cells.shape)) / count

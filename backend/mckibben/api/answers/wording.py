@@ -9,11 +9,15 @@ from mckibben.identification.diagnosis import Diagnosis
 
 def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
     """What the verdict means, in one to three sentences."""
-    unit = "times the noise" if result.subject.unit == "1" else result.subject.unit
-    before, after = result.start.rmse, result.best.rmse
+    # A length is told in millimetres.
+    scaled = result.subject.unit == "1"
+    unit, scale = {"1": ("times the noise", 1.0), "m": ("mm", 1e3)}.get(
+        result.subject.unit, (result.subject.unit, 1.0)
+    )
+    before, after = scale * result.start.rmse, scale * result.best.rmse
     names = _joined([titles.get(name, name) for name in result.added])
     falls = f"The error falls from {before:.3g} to {after:.3g} {unit}"
-    floor = "" if result.noise is None else f"; the noise is {result.noise:.3g} {unit}"
+    floor = "" if result.noise is None or scaled else f"; the noise is {scale * result.noise:.3g} {unit}"
     if result.status == "adequate":
         return f"Nothing is missing: the error of {after:.3g} {unit} is noise{floor}."
     if result.status == "unknown_effect":

@@ -53,14 +53,14 @@ export function residualTable(a) {
   };
 }
 
-function saveCsv() {
+export function saveCsv() {
   const a = answer.peek();
   if (!a) return void (status.value = "There is no comparison to save.");
   downloadText(`mckibben-residuals-${stamp()}.csv`, toCsv(residualTable(a)), "text/csv");
 }
 
 /** @param {"png" | "svg"} format */
-const savePlots = (format) => () =>
+export const savePlots = (format) =>
   saveSheet([...overlays, { title: TITLE, chart: residual }], format, `mckibben-compare-${stamp()}`).catch(
     (error) => {
       status.value = `The plots could not be saved: ${error.message}`;
@@ -86,7 +86,7 @@ export async function saveReport() {
 }
 
 /** The muscle and the effects found become those of the Design view. */
-function useInDesign() {
+export function useInDesign() {
   const c = compare.peek();
   const all = c.effects ?? presetValues(preset.peek());
   const effects = Object.fromEntries(
@@ -101,12 +101,3 @@ function useInDesign() {
   );
   goTo("design");
 }
-
-/** @returns {import("../../ui/menu.js").Item[]} */
-export const compareExports = () => [
-  { label: "Data and residuals as CSV", note: "every point, shown units", run: saveCsv },
-  { label: "Report as HTML", note: "data, model, plots, verdict", run: saveReport },
-  { label: "Plots as PNG", note: "one sheet", run: savePlots("png") },
-  { label: "Plots as SVG", note: "one sheet", run: savePlots("svg") },
-  { label: "Use this model in Design", note: "muscle and effects", run: useInDesign },
-];

@@ -4,7 +4,6 @@ import { computed, effect, signal } from "../../reactive.js";
 import { doc, edit, view } from "../../state.js";
 import { ApiError, get } from "../../api.js";
 import { muscles, references } from "../../store.js";
-import { goTo } from "../../shell.js";
 import { MOST_FILES } from "./document.js";
 import { driveFor, needsDrive } from "./drive-document.js";
 import { fresh } from "./history.js";
@@ -183,26 +182,4 @@ async function fetchInfo(id) {
     const gone = error.status === 404;
     complain(file.name, gone ? "This server does not have the file. Choose it once more." : error.words);
   }
-}
-
-/** A file may be dropped on any part of the page. */
-export const dropping = signal(false);
-export function listenToDrops() {
-  const carriesFiles = (/** @type {DragEvent} */ e) => Boolean(e.dataTransfer?.types.includes("Files"));
-  addEventListener("dragover", (event) => {
-    if (!carriesFiles(event) || event.defaultPrevented) return;
-    event.preventDefault();
-    dropping.value = view.peek() === "compare";
-  });
-  addEventListener("dragleave", (event) => {
-    if (!event.relatedTarget) dropping.value = false;
-  });
-  addEventListener("drop", (event) => {
-    dropping.value = false;
-    if (event.defaultPrevented || !event.dataTransfer?.files.length) return;
-    event.preventDefault();
-    if (document.querySelector("dialog[open]")) return;
-    if (view.peek() !== "compare") goTo("compare");
-    addFiles([...event.dataTransfer.files]);
-  });
 }

@@ -120,6 +120,9 @@ async function fitted(effects, label, step) {
 
 /** Fits every parameter of the model again. */
 export const refit = () => fitted(compare.peek().effects, "refit", "Refit");
+export const refitByKey = () => {
+  if (answer.peek() && !fitting.peek()) refit();
+};
 
 /** Takes an effect out and fits the others again. @param {string} id */
 export function remove(id) {

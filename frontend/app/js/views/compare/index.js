@@ -1,28 +1,11 @@
 // @ts-check
-// The Compare & diagnose view: data and model, overlay and residual, error and missing effects.
-import { h, icon } from "../../dom.js";
-import { computed, effect } from "../../reactive.js";
+// The Compare & diagnose view as the shell sees it: its page is fetched when it is first shown, so that the
+// others start without it.
+import { h } from "../../dom.js";
+import { apart } from "../../reactive.js";
 import { view } from "../../state.js";
-import { candidatesCard } from "./candidates.js";
-import { emptyCard, guide } from "./empty.js";
-import { errorCard } from "./error.js";
-import { dropping, followFiles } from "./files.js";
-import { whereCard } from "./heat.js";
-import { fitting, refit } from "./history.js";
-import { measurementsCard } from "./measurements.js";
-import { again, answer, chosen, fault, files, stage, startComparing } from "./model.js";
-import { modelCard } from "./model-card.js";
-import { fetchMysteries, mysteryCard } from "./mysteries.js";
-import { overlayCards, toggleBefore } from "./overlay.js";
-import { pathCard } from "./path.js";
-import { residualCard } from "./residual.js";
-import { rigCard } from "./rig.js";
-import { setupCard } from "./setup.js";
-import { unknownCard } from "./unknown.js";
-import { verdictCard } from "./verdict.js";
 
-export { compareExports } from "./exports.js";
-export { listenToDrops } from "./files.js";
+export { listenToDrops } from "./drop.js";
 
 /** @param {string} key */
 const bare = (key) => (/** @type {KeyboardEvent} */ e) =>
@@ -34,99 +17,51 @@ export const COMPARE_KEYS = [
     keys: "B",
     what: "Compare: flip between the model before and after",
     match: bare("b"),
-    run: toggleBefore,
+    run: async () => (await import("./overlay.js")).toggleBefore(),
   },
   {
     keys: "R",
     what: "Compare: fit the parameters of the model again",
     match: bare("r"),
-    run: () => {
-      if (answer.peek() && !fitting.peek()) refit();
-    },
+    run: async () => (await import("./history.js")).refitByKey(),
   },
 ];
 
-/** @param {string} path */
-function goToField(path) {
-  const key = path.replace(/^body\./, "").replace(/^(muscle|effects)\./, "compare.").replace(
-    /^drive\./,
-    "rig.",
-  );
-  const box = document.querySelector(`.compare [data-field="${CSS.escape(key)}"]`);
-  box?.closest("details")?.setAttribute("open", "");
-  const input = box?.querySelector("input, select") ?? document.getElementById("compare-preset");
-  if (input instanceof HTMLElement) input.focus();
-}
-
-function notice() {
-  const told = fault.value;
-  if (!told) return null;
-  const { field } = told;
-  return h(
-    "div",
-    { class: "notice bad", role: "alert" },
-    icon("warn"),
-    h("span", null, told.words, answer.value ? " The plots show the last comparison that was possible." : ""),
-    field && !field.includes("measurement")
-      ? h("button", { type: "button", onclick: () => goToField(field) }, "Go to the field")
-      : h("button", { type: "button", onclick: again }, "Try again"),
-  );
-}
+/** @returns {import("../../ui/menu.js").Item[]} */
+export const compareExports = () => [
+  {
+    label: "Data and residuals as CSV",
+    note: "every point, shown units",
+    run: async () => (await import("./exports.js")).saveCsv(),
+  },
+  {
+    label: "Report as HTML",
+    note: "data, model, plots, verdict",
+    run: async () => (await import("./exports.js")).saveReport(),
+  },
+  {
+    label: "Plots as PNG",
+    note: "one sheet",
+    run: async () => (await import("./exports.js")).savePlots("png"),
+  },
+  {
+    label: "Plots as SVG",
+    note: "one sheet",
+    run: async () => (await import("./exports.js")).savePlots("svg"),
+  },
+  {
+    label: "Use this model in Design",
+    note: "muscle and effects",
+    run: async () => (await import("./exports.js")).useInDesign(),
+  },
+];
 
 export function compareView() {
-  const empty = computed(() => files.value.length === 0);
-  const idle = computed(() => !empty.value && !chosen.value.some((f) => f.use === "fit"));
-  const results = h(
-    "div",
-    { class: "column results", hidden: () => empty.value },
-    errorCard(),
-    verdictCard(),
-    h("div", { class: "column" }, mysteryCard),
-    candidatesCard(),
-    h("div", { class: "column" }, unknownCard()),
-  );
-  const page = h(
-    "div",
-    { class: () => `compare${empty.value ? " is-empty" : ""}` },
-    h(
-      "div",
-      { class: "column inputs" },
-      measurementsCard(),
-      setupCard(),
-      h("div", { class: "column" }, rigCard),
-      h("div", { hidden: () => empty.value }, modelCard()),
-    ),
-    h("div", { class: "column plots", hidden: () => !empty.value }, emptyCard()),
-    h(
-      "div",
-      { class: "column plots", hidden: () => empty.value },
-      guide,
-      notice,
-      () =>
-        idle.value
-          ? h(
-            "p",
-            { class: "notice" },
-            icon("info"),
-            h("span", null, "No file is used for the fit: set one of them to “Fit”."),
-          )
-          : null,
-      overlayCards(),
-      residualCard(),
-      h("div", { class: "pair-row" }, whereCard(), pathCard()),
-    ),
-    results,
-    h(
-      "div",
-      { class: "drop-here", hidden: () => !dropping.value },
-      h("b", null, "Drop the measurement files"),
-    ),
-  );
-  followFiles();
-  startComparing();
-  fetchMysteries();
-  effect(() => {
-    document.documentElement.dataset.diagnosis = stage.value;
+  const place = h("div", { class: "compare-place" }, h("p", { class: "loading" }, "Loading…"));
+  import("./page.js").then(({ comparePage }) => place.replaceChildren(apart(comparePage)), () => {
+    place.replaceChildren(
+      h("p", { class: "loading", role: "alert" }, "This view did not load: reload the page."),
+    );
   });
-  return page;
+  return place;
 }
