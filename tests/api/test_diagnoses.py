@@ -248,7 +248,6 @@ def test_a_stated_noise_is_the_floor(client: TestClient, rubbing: str) -> None:
     assert answer["verdict"]["status"] == "adequate"
 
 
-@pytest.mark.xfail(reason="a diagnosis does not fit the freed constants of its start model")
 def test_freed_constants_of_the_start_model_are_fitted(client: TestClient, rubbing: str) -> None:
     effects = {"bladder_elasticity": {}, "coulomb_friction": {}}
     freed = ["bladder_elasticity.mooney_constant"]

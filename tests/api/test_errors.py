@@ -106,7 +106,7 @@ REFUSED = [
         "stroke",
         "no muscle",
     ),
-    ("/api/comparisons", {"muscle": DMSP}, "measurement", "missing"),
+    ("/api/comparisons", {"muscle": DMSP}, "measurements", "no measurement"),
     ("/api/comparisons", {"muscle": DMSP, "measurement": "a b"}, "measurement", "cannot be"),
     (
         "/api/comparisons",

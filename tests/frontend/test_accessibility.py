@@ -49,7 +49,6 @@ def test_axe_finds_nothing_in_the_catalogue(page: Page, theme: Literal["light", 
 def test_axe_finds_nothing_in_the_compare_view(
     page: Page, page_guard: PageGuard, theme: Literal["light", "dark"]
 ) -> None:
-    page_guard.allow("status of 404")  # a server without mysteries
     page.emulate_media(color_scheme=theme)
     open_compare(page)
     assert violations(page) == []

@@ -111,7 +111,6 @@ def sweeps() -> FilePayload:
 @pytest.fixture(autouse=True)
 def no_mysteries(page_guard: PageGuard) -> None:
     """A server without mysteries answers 404, which the console tells."""
-    page_guard.allow("status of 404")
 
 
 def test_from_the_empty_page_to_the_noise_in_five_clicks(page: Page, sweeps: FilePayload) -> None:

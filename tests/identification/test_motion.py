@@ -153,7 +153,6 @@ def test_rates_need_time_and_stroke() -> None:
         motion_of(build(columns, name="a.csv", id="0" * 64), 0.3)
 
 
-@pytest.mark.xfail(reason="0 times infinity where a held signal has no noise", raises=RuntimeWarning)
 @pytest.mark.parametrize("held", [0.28, 4e5, 0.0])
 def test_what_is_held_exactly_has_no_rate(held: float) -> None:
     rate = rates(np.linspace(0.0, 2.0, 81), np.full(81, held))

@@ -61,6 +61,8 @@ async def _events(work: Work, time_limit: float) -> AsyncIterator[bytes]:
     )
     running = loop.run_in_executor(None, work, watch)
     running.add_done_callback(lambda _: news.put_nowait(None))
+    # Nobody may be left to ask for the outcome of work that was stopped.
+    running.add_done_callback(lambda ended: None if ended.cancelled() else ended.exception())
     try:
         share: object = 0.0
         yield _event("progress", to_json({"share": share}))

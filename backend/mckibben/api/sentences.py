@@ -95,6 +95,8 @@ def _path(location: Sequence[int | str], value: object) -> str | None:
     """The location as ``muscle.braid_angle``, without the union tags that the sender never wrote."""
     steps: list[str] = []
     for step in location:
+        if steps and not isinstance(value, Mapping | list):
+            break  # a union's tag below a plain value
         if isinstance(value, Mapping):
             if step not in value and step in value.values():
                 continue

@@ -165,7 +165,10 @@ def _adapted(
     clock: Array, values: Array, chunk: slice, ladder: list[int], sigma: float
 ) -> tuple[Array, Array, NDArray[np.intp]]:
     """Rate, uncertainty and half width of the rows of a chunk."""
-    fits = [(fit.slope, sigma * np.sqrt(fit.slope_variance)) for fit in _fits(clock, values, chunk, ladder)]
+    fits = [
+        (fit.slope, np.where(np.isfinite(fit.slope_variance), sigma, 1.0) * np.sqrt(fit.slope_variance))
+        for fit in _fits(clock, values, chunk, ladder)
+    ]
     rows = chunk.stop - chunk.start
     low, high = np.full(rows, -np.inf), np.full(rows, np.inf)
     agreeing, unknown = np.ones(rows, bool), np.zeros(rows, np.intp)

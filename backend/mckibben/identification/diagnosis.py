@@ -24,6 +24,8 @@ from mckibben.identification.why import Seen, seen, why
 from mckibben.physics.effect import Effect
 from mckibben.simulation.outcome import Outcome, Watch
 
+_ROUNDING = 1e-9  # of the full scale
+
 
 @dataclass(frozen=True)
 class Candidate:
@@ -101,6 +103,7 @@ def diagnose(
     *,
     catalogue: Mapping[str, Effect],
     geometry: Sequence[Free] = (),
+    freed: Sequence[str] = (),
     noise: float | None = None,
     watch: Watch | None = None,
     found: Callable[[Candidate], None] = lambda _: None,
@@ -112,6 +115,7 @@ def diagnose(
         setting: the start model.
         catalogue: effects to choose from.
         geometry: geometry that fits may change.
+        freed: further constants of the start model that fits may change, as "effect.parameter".
         noise: standard deviation of the predicted channel [SI], when it is known.
         watch: may cancel, and is told the share that is done.
         found: told each candidate as it is tried.
@@ -123,7 +127,7 @@ def diagnose(
 
     # Many small decompositions: threads of the linear algebra only wait for each other.
     with threadpool_limits(1):
-        return _diagnose(subject, setting, catalogue, geometry, noise, watch, found)
+        return _diagnose(subject, setting, catalogue, geometry, frozenset(freed), noise, watch, found)
 
 
 def _diagnose(
@@ -131,6 +135,7 @@ def _diagnose(
     setting: Setting,
     catalogue: Mapping[str, Effect],
     geometry: Sequence[Free],
+    freed: frozenset[str],
     noise: float | None,
     watch: Watch | None,
     found: Callable[[Candidate], None],
@@ -156,12 +161,12 @@ def _diagnose(
         first = setting.adding(vent.effect, {vent.parameter: vent.value})
         candidates = tuple(effect for effect in candidates if effect is not vent.effect)
         work.candidates = candidates
-    root = work.fit(first)
+    root = work.fit(first, freed)
     if subject.unknown_load is not None and root.implausible:
         # The start model has a constant tension of its own, which takes the place of the load.
         subject.unknown_load = None
         work.known.clear()
-        root = work.fit(first)
+        root = work.fit(first, freed)
     work.noise, how = _noise_of(subject, root, noise)
     variables = variables_of(subject, setting.muscle.nominal_length)
     before = seen(root.residual, variables)
@@ -231,6 +236,8 @@ def _noise_of(subject: Subject, node: Node, given: float | None) -> tuple[float 
     if given is not None:
         return given, "given"
     value = channel_noise(subject, node.residual, first)
+    if value is not None:  # below, it is rounding
+        value = max(value, _ROUNDING * first.full_scale)
     return value, "third differences of the residual within sweeps"
 
 

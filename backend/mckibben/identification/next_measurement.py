@@ -91,7 +91,8 @@ def separation(
             continue
         subject = Quasistatic(replace(protocol.task, measured=force, turning=slack))
         node = fitted_node(subject, other, free_numbers(other, geometry))
-        apart = node.rmse / noise
+        left = subject.measured - subject.predict(node.setting, clipped=False)
+        apart = float(np.sqrt(np.mean(left**2))) / noise
         if apart > most:
             best, most = protocol.words, apart
     return best, most

@@ -15,6 +15,7 @@ from mckibben.identification.subjects.subject import Subject
 _NEAR_BOUND = 1e-6  # of the range
 _AT_BOUND = 1e-3  # of the range
 _COLLINEAR = 3e-3  # singular value of the normalised Jacobian below which numbers stand in for each other
+_WILD = 1e9  # what a guess is said to miss by where the model has no finite value
 _CUTOFF = 1e-13  # of the largest singular value, below which a direction is not determined
 
 
@@ -164,8 +165,14 @@ def fitted_node(
         key = numbers.tobytes()
         if key not in last:
             last.clear()
-            predicted, jacobian = subject.linearised(setting.with_numbers(names, numbers), free)
-            last[key] = (predicted - subject.measured) / subject.scale, jacobian / subject.scale[:, None]
+            with np.errstate(all="ignore"):
+                predicted, jacobian = subject.linearised(setting.with_numbers(names, numbers), free)
+            wild = ~(np.isfinite(predicted) & np.all(np.isfinite(jacobian), axis=1))
+            misfit = (predicted - subject.measured) / subject.scale
+            last[key] = (
+                np.where(wild, _WILD, misfit),
+                np.where(wild[:, None], 0.0, jacobian / subject.scale[:, None]),
+            )
         return last[key]
 
     if not free:
@@ -182,7 +189,10 @@ def fitted_node(
     )
     numbers = np.array(result.numbers)
     misfit, jacobian = both(numbers)
+    # Fits follow the force below zero too; what counts is what a slack muscle reads.
+    residual = subject.residual(setting.with_numbers(names, numbers)) / subject.scale
+    jacobian = np.where(np.isclose(residual, -misfit, rtol=1e-9)[:, None], jacobian, 0.0)
     ended = tuple(replace(p, start=float(x)) for p, x in zip(free, numbers, strict=True))
     return Node(
-        setting.with_numbers(names, numbers), ended, frozenset(freed), -misfit, jacobian, subject.folds
+        setting.with_numbers(names, numbers), ended, frozenset(freed), residual, jacobian, subject.folds
     )

@@ -177,6 +177,8 @@ def search(work: Search, root: Node, *, singles: Sequence[Node]) -> Node:
         singles: the start model with each single candidate.
     """
     best, idle = root, 0
+    if _at_floor(work, root):
+        return root
     children = list(singles)
     for _ in range(_DEEPEST):
         children = [n for n in {child.key: child for child in children}.values() if n.rmse < root.rmse]

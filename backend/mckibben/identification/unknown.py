@@ -18,6 +18,8 @@ _FOLDS = 5
 _TREES = 60
 _TERMS = 3
 _WORTH = 0.08  # of the mean square that is left: a term that takes less is not proposed
+_PER_WAVE = 4.0  # steps of a variable that a wave needs
+_FINEST = 100
 _SEED = 0
 #: Name in a term -> variable.
 SYMBOLS = {"P": "pressure", "kappa": "contraction", "v": "velocity", "s": "direction", "t": "time"}
@@ -140,8 +142,16 @@ def proposed_term(
     return Term(formula, {n: float(w) for n, w in zip(names, weights, strict=True)}, share, design @ weights)
 
 
+def _steps(values: np.ndarray) -> float:
+    """Number of steps over its range that a variable takes: few for set levels, many for a sweep."""
+    low, span = float(np.min(values)), float(np.ptp(values))
+    return float(len(np.unique(np.rint(_FINEST * (values - low) / span))))
+
+
 def _library(given: Mapping[str, np.ndarray]) -> Iterator[tuple[Sequence[str], list[np.ndarray]]]:
     """Products as (texts, columns); a wave has two columns, so that its phase is free."""
+    if not given:
+        return
     shapes: list[tuple[list[str], list[np.ndarray]]] = [(["1"], [np.ones(len(next(iter(given.values()))))])]
     for symbol in ("kappa", "P", "t", "v"):
         if symbol not in given:
@@ -157,13 +167,19 @@ def _library(given: Mapping[str, np.ndarray]) -> Iterator[tuple[Sequence[str], l
         if symbol == "v" or not span > 0.0:
             shapes += [(["abs(v)"], [np.abs(x)]), (["v*abs(v)"], [x * np.abs(x)])]
             continue
+        # What is narrower than the steps of a variable could be anything between them.
+        steps = _steps(x)
         for periods in (*np.arange(1.0, 8.1, 0.5), *np.arange(9.0, 20.1, 1.0)):
+            if periods > steps / _PER_WAVE:
+                break
             rate = float(f"{2.0 * np.pi * periods / span:.5g}")
             shapes.append(
                 ([f"sin({rate:g}*{symbol})", f"cos({rate:g}*{symbol})"], [np.sin(rate * x), np.cos(rate * x)])
             )
         for place in np.linspace(0.05, 0.95, 13):
             for width in (0.03, 0.06, 0.12, 0.25):
+                if width < 2.0 / steps:
+                    continue
                 middle, scale = float(f"{low + place * span:.5g}"), float(f"{width * span:.4g}")
                 text = f"exp(-(({symbol} - {middle:g})/{scale:g})**2)"
                 shapes.append(([text], [np.exp(-(((x - middle) / scale) ** 2))]))

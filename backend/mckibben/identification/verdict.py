@@ -50,6 +50,8 @@ def status_of(
     excess = max(start.mean_square - floor**2, 1e-300)
     explained = 1.0 - max(best.mean_square - floor**2, 0.0) / excess
     above = best.rmse > _AT_FLOOR * floor and rest.share > _STRUCTURED
+    if noise is not None and not added and best.rmse > _FAR * floor:
+        return "unknown_effect"
     if above and (best.rmse > _FAR * floor or explained < _EXPLAINED):
         return "unknown_effect"
     if not added:
@@ -84,8 +86,8 @@ def messages(work: Search, best: Node, fit: FitResult | None) -> list[str]:
     found = []
     if work.noise is None:
         found.append("the sweeps are too short to estimate the noise: state it to know when to stop")
-    for name in (p.name for p in work.geometry):
-        first, last = work.known[next(iter(work.known))].setting.number(name), best.setting.number(name)
-        if abs(last / first - 1.0) > 0.005:
-            found.append(f"the fit moved {name.replace('_', ' ')} by {100.0 * (last / first - 1.0):+.1f} %")
+    for p in work.geometry:
+        moved = 100.0 * (best.setting.number(p.name) / p.start - 1.0)
+        if abs(moved) > 0.5:
+            found.append(f"the fit moved {p.name.replace('_', ' ')} by {moved:+.1f} %")
     return [*found, *(fit.messages if fit else ())]

@@ -66,9 +66,15 @@ def prepare(asked: Asked, studio: Studio) -> Callable[[Watch], Json]:
 
         try:
             result = diagnose(
-                subject, setting, catalogue=catalogue, geometry=geometry, noise=asked.noise, watch=watch,
+                subject,
+                setting,
+                catalogue=catalogue,
+                geometry=geometry,
+                freed=asked.freed,
+                noise=asked.noise,
+                watch=watch,
                 found=tell,
-            )  # fmt: skip
+            )
         except CancelledError as stop:
             raise InputError(
                 "the diagnosis was stopped before it was done", hint="fewer rows or effects", code="stopped"

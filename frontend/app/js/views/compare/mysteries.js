@@ -36,6 +36,7 @@ export function openMystery(m) {
       ...fresh(d.compare, "ideal"),
       files: [{ id: m.measurement, name: m.title, use: "fit" }],
       muscle: m.muscle ? muscleFrom(m.muscle) : d.compare.muscle,
+      effects: m.effects ?? {},
       drive: m.drive
         ? Object.fromEntries(Object.entries(m.drive).filter(([k]) => k !== "muscle" && k !== "schema"))
         : null,
