@@ -28,6 +28,7 @@ _DEEPEST = 7  # effects added
 _AT_FLOOR = 1.05  # of the noise: below, nothing more can be learnt
 _NEAR_FLOOR = 1.2  # of the noise: below, only an effect that shows by itself is tried
 _WITHIN = 1.3  # of the best error, near the floor
+_MOVED = 1e-3  # of its start: a number that moves less has not been looked for
 _STUCK = 0.999  # of the error before: a fit that gains less starts once more
 _LEAST_PROMISE = 0.02  # of the mean square, near the floor
 
@@ -80,7 +81,12 @@ class Search:
         off = {p.name: p.off for p in effect.parameters if p.fitted and p.off is not None}
         near, usual = node.setting.adding(effect, _between(effect, off)), node.setting.adding(effect)
         found = self.fit(near, node.freed)
-        if found.rmse > _STUCK * node.rmse:
+        started = near.values[effect.id]
+        still = all(
+            abs(found.setting.values[effect.id][name] - started[name]) < _MOVED * abs(started[name])
+            for name in off
+        )
+        if found.rmse > _STUCK * node.rmse or still:
             found = self.fit(usual, node.freed, again=True)
         return found
 

@@ -28,7 +28,8 @@
 
 /** A measurement with a hidden cause.
  * @typedef {{id: string, title: string, story: string, kind: string, muscle: Record<string, any> | null,
- *   drive: Record<string, any> | null, measurement: string}} Mystery */
+ *   drive: Record<string, any> | null,
+ *   effects?: Record<string, any> | null, measurement: string}} Mystery */
 /** @typedef {{hidden: {title: string, what: string, effects: string[]}[], found: boolean[],
  *   text: string}} Revealed */
 
