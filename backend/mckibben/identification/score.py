@@ -19,8 +19,9 @@ import numpy as np
 
 from mckibben.identification.node import Node, counts
 
-#: A model must lower the score by this much; 10 is "very strong" on the scale of Kass & Raftery (1995).
-LEAST_SCORE = 10.0
+#: A model must lower the score by this much: between "strong" (6) and "very strong" (10) on the scale of
+#: Kass & Raftery (1995).
+LEAST_SCORE = 8.0
 #: An addition must lower the rms error by this share, else it is not worth a number.
 LEAST_GAIN = 0.02
 _BELOW_FLOOR = 0.5  # errors below this share of the noise are luck

@@ -74,8 +74,8 @@ class Moving(Subject):
 
     step = 2e-2
     one_sided = True
-    tolerance = 1e-3
-    evaluations = 12
+    tolerance = 1e-4
+    evaluations = 20
     tried = 12
 
     def __init__(self, measurement: Measurement, drive: Drive) -> None:
