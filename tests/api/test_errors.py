@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
+
 import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
+from starlette.types import Message
 
+from mckibben.api.settings import Settings
 from tests.api.conftest import URL, assert_error, post
 
 DMSP = {"preset": "DMSP-20"}
@@ -211,3 +215,31 @@ def test_an_unexpected_error_has_an_id_and_stays_in_the_log(
     assert reference
     assert reference in caplog.text
     assert "the secret inside" in caplog.text
+
+
+def test_hanging_up_within_a_body_is_nobodys_error(
+    app: FastAPI, settings: Settings, caplog: pytest.LogCaptureFixture
+) -> None:
+    parts: list[Message] = [
+        {"type": "http.request", "body": b"time_s;p", "more_body": True},
+        {"type": "http.disconnect"},
+    ]
+    sent: list[Message] = []
+
+    async def receive() -> Message:
+        return parts.pop(0)
+
+    async def send(message: Message) -> None:
+        sent.append(message)
+
+    scope = {
+        "type": "http",
+        "method": "PUT",
+        "path": "/api/measurements",
+        "query_string": b"name=a.csv",
+        "headers": [(b"host", b"127.0.0.1"), (b"content-length", b"1000")],
+    }
+    asyncio.run(app(scope, receive, send))
+    assert not caplog.records
+    assert not sent
+    assert not [path for path in settings.data.rglob("*") if path.is_file()]

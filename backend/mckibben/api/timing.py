@@ -5,6 +5,7 @@ from __future__ import annotations
 from time import perf_counter
 
 from starlette.datastructures import MutableHeaders
+from starlette.requests import ClientDisconnect
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from mckibben.api.errors import unexpected_answer
@@ -43,6 +44,8 @@ class TimingMiddleware:
 
         try:
             await self.app(scope, timed_receive, timed_send)
+        except ClientDisconnect:
+            return  # hung up in the middle of a body: nobody waits for an answer, and nothing was kept
         except Exception as error:
             # Inside Starlette's own error layer, which would send a plain text and log a second time.
             if started:

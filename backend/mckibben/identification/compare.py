@@ -7,8 +7,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from mckibben.identification.fit import FitResult, Free, least_squares_fit
+from mckibben.identification.fit import FitResult, Free
 from mckibben.identification.measurement import Measurement
+from mckibben.identification.misfit import Misfit
 from mckibben.identification.node import Node
 from mckibben.identification.noise import channel_noise
 from mckibben.identification.setting import Setting, free_geometry, free_numbers
@@ -22,7 +23,6 @@ from mckibben.simulation.static import EffectValues, checked_values
 
 _TIGHT = 1e-10  # tolerance of a fit with exact derivatives
 _STARTS = 4
-_LOST = 1e3  # times the largest value: misfit of a row where a guess of the fit has no finite value
 
 
 @dataclass(frozen=True)
@@ -242,36 +242,12 @@ def noise_floor_of(subject: Subject, scaled: np.ndarray, given: float | None) ->
     return given if given is not None else channel_noise(subject, scaled, first)
 
 
-def fit_of(
-    subject: Subject, setting: Setting, choice: Sequence[Free], *, starts: int | None = None
-) -> FitResult:
+def fit_of(subject: Subject, setting: Setting, choice: Sequence[Free]) -> FitResult:
     """Fit the numbers; several starts where a model is quick, tightly where its derivatives are exact."""
-    # The unclipped force is fitted: where the model is slack although the muscle pulls, a clipped one has no
-    # gradient to follow.
-    names = [parameter.name for parameter in choice]
-    last: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
-
-    def both(numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        key = numbers.tobytes()
-        if key not in last:
-            last.clear()
-            with np.errstate(all="ignore"):
-                predicted, jacobian = subject.linearised(setting.with_numbers(names, numbers), choice)
-            misfit, slopes = (predicted - subject.measured) / subject.scale, jacobian / subject.scale[:, None]
-            lost = ~(np.isfinite(misfit) & np.isfinite(slopes).all(axis=1))
-            misfit[lost], slopes[lost] = _LOST * np.max(np.abs(subject.measured / subject.scale)), 0.0
-            last[key] = misfit, slopes
-        return last[key]
-
-    exact = isinstance(subject, Quasistatic)
-    return least_squares_fit(
-        lambda numbers: both(numbers)[0],
-        lambda numbers: both(numbers)[1],
-        choice,
-        starts=starts if starts is not None else (_STARTS if exact else 1),
-        tolerance=_TIGHT if exact else 1e-5,
-        evaluations=200 if exact else 40,
-    )
+    misfit = Misfit(subject, setting, choice)
+    if isinstance(subject, Quasistatic):
+        return misfit.fit(starts=_STARTS, tolerance=_TIGHT, evaluations=200)
+    return misfit.fit(starts=1, tolerance=1e-5, evaluations=40)
 
 
 def holdout_rmse(subject: Subject, setting: Setting, choice: Sequence[Free]) -> float | None:

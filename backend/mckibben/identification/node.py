@@ -8,14 +8,14 @@ from functools import cached_property
 
 import numpy as np
 
-from mckibben.identification.fit import Free, least_squares_fit
+from mckibben.identification.fit import Free
+from mckibben.identification.misfit import Misfit
 from mckibben.identification.setting import Setting
 from mckibben.identification.subjects.subject import Subject
 
 _NEAR_BOUND = 1e-6  # of the range
 _AT_BOUND = 1e-3  # of the range
 _COLLINEAR = 3e-3  # singular value of the normalised Jacobian below which numbers stand in for each other
-_WILD = 1e9  # what a guess is said to miss by where the model has no finite value
 _CUTOFF = 1e-13  # of the largest singular value, below which a direction is not determined
 
 
@@ -157,42 +157,18 @@ def fitted_node(
     *,
     freed: Collection[str] = (),
 ) -> Node:
-    """Fit the free numbers jointly, from their starts and from further ones, and keep the best end."""
-    names = [parameter.name for parameter in free]
-    last: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
-
-    def both(numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        key = numbers.tobytes()
-        if key not in last:
-            last.clear()
-            with np.errstate(all="ignore"):
-                predicted, jacobian = subject.linearised(setting.with_numbers(names, numbers), free)
-            wild = ~(np.isfinite(predicted) & np.all(np.isfinite(jacobian), axis=1))
-            misfit = (predicted - subject.measured) / subject.scale
-            last[key] = (
-                np.where(wild, _WILD, misfit),
-                np.where(wild[:, None], 0.0, jacobian / subject.scale[:, None]),
-            )
-        return last[key]
-
+    """Fit the free numbers jointly from their starts, as tightly as a search needs it."""
     if not free:
         residual = subject.residual(setting) / subject.scale
         empty = np.empty((len(residual), 0))
         return Node(setting, (), frozenset(freed), residual, empty, subject.folds)
-    result = least_squares_fit(
-        lambda numbers: both(numbers)[0],
-        lambda numbers: both(numbers)[1],
-        free,
-        starts=1,
-        tolerance=subject.tolerance,
-        evaluations=subject.evaluations,
-    )
+    misfit = Misfit(subject, setting, free)
+    result = misfit.fit(starts=1, tolerance=subject.tolerance, evaluations=subject.evaluations)
     numbers = np.array(result.numbers)
-    misfit, jacobian = both(numbers)
+    ended = misfit.setting(numbers)
     # Fits follow the force below zero too; what counts is what a slack muscle reads.
-    residual = subject.residual(setting.with_numbers(names, numbers)) / subject.scale
-    jacobian = np.where(np.isclose(residual, -misfit, rtol=1e-9)[:, None], jacobian, 0.0)
-    ended = tuple(replace(p, start=float(x)) for p, x in zip(free, numbers, strict=True))
-    return Node(
-        setting.with_numbers(names, numbers), ended, frozenset(freed), residual, jacobian, subject.folds
-    )
+    residual = subject.residual(ended) / subject.scale
+    same = np.isclose(residual, -misfit.value(numbers), rtol=1e-9)
+    jacobian = np.where(same[:, None], misfit.derivatives(numbers), 0.0)
+    there = tuple(replace(p, start=float(x)) for p, x in zip(free, numbers, strict=True))
+    return Node(ended, there, frozenset(freed), residual, jacobian, subject.folds)
