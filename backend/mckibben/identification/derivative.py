@@ -8,6 +8,7 @@ Statistics 6 (1997) 135): the widest window whose estimate still agrees with tho
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -19,6 +20,8 @@ Array = NDArray[np.float64]
 #: Half widths tried [rows]; each about 1.5 times the one before.
 LADDER = (1, 2, 3, 4, 6, 9, 13, 19, 28, 42, 63, 94)
 _AGREES = 4.0  # standard uncertainties on either side: noise alone hardly ever disagrees
+_DOUBTFUL = 3.0  # times the usual uncertainty: there one side alone may know better
+_SURER = 0.5  # of the uncertainty from both sides
 _BACK = 2  # steps of the ladder below the widest that agrees: there the bias is small beside the noise
 _CHUNK = 32_768  # rows whose sums stay in the processor's cache
 _TRIMMED = 0.9  # share of squared residuals that counts: edges are no noise
@@ -103,7 +106,9 @@ def rates(time: Array, values: Array, *, starts: tuple[int, ...] = (0,), noise: 
     .. math:: u^2 = \sigma^2 \left[(X^T X)^{-1}\right]_{11}
 
     for noise :math:`\sigma` (white; a sensor's own low-pass filter makes it look smaller than it is), and the
-    bias that the next wider windows show. At a corner the rate is the mean of both sides.
+    bias that the next wider windows show. Where windows around a row do not agree, those that end or begin at
+    the row are tried: beside a corner the rate is that of the row's own side. At a corner itself it is the
+    mean of both sides, with half their difference as uncertainty.
 
     Args:
         time: shape (rows,), ascending within a part; uneven spacing is allowed [s].
@@ -137,6 +142,13 @@ def _part(time: Array, values: Array, noise: float | None) -> Rate:
     for begin in range(0, rows, _CHUNK):
         chunk = slice(begin, min(begin + _CHUNK, rows))
         value[chunk], spread[chunk], width[chunk] = _adapted(clock, scaled, chunk, ladder, sigma)
+    known = np.isfinite(spread)
+    typical = float(np.median(spread[known])) if np.any(known) else np.inf
+    doubtful = np.flatnonzero(known & (spread > _DOUBTFUL * typical))
+    if len(doubtful):
+        value[doubtful], spread[doubtful] = _beside(
+            clock, scaled, doubtful, ladder, sigma, value[doubtful], spread[doubtful]
+        )
     return Rate(value * scale / step, spread * scale / step, width)
 
 
@@ -161,15 +173,42 @@ def _spread(squares: Array) -> float:
     return float(np.sqrt(np.mean(smallest) / _TRIMMED_MEAN))
 
 
+def _beside(
+    clock: Array,
+    values: Array,
+    rows: NDArray[np.intp],
+    ladder: list[int],
+    sigma: float,
+    value: Array,
+    spread: Array,
+) -> tuple[Array, Array]:
+    """Rate and uncertainty of some rows from one side alone, where that is surer than from both."""
+    (left, left_spread, _), (right, right_spread, _) = (
+        _adapted(clock, values, rows, ladder, sigma, sides=(side,)) for side in (-1, 1)
+    )
+    sure_left, sure_right = left_spread < _SURER * spread, right_spread < _SURER * spread
+    nearer = np.where(left_spread < right_spread, left, right)
+    own = np.where(sure_left | sure_right, nearer, value)
+    own_spread = np.where(sure_left | sure_right, np.minimum(left_spread, right_spread), spread)
+    apart = np.abs(left - right)
+    corner = sure_left & sure_right & (apart > _AGREES * np.hypot(left_spread, right_spread))
+    return np.where(corner, 0.5 * (left + right), own), np.where(corner, 0.5 * apart, own_spread)
+
+
 def _adapted(
-    clock: Array, values: Array, chunk: slice, ladder: list[int], sigma: float
+    clock: Array,
+    values: Array,
+    chunk: slice | NDArray[np.intp],
+    ladder: list[int],
+    sigma: float,
+    sides: tuple[int, ...] = (1, -1),
 ) -> tuple[Array, Array, NDArray[np.intp]]:
     """Rate, uncertainty and half width of the rows of a chunk."""
     fits = [
         (fit.slope, np.where(np.isfinite(fit.slope_variance), sigma, 1.0) * np.sqrt(fit.slope_variance))
-        for fit in _fits(clock, values, chunk, ladder)
+        for fit in _fits(clock, values, chunk, ladder, sides)
     ]
-    rows = chunk.stop - chunk.start
+    rows = len(fits[0][0])
     low, high = np.full(rows, -np.inf), np.full(rows, np.inf)
     agreeing, unknown = np.ones(rows, bool), np.zeros(rows, np.intp)
     widest = np.zeros(rows, np.intp)
@@ -191,20 +230,36 @@ def _adapted(
     return np.where(np.isfinite(spread), value, 0.0), spread, halves[taken]
 
 
-def _fits(clock: Array, values: Array, chunk: slice, ladder: list[int]):
-    """The quadratic fits of a chunk's rows for ascending half widths, one sum for all of them."""
-    rows, count = len(clock), chunk.stop - chunk.start
+def _neighbours(
+    chunk: slice | NDArray[np.intp], offset: int, rows: int
+) -> tuple[slice | NDArray[np.intp], slice | NDArray[np.intp], slice | NDArray[np.intp]]:
+    """Which of some rows have a row so far away: their place among them, the rows, and the rows there."""
+    if isinstance(chunk, slice):
+        begin = max(chunk.start, -offset)
+        end = max(begin, min(chunk.stop, rows - offset))
+        here = slice(begin - chunk.start, end - chunk.start)
+        return here, slice(begin, end), slice(begin + offset, end + offset)
+    here = np.flatnonzero((chunk + offset >= 0) & (chunk + offset < rows))
+    return here, chunk[here], chunk[here] + offset
+
+
+def _fits(
+    clock: Array,
+    values: Array,
+    chunk: slice | NDArray[np.intp],
+    ladder: list[int],
+    sides: tuple[int, ...] = (1, -1),
+) -> Iterator[_Fit]:
+    """The quadratic fits of some rows for ascending half widths, one sum for all of them."""
+    count = chunk.stop - chunk.start if isinstance(chunk, slice) else len(chunk)
     s0, s1, s2, s3, s4, y0, y1, y2 = (np.zeros(count) for _ in range(8))
     s0 += 1.0  # the row itself, relative to which all others are counted
     reached = 0
     for half in ladder:
-        for offset in (k for n in range(reached + 1, half + 1) for k in (n, -n)):
-            begin, end = max(chunk.start, -offset), min(chunk.stop, rows - offset)
-            if begin >= end:
-                continue
-            here = slice(begin - chunk.start, end - chunk.start)
-            t = clock[begin + offset : end + offset] - clock[begin:end]
-            y = values[begin + offset : end + offset] - values[begin:end]
+        for offset in (side * n for n in range(reached + 1, half + 1) for side in sides):
+            here, at, other = _neighbours(chunk, offset, len(clock))
+            t = clock[other] - clock[at]
+            y = values[other] - values[at]
             t2 = t * t
             s0[here] += 1.0
             s1[here] += t

@@ -8,12 +8,13 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mckibben.identification.fit import FitResult, Free, least_squares_fit
+from mckibben.identification.fits import CancelledError, Fits
 from mckibben.identification.next_measurement import Proposal
 from mckibben.identification.node import Node
 from mckibben.identification.noise import channel_noise
 from mckibben.identification.residuals import Profile, profiles, variables_of
 from mckibben.identification.score import effective_rows, score
-from mckibben.identification.search import CancelledError, Search, search
+from mckibben.identification.search import search
 from mckibben.identification.setting import Setting
 from mckibben.identification.subjects.subject import Subject
 from mckibben.identification.twins import Alternative, alternatives, same_predictions
@@ -147,7 +148,7 @@ def _diagnose(
         if effect.id not in inside and subject.reveals(effect) and _has_needs(effect, setting)
     )
     progress = _Progress(watch or Watch(time_limit=np.inf))
-    work = Search(subject, tuple(geometry), candidates, None, tell=progress.tell)
+    work = Fits(subject, tuple(geometry), candidates, None, tell=progress.tell)
     subject.prepare(setting, candidates, geometry)
     start = Node(
         setting, (), frozenset(), subject.residual(setting) / subject.scale,
@@ -242,7 +243,7 @@ def _noise_of(subject: Subject, node: Node, given: float | None) -> tuple[float 
 
 
 def _candidate(
-    work: Search, root: Node, effect: Effect, node: Node, before: Seen, twins: Sequence[str]
+    work: Fits, root: Node, effect: Effect, node: Node, before: Seen, twins: Sequence[str]
 ) -> Candidate:
     rows = effective_rows(node.residual, work.subject.sweeps, work.subject.folds)
     change = score(node, rows=rows, noise=work.noise) - score(root, rows=rows, noise=work.noise)
@@ -250,7 +251,7 @@ def _candidate(
     return Candidate(effect, node, gain, change, tuple(twins), why(effect, before, gain=gain))
 
 
-def _path(work: Search, start: Node, root: Node, best: Node, vent: Vented | None) -> tuple[Step, ...]:
+def _path(work: Fits, start: Node, root: Node, best: Node, vent: Vented | None) -> tuple[Step, ...]:
     steps = [Step(None, start)]
     if vent is not None:
         steps.append(Step(vent.effect.id, root))

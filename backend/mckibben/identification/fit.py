@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+
+from mckibben.identification.levenberg import minimise
 
 _AT_BOUND = 1e-3  # of the range between the bounds
 _CORRELATED = 0.95
@@ -58,7 +59,7 @@ class FitResult:
 
 def least_squares_fit(
     residual: Callable[[np.ndarray], np.ndarray],
-    jacobian: Callable[[np.ndarray], np.ndarray] | None,
+    jacobian: Callable[[np.ndarray], np.ndarray],
     free: Sequence[Free],
     *,
     starts: int = 4,
@@ -70,7 +71,7 @@ def least_squares_fit(
 
     Args:
         residual: numbers -> residuals.
-        jacobian: numbers -> derivatives, shape (residuals, free); None takes central differences.
+        jacobian: numbers -> derivatives, shape (residuals, free).
         free: at least one free parameter.
         starts: the given start and ``starts - 1`` random ones inside the bounds; the best end wins.
         seed: of the random starts, so that a fit is repeatable.
@@ -80,31 +81,19 @@ def least_squares_fit(
     Standard errors assume independent residuals of equal size; they come from the exact Jacobian at the end.
     A parameter at a bound has none, nor has one that the data cannot tell from the others.
     """
-    from scipy.optimize import least_squares  # 0.2 s import, not paid at start
-
     lower = np.array([parameter.lower for parameter in free])
     upper = np.array([parameter.upper for parameter in free])
-    span = upper - lower
-    first = np.clip([p.start for p in free], lower + 1e-9 * span, upper - 1e-9 * span)
+    first = np.array([parameter.start for parameter in free])
     random = np.random.default_rng(seed).uniform(0.02, 0.98, (starts - 1, len(free)))
-    derivatives: Any = jacobian or "3-point"  # scipy's stub knows the text only
     best = None
-    for start in (first, *(lower + share * span for share in random)):
-        found = least_squares(
-            residual,
-            start,
-            jac=derivatives,
-            bounds=(lower, upper),
-            x_scale="jac",
-            xtol=tolerance,
-            ftol=tolerance,
-            gtol=tolerance,
-            max_nfev=evaluations,
+    for start in (first, *(lower + share * (upper - lower) for share in random)):
+        found = minimise(
+            residual, jacobian, start, lower, upper, tolerance=tolerance, evaluations=evaluations
         )
-        if best is None or found.cost < best.cost * (1.0 - 1e-9):
+        if best is None or found.squares < best.squares * (1.0 - 1e-9):
             best = found
     assert best is not None  # noqa: S101 - there is always at least the first start
-    return _report(best.x, np.asarray(best.jac), np.asarray(best.fun), free)
+    return _report(best.numbers, best.jacobian, best.residuals, free)
 
 
 def _report(

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mckibben.identification.fits import Fits
 from mckibben.identification.node import Node
-from mckibben.identification.search import Search, with_further_constants
+from mckibben.identification.search import with_further_constants
 
 #: Fitted predictions that differ by less than this share of the noise are the same prediction: data of
 #: another functional form than ours differ from the best fit by as much.
@@ -37,7 +38,7 @@ class Alternative:
     node: Node
 
 
-def alternatives(work: Search, best: Node, added: Sequence[str], noise: float) -> list[Alternative]:
+def alternatives(work: Fits, best: Node, added: Sequence[str], noise: float) -> list[Alternative]:
     """For each added effect those that, exchanged for it and refitted, predict the same."""
     found = []
     for effect_id in added:

@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from mckibben.identification.fit import FitResult
+from mckibben.identification.fits import Fits
 from mckibben.identification.next_measurement import Proposal, declared, protocols, separation
 from mckibben.identification.node import Node
-from mckibben.identification.search import Search
 from mckibben.identification.subjects.subject import Subject
 from mckibben.identification.twins import Alternative
 from mckibben.identification.unknown import Structure, structure
@@ -81,7 +81,7 @@ def proposals(
     return found
 
 
-def messages(work: Search, best: Node, fit: FitResult | None) -> list[str]:
+def messages(work: Fits, best: Node, fit: FitResult | None) -> list[str]:
     """What has to be said of the noise, of geometry that took up an effect, and of the fit."""
     found = []
     if work.noise is None:

@@ -36,7 +36,9 @@ def test_states_along_a_record_give_the_driven_force(effect):
     expected = driven_force(compiled, **record(task))
     found = Quasistatic(task).predict(model)
     # A driven run knows the rate between rows; at the rows themselves only terms of velocity differ.
-    assert found == pytest.approx(expected, abs=2e-4 * np.max(expected))
+    counted = ~task.turning
+    assert np.count_nonzero(counted) > 0.95 * len(counted)
+    assert found == pytest.approx(expected[counted], abs=2e-4 * np.max(expected))
 
 
 def test_maxwell_cells_are_sliders_behind_springs():

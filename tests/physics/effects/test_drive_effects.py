@@ -171,7 +171,11 @@ def test_guide_friction_opposes_the_stroke() -> None:
     """A band of twice the force at creeping speed, none at rest."""
     guide = CATALOGUE["guide_friction"]
     up, still, down = (
-        guide.call("guide", {"direction": sign, "speed": 1e-9 * sign}, {"force": 5.0, "coefficient": 10.0})
+        guide.call(
+            "guide",
+            {"direction": sign, "speed": 1e-9 * sign},
+            {**guide.defaults, "force": 5.0, "coefficient": 10.0},
+        )
         for sign in (1.0, 0.0, -1.0)
     )
     assert up - down == pytest.approx(10.0, rel=1e-6)

@@ -12,11 +12,11 @@ from mckibben.api.answers.start import Json, geometry_json
 from mckibben.api.answers.wording import sentence_of
 from mckibben.identification.compare import check_finite, parameter_table
 from mckibben.identification.diagnosis import Candidate, Diagnosis, diagnose
+from mckibben.identification.fits import CancelledError
 from mckibben.identification.next_measurement import declared
 from mckibben.identification.node import Node
 from mckibben.identification.reduction import reduced
 from mckibben.identification.residuals import variables_of
-from mckibben.identification.search import CancelledError
 from mckibben.identification.setting import free_geometry
 from mckibben.identification.subjects import subject_of
 from mckibben.identification.unknown import SYMBOLS

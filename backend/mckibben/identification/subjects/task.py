@@ -15,13 +15,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mckibben.identification.measurement import FORCE_KINDS, STROKES, Measurement, lengths
-from mckibben.identification.motion import motion_of
+from mckibben.identification.motion import Motion, motion_of
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.physics.muscle import Muscle
 
 GRAVITY = 9.80665  # m/s2
 _LONGEST_SHARE = 0.9999  # of the thread: the braid locks there
+_UNSURE = 5.0  # times the usual uncertainty of the velocity ...
+_JUMP = 0.05  # ... and of the speed around: there it jumps
+_STILL = 0.25  # of the speed before and after: there it turns
+_SUDDEN = 4.0  # times the changes before and after
+_FEW = 0.1  # share of the rows up to which that is an exception
 
 
 @dataclass(frozen=True)
@@ -38,8 +43,8 @@ class Task:
         time: of each row [s]; None where the rows have no order in time.
         records: label of the uninterrupted record that each row belongs to; rows of a record are in order.
         groups: group label of each row.
-        turning: rows at which the motion turns: their friction has no sign, so they are not counted, but they
-            belong to the way that memory follows; mask.
+        turning: rows at which the motion turns or its speed jumps: their friction has no known size, so they
+            are not counted, but they belong to the way that memory follows; mask.
         rows: index of each row in the measurement.
         excluded: why rows were left out -> how many.
         unknown_load: whether the load is not stated and has to be fitted.
@@ -88,7 +93,7 @@ def task_of(measurement: Measurement, muscle: Muscle) -> Task:
     stroked = any(name in columns for name in STROKES)
     length = lengths(measurement, muscle.nominal_length) if stroked else None
     records = records_of(measurement)
-    velocity, direction = _motion(measurement, muscle.nominal_length, messages)
+    velocity, direction, unsure = _motion(measurement, muscle.nominal_length, messages)
     state: dict[str, np.ndarray] = {
         "temperature": columns.get("temperature", np.full(count, ROOM_TEMPERATURE)),
         "pressure": columns.get("pressure", np.zeros(count)),
@@ -121,7 +126,7 @@ def task_of(measurement: Measurement, muscle: Muscle) -> Task:
             f"{measurement.name}: no row can be compared ({count} rows, {reasons})", field="measurement"
         )
     ordered = "time" in columns
-    turning = _turning(state["direction"], records)
+    turning = _turning(state["direction"], records) | unsure
     excluded["turning points"] = int(np.count_nonzero(turning & keep))
     return Task(
         kind,
@@ -142,15 +147,24 @@ def task_of(measurement: Measurement, muscle: Muscle) -> Task:
 
 def _motion(
     measurement: Measurement, nominal_length: float, messages: list[str]
-) -> tuple[np.ndarray, np.ndarray]:
-    """Velocity and direction of each row; a direction channel counts before what the velocity says."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Velocity and direction of each row, and where the velocity jumps.
+
+    A direction channel counts before what the velocity says.
+    """
     columns = measurement.columns
     velocity, direction = np.zeros(measurement.rows), columns.get("direction")
+    unsure = np.zeros(measurement.rows, bool)
     known = direction is not None and bool(np.any(direction))
     stroked = any(name in columns for name in STROKES)
     if "time" in columns and (stroked or "velocity" in columns):
         moved = motion_of(measurement, nominal_length)
         velocity = moved.velocity
+        if stroked and not moved.measured:
+            unsure = _jumps(columns["time"], lengths(measurement, nominal_length), moved)
+            # What came before the first row of a curve, motion or rest, is not in the file.
+            unsure[1:] |= np.diff(columns["group"]) != 0
+            unsure[0] = True
         messages += moved.messages
         if not known:
             direction, known = moved.direction, True
@@ -160,8 +174,29 @@ def _motion(
             direction, known = velocity, True
     if direction is None or not known:
         messages.append("direction of motion unknown: friction cannot show in these rows")
-        return velocity, np.zeros(measurement.rows)
-    return velocity, np.sign(direction).astype(float)
+        return velocity, np.zeros(measurement.rows), unsure
+    return velocity, np.sign(direction).astype(float), unsure
+
+
+def _jumps(time: np.ndarray, length: np.ndarray, moved: Motion) -> np.ndarray:
+    """Rows at which the velocity jumps, so that they may belong to either side: few, or none is told.
+
+    Those far less sure than all the others; and of two rows between which it changes suddenly the one nearer
+    to where both lines meet.
+    """
+    velocity, sigma = moved.velocity, moved.velocity_sigma
+    speed = np.pad(np.abs(velocity), 1)
+    size = np.maximum(np.maximum(speed[:-2], speed[2:]), speed[1:-1])
+    found = np.isfinite(sigma) & (sigma > np.maximum(_UNSURE * float(np.median(sigma)), _JUMP * size))
+    found |= speed[1:-1] < _STILL * np.minimum(speed[:-2], speed[2:])
+    change = np.pad(np.abs(np.diff(velocity)), 1)
+    around = np.maximum(np.maximum(change[:-2], change[2:]), np.hypot(sigma[1:], sigma[:-1]))
+    sudden = np.flatnonzero(change[1:-1] > np.maximum(_SUDDEN * around, _JUMP * size[1:]))
+    step, risen = time[sudden + 1] - time[sudden], length[sudden + 1] - length[sudden]
+    before, after = velocity[sudden], velocity[sudden + 1]
+    meet = (risen - after * step) / (before - after)  # after the first of both rows [s]
+    found[sudden + (meet > 0.5 * step)] = True
+    return found if np.mean(found) < _FEW else np.zeros(len(found), bool)
 
 
 def _turning(direction: np.ndarray, records: np.ndarray) -> np.ndarray:

@@ -70,7 +70,6 @@ EFFECT = Effect(
             _TONDU,
             "Coefficient at high speed.",
             off=0.0,
-            fitted=False,
         ),
         Parameter(
             "stribeck_speed",

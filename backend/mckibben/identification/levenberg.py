@@ -1,0 +1,126 @@
+r"""Levenberg-Marquardt within bounds, from starts that may lie on a bound.
+
+Most numbers of an effect start where the effect is off, and that is a bound. Interior methods shorten every
+step that would cross it, also in the other directions, and stop where they began. Here each step solves
+
+.. math:: \min_d |J d + r|^2 + \lambda |D d|^2, \quad l \le x + d \le u
+
+over the box itself: numbers that would leave it stay at their bound, the others go on.
+
+Marquardt, J. SIAM 11 (1963) 431; scaling and tests of convergence as in MINPACK (More, LNM 630, 1978);
+change of the damping after Nielsen, IMM-REP-1999-05.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+_FIRST_DAMPING = 1e-3  # nearly a Gauss-Newton step: the starts are usual values
+_LEAST_DAMPING = 1e-12
+_MOST_DAMPING = 1e10
+_ACCEPTED = 1e-4  # of the predicted reduction
+_FLAT = 1e-30  # of the largest column: a number that changes nothing
+
+
+@dataclass(frozen=True, slots=True)
+class Minimum:
+    """Where it ended: the numbers, residuals and their derivatives there."""
+
+    numbers: np.ndarray
+    residuals: np.ndarray
+    jacobian: np.ndarray
+
+    @property
+    def squares(self) -> float:
+        """Sum of squared residuals."""
+        return float(self.residuals @ self.residuals)
+
+
+def minimise(
+    residual: Callable[[np.ndarray], np.ndarray],
+    jacobian: Callable[[np.ndarray], np.ndarray],
+    start: np.ndarray,
+    lower: np.ndarray,
+    upper: np.ndarray,
+    *,
+    tolerance: float,
+    evaluations: int,
+) -> Minimum:
+    """Minimise the sum of squared residuals from a start within bounds.
+
+    Args:
+        residual: numbers, shape (n,) -> residuals, shape (m,), finite.
+        jacobian: numbers -> derivatives, shape (m, n); asked only where the residuals were just evaluated.
+        start, lower, upper: shape (n,); a start outside is moved to the bound.
+        tolerance: relative reduction of the sum of squares, promised and reached, that ends it.
+        evaluations: most evaluations of the residuals.
+    """
+    x = np.clip(start, lower, upper)
+    r, j = residual(x), jacobian(x)
+    squares = float(r @ r)
+    scale = np.linalg.norm(j, axis=0)
+    damping, growth = _FIRST_DAMPING, 2.0
+    for _ in range(evaluations - 1):
+        scale = np.maximum(scale, np.linalg.norm(j, axis=0))
+        d = _step(j, r, damping * _weights(scale) ** 2, lower - x, upper - x)
+        linear = j @ d + r
+        promised = squares - float(linear @ linear)
+        if not promised > 0.0 or damping > _MOST_DAMPING:
+            break
+        new = np.clip(x + d, lower, upper)
+        moved = residual(new)
+        reached = squares - float(moved @ moved)
+        ratio = reached / promised
+        if ratio > _ACCEPTED:
+            x, r, squares = new, moved, squares - reached
+            j = jacobian(x)
+            damping = max(damping * max(1.0 / 3.0, 1.0 - (2.0 * ratio - 1.0) ** 3), _LEAST_DAMPING)
+            growth = 2.0
+        else:
+            damping, growth = damping * growth, 2.0 * growth
+        small = max(abs(reached), promised) <= tolerance * squares and ratio <= 2.0
+        if small or not squares > 0.0:
+            break
+    return Minimum(x, r, j)
+
+
+def _weights(scale: np.ndarray) -> np.ndarray:
+    """Of the damping: sizes of the columns; what changes nothing is held by the largest of the others."""
+    largest = float(np.max(scale, initial=0.0)) or 1.0
+    return np.where(scale > _FLAT * largest, scale, largest)
+
+
+def _step(
+    jacobian: np.ndarray, residuals: np.ndarray, damping: np.ndarray, lower: np.ndarray, upper: np.ndarray
+) -> np.ndarray:
+    """The damped least-squares step within a box that holds 0, by an active set."""
+    unit = 1.0 / np.sqrt(damping)  # in these units the damping is 1 for every number
+    columns = jacobian * unit
+    normal = columns.T @ columns + np.eye(len(unit))
+    slope = columns.T @ residuals
+    low, high = lower / unit, upper / unit
+    d = np.zeros(len(unit))
+    held = ((low >= 0.0) & (slope > 0.0)) | ((high <= 0.0) & (slope < 0.0))
+    for _ in range(3 * len(unit) + 3):
+        free = ~held
+        if np.any(free):
+            wanted = d.copy()
+            right = -slope[free] - normal[np.ix_(free, held)] @ d[held]
+            wanted[free] = np.linalg.solve(normal[np.ix_(free, free)], right)
+            change = wanted - d
+            room = np.where(change > 0.0, high - d, low - d)[free]
+            share = np.divide(room, change[free], out=np.ones(len(room)), where=change[free] != 0.0)
+            part = float(np.min(share, initial=1.0))
+            d = np.clip(d + max(part, 0.0) * change, low, high)
+            if part < 1.0:
+                held[np.flatnonzero(free)[np.argmin(share)]] = True
+                continue
+        pull = normal @ d + slope  # of a held number it must point out of the box
+        inward = held & np.where(d <= low, pull < 0.0, np.where(d >= high, pull > 0.0, True))
+        if not np.any(inward):
+            break
+        held[np.argmax(np.where(inward, np.abs(pull), -1.0))] = False
+    return d * unit
