@@ -11,15 +11,13 @@ from mckibben.identification.fit import Free
 from mckibben.identification.setting import LOAD, Setting
 from mckibben.identification.subjects.evaluate import Evaluation, sorted_effects
 from mckibben.identification.subjects.folds import folds_of, ranges_of, sweeps_of
+from mckibben.identification.subjects.late import as_read, late
 from mckibben.identification.subjects.lengths import predicted_lengths
 from mckibben.identification.subjects.memory import remembers
 from mckibben.identification.subjects.subject import Channel, Subject
 from mckibben.identification.subjects.task import Task
 from mckibben.physics.effect import Effect
-from mckibben.simulation.driven import driven_force
-from mckibben.simulation.static import StaticModel, clip_slack
-
-_LATE = ("skew", "force_reading", "pressure_reading", "stroke_reading")
+from mckibben.simulation.static import clip_slack
 
 
 class Quasistatic(Subject):
@@ -68,17 +66,17 @@ class Quasistatic(Subject):
         """By the kinds that the effect names; memory needs an order in time, temperature a change."""
         if self.kind not in effect.kinds:
             return False
-        late = _late(effect)
-        if (remembers(effect) or late) and self.task.time is None:
+        delays = late(effect)
+        if (remembers(effect) or delays) and self.task.time is None:
             return False
-        if late and self.task.channel != "force":
+        if delays and self.task.channel != "force":
             return False
         return "compliance" not in effect.slots or self.task.channel == "force"
 
     def prepare(self, setting: Setting, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
         """One structure that holds every model of a search: absent effects are off in it."""
         inside = {effect.id for effect in setting.effects}
-        further = [e for e in candidates if e.id not in inside and not _late(e)]
+        further = [e for e in candidates if e.id not in inside and not late(e)]
         self._wide = sorted_effects((*setting.effects, *further))
 
     def trial(self, setting: Setting) -> np.ndarray:
@@ -90,12 +88,12 @@ class Quasistatic(Subject):
 
     def predict(self, setting: Setting, *, clipped: bool = True) -> np.ndarray:
         """Force, length or diameter of each row; a load that passes the braid lock is predicted there."""
-        model = StaticModel.of(setting.muscle, sorted_effects(setting.effects), setting.values)
         if self.task.channel == "force":
-            if any(map(_late, setting.effects)):
-                return self._delayed(model)[self._counted]
-            out = self._evaluation.at(setting)[0]
-            return (clip_slack(out) if clipped else out["force"])[self._counted]
+            out = self._evaluation.at(_at_once(setting))[0]
+            force = clip_slack(out) if clipped else out["force"]
+            if any(map(late, setting.effects)):
+                force = self._as_read(setting, force)
+            return force[self._counted]
         if self.task.channel == "length":
             return predicted_lengths(self._evaluation, setting)[0][self._counted]
         return self._diameter(setting)[self._counted]
@@ -105,28 +103,41 @@ class Quasistatic(Subject):
         names = tuple(parameter.name for parameter in free)
         if self.task.channel == "diameter":
             return super().linearised(setting, free)
-        if any(map(_late, setting.effects)):
-            return self._delayed_linearised(setting, free)
+        if any(map(late, setting.effects)):
+            return self._late_linearised(setting, free)
         if self.task.channel == "force":
             out, gradient = self._evaluation.at(setting, names)
             return out["force"][self._counted], gradient[self._counted]
         length, gradient = predicted_lengths(self._evaluation, setting, names)
         return length[self._counted], gradient[self._counted]
 
-    def _delayed_linearised(self, setting: Setting, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
-        """Differences by the numbers of the delays; the others act as if nothing were late."""
-        predicted = self.predict(setting, clipped=False)
-        ids = {effect.id for effect in setting.effects if _late(effect)}
-        at_once = replace(setting, effects=tuple(e for e in setting.effects if e.id not in ids))
-        inner = [p for p in free if p.name.partition(".")[0] not in ids]
-        gradient = np.empty((len(predicted), len(free)))
-        exact = self._evaluation.at(at_once, tuple(p.name for p in inner))[1][self._counted]
+    def _late_linearised(self, setting: Setting, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
+        """The filter of the late channel passes the exact derivatives too; differences by its own numbers."""
+        ids = {effect.id for effect in setting.effects if late(effect)}
+        inner = [p.name for p in free if p.name.partition(".")[0] not in ids]
+        out, slopes = self._evaluation.at(_at_once(setting), tuple(inner))
+        shown = self._as_read(setting, np.column_stack([out["force"], slopes]))
+        gradient = np.empty((len(shown), len(free)))
         for column, parameter in enumerate(free):
-            own = parameter in inner
-            gradient[:, column] = (
-                exact[:, inner.index(parameter)] if own else self.differences(setting, [parameter])[:, 0]
+            if parameter.name in inner:
+                gradient[:, column] = shown[:, 1 + inner.index(parameter.name)]
+                continue
+            here = setting.number(parameter.name)
+            step = self.step * min(parameter.upper - parameter.lower, max(abs(here), parameter.typical))
+            low, high = max(here - step, parameter.lower), min(here + step, parameter.upper)
+            first, last = (
+                self._as_read(setting.with_numbers([parameter.name], [end]), out["force"])
+                for end in (low, high)
             )
-        return predicted, gradient
+            gradient[:, column] = (last - first) / (high - low)
+        return shown[:, 0][self._counted], gradient[self._counted]
+
+    def _as_read(self, setting: Setting, values: np.ndarray) -> np.ndarray:
+        """Values of every row behind the lags and the skew of a model."""
+        task = self.task
+        assert task.time is not None  # noqa: S101 - `reveals` asks for it
+        records = [np.flatnonzero(task.records == label) for label in np.unique(task.records)]
+        return as_read(setting, time=task.time, records=records, values=values)
 
     def _diameter(self, setting: Setting) -> np.ndarray:
         if "length" in self.task.state:
@@ -135,23 +146,7 @@ class Quasistatic(Subject):
         state = {**self._evaluation.state(setting), "length": length}
         return self._evaluation.at(setting, (), state)[0]["diameter"]
 
-    def _delayed(self, model: StaticModel) -> np.ndarray:
-        """The force of a model with lags or skew of the channels, along each record."""
-        task = self.task
-        assert task.time is not None  # noqa: S101 - `reveals` asks for it
-        found = np.zeros(len(task.measured))
-        for label in np.unique(task.records):
-            rows = np.flatnonzero(task.records == label)
-            if len(rows) >= 2:
-                found[rows] = driven_force(
-                    model,
-                    time=task.time[rows],
-                    pressure=task.state["pressure"][rows],
-                    length=task.state["length"][rows],
-                )
-        return found
 
-
-def _late(effect: Effect) -> bool:
-    """Whether an effect delays what is read, so that rows depend on the rows before them."""
-    return any(slot in effect.slots for slot in _LATE)
+def _at_once(setting: Setting) -> Setting:
+    """The model without what is late."""
+    return replace(setting, effects=tuple(effect for effect in setting.effects if not late(effect)))
