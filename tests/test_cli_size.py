@@ -95,3 +95,46 @@ def test_a_missing_file_is_named(run: Run) -> None:
     code, _, err = run("size", "nowhere.json")
     assert code == 2
     assert "nowhere.json" in err
+
+
+def test_a_report_is_written_beside_the_tables(run: Run) -> None:
+    task = write("task.json", {**TASK, "uncertainty": {"specimens": 0}})
+    code, out, err = run("size", task, "--report", "r.html", "--proposal", "2", "--title", "<b>Mine</b>")
+    assert code == 0
+    assert "DMSP-20" in out
+    assert "report: r.html" in err
+    text = Path("r.html").read_text("utf-8")
+    assert text.startswith("<!DOCTYPE html>")
+    assert "<h1>&lt;b&gt;Mine&lt;/b&gt;</h1>" in text
+    assert "Proposal 2 of " in text
+    assert "mckibben size task.json --report report.html --proposal 2" in text
+
+
+def test_nothing_found_is_written_down_too(run: Run) -> None:
+    code, out, _ = run("size", write("task.json", IMPOSSIBLE), "--report", "r.html", "--json")
+    assert code == 0
+    assert json.loads(out)["proposals"] == []
+    assert "Nothing in the catalogue does this task" in Path("r.html").read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--report", "no/r.html"], ["--report no/r.html: cannot be written"]),
+        (["--report", "r.html", "--proposal", "30"], ["--proposal 30: there ", " proposals", "1 to "]),
+        (["--report", "r.html", "--proposal", "0"], ["--proposal"]),
+        (["--proposal", "2"], ["--proposal belongs to a report", "--report FILE"]),
+        (["--title", "x"], ["--title belongs to a report"]),
+    ],
+)
+def test_what_is_wrong_with_a_report_is_said_in_one_line(
+    run: Run, options: list[str], words: list[str]
+) -> None:
+    task = write("task.json", {**TASK, "uncertainty": {"specimens": 0}})
+    code, out, err = run("size", task, *options)
+    assert code == 2
+    assert out == ""
+    assert len(err.strip().splitlines()) == 1
+    assert not Path("r.html").exists()
+    for word in words:
+        assert word in err

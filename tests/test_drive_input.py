@@ -201,6 +201,19 @@ REFUSED = {
 }  # fmt: skip
 
 
+@pytest.mark.parametrize(
+    ("arrangement", "words"),
+    [("antagonist", "an antagonist load"), ("inclined", "an inclined load"), ("hanging", "a hanging load")],
+)
+def test_arrangements_have_the_right_article(
+    read: Callable[..., GivenDrive], arrangement: str, words: str
+) -> None:
+    load = {"arrangement": arrangement, "lever_ratio": 0.5}
+    own = {"antagonist": {"pulley_radius": "20 mm"}, "inclined": {"inclination": "30 deg"}}
+    with pytest.raises(InputError, match=f"^{words} has no lever$"):
+        read(load={**load, **own.get(arrangement, {})})
+
+
 @pytest.mark.parametrize("name", REFUSED)
 def test_what_is_refused_and_where(read: Callable[..., GivenDrive], name: str) -> None:
     changes, field, hint = REFUSED[name]

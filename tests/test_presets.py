@@ -15,16 +15,27 @@ from typing import Any, get_args
 import numpy as np
 import pytest
 
+from mckibben import cli
+from mckibben.api.schemas.sizings import SizingTask
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.errors import InputError
 from mckibben.physics.parameter import GRADES, Parameter, Source
-from mckibben.presets import CurvePreset, MeasurementPreset, MusclePreset, PresetLibrary, Quantity
+from mckibben.presets import (
+    CurvePreset,
+    MeasurementPreset,
+    MusclePreset,
+    PresetLibrary,
+    Quantity,
+    TaskPreset,
+)
 from mckibben.presets.quantity import Grade, quantities
 
 ROOT = Path(__file__).parents[1]
 PRESETS = ROOT / "presets"
 REFERENCE_DATA = ROOT.parent / "shared" / "data"
-FILES = sorted(path for path in PRESETS.rglob("*.json") if path.parent.name not in ("designs", "drives"))
+DOCUMENTS = ("designs", "drives", "tasks")  # checked by what runs them
+FILES = sorted(path for path in PRESETS.rglob("*.json") if path.parent.name not in DOCUMENTS)
+TASKS = sorted((PRESETS / "tasks").glob("*.json"))
 BLOCKED_FORCE = {10: 473.3, 20: 1515.0, 40: 6203.0}  # MuscleSIM, 6 bar, 0 %
 
 
@@ -528,6 +539,56 @@ def test_a_design_carries_any_document(tmp_path: Path) -> None:
     }
     (tmp_path / "designs" / "one.json").write_text(json.dumps(design), encoding="utf-8")
     assert PresetLibrary(tmp_path).get("designs", "one").to_document()["document"] == design["document"]
+
+
+# --- example tasks
+
+
+def sized(path: Path, capsysbinary: pytest.CaptureFixture[bytes]) -> dict[str, Any]:
+    """The answer of the command line to an example task."""
+    assert cli.run(["size", str(path), "--json"]) == 0
+    return json.loads(capsysbinary.readouterr().out)
+
+
+@pytest.mark.parametrize("path", TASKS, ids=lambda path: path.stem)
+def test_every_example_task_does_what_its_title_says(
+    path: Path, capsysbinary: pytest.CaptureFixture[bytes], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("MCKIBBEN_DATA", str(tmp_path))
+    preset = json.loads(path.read_text(encoding="utf-8"))
+    task = SizingTask.model_validate(preset["document"])
+    answer = sized(path, capsysbinary)
+    assert task.title == preset["title"]
+    if path.stem == "too-fast-150kg":
+        assert answer["proposals"] == []
+        assert {item["binding"] for item in answer["rejected"]} >= {"time", "force"}
+        return
+    assert answer["proposals"]
+    for found in answer["proposals"]:
+        assert found["time"] <= (task.time or math.inf) * (1 + 1e-6)
+        stroke = found["nominal_length"] * found["contraction"]
+        if task.load.pair is None:
+            assert stroke == pytest.approx(task.stroke, rel=1e-6)
+        else:
+            assert stroke == pytest.approx(found["pulley_radius"] * task.load.pair.angle, rel=1e-6)
+    if task.catalogue.muscles is not None:
+        assert {found["muscle"] for found in answer["proposals"]} <= set(task.catalogue.muscles)
+
+
+def test_the_tasks_of_the_paper_state_what_it_prints(library: PresetLibrary) -> None:
+    for size, time in ((20, 0.19), (10, 0.23)):
+        preset = library.get("tasks", f"propneu-{size}")
+        assert isinstance(preset, TaskPreset)
+        task = SizingTask.model_validate(preset.document)
+        assert (task.stroke, task.supply_pressure, task.time) == (0.2, 6e5, time)
+        assert task.catalogue.muscles == [f"DMSP-{size}"]
+        drive = library.get("drives", f"propneu-{size}").to_document()
+        assert preset.document["load"] == {"mass": drive["document"]["load"]["mass"]}
+        assert {"stroke", "time", "supply_pressure", "load.mass"} <= set(preset.grounds)
+        for name in preset.grounds:
+            value: Any = preset.document
+            for key in name.split("."):
+                value = value[key]
 
 
 # --- asking

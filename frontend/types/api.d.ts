@@ -52,6 +52,9 @@ export interface paths {
   "/api/sizings": {
     post: operations["size_drives"];
   };
+  "/api/sizings/reports": {
+    post: operations["write_sizing_report"];
+  };
 }
 
 export interface components {
@@ -530,8 +533,8 @@ export interface components {
       description?: string;
       references?: string[];
       document: { [key: string]: unknown };
-      paper?: components["schemas"]["PaperFigures"] | null;
       grounds?: { [key: string]: components["schemas"]["Ground"] };
+      paper?: components["schemas"]["PaperFigures"] | null;
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
       /** With the program, or the user's own. */
@@ -1349,8 +1352,8 @@ export interface components {
     };
     /** All presets of one kind, and the files that could not be loaded. */
     PresetsAnswer: {
-      kind: "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs" | "drives";
-      presets: (components["schemas"]["MuscleAnswer"] | components["schemas"]["ValveAnswer"] | components["schemas"]["TubeAnswer"] | components["schemas"]["FittingAnswer"] | components["schemas"]["MeasurementPresetAnswer"] | components["schemas"]["CurvePresetAnswer"] | components["schemas"]["DesignAnswer"] | components["schemas"]["DriveAnswer"])[];
+      kind: "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs" | "drives" | "tasks";
+      presets: (components["schemas"]["MuscleAnswer"] | components["schemas"]["ValveAnswer"] | components["schemas"]["TubeAnswer"] | components["schemas"]["FittingAnswer"] | components["schemas"]["MeasurementPresetAnswer"] | components["schemas"]["CurvePresetAnswer"] | components["schemas"]["DesignAnswer"] | components["schemas"]["DriveAnswer"] | components["schemas"]["TaskAnswer"])[];
       problems: components["schemas"]["PresetProblem"][];
     };
     /** Which pressure gives this force at this length (or contraction)? */
@@ -1753,6 +1756,15 @@ export interface components {
       /** Time of the whole search in ms. */
       wall_ms: number;
     };
+    /** The search is made again: no figure of the report comes from the caller. */
+    SizingReportRequest: {
+      /** As for `/api/sizings`. */
+      task: components["schemas"]["SizingTask"];
+      /** Rank of the proposal to write down, 1 the best. A task without any has a report too. */
+      proposal?: number;
+      /** Empty: that of the task, else what it is about. */
+      title?: string;
+    };
     /** A task; only the load, and a stroke or a pair, must be given. Plain numbers are in SI units. */
     SizingTask: {
       /** Version of the document. */
@@ -1823,6 +1835,22 @@ export interface components {
     SupplyInput: {
       /** Gauge pressure before the valve. [Pa] */
       pressure?: number | string;
+    };
+    /** A sizing task to start from; its content is checked by the API that sizes drives for it. */
+    TaskAnswer: {
+      schema: 1;
+      kind: "task";
+      id: string;
+      title: string;
+      maker?: string;
+      description?: string;
+      references?: string[];
+      document: { [key: string]: unknown };
+      grounds?: { [key: string]: components["schemas"]["Ground"] };
+      /** No figure is general knowledge (M) or an estimate (E). */
+      verified: boolean;
+      /** With the program, or the user's own. */
+      origin: "built-in" | "user";
     };
     /** What may be used. */
     TaskCatalogue: {
@@ -2111,7 +2139,7 @@ export interface operations {
   /** All presets of a kind with unit, source and grade of each figure, and the files that were refused. */
   list_presets: {
     parameters: {
-      path: { kind: "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs" | "drives" };
+      path: { kind: "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs" | "drives" | "tasks" };
     };
     responses: {
       200: { content: { "application/json": components["schemas"]["PresetsAnswer"] } };
@@ -2161,10 +2189,10 @@ export interface operations {
   /** One preset. */
   read_preset: {
     parameters: {
-      path: { kind: "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs" | "drives"; preset_id: string };
+      path: { kind: "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs" | "drives" | "tasks"; preset_id: string };
     };
     responses: {
-      200: { content: { "application/json": components["schemas"]["MuscleAnswer"] | components["schemas"]["ValveAnswer"] | components["schemas"]["TubeAnswer"] | components["schemas"]["FittingAnswer"] | components["schemas"]["MeasurementPresetAnswer"] | components["schemas"]["CurvePresetAnswer"] | components["schemas"]["DesignAnswer"] | components["schemas"]["DriveAnswer"] } };
+      200: { content: { "application/json": components["schemas"]["MuscleAnswer"] | components["schemas"]["ValveAnswer"] | components["schemas"]["TubeAnswer"] | components["schemas"]["FittingAnswer"] | components["schemas"]["MeasurementPresetAnswer"] | components["schemas"]["CurvePresetAnswer"] | components["schemas"]["DesignAnswer"] | components["schemas"]["DriveAnswer"] | components["schemas"]["TaskAnswer"] } };
       403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
@@ -2253,6 +2281,19 @@ export interface operations {
       400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** The search once more and one of its drives as one file to keep and to print; closing ends it. */
+  write_sizing_report: {
+    requestBody: { content: { "application/json": components["schemas"]["SizingReportRequest"] } };
+    responses: {
+      200: { content: { "text/html": string } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };

@@ -148,6 +148,22 @@ def test_what_is_no_formula_is_refused_at_the_term(term):
     assert "Traceback" not in error.value.message
 
 
+@pytest.mark.parametrize(
+    ("term", "named"),
+    [
+        ("c*'a'", "a single quote"),
+        ('c*"a"', "a double quote"),
+        ("c*P\0", "the character U+0000"),
+        ("c*P\N{ZERO WIDTH SPACE}", "the character U+200B"),
+        ("c & P", "'&'"),
+    ],
+)
+def test_a_character_that_is_refused_is_named_legibly(term, named):
+    with pytest.raises(InputError) as error:
+        custom_effect(term)
+    assert error.value.message == f"{named} cannot be part of a term"
+
+
 @pytest.mark.parametrize("term", [None, 3, 2.5, ["c"], b"c*P"])
 def test_a_term_is_a_text(term):
     with pytest.raises(InputError) as error:

@@ -9,8 +9,10 @@ from xml.etree import ElementTree
 import pytest
 
 from mckibben.report.bars import Bar, bars
-from mckibben.report.chart import Axis, Band, Dots, Line, chart, family, ticks
+from mckibben.report.chart import chart, family, ticks
 from mckibben.report.heat import heat
+from mckibben.report.marks import Axis, Band, Dots, Line, Rule
+from mckibben.report.stack import Panel, stack
 
 SVG = "{http://www.w3.org/2000/svg}"
 X, Y = Axis("Contraction", "%"), Axis("Force", "N")
@@ -71,6 +73,58 @@ def test_any_range_has_a_drawing(values: list[float]) -> None:
     assert root.findtext(f"{SVG}title") == "<t>"
 
 
+def test_a_rule_stands_at_its_value_over_the_whole_height() -> None:
+    drawing = chart(X, Y, [Line([0, 10], [0, 100]), Rule(5.0, "half"), Dots([5], [50])], title="t")
+    line, rule, _ = paths(drawing)
+    (x0, y0), (x1, y1) = points(line)
+    found = re.fullmatch(r"M([\d.]+) ([\d.]+)V([\d.]+)", rule.attrib["d"])
+    assert found is not None
+    at, top, bottom = map(float, found.groups())
+    assert at == pytest.approx((x0 + x1) / 2, abs=0.1)
+    assert top < y1 < y0 < bottom
+    assert "half" in texts(drawing)
+
+
+def test_given_ends_are_kept_and_a_bare_axis_has_no_numbers() -> None:
+    drawing = chart(Axis("Time", "ms", ends=(0.0, 20.0), bare=True), Y, [Line([0, 10], [0, 1])], title="t")
+    whole = chart(Axis("Time", "ms", ends=(0.0, 20.0)), Y, [Line([0, 20], [0, 1])], title="t")
+    (x0, _), (x1, _) = points(paths(drawing)[0])
+    (left, _), (right, _) = points(paths(whole)[0])
+    assert x0 == left
+    assert x1 == pytest.approx((left + right) / 2, abs=0.1)
+    assert "Time [ms]" in texts(whole)
+    assert not {"Time [ms]", "10", "20"} & set(texts(drawing))
+
+
+def test_names_stand_beside_their_dots_and_stay_inside() -> None:
+    drawing = chart(X, Y, [Dots([0, 10], [0, 100], names=["<first>", "last"], size=10)], title="t")
+    found = {e.text: e.attrib for e in ElementTree.fromstring(drawing).iter(f"{SVG}text")}
+    assert found["<first>"]["text-anchor"] == "start"
+    assert found["last"]["text-anchor"] == "end"
+    below = chart(X, Y, [Dots([5], [50], names=["n"], below=True)], title="t")
+    above = chart(X, Y, [Dots([5], [50], names=["n"])], title="t")
+    heights = [
+        next(float(e.attrib["y"]) for e in ElementTree.fromstring(d).iter(f"{SVG}text") if e.text == "n")
+        for d in (below, above)
+    ]
+    assert heights[0] > heights[1]
+
+
+def test_a_stack_shares_its_axis() -> None:
+    drawn = stack(
+        Axis("Time", "ms", ends=(0.0, 8.0)),
+        [
+            Panel(Y, [Line([0, 8], [0, 1])], "one"),
+            Panel(Axis("Pressure", "bar"), [Line([0, 8], [4, 9])], "two"),
+        ],
+    )
+    one, two = ElementTree.fromstring(f"<r>{drawn}</r>")
+    ends = [[x for x, _ in points(svg.findall(f"{SVG}svg/{SVG}path")[0])] for svg in (one, two)]
+    assert ends[0] == ends[1]
+    titles = [["".join(e.itertext()) for e in svg.iter(f"{SVG}text")] for svg in (one, two)]
+    assert ["Time [ms]" in words for words in titles] == [False, True]
+
+
 def test_a_long_legend_names_first_and_last_and_counts_the_rest() -> None:
     marks = [Line([0, 1], [k, k], f"series {k}") for k in range(30)]
     words = texts(chart(X, Y, marks, title="t"))
@@ -89,6 +143,12 @@ def test_bars_are_as_long_as_their_values() -> None:
     widths = [float(e.attrib["width"]) for e in ElementTree.fromstring(drawing).iter(f"{SVG}rect")]
     assert widths[0] == pytest.approx(2 * widths[1], rel=1e-3)
     assert {"a", "b", "10 N", "5 N", "noise"} <= set(texts(drawing))
+
+
+def test_the_bar_that_matters_has_a_colour_of_its_own() -> None:
+    drawing = bars([Bar("a", 1.0, "1 %", strong=True), Bar("b", 2.0, "2 %")], axis="N", title="t")
+    one, two = (e.attrib["fill"] for e in ElementTree.fromstring(drawing).iter(f"{SVG}rect"))
+    assert one != two
 
 
 def test_bars_of_nothing_have_a_drawing() -> None:

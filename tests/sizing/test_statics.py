@@ -12,7 +12,7 @@ from mckibben.simulation import inverse
 from mckibben.simulation.static import StaticModel
 from mckibben.sizing import Task
 from mckibben.sizing.sheet import sheet_of
-from mckibben.sizing.statics import at_rest, least_time, outputs
+from mckibben.sizing.statics import AMPLE, at_rest, least_time, margins, outputs
 from mckibben.sizing.task import GRAVITY
 from mckibben.sizing.trial import Trial
 from mckibben.studio import Studio
@@ -125,3 +125,13 @@ def test_air_is_the_mass_that_fills_the_volume(studio: Studio) -> None:
     warm = gas.GAS_CONSTANT * 293.15
     mass = ((5e5 + 101_325.0) * rest.volume[0] - 101_325.0 * rest.volume_start[0]) / warm
     assert rest.air[0] == pytest.approx(mass / 1.185, rel=1e-9)
+
+
+def test_a_pair_without_torque_is_never_too_strong_at_rest(studio: Studio) -> None:
+    document = {"load": {"pair": {"angle": "40 deg"}}, "catalogue": {"muscles": ["DMSP-10"]}}
+    task, catalogue = understood(document, studio)
+    part, one = catalogue.muscles[0], np.array([1.0])
+    rest = at_rest(part, task.duties()[0], task, 0.3 * one, 5e5 * one, one)
+    left = margins(rest, part, task)["force_limit"]
+    assert np.isfinite(left).all()
+    assert left[0] > AMPLE

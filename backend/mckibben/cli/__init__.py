@@ -195,6 +195,13 @@ def simulate(
 @app.command()
 def size(
     task: Annotated[str, typer.Argument(metavar="TASK", help="A sizing task (JSON file).")],
+    report: Annotated[
+        Path | None, typer.Option("--report", metavar="FILE", help="Also write one drive as one HTML file.")
+    ] = None,
+    proposal: Annotated[
+        int | None, typer.Option("--proposal", min=1, help="Which drive the report is of; 1 is the best.")
+    ] = None,
+    title: Annotated[str, typer.Option("--title", help="Title of the report; else the task's.")] = "",
     as_json: AsJson = False,
     presets: PresetsFolder = None,
     effects: EffectsFolders = None,
@@ -202,9 +209,13 @@ def size(
 ) -> None:
     """From a task to ranked drives of the catalogue, and why not the others."""
     from mckibben.cli.options import open_studio
-    from mckibben.cli.size import run
+    from mckibben.cli.size import Wanted, run
 
-    run(open_studio(presets, effects, data), task=task, as_json=as_json)
+    if report is None and (proposal is not None or title):
+        option = "--title" if proposal is None else "--proposal"
+        raise InputError(f"{option} belongs to a report, and none is asked for", hint="--report FILE")
+    wanted = None if report is None else Wanted(report, proposal or 1, title)
+    run(open_studio(presets, effects, data), task=task, as_json=as_json, report=wanted)
 
 
 def one_line(error: InputError) -> str:

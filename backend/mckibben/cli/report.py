@@ -1,4 +1,4 @@
-"""``--report``: a diagnosis as an HTML file."""
+"""``--report``: a diagnosis or a sizing as an HTML file."""
 
 from __future__ import annotations
 
@@ -18,7 +18,15 @@ def write(path: Path, studio: Studio, question: Asked, diagnosis: Json) -> None:
     Raises:
         InputError: the file cannot be written.
     """
-    text = report_of(question, studio, Told(), diagnosis)
+    save(path, report_of(question, studio, Told(), diagnosis))
+
+
+def save(path: Path, text: str) -> None:
+    """Write a report that is ready, and say where.
+
+    Raises:
+        InputError: the file cannot be written.
+    """
     try:
         path.write_text(text, encoding="utf-8", newline="\n")
     except OSError as error:

@@ -88,7 +88,8 @@ def _bind(host: str, port: int | None) -> socket.socket:
         raise _unknown_host(host) from error
     wishes = range(DEFAULT_PORT, DEFAULT_PORT + _PORTS_TRIED) if port is None else [port]
     for wish in wishes:
-        listening = socket.socket(family, kind)
+        # With the protocol named, asyncio turns Nagle's algorithm off; else every answer waits 40 ms.
+        listening = socket.socket(family, kind, socket.IPPROTO_TCP)
         if os.name == "posix":
             # On Windows this would let two servers share a port.
             listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

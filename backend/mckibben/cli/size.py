@@ -4,36 +4,50 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
-from mckibben.api.answers.sizings import sizing_answer
+from mckibben.api.answers.sizings import Searched, searched
 from mckibben.api.answers.start import Json
 from mckibben.api.schemas.sizings import SizingTask
 from mckibben.cli.options import located
 from mckibben.cli.output import figure, remark, write_json, write_table
 from mckibben.physics.errors import InputError
-from mckibben.presets.reading import BadDocumentError, read_file
+from mckibben.presets import TaskPreset
+from mckibben.presets.reading import BadDocumentError, parse, read_file
 from mckibben.simulation.outcome import Watch
 from mckibben.studio import Studio
 
 _REJECTED_SHOWN = 12
 
 
-def run(studio: Studio, *, task: str, as_json: bool) -> None:
-    """Search, and print the proposals and the reasons against the rest, or the answer.
+@dataclass(frozen=True)
+class Wanted:
+    """A report to write: where, of which proposal (1 the best), under which title ("": the task's)."""
+
+    path: Path
+    proposal: int = 1
+    title: str = ""
+
+
+def run(studio: Studio, *, task: str, as_json: bool, report: Wanted | None = None) -> None:
+    """Search, print the proposals and the reasons against the rest, or the answer; write it down if asked.
 
     Raises:
         InputError: names the file, the field, what is wrong and what would be right.
     """
     try:
-        document = read_task(read_file(Path(task), follow_links=True))
-        answer = sizing_answer(document, studio, Watch(progress=_show if sys.stderr.isatty() else None))
+        document = read_task(_content(Path(task), studio))
+        search = searched(document, studio, Watch(progress=_show if sys.stderr.isatty() else None))
     except BadDocumentError as bad:
         finding = bad.findings[0]
         raise InputError(f"{task}: {located(finding.field, finding.message)}", hint=finding.hint) from bad
     except InputError as error:
         message = located(error.field, error.message).removesuffix(".")
         raise InputError(f"{task}: {message}", hint=error.hint) from error
+    answer = search.answer
+    if report is not None:
+        _write_report(search, studio, report)
     if as_json:
         write_json(answer)
     else:
@@ -42,6 +56,30 @@ def run(studio: Studio, *, task: str, as_json: bool) -> None:
         remark(item["message"])
     if answer["message"] is not None:
         remark(answer["message"])
+
+
+def _write_report(search: Searched, studio: Studio, wanted: Wanted) -> None:
+    from mckibben.api.answers.sizing_reports import report_of
+    from mckibben.cli.report import save
+
+    try:
+        text = report_of(search, studio, proposal=wanted.proposal, title=wanted.title)
+    except InputError as error:
+        message = error.message
+        if error.field == "proposal":
+            message = f"--proposal {wanted.proposal}: {message}"
+        raise InputError(message, hint=error.hint) from error
+    save(wanted.path, text)
+
+
+def _content(path: Path, studio: Studio) -> object:
+    """What a file says, or the document inside a preset file."""
+    content = read_file(path, follow_links=True)
+    if not isinstance(content, dict) or "kind" not in content:
+        return content
+    preset = parse(TaskPreset, content, studio.effect_table)
+    assert isinstance(preset, TaskPreset)  # noqa: S101 - it was parsed as one
+    return preset.document
 
 
 def _show(share: float) -> None:

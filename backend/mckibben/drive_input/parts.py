@@ -18,14 +18,10 @@ Part = ValvePreset | TubePreset | FittingPreset
 _DEFAULT_RATIO = 0.3
 
 
-# Figures of parts that enter a run.
-_ENTER = {
-    "sonic_conductance",
-    "exhaust_conductance",
-    "critical_pressure_ratio",
-    "inside_diameter",
-    "port_volume",
-}
+#: Figures of parts that enter a run.
+ENTERING = frozenset(
+    {"sonic_conductance", "exhaust_conductance", "critical_pressure_ratio", "inside_diameter", "port_volume"}
+)
 
 
 def unverified_of(part: Part, *, with_effects: bool) -> tuple[str, ...]:
@@ -35,7 +31,7 @@ def unverified_of(part: Part, *, with_effects: bool) -> tuple[str, ...]:
         for path, quantity in quantities(part)
         if not quantity.verified
         and (
-            (path.startswith("data.") and path.removeprefix("data.") in _ENTER)
+            (path.startswith("data.") and path.removeprefix("data.") in ENTERING)
             or path.startswith("regulator.")
             or (with_effects and path.startswith("effects."))
         )
@@ -156,8 +152,11 @@ def load_of(given: LoadInput) -> Load:
     if arrangement == "lever" and given.lever_ratio is None:
         raise InputError("load.lever_ratio is missing", field="load.lever_ratio", hint="e.g. 0.5")
     if arrangement not in ("lever", None) and given.lever_ratio not in (None, 1.0):
+        article = "an" if arrangement[0] in "aeiou" else "a"
         raise InputError(
-            f"a {arrangement} load has no lever", field="load.lever_ratio", hint='"arrangement": "lever"'
+            f"{article} {arrangement} load has no lever",
+            field="load.lever_ratio",
+            hint='"arrangement": "lever"',
         )
     force = given.force
     if isinstance(force, Mapping):

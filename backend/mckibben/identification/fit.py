@@ -16,7 +16,10 @@ _UNDETERMINED = 1e10  # condition number of the scaled normal matrix beyond whic
 
 @dataclass(frozen=True, slots=True)
 class Free:
-    """A free parameter: name, start, bounds, SI unit, the value at which it does nothing, a usual change."""
+    """A free parameter: name, start, bounds, SI unit, the value at which it does nothing, a usual change.
+
+    ``natural`` bounds are where its definition ends.
+    """
 
     name: str
     start: float
@@ -25,6 +28,7 @@ class Free:
     unit: str
     off: float | None = None
     usual: float | None = None
+    natural: bool = False
 
     @property
     def typical(self) -> float:

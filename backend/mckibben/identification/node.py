@@ -72,10 +72,14 @@ class Node:
 
     @cached_property
     def at_bound(self) -> np.ndarray:
-        """Which free numbers ended at a bound of what is plausible and still do something, mask."""
+        """Which free numbers ended at a bound of what is plausible and still do something, mask.
+
+        Where a bound is the end of the definition, as of a share, a value there is plausible.
+        """
         span = np.array([p.upper - p.lower for p in self.free])
         gap = np.array([min(p.start - p.lower, p.upper - p.start) for p in self.free])
-        return (gap <= _AT_BOUND * span) & ~self.idle
+        natural = np.array([p.natural for p in self.free], dtype=bool)
+        return (gap <= _AT_BOUND * span) & ~self.idle & ~natural
 
     @cached_property
     def implausible(self) -> int:

@@ -24,6 +24,9 @@ from mckibben.identification.node import Node, counts
 LEAST_SCORE = 8.0
 #: An addition must lower the rms error by this share, else it is not worth a number.
 LEAST_GAIN = 0.02
+#: The same where the error is within 15 % of the noise: what is left there may be the form of a right effect.
+LEAST_GAIN_AT_FLOOR = 0.05
+_AT_FLOOR = 1.15  # of the noise
 _BELOW_FLOOR = 0.5  # errors below this share of the noise are luck
 
 
@@ -70,5 +73,6 @@ def better(after: Node, before: Node, *, rows: float, noise: float | None) -> bo
     if after.implausible > before.implausible:
         return False
     gain = 1.0 - after.rmse / before.rmse if before.rmse > 0.0 else 0.0
+    least = LEAST_GAIN_AT_FLOOR if before.rmse < _AT_FLOOR * (noise or 0.0) else LEAST_GAIN
     drop = score(before, rows=rows, noise=noise) - score(after, rows=rows, noise=noise)
-    return gain > LEAST_GAIN and drop > LEAST_SCORE
+    return gain > least and drop > LEAST_SCORE

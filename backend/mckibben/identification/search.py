@@ -15,6 +15,7 @@ import numpy as np
 from mckibben.identification.fits import Fits
 from mckibben.identification.node import Node
 from mckibben.identification.score import LEAST_SCORE, better, effective_rows, score
+from mckibben.physics.effect import Effect
 
 _BEAM = 4
 _TRIED = 8  # candidates fitted per model, by what they promise to first order
@@ -22,7 +23,7 @@ _PATIENCE = 2  # rounds without a better model
 _ALIKE = 0.02  # of the mean square: models whose residuals differ by less go on as one
 _DEEPEST = 7  # effects added
 _AT_FLOOR = 1.05  # of the noise: below, nothing more can be learnt
-_WITHIN = 1.3  # of the best error, near the floor
+_WITHIN = 1.15  # of the best error, near the floor
 
 
 def search(work: Fits, root: Node, *, singles: Sequence[Node]) -> Node:
@@ -47,8 +48,13 @@ def search(work: Fits, root: Node, *, singles: Sequence[Node]) -> Node:
         if _at_floor(work, first) and better(first, best, rows=_rows(work, first), noise=work.noise):
             best = first
             break
-        beam = _different([with_further_constants(work, node) for node in children[: 2 * _BEAM]])[:_BEAM]
+        beam = [
+            with_further_constants(work, node, node.setting.effects[-1:]) for node in children[: 2 * _BEAM]
+        ]
+        beam = _different(beam)[:_BEAM]
         leader = min(beam, key=lambda node: (node.implausible > 0, score(node, rows=rows, noise=work.noise)))
+        whole = with_further_constants(work, leader)
+        beam, leader = [whole if node is leader else node for node in beam], whole
         idle += 1
         if better(leader, best, rows=_rows(work, leader), noise=work.noise):
             best, idle = leader, 0
@@ -67,11 +73,11 @@ def search(work: Fits, root: Node, *, singles: Sequence[Node]) -> Node:
     return _polished(work, best, root)
 
 
-def with_further_constants(work: Fits, node: Node) -> Node:
-    """The node with further constants of its effects freed where that earns its price."""
+def with_further_constants(work: Fits, node: Node, effects: Sequence[Effect] | None = None) -> Node:
+    """The node with further constants freed where that earns its price: of some effects, or of all."""
     if _at_floor(work, node):
         return node
-    for effect in node.setting.effects:
+    for effect in node.setting.effects if effects is None else effects:
         others = [
             n for n in work.freeing(node, effect) if better(n, node, rows=_rows(work, n), noise=work.noise)
         ]
@@ -79,6 +85,11 @@ def with_further_constants(work: Fits, node: Node) -> Node:
             rows = _rows(work, min(others, key=lambda n: n.rmse))
             node = min(others, key=lambda n: score(n, rows=rows, noise=work.noise))
     return node
+
+
+def exchanged(work: Fits, less: Node, effect: Effect) -> Node:
+    """A model with another effect in the place of one that was dropped."""
+    return with_further_constants(work, work.adding(less, effect), [effect])
 
 
 def _polished(work: Fits, best: Node, root: Node) -> Node:
@@ -91,15 +102,15 @@ def _polished(work: Fits, best: Node, root: Node) -> Node:
             if effect_id in start:
                 continue
             less = work.dropping(best, effect_id)
-            if not better(best, less, rows=rows, noise=work.noise):
+            needed = better(best, less, rows=rows, noise=work.noise)
+            if not needed and less.implausible <= best.implausible:
                 best = less
                 break
             if _at_floor(work, best):
                 continue
             inside = set(best.setting.ids)
             others = [effect for effect in work.candidates if effect.id not in inside]
-            swaps = [work.adding(less, effect) for effect in work.promising(less, others)[:_BEAM]]
-            swaps = [with_further_constants(work, node) for node in swaps]
+            swaps = [exchanged(work, less, effect) for effect in work.promising(less, others)[:_BEAM]]
             here = score(best, rows=rows, noise=work.noise)
             found = min(swaps, key=lambda node: score(node, rows=rows, noise=work.noise), default=best)
             if score(found, rows=rows, noise=work.noise) < here - LEAST_SCORE:

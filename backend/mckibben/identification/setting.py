@@ -113,7 +113,7 @@ def free_numbers(
 
 def _free(effect: str, p: Parameter, value: float) -> Free:
     usual = abs(p.default) if p.off is None else abs(p.default - p.off)
-    return Free(f"{effect}.{p.name}", value, p.lower, p.upper, p.unit, p.off, usual or None)
+    return Free(f"{effect}.{p.name}", value, p.lower, p.upper, p.unit, p.off, usual or None, p.natural)
 
 
 def free_geometry(muscle: Muscle, names: Iterable[str], tolerance: Mapping[str, float]) -> tuple[Free, ...]:

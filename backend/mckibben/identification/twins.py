@@ -9,7 +9,7 @@ import numpy as np
 
 from mckibben.identification.fits import Fits
 from mckibben.identification.node import Node
-from mckibben.identification.search import with_further_constants
+from mckibben.identification.search import exchanged
 
 #: Fitted predictions that differ by less than this share of the noise are the same prediction: data of
 #: another functional form than ours differ from the best fit by as much.
@@ -48,7 +48,7 @@ def alternatives(work: Fits, best: Node, added: Sequence[str], noise: float) -> 
         own = next(effect for effect in best.setting.effects if effect.id == effect_id)
         mine = work.changes(less, own)
         for effect in work.promising(less, others)[:_TRIED]:
-            node = with_further_constants(work, work.adding(less, effect))
+            node = exchanged(work, less, effect)
             difference = float(np.sqrt(np.mean((node.residual - best.residual) ** 2))) / noise
             cosine = _cosine(mine, work.changes(less, effect))
             parallel = abs(cosine) > _COSINE and node.rmse <= _AS_GOOD * best.rmse

@@ -44,6 +44,7 @@ _LONGEST_NAME = 64
 _USABLE = re.compile(r"[A-Za-z0-9_+\-*/^().,\s]*")
 # What symengine writes for a number that is not finite or not real.
 _UNREAL = re.compile(r"\b(zoo|nan|oo|inf|I)\b")
+_QUOTES = {"'": "a single quote", '"': "a double quote"}
 # Names with another meaning: what the effect's functions are given, its state, and the term itself.
 _TAKEN = {*SLOTS["friction"].context, "elapsed", TERM}
 _LARGEST = 1e12  # SI; bounds of a parameter whose size nobody stated
@@ -69,7 +70,7 @@ def custom_effect(term: str, given: Mapping[str, float] | None = None) -> Effect
     if len(term) > _LONGEST:
         raise _error(f"the term has {len(term)} characters, at most {_LONGEST}")
     if odd := term[_USABLE.match(term).end() :]:  # type: ignore[union-attr] - it matches the empty text
-        raise _error(f"'{odd[0]}' cannot be part of a term", hint=_ALLOWED)
+        raise _error(f"{_named(odd[0])} cannot be part of a term", hint=_ALLOWED)
     try:
         tree = ast.parse(term.strip().replace("^", "**"), mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
@@ -243,6 +244,12 @@ def _call(node: ast.Call, names: dict[str, None], depth: int) -> _Make:
         return lambda known: _sign(inner(known))
     inner, function = _node(node.args[0], names, depth + 1), FUNCTIONS[name]
     return lambda known: function(inner(known))
+
+
+def _named(character: str) -> str:
+    if not character.isprintable():
+        return f"the character U+{ord(character):04X}"
+    return _QUOTES.get(character, f"'{character}'")
 
 
 def _sign(value: Value) -> Value:

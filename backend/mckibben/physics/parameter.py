@@ -50,6 +50,8 @@ class Parameter:
         description: what it is, one sentence.
         off: the value at which the effect vanishes, or None when this parameter alone cannot switch it off.
         fitted: whether a fit frees it by default (a second constant of the same law usually is not).
+        natural: whether the bounds are where the definition ends, as those of a share; a fit that ends at one
+            is then no sign of an implausible value.
     """
 
     name: str
@@ -62,6 +64,7 @@ class Parameter:
     description: str
     off: float | None = None
     fitted: bool = True
+    natural: bool = False
 
     def __post_init__(self) -> None:
         if not self.name.isidentifier():

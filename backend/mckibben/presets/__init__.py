@@ -1,4 +1,4 @@
-"""Presets: muscles, valves, tubes, fittings, curves, measurements, designs, drives, mysteries.
+"""Presets: muscles, valves, tubes, fittings, curves, measurements, designs, drives, tasks, mysteries.
 
 Each is one JSON file. Every physical value carries its unit, source and grade. A file that cannot be used
 becomes a `Problem` and the others still load.
@@ -13,6 +13,7 @@ from mckibben.presets.schema import (
     FittingPreset,
     MusclePreset,
     Preset,
+    TaskPreset,
     TubePreset,
     ValvePreset,
 )
@@ -30,6 +31,7 @@ __all__ = [
     "PresetLibrary",
     "Problem",
     "Quantity",
+    "TaskPreset",
     "TubePreset",
     "ValvePreset",
 ]

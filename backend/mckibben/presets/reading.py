@@ -22,6 +22,7 @@ from mckibben.presets.schema import (
     FittingPreset,
     MusclePreset,
     Preset,
+    TaskPreset,
     TubePreset,
     ValvePreset,
 )
@@ -41,6 +42,7 @@ KINDS: dict[str, type[Preset]] = {
     "curves": CurvePreset,
     "designs": DesignPreset,
     "drives": DrivePreset,
+    "tasks": TaskPreset,
     "mysteries": MysteryPreset,
 }
 

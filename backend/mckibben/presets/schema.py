@@ -248,12 +248,14 @@ class PaperFigures(Strict):
     excluded: dict[FigureName, Text] = Field(default_factory=dict)
 
 
-class DrivePreset(Preset):
-    """A drive document to start from; its content is checked by the API that runs it."""
+class _DocumentPreset(Preset):
+    """A document of the API to start from; its content is checked by the API that takes it.
 
-    kind: Literal["drive"]
+    Attributes:
+        grounds: where its values come from, by their path in the document.
+    """
+
     document: dict[str, Any]
-    paper: PaperFigures | None = None
     grounds: dict[FigureName, Ground] = Field(default_factory=dict)
 
     @property
@@ -262,3 +264,16 @@ class DrivePreset(Preset):
         return super().verified and all(
             ground.grade not in UNVERIFIED_GRADES for ground in self.grounds.values()
         )
+
+
+class DrivePreset(_DocumentPreset):
+    """A drive document to start from; its content is checked by the API that runs it."""
+
+    kind: Literal["drive"]
+    paper: PaperFigures | None = None
+
+
+class TaskPreset(_DocumentPreset):
+    """A sizing task to start from; its content is checked by the API that sizes drives for it."""
+
+    kind: Literal["task"]

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mckibben.report.chart import ACCENT, EDGE, GRID, INK, SECOND, SOFT, label, text, ticks
+from mckibben.report.chart import label, text, ticks
 from mckibben.report.html import Html, tag
+from mckibben.report.marks import ACCENT, EDGE, GRID, INK, SECOND, SOFT
 
 _ROW, _TOP, _BOTTOM, _RIGHT = 27.0, 20.0, 42.0, 86.0
 _LETTER = 6.3  # width of a letter of the names
@@ -14,13 +15,16 @@ _LETTER = 6.3  # width of a letter of the names
 
 @dataclass(frozen=True)
 class Bar:
-    """A bar; ``tick`` is a second value marked on it, ``pale`` one that is only proposed."""
+    """A bar; ``tick`` is a second value marked on it, ``pale`` one that is only proposed, ``strong`` the one
+    that matters most.
+    """
 
     name: str
     value: float
     shown: str
     tick: float | None = None
     pale: bool = False
+    strong: bool = False
 
 
 def bars(
@@ -58,10 +62,11 @@ def bars(
         parts.append(
             tag(
                 "rect", x=f"{left:.1f}", y=f"{y + 5:g}", width=f"{long:.1f}", height=f"{_ROW - 10:g}",
-                fill="#a9c5ea" if row.pale else ACCENT,
+                fill="#a9c5ea" if row.pale else SECOND if row.strong else ACCENT,
             )
         )  # fmt: skip
-        parts.append(text(row.name, left - 8.0, y + 17.5, anchor="end", colour=INK))
+        colour = SECOND if row.strong else INK
+        parts.append(text(row.name, left - 8.0, y + 17.5, anchor="end", colour=colour))
         furthest = row.value
         if row.tick is not None:
             furthest = max(furthest, row.tick)
@@ -69,7 +74,7 @@ def bars(
             parts.append(
                 tag("line", x1=x, x2=x, y1=f"{y + 2:g}", y2=f"{y + _ROW - 2:g}", stroke=INK, stroke_width=2)
             )
-        parts.append(text(row.shown, at(furthest) + 7.0, y + 17.5, colour=INK))
+        parts.append(text(row.shown, at(furthest) + 7.0, y + 17.5, colour=colour))
     parts.append(tag("line", x1=f"{left:.1f}", x2=f"{left:.1f}", y1=_TOP, y2=f"{bottom:g}", stroke=EDGE))
     if level is not None:
         x = f"{at(level[0]):.1f}"

@@ -11,64 +11,26 @@ from numpy.typing import ArrayLike, NDArray
 
 from mckibben.report.figures import plain
 from mckibben.report.html import Html, html, tag
+from mckibben.report.marks import (
+    EDGE,
+    GRID,
+    INK,
+    SOFT,
+    Axis,
+    Band,
+    Dots,
+    Line,
+    Mark,
+    Rule,
+)
 
-INK, SOFT, GRID, EDGE = "#17212b", "#4d5b6a", "#e4e9ee", "#8b98a6"
-ACCENT, SECOND = "#1257b8", "#b93815"
 # Viridis without its bright end: the lightness alone tells the order.
 _FAMILY = ((34, 154, 136), (33, 131, 141), (45, 106, 142), (61, 78, 138), (71, 45, 123), (66, 4, 84))
-_RIGHT, _TOP, _BOTTOM = 12.0, 10.0, 44.0
+_RIGHT, _TOP, _BOTTOM, _BARE = 12.0, 10.0, 44.0, 8.0
 _DIGIT = 6.9  # width of a digit of the ticks
+_LETTER, _CAP = 6.3, 8.0  # width and height of a letter of a name
 _LEGEND = 128.0
 _MOST_ENTRIES = 12
-
-
-@dataclass(frozen=True)
-class Axis:
-    """What an axis shows; ``zero``: it begins at (or reaches) zero."""
-
-    title: str
-    unit: str = ""
-    zero: bool = False
-
-    @property
-    def text(self) -> str:
-        """Title with unit."""
-        return f"{self.title} [{self.unit}]" if self.unit else self.title
-
-
-@dataclass(frozen=True)
-class Line:
-    """A curve; gaps where a value is not finite. ``label`` "" leaves it out of the legend."""
-
-    x: ArrayLike
-    y: ArrayLike
-    label: str = ""
-    colour: str = ACCENT
-    dash: str | None = None
-    width: float = 1.5
-
-
-@dataclass(frozen=True)
-class Dots:
-    """Measured points; a large ``size`` marks a single one, as an operating point."""
-
-    x: ArrayLike
-    y: ArrayLike
-    label: str = ""
-    colour: str = ACCENT
-    size: float = 3.0
-
-
-@dataclass(frozen=True)
-class Band:
-    """A range of y that is shaded over the whole width."""
-
-    low: float
-    high: float
-    label: str = ""
-
-
-Mark = Line | Dots | Band
 
 
 def family(count: int) -> list[str]:
@@ -103,6 +65,7 @@ def chart(
     height: float = 330.0,
     left: float | None = None,
     legend: bool | None = None,
+    room: float = _LEGEND,
 ) -> Html:
     """The drawing.
 
@@ -113,22 +76,25 @@ def chart(
         width, height: of the drawing; on the page it fills the width.
         left: where the axes begin, to have drawings below each other; None: as the labels need.
         legend: whether there is room for a legend; None: if a mark has a label.
+        room: width of the legend.
     """
     labelled = [mark for mark in marks if mark.label]
-    right = _RIGHT + (_LEGEND if (bool(labelled) if legend is None else legend) else 0.0)
-    heights = [[m.low, m.high] if isinstance(m, Band) else m.y for m in marks]
-    vertical = _Scale(*_range(y, heights, pad=0.04), height - _BOTTOM, _TOP)
+    right = _RIGHT + (room if (bool(labelled) if legend is None else legend) else 0.0)
+    heights = [[m.low, m.high] if isinstance(m, Band) else m.y for m in marks if not isinstance(m, Rule)]
+    foot = height - (_BARE if x.bare else _BOTTOM)
+    vertical = _Scale(*_range(y, heights, pad=0.04), foot, _TOP)
     begin = margin([label(v) for v in ticks(vertical.low, vertical.high, 5)]) if left is None else left
-    horizontal = _Scale(*_range(x, [m.x for m in marks if not isinstance(m, Band)]), begin, width - right)
+    horizontal = _Scale(*_range(x, [m.x for m in marks if isinstance(m, Line | Dots)]), begin, width - right)
     bands = [_band(mark, vertical, horizontal) for mark in marks if isinstance(mark, Band)]
     rest = [_mark(mark, horizontal, vertical) for mark in marks if not isinstance(mark, Band)]
-    box = (begin, _TOP, horizontal.end - begin, height - _BOTTOM - _TOP)
+    box = (begin, _TOP, horizontal.end - begin, foot - _TOP)
     return tag(
         "svg",
         tag("title", title),
         _clipped(box, bands),
         _grid(x, y, horizontal, vertical),
         _clipped(box, rest),
+        [_names(mark, horizontal, vertical) for mark in marks if isinstance(mark, Dots) and mark.names],
         _legend(labelled, horizontal.end + 14.0),
         viewBox=f"0 0 {width:g} {height:g}",
         role="img",
@@ -157,6 +123,8 @@ def _numbers(values: ArrayLike) -> NDArray[np.float64]:
 
 
 def _range(axis: Axis, values: Sequence[ArrayLike], pad: float = 0.02) -> tuple[float, float]:
+    if axis.ends is not None:
+        return axis.ends
     found = [numbers[np.isfinite(numbers)] for numbers in map(_numbers, values)]
     joined = np.concatenate([*found, [0.0]] if axis.zero or not any(map(len, found)) else found)
     low, high = float(np.min(joined)), float(np.max(joined))
@@ -178,7 +146,9 @@ def _band(band: Band, y: _Scale, x: _Scale) -> Html:
     )  # fmt: skip
 
 
-def _mark(mark: Line | Dots, x: _Scale, y: _Scale) -> Html:
+def _mark(mark: Line | Dots | Rule, x: _Scale, y: _Scale) -> Html:
+    if isinstance(mark, Rule):
+        return _rule(mark, x.at(mark.x), y.end, y.begin)
     across, up = x.all(mark.x), y.all(mark.y)
     steps, pen = [], "M"
     for a, b in zip(across.tolist(), up.tolist(), strict=True):
@@ -190,6 +160,33 @@ def _mark(mark: Line | Dots, x: _Scale, y: _Scale) -> Html:
             steps.append(f"{pen}{a:.1f} {b:.1f}")
             pen = "L"
     return _path("".join(steps), mark)
+
+
+def _rule(mark: Rule, at: float, top: float, bottom: float) -> Html:
+    return tag(
+        "path", d=f"M{at:.1f} {top:.1f}V{bottom:.1f}", stroke=mark.colour, stroke_dasharray=mark.dash,
+        stroke_width=1.2, fill="none",
+    )  # fmt: skip
+
+
+def _names(mark: Dots, x: _Scale, y: _Scale) -> Html:
+    """Names at the right of the dots, or at the left near the right end."""
+    across, up = x.all(mark.x), y.all(mark.y)
+    away = 0.5 * mark.size + 3.0
+    parts = []
+    for a, b, words in zip(across.tolist(), up.tolist(), mark.names, strict=True):
+        left = a + away + _LETTER * len(words) > x.end
+        place = a - away if left else a + away
+        height = b + away + _CAP if mark.below else b - away
+        anchor = "end" if left else "start"
+        # Lines below do not cross the letters: they have a white edge.
+        parts += [
+            tag(
+                "text", words, x=f"{place:.1f}", y=f"{height:.1f}", text_anchor=anchor, fill=INK,
+                stroke="#fff", stroke_width=3, paint_order="stroke", stroke_linejoin="round",
+            )
+        ]  # fmt: skip
+    return html(parts)
 
 
 def _path(course: str, mark: Line | Dots) -> Html:
@@ -206,7 +203,7 @@ def _path(course: str, mark: Line | Dots) -> Html:
 
 def _grid(x: Axis, y: Axis, across: _Scale, up: _Scale) -> Html:
     parts: list[Html] = []
-    for value in ticks(across.low, across.high, 7):
+    for value in [] if x.bare else ticks(across.low, across.high, 7):
         a = f"{across.at(value):.1f}"
         parts.append(tag("line", x1=a, x2=a, y1=f"{up.begin:g}", y2=f"{up.begin + 4:g}", stroke=EDGE))
         parts.append(text(label(value), a, up.begin + 17.0, anchor="middle"))
@@ -227,7 +224,8 @@ def _grid(x: Axis, y: Axis, across: _Scale, up: _Scale) -> Html:
     frame = f"M{across.begin:g} {up.end:g}V{up.begin:g}H{across.end:g}"
     parts.append(tag("path", d=frame, stroke=EDGE, fill="none"))
     middle, centre = 0.5 * (across.begin + across.end), 0.5 * (up.begin + up.end)
-    parts.append(text(x.text, middle, up.begin + 36.0, anchor="middle", colour=INK))
+    if not x.bare:
+        parts.append(text(x.text, middle, up.begin + 36.0, anchor="middle", colour=INK))
     turned = f"rotate(-90 14 {centre:.1f})"
     parts.append(text(y.text, 14.0, centre, anchor="middle", colour=INK, transform=turned))
     return html(parts)
@@ -273,6 +271,8 @@ def _legend(marks: Sequence[Mark], left: float) -> Html:
                 parts.append(tag("rect", x=left, y=f"{y - 5:g}", width=20, height=10, fill=GRID))
             elif isinstance(mark, Dots):
                 parts.append(_path(f"M{left + 10:g} {y:g}h0", mark))
+            elif isinstance(mark, Rule):
+                parts.append(_rule(mark, left + 10.0, y - 7.0, y + 7.0))
             else:
                 parts.append(_path(f"M{left:g} {y:g}h20", mark))
         parts.append(text(name, left + 26.0, y + 4.0, colour=INK))

@@ -11,7 +11,7 @@ from mckibben.report.html import Child, Html, html, tag
 from mckibben.report.style import CSS
 
 Tone = Literal["plain", "good", "warn", "bad"]
-_SHORT = 14  # rows of a table that is not broken between pages
+_SHORT = 20  # rows of a table that is not broken between pages
 # Nothing is loaded and nothing runs, whatever a text of a user should turn out to be.
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
 
@@ -63,22 +63,38 @@ def document(
 
 @dataclass(frozen=True)
 class Column:
-    """A column of a table; numbers stand at the right."""
+    """A column of a table; numbers stand at the right, a wide one is not squeezed by its neighbours."""
 
     title: Child
     number: bool = False
+    wide: bool = False
+
+    @property
+    def kind(self) -> str | None:
+        """Class of its cells."""
+        return "number" if self.number else "wide" if self.wide else None
 
 
-def table(columns: Sequence[Column], rows: Iterable[Sequence[Child]], *, caption: Child = None) -> Html:
-    """A table whose head is repeated on every printed page."""
-    kinds = ["number" if column.number else None for column in columns]
+def table(
+    columns: Sequence[Column], rows: Iterable[Sequence[Child]], *, caption: Child = None, whole: bool = True
+) -> Html:
+    """A table whose head is repeated on every printed page.
+
+    Args:
+        columns: heads, and how their cells are set.
+        rows: of cells.
+        caption: above it.
+        whole: whether a short one stays on one page; not where its cells are long.
+    """
+    kinds = [column.kind for column in columns]
     head = tag("tr", [tag("th", c.title, class_=k, scope="col") for c, k in zip(columns, kinds, strict=True)])
     body = [
         tag("tr", [tag("td", cell, class_=k) for cell, k in zip(row, kinds, strict=True)]) for row in rows
     ]
     top = None if caption is None else tag("caption", caption)
-    short = "short" if len(body) <= _SHORT else None
-    return tag("table", top, tag("thead", head), tag("tbody", body), class_=short)
+    short = "short" if whole and len(body) <= _SHORT else None
+    whole_table = tag("table", top, tag("thead", head), tag("tbody", body), class_=short)
+    return tag("div", whole_table, class_="scroll")  # a narrow screen moves the table, not the page
 
 
 def facts(pairs: Iterable[tuple[Child, Child]]) -> Html:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from mckibben.report.chart import EDGE, INK, SOFT, Axis, label, margin, text
+from mckibben.report.chart import label, margin, text
 from mckibben.report.figures import plain
 from mckibben.report.html import Html, tag
+from mckibben.report.marks import EDGE, INK, SOFT, Axis
 
 _LOW, _ZERO, _HIGH = (33, 102, 172), (247, 247, 247), (178, 24, 43)
 _TOP, _BOTTOM, _CELL = 8.0, 44.0, 26.0

@@ -1,7 +1,8 @@
 """The look of a report: light, one column, prints on A4."""
 
 CSS = """
-@page { size: A4; margin: 16mm 15mm 17mm; }
+@page { size: A4; margin: 16mm 15mm 17mm;
+  @bottom-right { content: counter(page) " / " counter(pages); font: 8pt sans-serif; color: #4d5b6a; } }
 :root { color-scheme: light; --ink: #17212b; --soft: #4d5b6a; --line: #d5dce3; --tint: #f3f5f8;
   --accent: #1257b8; --good: #0c6b40; --good-tint: #e5f4ec; --warn: #7d4e00; --warn-tint: #fdf2dc;
   --bad: #ad1f1f; --bad-tint: #fcebea; }
@@ -27,7 +28,7 @@ li { margin: 2px 0; overflow-wrap: anywhere; }
 .good { border-color: var(--good); background: var(--good-tint); }
 .warn { border-color: #b97700; background: var(--warn-tint); }
 .bad { border-color: var(--bad); background: var(--bad-tint); }
-.tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(150px, 1fr));
+.tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(126px, 1fr));
   gap: 10px; margin: 12px 0; }
 .tile { border: 1px solid var(--line); border-radius: 6px; padding: 8px 12px; }
 .tile small { display: block; color: var(--soft); font-size: 12px; }
@@ -41,6 +42,7 @@ th, td { padding: 4px 8px; border-bottom: 1px solid var(--line); vertical-align:
 th { font-weight: 600; border-bottom-color: #8b98a6; vertical-align: bottom; }
 th.number, td.number { text-align: right; }
 td.number { white-space: nowrap; }
+td.wide { min-width: 15em; }
 .mark { color: var(--warn); font-weight: 600; }
 figure { margin: 10px 0 14px; }
 figcaption { color: var(--soft); font-size: 12.5px; }
@@ -52,13 +54,24 @@ code { overflow-wrap: anywhere; }
 .hash { font-size: 11px; color: var(--soft); }
 pre { background: var(--tint); padding: 8px 12px; white-space: pre-wrap;
   overflow-wrap: anywhere; margin: 6px 0; }
+.scroll { overflow-x: auto; }
+@media screen and (max-width: 700px) {
+  body { padding: 18px 14px 40px; }
+  figure { overflow-x: auto; }
+  figure svg { min-width: 560px; }
+  dl { grid-template-columns: 1fr; }
+  dd { margin-bottom: 4px; }
+}
 @media print {
-  body { padding: 0; max-width: none; font-size: 10.5pt; }
+  body { padding: 0; max-width: none; font-size: 9.5pt; }
+  table, .note, caption, figcaption { font-size: 8.5pt; }
+  .tile strong { font-size: 17px; }
   section { margin-top: 20px; }
   h2, h3, caption { break-after: avoid; }
-  figure, .callout, .tiles, tr, .equation, dl { break-inside: avoid; }
+  figure, .callout, .tiles, tr, .equation, .whole, dl, li { break-inside: avoid; }
   table.short { break-inside: avoid; }
   thead { display: table-header-group; }
+  .scroll { overflow: visible; }
   .callout, .equation, pre, svg { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 }
 """

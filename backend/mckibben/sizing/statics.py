@@ -20,6 +20,7 @@ Array = np.ndarray
 
 # Life of a fluidic muscle, "100 000 to 10 million load cycles depending on load": general knowledge.
 _LONGEST_LIFE, _LIFE_DECADES = 1e7, 2.0
+_NO_FORCE = 1e-9  # N
 #: More than enough of something that is not limited.
 AMPLE = 1e3
 
@@ -165,12 +166,15 @@ def margins(rest: Rest, part: MusclePart, task: Task) -> dict[str, Array]:
     stiffness = none
     if limits.stiffness is not None:
         stiffness = rest.stiffness / limits.stiffness - 1.0
+    tension = none
+    if part.limits.max_force is not None:  # a pair without a torque has nothing to pull at rest
+        tension = part.limits.max_force / np.maximum(rest.tension, _NO_FORCE) - 1.0
     return {
         "length": limits.max_length / (rest.length + limits.end_fittings) - 1.0,
         "pressure": task.available_pressure / rest.pressure - 1.0,
         "contraction": most / rest.contraction - 1.0,
         "force": rest.capacity / (1.0 + limits.force_reserve) - 1.0,
-        "force_limit": none if part.limits.max_force is None else part.limits.max_force / rest.tension - 1.0,
+        "force_limit": tension,
         "diameter": none if limits.max_diameter is None else limits.max_diameter / rest.diameter - 1.0,
         "stiffness": stiffness,
         "life": none if limits.life is None else rest.life / limits.life - 1.0,

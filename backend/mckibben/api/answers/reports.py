@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import json
-import platform
 import shlex
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from datetime import datetime
-from importlib.metadata import version
 from typing import NamedTuple
 
-from mckibben import __version__
 from mckibben.api.answer import to_json
 from mckibben.api.answers.asked import Asked
 from mckibben.api.answers.comparisons import comparison_answer
 from mckibben.api.answers.diagnoses import prepare as prepare_diagnosis
 from mckibben.api.answers.measured import Points
 from mckibben.api.answers.measurements import measurement_answer
+from mckibben.api.answers.programs import versions
 from mckibben.api.answers.start import Json
 from mckibben.identification.setting import LOAD
 from mckibben.muscle_input import GivenMuscle, PresetFacts
@@ -87,12 +85,7 @@ def report_of(asked: Asked, studio: Studio, told: Told, diagnosis: Json | None) 
         Material(
             title=told.title.strip() or ", ".join(names),
             made=datetime.now().astimezone(),
-            versions={
-                "mckibben": __version__,
-                "Python": platform.python_version(),
-                # Asked of their packages: importing scipy would delay the start of the server.
-                **{name: version(name) for name in ("numpy", "scipy")},
-            },
+            versions=versions(),
             sources=parts,
             muscle=_muscle_facts(asked, studio, known),
             catalogue=catalogue,

@@ -30,7 +30,7 @@ def prepare(request: SimulationRequest, studio: Studio) -> Callable[[Watch], Jso
         InputError: the drive or the window cannot be used; its field begins with ``drive`` where it is
             the drive's.
     """
-    with _inside("drive"):
+    with inside("drive"):
         document = request.drive
         if isinstance(document, str):
             document = preset_document(document, studio)
@@ -46,7 +46,7 @@ def prepare(request: SimulationRequest, studio: Studio) -> Callable[[Watch], Jso
     grid = grid_of(duration=document.duration, begin=begin, end=end, points=request.points)
 
     def work(watch: Watch) -> Json:
-        with _inside("drive"):
+        with inside("drive"):
             return simulation_answer(given, grid, watch)
 
     return work
@@ -99,7 +99,7 @@ def read_document(document: object, subject: str) -> DriveDocument:
 
 
 @contextmanager
-def _inside(part: str) -> Iterator[None]:
+def inside(part: str) -> Iterator[None]:
     """Errors inside name their field within this part of the request."""
     try:
         yield

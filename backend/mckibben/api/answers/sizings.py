@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from mckibben.api.answers.sizing_task import catalogue_of, task_of
 from mckibben.api.answers.start import Json, flag
 from mckibben.api.schemas.sizings import SizingTask
 from mckibben.simulation.outcome import Outcome, Watch
-from mckibben.sizing import Design, Proposal, Rejection, Sizing, Task, size
+from mckibben.sizing import Catalogue, Design, Proposal, Rejection, Sizing, Task, size
 from mckibben.sizing.catalogue import switch_on
 from mckibben.sizing.ranking import front_of
 from mckibben.sizing.trial import Trial
@@ -23,26 +24,49 @@ _MESSAGES = {
 _TIME_LIMIT = 30.0  # s; a search is many runs
 
 
+@dataclass(frozen=True)
+class Searched:
+    """A task, what may be used for it, what was found, and the answer that tells it."""
+
+    document: SizingTask
+    task: Task
+    catalogue: Catalogue
+    found: Sizing
+    answer: Json
+
+
 def prepare_sizing(document: SizingTask, studio: Studio) -> Callable[[Watch], Json]:
     """The search a task means, ready to start.
 
     Raises:
         InputError: the task cannot be used; names the field.
     """
+    search = prepare_search(document, studio)
+    return lambda watch: search(watch).answer
+
+
+def prepare_search(document: SizingTask, studio: Studio) -> Callable[[Watch], Searched]:
+    """As `prepare_sizing`, with everything the answer was made of."""
     task, catalogue = task_of(document), catalogue_of(document, studio)
 
-    def work(watch: Watch) -> Json:
+    def work(watch: Watch) -> Searched:
         watch.time_limit = max(watch.time_limit, _TIME_LIMIT)
         began = time.perf_counter()
         found = size(task, catalogue, watch)
-        return answer_of(found, task, document, (time.perf_counter() - began) * 1e3)
+        answer = answer_of(found, task, document, (time.perf_counter() - began) * 1e3)
+        return Searched(document, task, catalogue, found, answer)
 
     return work
 
 
+def searched(document: SizingTask, studio: Studio, watch: Watch | None = None) -> Searched:
+    """Make the search of a task; raises like `prepare_sizing`."""
+    return prepare_search(document, studio)(watch or Watch())
+
+
 def sizing_answer(document: SizingTask, studio: Studio, watch: Watch | None = None) -> Json:
     """Search and tell what was found; raises like `prepare_sizing`."""
-    return prepare_sizing(document, studio)(watch or Watch())
+    return searched(document, studio, watch).answer
 
 
 def answer_of(found: Sizing, task: Task, document: SizingTask, wall_ms: float) -> Json:

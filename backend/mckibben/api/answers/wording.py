@@ -6,6 +6,8 @@ from collections.abc import Mapping
 
 from mckibben.identification.diagnosis import Diagnosis
 
+_AT_FLOOR = 1.15  # of the noise: the error has reached it
+
 
 def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
     """What the verdict means, in one to three sentences."""
@@ -16,21 +18,20 @@ def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
     )
     before, after = scale * result.start.rmse, scale * result.best.rmse
     names = _joined([titles.get(name, name) for name in result.added])
-    falls = f"The error falls from {before:.3g} to {after:.3g} {unit}"
-    floor = "" if result.noise is None or scaled else f"; the noise is {scale * result.noise:.3g} {unit}"
+    noise = None if result.noise is None or scaled else scale * result.noise
+    level = "" if noise is None else f"{noise:.3g} {unit}"
     if result.status == "adequate":
-        return f"Nothing is missing: the error of {after:.3g} {unit} is noise{floor}."
+        of_noise = f"is of the size of the noise ({level})" if level else "is noise"
+        return f"Nothing is missing: the error of {before:.3g} {unit} {of_noise}."
+    share = f"{100.0 * result.structure.share:.0f} %"
+    follows = f"follows {_joined([name for name, _ in result.structure.variables[:2]]) or 'a pattern'}"
+    if result.status == "unknown_effect" and not result.added:
+        return f"No catalogued effect explains the error of {before:.3g} {unit}: {share} of it {follows}."
+    at_floor = noise is not None and after <= _AT_FLOOR * noise
+    floor = f", the noise of the data ({level})" if at_floor else f"; the noise is {level}" if level else ""
+    text = f"Missing: {names}. With them the error falls from {before:.3g} to {after:.3g} {unit}{floor}."
     if result.status == "unknown_effect":
-        share = 100.0 * result.structure.share
-        variables = _joined([name for name, _ in result.structure.variables[:2]])
-        rest = (
-            f"{share:.0f} % of what remains still follows {variables or 'a pattern'}, and no catalogued "
-            "effect explains it"
-        )
-        if not result.added:
-            return f"No catalogued effect explains the error of {before:.3g} {unit}: {rest}."
-        return f"Missing: {names}. {falls}{floor}. {rest[0].upper()}{rest[1:]}."
-    text = f"Missing: {names}. {falls}{floor}."
+        return f"{text} No catalogued effect explains the rest: {share} of it {follows}."
     if result.status == "ambiguous":
         pairs = []
         for added in dict.fromkeys(other.of for other in result.alternatives):

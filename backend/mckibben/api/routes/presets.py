@@ -1,4 +1,4 @@
-"""Presets: muscles, valves, tubes, fittings, measurements, curves, designs."""
+"""Presets: muscles, valves, tubes, fittings, measurements, curves, designs, drives, tasks."""
 
 from __future__ import annotations
 

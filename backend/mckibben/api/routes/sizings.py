@@ -1,18 +1,23 @@
-"""Drives for a task."""
+"""Drives for a task, and one of them written down."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from fastapi import APIRouter, Request, Response
+from fastapi.concurrency import run_in_threadpool
+from fastapi.responses import HTMLResponse
 
 from mckibben.api.answer import JsonAnswer, StrictRoute
+from mckibben.api.answers.sizing_reports import prepare_report
 from mckibben.api.answers.sizings import prepare_sizing
 from mckibben.api.context import StudioDep
 from mckibben.api.long_work import events, finished, wants_events
 from mckibben.api.schemas.common import errors
+from mckibben.api.schemas.reports import ReportAnswer
 from mckibben.api.schemas.simulations import SimulationEvents
 from mckibben.api.schemas.sizing_answer import SizingAnswer
+from mckibben.api.schemas.sizing_reports import SizingReportRequest
 from mckibben.api.schemas.sizings import SizingTask
 
 router = APIRouter(prefix="/api/sizings", tags=["sizings"], route_class=StrictRoute)
@@ -26,3 +31,16 @@ async def size_drives(body: SizingTask, request: Request, studio: StudioDep) -> 
     if wants_events(request):
         return events(work)
     return JsonAnswer(await finished(request, work))
+
+
+@router.post(
+    "/reports",
+    response_class=Response,  # errors are JSON all the same
+    responses={**ReportAnswer, **errors(400, 413, 415, 422)},
+)
+async def write_sizing_report(body: SizingReportRequest, request: Request, studio: StudioDep) -> Response:
+    """The search once more and one of its drives as one file to keep and to print; closing ends it."""
+    work = await run_in_threadpool(
+        prepare_report, body.task, studio, proposal=body.proposal, title=body.title
+    )
+    return HTMLResponse(str(await finished(request, work)))

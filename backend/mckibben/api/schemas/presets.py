@@ -15,11 +15,14 @@ from mckibben.presets import (
     MeasurementPreset,
     MusclePreset,
     Preset,
+    TaskPreset,
     TubePreset,
     ValvePreset,
 )
 
-PresetKind = Literal["muscles", "valves", "tubes", "fittings", "measurements", "curves", "designs", "drives"]
+PresetKind = Literal[
+    "muscles", "valves", "tubes", "fittings", "measurements", "curves", "designs", "drives", "tasks"
+]  # fmt: skip
 
 
 def _answer(preset: type[Preset], name: str) -> type[BaseModel]:
@@ -48,6 +51,7 @@ _ANSWERS = (
     _answer(CurvePreset, "CurvePresetAnswer"),
     _answer(DesignPreset, "DesignAnswer"),
     _answer(DrivePreset, "DriveAnswer"),
+    _answer(TaskPreset, "TaskAnswer"),
 )
 PresetAnswer = Annotated[Union[_ANSWERS], Field(discriminator="kind")]  # noqa: UP007 - built from a tuple
 

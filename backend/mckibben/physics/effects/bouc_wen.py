@@ -87,6 +87,7 @@ EFFECT = Effect(
             _BOUC,
             "Bend of the branch after a reversal; 0.5 unloads along a straight line, 1 like Dahl.",
             fitted=False,
+            natural=True,
         ),
     ),
     slots={"friction": friction, "rates": rates},

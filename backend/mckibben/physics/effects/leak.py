@@ -89,6 +89,7 @@ EFFECT = Effect(
             "Share of the flow that is laminar, in proportion to p^2 - p_a^2; at 3 bar above the atmosphere "
             "it makes no difference.",
             fitted=False,
+            natural=True,
         ),
     ),
     slots={"leakage": leak},

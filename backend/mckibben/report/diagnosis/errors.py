@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mckibben.report.chart import Axis
 from mckibben.report.diagnosis.material import Json
 from mckibben.report.document import Column, bullets, figure_of, paragraph, table
 from mckibben.report.figures import Scale, figure, percent, variable
 from mckibben.report.heat import heat
 from mckibben.report.html import Child, Html, html
+from mckibben.report.marks import Axis
 
 _TOLD, _TELLING = 3, 0.05  # variables that are told in words: how many, from which share on
 #: What errors of several channels together are told in.

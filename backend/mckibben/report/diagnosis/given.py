@@ -6,10 +6,11 @@ import re
 from collections.abc import Iterable
 
 from mckibben.report.diagnosis.material import Json, Material, Source
-from mckibben.report.diagnosis.model import named, source_text
+from mckibben.report.diagnosis.model import named
 from mckibben.report.document import Column, bullets, facts, heading, paragraph, table
 from mckibben.report.figures import Scale, figure, pretty, scale_of, variable, with_error
 from mckibben.report.html import Child, Html, html, tag
+from mckibben.report.sources import source_text
 
 
 def data_section(material: Material) -> Html:

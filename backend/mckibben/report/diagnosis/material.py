@@ -8,6 +8,8 @@ from datetime import datetime
 from typing import Any, NamedTuple
 
 from mckibben.physics.effect import Effect
+from mckibben.report.command import Command
+from mckibben.report.sources import Figure
 
 Json = Mapping[str, Any]
 
@@ -33,13 +35,6 @@ class Source:
     left_out: Mapping[str, int]
 
 
-class Figure(NamedTuple):
-    """Where a figure comes from: short source and grade."""
-
-    source: str
-    grade: str
-
-
 @dataclass(frozen=True)
 class MuscleFacts:
     """What is known of the muscle besides its geometry.
@@ -61,15 +56,6 @@ class PastModel(NamedTuple):
     label: str
     effects: Sequence[str]
     comparison: Json
-
-
-@dataclass(frozen=True)
-class Command:
-    """How the figures are had again: lines to type, files they need (name -> text), what they cannot say."""
-
-    lines: Sequence[str]
-    files: Mapping[str, str] = field(default_factory=dict)
-    notes: Sequence[str] = ()
 
 
 @dataclass(frozen=True)

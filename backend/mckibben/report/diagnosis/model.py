@@ -6,22 +6,17 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from mckibben.physics.effect import Effect
-from mckibben.physics.parameter import GRADES, UNVERIFIED_GRADES, Parameter
-from mckibben.report.diagnosis.material import Figure, Json, Material
+from mckibben.physics.parameter import Parameter
+from mckibben.report.diagnosis.material import Json, Material
 from mckibben.report.document import Column, bullets, heading, mark, paragraph, table
 from mckibben.report.figures import Scale, figure, scale_of, with_error
 from mckibben.report.formula import formula
 from mckibben.report.html import Child, Html, html, tag
+from mckibben.report.sources import Figure, source_text
 
 # Standard error over the value from which a fitted value says little.
 _VAGUE = 0.5
 _NOTHING = 1e-6  # of the bounds
-
-
-def source_text(figure_: Figure) -> Html:
-    """Source and grade of a figure, with a mark where nobody verified it."""
-    text = f"{figure_.source} (grade {figure_.grade}: {GRADES.get(figure_.grade, 'unknown')})"
-    return html(text, " ", mark("not verified")) if figure_.grade in UNVERIFIED_GRADES else html(text)
 
 
 def model_cards(

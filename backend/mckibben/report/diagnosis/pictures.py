@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from mckibben.report.chart import ACCENT, EDGE, SECOND, Axis, Band, Dots, Line, Mark, chart, family
+from mckibben.report.chart import chart, family
 from mckibben.report.diagnosis.material import Json
 from mckibben.report.document import figure_of
 from mckibben.report.figures import variable
 from mckibben.report.html import Html, html
+from mckibben.report.marks import ACCENT, EDGE, SECOND, Axis, Band, Dots, Line, Mark
 
 _MOST_POINTS = 250  # of a series in a drawing
 _FEW_POINTS = 300  # of all series: dots are drawn larger

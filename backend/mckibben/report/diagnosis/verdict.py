@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mckibben.report.bars import Bar, bars
-from mckibben.report.chart import SECOND, Axis, Dots, Line, chart
+from mckibben.report.chart import chart
 from mckibben.report.diagnosis.errors import TIMES_NOISE, error_scale
 from mckibben.report.diagnosis.material import Json, Material
 from mckibben.report.document import (
@@ -21,6 +21,7 @@ from mckibben.report.document import (
 )
 from mckibben.report.figures import Scale, figure, percent, plain, variable
 from mckibben.report.html import Child, Html, html, tag
+from mckibben.report.marks import SECOND, Axis, Dots, Line
 
 _SAID: dict[str, tuple[str, Tone]] = {
     "adequate": ("The model is adequate", "good"),

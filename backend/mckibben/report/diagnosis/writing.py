@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from mckibben.report.command import command_section
 from mckibben.report.diagnosis.errors import error_scale, error_table, where_it_fails
 from mckibben.report.diagnosis.given import assumptions_section, data_section, muscle_section
-from mckibben.report.diagnosis.material import Command, Material
+from mckibben.report.diagnosis.material import Material
 from mckibben.report.diagnosis.model import correlations, model_cards
 from mckibben.report.diagnosis.pictures import pictures
 from mckibben.report.diagnosis.verdict import candidates_section, path_section, verdict_section
-from mckibben.report.document import Column, Section, bullets, code, document, heading, paragraph, table
+from mckibben.report.document import Column, Section, bullets, document, heading, table
 from mckibben.report.figures import figure
 from mckibben.report.html import Child, Html, html
 
@@ -47,7 +48,7 @@ def _sections(material: Material) -> Iterator[Section]:
     if material.history:
         yield Section("History", _history(material))
     yield Section("Assumptions", assumptions_section(material))
-    yield Section("To repeat it", _command(material.command))
+    yield Section("To repeat it", command_section(material.command))
 
 
 def _proposed(material: Material) -> Html:
@@ -78,11 +79,3 @@ def _history(material: Material) -> Html:
     ]
     columns = [Column("Step"), Column("Effects"), Column("RMS error", number=True)]
     return table(columns, rows, caption="Models before this one, the oldest first.")
-
-
-def _command(command: Command) -> Html:
-    parts: list[Child] = [code("\n".join(command.lines))]
-    for name, text in command.files.items():
-        parts += [paragraph(name, ":"), code(text)]
-    parts += [paragraph(note, note=True) for note in command.notes]
-    return html(parts)

@@ -1,0 +1,131 @@
+"""Force over contraction with the load and the operating points."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from mckibben.report.chart import chart, family
+from mckibben.report.document import Column, figure_of, paragraph, table
+from mckibben.report.figures import figure, plain
+from mckibben.report.html import Child, Html, html
+from mckibben.report.marks import EDGE, INK, SECOND, Axis, Dots, Line, Mark, Rule
+from mckibben.report.sizing.material import Chosen, Material
+from mckibben.report.sizing.words import AMPLE, BAR, MILLIMETRES, NEWTON, PER_MILLIMETRE, SHARE
+
+_FEW_ROWS = 300
+_HEIGHT = 400.0
+_ROOM = 0.1  # of the highest force: room for a name below a point
+
+
+def curves_section(material: Material, chosen: Chosen) -> Html:
+    """The curves of one muscle, what it carries, and the operating points as a table."""
+    single = chosen.proposal["muscles"] == 1
+    who = "the muscle" if single else "one muscle"
+    told = (
+        f"Force of {who} at rest over its contraction at the pressures named (gauge, while it shortens), the "
+        "force the task takes of it over the stroke, and the way of the run from the begin of the fill to "
+        "the end stop. The point above the load at the end of the stroke is what the supply pressure holds."
+    )
+    if chosen.curves.run:
+        told += " Times and air come from a run under the dashed straight load."
+    return html(
+        figure_of(_drawing(chosen), told),
+        _table(material, chosen, who),
+        paragraph(
+            "Stiffness at the end of the stroke, at the load: ",
+            figure(chosen.proposal["stiffness"], PER_MILLIMETRE, 3),
+            " with the valve open, ",
+            figure(chosen.proposal["stiffness_closed"], PER_MILLIMETRE, 3),
+            " with it closed.",
+        ),
+    )
+
+
+def _drawing(chosen: Chosen) -> Html:
+    curves, reach = chosen.curves, chosen.proposal["contraction"]
+    across = SHARE.all(curves.contraction)
+    marks: list[Mark] = []
+    colours = family(len(curves.pressures))
+    for pressure, force, colour in zip(curves.pressures, curves.force, colours, strict=True):
+        supply = pressure == curves.pressures[-1]
+        shown = [value if value > 0.0 else math.nan for value in force]
+        label = f"{plain(BAR.of(pressure), 3, exact=True)} bar{', supply' if supply else ''}"
+        marks.append(Line(across, shown, label, colour, width=2.4 if supply else 1.5))
+    marks.append(_way(chosen))
+    places = SHARE.all(curves.places)
+    marks.append(Line(places, curves.demand, "load", SECOND, width=2.4))
+    if curves.run:
+        marks.append(Line(places, curves.run, "load in the run", SECOND, "6 4"))
+    available = float(np.interp(reach, curves.contraction, curves.force[-1]))
+    carrying = [f"{plain(BAR.of(value), 3)} bar" for value in curves.carrying]
+    for end, words in ((0, "begin"), (-1, "end")):
+        name = f"{words}: {carrying[end]}"
+        place, force = [places[end]], [curves.demand[end]]
+        below = end == 0 and force[0] > _ROOM * max(curves.force[-1])
+        marks.append(Dots(place, force, "operating points", SECOND, 9.0, [name], below=below))
+    marks += [
+        Dots([places[-1]], [available], "at supply pressure", INK, 8.0, [f"{plain(available, 3)} N"]),
+        Rule(SHARE.of(reach), "end of the stroke"),
+    ]
+    return chart(
+        Axis("Contraction", "%", zero=True), Axis("Force of one muscle", "N", zero=True), marks,
+        title="Force over contraction with load and operating points", height=_HEIGHT, room=150.0,
+    )  # fmt: skip
+
+
+def _way(chosen: Chosen) -> Line:
+    """Tension over contraction from the begin of the fill to the end stop."""
+    run, (on, off) = chosen.run, chosen.fill
+    time = np.asarray(run["time"], dtype=float)
+    arrived = run["timing"]["extend"]["positioning_time"]
+    rows = np.flatnonzero((time >= on) & (time <= (off if arrived is None else on + arrived)))
+    rows = rows[np.unique(np.linspace(0, len(rows) - 1, min(len(rows), _FEW_ROWS)).astype(int))]
+    contraction = np.asarray(run["contraction"], dtype=float)[rows]
+    return Line(
+        SHARE.all(contraction), np.asarray(run["force"], dtype=float)[rows], "the run", EDGE, width=1.2
+    )
+
+
+def _table(material: Material, chosen: Chosen, who: str) -> Html:
+    curves, found = chosen.curves, chosen.proposal
+    supply = [
+        float(np.interp(place, curves.contraction, curves.force[-1]))
+        for place in (curves.places[0], curves.places[-1])
+    ]
+    demand = (curves.demand[0], curves.demand[-1])
+    counter = (curves.counter[0], curves.counter[-1])
+    ratios = [
+        _ratio(force / load if load > 0.0 else math.inf) for force, load in zip(supply, demand, strict=True)
+    ]
+    length = found["nominal_length"]
+    rows: list[list[Child]] = [
+        ["Contraction", *(figure(curves.places[end], SHARE, 3) for end in (0, -1))],
+        ["Length between the fittings", *(_length(length, curves.places[end]) for end in (0, -1))],
+        [f"Force that {who} must have", *(figure(value, NEWTON) for value in demand)],
+    ]
+    if material.pair:
+        rows.append(["… of it against the empty second muscle", *(figure(v, NEWTON) for v in counter)])
+    rows += [
+        [f"Force of {who} at supply pressure", *(figure(value, NEWTON) for value in supply)],
+        ["Force over load", *ratios],
+        ["Pressure that just carries it, at rest", *(figure(value, BAR, 3) for value in curves.carrying)],
+        [
+            "Pressure in the run, load leaves and arrives",
+            figure(found["pressure_start"], BAR, 3),
+            figure(found["pressure_end"], BAR, 3),
+        ],
+    ]
+    columns = [Column("At rest"), Column("Begin of the stroke", number=True), Column("End", number=True)]
+    ratio = 1.0 + found["force_reserve"]
+    least = f"The least force over load on the whole stroke is {_ratio(ratio)}"
+    return table(columns, rows, caption=f"Operating points. {least}.")
+
+
+def _ratio(value: float) -> str:
+    return "ample" if value > AMPLE else plain(value, 3)
+
+
+def _length(nominal: float, contraction: float) -> Html:
+    return figure(nominal * (1.0 - contraction), MILLIMETRES)

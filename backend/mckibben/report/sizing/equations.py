@@ -1,0 +1,145 @@
+r"""The equations behind the figures: what every drive has, and the effects of this one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from mckibben.report.document import Column, heading, paragraph, table
+from mckibben.report.figures import figure, scale_of
+from mckibben.report.formula import formula
+from mckibben.report.html import Child, Html, html, tag
+from mckibben.report.sizing.material import Chosen, Material
+from mckibben.report.sources import source_text
+
+
+class _Law(NamedTuple):
+    title: str
+    equations: Sequence[str]
+    words: str
+
+
+_BASE = (
+    _Law(
+        "Braid",
+        (
+            r"b = \frac{L_0}{\cos\theta_0}, \quad n = \frac{L_0\tan\theta_0}{\pi D_0}, \quad "
+            r"V = \frac{L\,(b^2 - L^2)}{4\pi n^2}",
+        ),
+        "Thread length b and turns n from the braid's diameter and angle at rest; volume V at length L.",
+    ),
+    _Law(
+        "Force",
+        (r"F = P\,\frac{3L^2 - b^2}{4\pi n^2}, \quad \kappa = 1 - \frac{L}{L_0}",),
+        "Gauge pressure P, contraction κ; the effects below change it. A muscle never pushes.",
+    ),
+    _Law(
+        "Stiffness",
+        (
+            r"k = \frac{\partial F}{\partial L}, \quad "
+            r"k_c = \frac{\partial F}{\partial L} - \frac{\partial F}{\partial P}"
+            r"\frac{\gamma p\,\partial_L V}{V + \gamma p\,\partial_P V}",
+        ),
+        "With the valve open, and closed with γ = 1.4; times the square of the lever and the number of "
+        "muscles at the load.",
+    ),
+    _Law(
+        "Flow through valve and tube (ISO 6358)",
+        (
+            r"\dot m = C\,\rho_0\,p_1\sqrt{T_0/T_1}\;\psi(r), \quad r = p_2/p_1",
+            r"\psi = 1\ (r \le b), \quad \psi = \sqrt{1 - \Bigl(\frac{r - b}{1 - b}\Bigr)^2}\ (r > b)",
+        ),
+        "Sonic conductance C, critical pressure ratio b, absolute pressures; ρ₀ = 1.185 kg/m³ and T₀ = "
+        "293.15 K (ANR).",
+    ),
+    _Law(
+        "Pressure",
+        (r"\dot p\,(V + n p\,\partial_p V) = n R T\,\dot m - n p\,\partial_s V\,\dot s",),
+        "Polytropic exponent n, stroke s of the muscle.",
+    ),
+    _Law(
+        "Motion",
+        (r"M\ddot s = r^2 F - r\,(m g\sin\alpha + F_{ext}) - k s - F_{stop}",),
+        "Lever ratio r, inclination α, spring k. Of a pair the tension of the second muscle counts against "
+        "the first.",
+    ),
+)  # fmt: skip
+_TUBE = _Law(
+    "Tube (Eckersten)",
+    (r"C = \frac{0.029\,d^2}{\sqrt{l/d^{1.25} + 510}}, \quad b = \frac{474\,C}{d^2}",),
+    "Bore d and length l in m, C in m³/(s·Pa); general knowledge, not verified.",
+)
+_SIZING = (
+    _Law(
+        "Force reserve",
+        (r"\min_s \frac{N r\,F(P, \kappa(s))}{F_{load}(s)} - 1",),
+        "N parallel muscles over the whole stroke, at rest while shortening; of a pair the empty second "
+        "muscle belongs to the load.",
+    ),
+    _Law(
+        "Air a cycle",
+        (r"V_{ANR} = \frac{1}{\rho_0}\int \dot m_{supply}\,dt",),
+        "Of all muscles, over one fill and one vent.",
+    ),
+    _Law(
+        "Life (an estimate)",
+        (
+            r"N_{life} = 10^{7 - 2u}, \quad "
+            r"u = \max\Bigl(\frac{\kappa}{\kappa_{max}}, \frac{F}{F_{max}}\Bigr)",
+        ),
+        "General knowledge, not verified; no maker's curve is known.",
+    ),
+    _Law(
+        "Specimens",
+        (
+            r"F_i(\kappa) = F(\kappa + \Delta_i), \quad "
+            r"\Delta_i \sim \mathcal{N}\Bigl(0, \frac{\sigma_F F_0}{\lvert\partial_\kappa F(0)\rvert}\Bigr)",
+        ),
+        "Shifted along the contraction so that the blocked force F₀ differs by its standard deviation "
+        "(σ as a share of it); friction and supply pressure evenly distributed.",
+    ),
+)  # fmt: skip
+
+
+def equations_section(material: Material, chosen: Chosen) -> Html:
+    """All equations, then each effect with the values of this drive."""
+    laws = [*_BASE, *([_TUBE] if chosen.proposal["tube"] else []), *_SIZING]
+    parts: list[Child] = [_law(law) for law in laws]
+    parts.append(heading("Effects in the model of this drive"))
+    if not chosen.effects:
+        parts.append(paragraph("None: the ideal muscle with thin wall and no losses."))
+    parts += [_effect(name, material, chosen) for name in chosen.effects]
+    return html(parts)
+
+
+def _law(law: _Law) -> Html:
+    return tag(
+        "div",
+        heading(law.title),
+        [tag("div", formula(equation, block=True), class_="equation") for equation in law.equations],
+        paragraph(law.words, note=True),
+        class_="whole",
+    )
+
+
+def _effect(name: str, material: Material, chosen: Chosen) -> Html:
+    effect, values = material.catalogue[name], chosen.effects[name]
+    columns = [Column("Symbol"), Column("Parameter"), Column("Value", number=True), Column("Where from")]
+    rows: list[list[Child]] = [
+        [
+            formula(parameter.symbol),
+            parameter.description,
+            figure(value, scale_of(parameter.unit, value), exact=True),
+            source_text(found) if (found := chosen.figures.get(f"{name}.{parameter.name}")) else "given",
+        ]
+        for parameter in effect.parameters
+        if (value := values.get(parameter.name)) is not None
+    ]
+    return tag(
+        "div",
+        heading(effect.title),
+        paragraph(effect.cause),
+        tag("div", formula(effect.equation, block=True), class_="equation"),
+        table(columns, rows) if rows else None,
+        class_="whole",
+    )

@@ -1,0 +1,203 @@
+"""The run: position, pressure, speed and air over time, and the timing table."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.report.document import Column, figure_of, mark, paragraph, table
+from mckibben.report.figures import Scale, figure
+from mckibben.report.html import Child, Html, html
+from mckibben.report.marks import ACCENT, EDGE, INK, SECOND, Axis, Line, Mark, Rule
+from mckibben.report.sizing.material import Chosen, Json, Material
+from mckibben.report.sizing.words import BAR, JOULE, LITRES, MILLIMETRES, SHARE
+from mckibben.report.stack import Panel, stack
+
+_MOST_ROWS = 420
+_AFTER, _LEAST_AFTER = 1.2, 0.02  # how much longer than the motion is shown, share and s
+_LEAVES = 1e-5  # m; less is no travel
+_MILLISECONDS = Scale("ms", 1e-3)
+_SPEED, _ACCELERATION, _FLOW = Scale("mm/s", 1e-3), Scale("m/s²"), Scale("g/s", 1e-3)
+
+#: Figure of the timing table -> name, unit, whether it is that of all muscles together.
+_FIGURES: Mapping[str, tuple[str, Scale, bool]] = {
+    "positioning_time": ("Positioning time (arrival on the stop)", _MILLISECONDS, False),
+    "delay_time": ("Delay time (50 % of the stroke)", _MILLISECONDS, False),
+    "rise_time": ("Rise time (10 to 90 % of the stroke)", _MILLISECONDS, False),
+    "settling_time": ("Settling time (within 5 %)", _MILLISECONDS, False),
+    "average_speed": ("Average speed", _SPEED, False),
+    "max_speed": ("Largest speed", _SPEED, False),
+    "max_speed_at": ("… reached after", _MILLISECONDS, False),
+    "max_acceleration": ("Largest acceleration", _ACCELERATION, False),
+    "min_acceleration": ("Smallest acceleration", _ACCELERATION, False),
+    "end_speed": ("Speed on the stop", _SPEED, False),
+    "impact_energy": ("Energy on the stop", JOULE, True),
+    "overshoot": ("Overshoot", SHARE, False),
+    "pressure_delay_time": ("Pressure, delay time (50 %)", _MILLISECONDS, False),
+    "pressure_rise_time": ("Pressure, rise time (10 to 90 %)", _MILLISECONDS, False),
+    "pressure_settling_time": ("Pressure, settling time (within 1 %)", _MILLISECONDS, False),
+    "air_volume_anr": ("Air taken (filling) or let out (venting), ANR", LITRES, True),
+    "choked_share": ("Share of the time the valve is choked", SHARE, False),
+}
+
+
+class _Phase(NamedTuple):
+    name: str
+    key: str
+    begin: float
+    end: float
+    sign: float
+
+
+def motion_section(material: Material, chosen: Chosen) -> Html:
+    """Both phases as drawings, then the table."""
+    on, off = chosen.fill
+    up = _Phase("The stroke, from the instant the valve begins to fill", "extend", on, off, 1.0)
+    back = _Phase(
+        "The way back, from the instant the valve begins to vent",
+        "retract",
+        off,
+        chosen.run["duration"],
+        -1.0,
+    )
+    parts: list[Child] = []
+    if chosen.run["message"] is not None:
+        parts.append(paragraph(f"The run did not complete: {chosen.run['message']}"))
+    for phase in (up, back):
+        drawing = _drawing(material, chosen, phase)
+        if drawing is not None:
+            parts.append(figure_of(drawing, f"{phase.name}."))
+    if not chosen.proposal["drive"]["load"]["mass"]:
+        parts.append(
+            paragraph(
+                mark("No mass is moved"), " in this task: speeds, accelerations and energies are those of a "
+                "load of next to nothing, and mean little.",
+            )
+        )  # fmt: skip
+    parts.append(_table(chosen))
+    return html(parts)
+
+
+def _drawing(material: Material, chosen: Chosen, phase: _Phase) -> Html | None:
+    run = chosen.run
+    time = np.asarray(run["time"], dtype=float)
+    table_ = run["timing"][phase.key]
+    moved = [table_[name] for name in ("positioning_time", "settling_time") if table_[name] is not None]
+    whole = phase.end - phase.begin
+    shown = min(whole, max(_AFTER * max(moved), max(moved) + _LEAST_AFTER)) if moved else whole
+    rows = np.flatnonzero((time >= phase.begin - 1e-12) & (time <= phase.begin + shown))
+    if len(rows) < 2:
+        return None
+    rows = rows[np.unique(np.linspace(0, len(rows) - 1, min(len(rows), _MOST_ROWS)).astype(int))]
+    since = _MILLISECONDS.all((time[rows] - phase.begin).tolist())
+    rules = _rules(run, phase, rows)
+
+    def column(name: str, scale: Scale, source: Json = run) -> list[float]:
+        return scale.all(np.asarray(source[name], dtype=float)[rows].tolist())
+
+    def line(name: str, scale: Scale, label: str = "", colour: str = ACCENT, **more: Any) -> Line:
+        return Line(since, column(name, scale), label, colour, **more)
+
+    if material.pair:
+        place = (
+            Axis("Angle", "°"),
+            Line(since, column("angle", Scale("°", math.pi / 180.0), run["joint"]), ""),
+        )
+    else:
+        place = Axis("Position", "mm"), line("position", MILLIMETRES)
+    pressures: list[Mark] = [line("pressure", BAR, "muscle", ACCENT)]
+    if run["tube_pressure"] is not None:
+        pressures.append(line("tube_pressure", BAR, "tube", EDGE, width=1.2))
+    if material.pair:
+        second = column("counter_pressure", BAR, run["joint"])
+        pressures.append(Line(since, second, "second muscle", SECOND))
+    pressures.append(
+        Line([since[0], since[-1]], [BAR.of(chosen.proposal["pressure"])] * 2, "supply", INK, "2 3")
+    )
+    bare = [Rule(rule.x, "", rule.colour, rule.dash) for rule in rules]
+    return stack(
+        Axis("Time", "ms", ends=(0.0, _MILLISECONDS.of(shown))),
+        [
+            Panel(place[0], [*rules, place[1]], f"{place[0].title} of the load over time"),
+            Panel(Axis("Pressure", "bar", zero=True), [*bare, *pressures], "Gauge pressures over time"),
+            Panel(Axis("Speed", "mm/s"), [*bare, line("velocity", _SPEED)], "Speed of the load over time"),
+            Panel(Axis("Air flow", "g/s"), [*bare, line("mass_flow", _FLOW)], "Mass flow into a muscle"),
+        ],
+    )  # fmt: skip
+
+
+def _rules(run: Json, phase: _Phase, rows: NDArray) -> list[Rule]:
+    """When the load leaves, is at 10, 50 and 90 % of its stroke, and arrives."""
+    time = np.asarray(run["time"], dtype=float)[rows] - phase.begin
+    position = np.asarray(run["position"], dtype=float)[rows]
+    figures = run["timing"][phase.key]
+    begin, end = (run["limits"]["position_min"], run["limits"]["position_max"])[:: int(phase.sign)]
+    stroke = abs(end - begin)
+    travel = phase.sign * (position - begin)
+    found: list[Rule] = []
+
+    def at(value: float | None, words: str, colour: str, dash: str) -> None:
+        if value is not None:
+            shown = _MILLISECONDS.of(value)
+            found.append(Rule(shown, f"{words}: {shown:.3g} ms", colour, dash))
+
+    at(_passes(time, travel, min(_LEAVES, 0.01 * stroke)), "leaves", EDGE, "2 3")
+    rise = [_passes(time, travel, share * stroke) for share in (0.1, 0.9)]
+    at(rise[0], "10 %", EDGE, "6 3")
+    at(figures["delay_time"], "50 %, delay", INK, "6 3")
+    at(rise[1], "90 %", EDGE, "6 3")
+    at(figures["positioning_time"], "arrives", SECOND, "6 3")
+    return found
+
+
+def _passes(time: NDArray, travel: NDArray, level: float) -> float | None:
+    """First instant at or beyond a travel, straight between two rows."""
+    there = np.flatnonzero(travel >= level)
+    if not len(there):
+        return None
+    k = int(there[0])
+    if k == 0:
+        return float(time[0])
+    share = (level - travel[k - 1]) / (travel[k] - travel[k - 1])
+    return float(time[k - 1] + share * (time[k] - time[k - 1]))
+
+
+def _table(chosen: Chosen) -> Html:
+    timing = chosen.run["timing"]
+    rows: list[list[Child]] = []
+    for name, (words, scale, together) in _FIGURES.items():
+        values = [timing[phase][name] for phase in ("extend", "retract")]
+        if all(value is None for value in values):
+            continue
+        times = chosen.count if together else 1
+        rows.append([words, *(_figure(v, times, scale) for v in values)])
+    columns = [
+        Column("Timing"),
+        Column("Stroke (filling)", number=True),
+        Column("Way back (venting)", number=True),
+    ]
+    caption = "All times count from the instant the valve switches."
+    if chosen.count > 1:
+        caption += f" Energy and air are those of all {chosen.count} muscles of a side."
+    return html(
+        table(columns, rows, caption=caption), [paragraph(f"{note}.", note=True) for note in _notes(timing)]
+    )
+
+
+def _figure(value: float | None, times: int, scale: Scale) -> Html:
+    return figure(None if value is None else value * times, scale, 3 if scale is SHARE else 4)
+
+
+def _notes(timing: Json) -> list[str]:
+    """What to know of a figure, or why it is missing; of equal reasons one."""
+    about: dict[str, list[str]] = {}
+    for place, why in timing["notes"].items():
+        phase, _, name = place.partition(".")
+        if name in _FIGURES:
+            way = "stroke" if phase == "extend" else "way back"
+            about.setdefault(why, []).append(f"{_FIGURES[name][0].partition(' (')[0].lower()} ({way})")
+    return [f"{', '.join(names).capitalize()}: {why}" for why, names in about.items()]

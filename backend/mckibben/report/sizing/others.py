@@ -1,0 +1,159 @@
+"""What else would do, and what does not, each with its reason."""
+
+from __future__ import annotations
+
+from mckibben.report.chart import chart
+from mckibben.report.document import Column, figure_of, paragraph, table
+from mckibben.report.figures import figure, percent, plain
+from mckibben.report.html import Child, Html, html, tag
+from mckibben.report.marks import ACCENT, EDGE, INK, SECOND, Axis, Dots, Mark
+from mckibben.report.sizing.material import Chosen, Json, Material
+from mckibben.report.sizing.words import (
+    BAR,
+    LITRES,
+    SECONDS,
+    drive_words,
+    limit_name,
+    parts_words,
+)
+
+_ORDER = "First what would need the least change."
+_GROUPED = "Of each choice of muscles the nearest."
+_TOUCHING = 0.03  # of the axes
+_FAR = 2.0  # times the air of the proposals: what takes more is counted only
+
+
+def alternatives_section(material: Material, chosen: Chosen) -> Html:
+    """Air over time of every design that does the task, and the proposals as a table."""
+    explored = material.answer["explored"]
+    beyond = len(explored) - len(_near(material))
+    told = (
+        f"{len(explored)} choices of parts that do the task, each at its best length and pressure of a first "
+        "look (coarse figures); on the front nothing else is better in air, time, length, reserve and "
+        "stiffness together. Numbers are the proposals of the table, refined and run finely."
+        + (f" {beyond} that take more air are not drawn." if beyond else "")
+    )
+    counted = (
+        f"{material.answer['combinations']} combinations of muscle, length, number, pressure, valve and tube "
+        f"lie within the limits of room and pressure; {material.answer['pruned']} were sorted out in closed "
+        f"form, {material.answer['simulated']} transients and {material.answer['specimens']} specimens "
+        "simulated."
+    )
+    parts: list[Child] = [
+        paragraph(counted),
+        figure_of(_picture(material, chosen), told),
+        _proposals(material, chosen),
+    ]
+    if material.answer["message"]:
+        parts.append(paragraph(material.answer["message"], note=True))
+    return html(parts)
+
+
+def _picture(material: Material, chosen: Chosen) -> Html:
+    proposals, explored = material.answer["proposals"], _near(material)
+    front = [item for item in explored if item["front"]]
+    rest = [item for item in explored if not item["front"]]
+    marks: list[Mark] = []
+    if rest:
+        marks.append(Dots(*_places(rest), "does the task", EDGE, 5.0))
+    if front:
+        marks.append(Dots(*_places(front), "on the front", ACCENT, 6.0))
+    others = [item for number, item in enumerate(proposals, 1) if number != chosen.rank]
+    names = _names(proposals, explored, chosen.rank)
+    own = names.pop(chosen.rank)
+    if others:
+        marks.append(Dots(*_places(others), "other proposals", INK, 7.0, [names[n] for n in sorted(names)]))
+    place = _places([chosen.proposal])
+    marks.append(Dots(*place, f"proposal {chosen.rank}", SECOND, 11.0, [own]))
+    return chart(
+        Axis("Air a cycle", "l ANR", zero=True), Axis("Time for the stroke", "s", zero=True),
+        marks,
+        title="Time over air of the designs that do the task", height=340.0, room=140.0,
+    )  # fmt: skip
+
+
+def _names(proposals: list[Json], explored: list[Json], rank: int) -> dict[int, str]:
+    """Rank -> what stands beside its dot; of dots on each other one tells them all, the chosen one first."""
+    x, y = _places(proposals)
+    wide, high = (_TOUCHING * max(values) for values in _places([*proposals, *explored]))
+    left = set(range(len(proposals)))
+    names: dict[int, str] = {}
+    for one in sorted(left, key=lambda number: number + 1 != rank):
+        here = [n for n in sorted(left) if abs(x[n] - x[one]) < wide and abs(y[n] - y[one]) < high]
+        told = here if one in left else []
+        names[one + 1] = ", ".join(f"{number + 1}" for number in told)
+        left -= set(told)
+    return names
+
+
+def _near(material: Material) -> list[Json]:
+    """Explored designs that do not take many times the air of the proposals."""
+    most = _FAR * max(item["air_volume_anr"] for item in material.answer["proposals"])
+    return [item for item in material.answer["explored"] if item["air_volume_anr"] <= most]
+
+
+def _places(items: list[Json]) -> tuple[list[float], list[float]]:
+    return (
+        LITRES.all([item["air_volume_anr"] for item in items]),
+        SECONDS.all([item["time"] for item in items]),
+    )
+
+
+def _proposals(material: Material, chosen: Chosen) -> Html:
+    columns = [
+        Column("", number=True), Column("Drive", wide=True), Column("Supply", number=True),
+        Column("Time", number=True), Column("Air a cycle", number=True), Column("Does it", number=True),
+        Column("Why it stands there", wide=True),
+    ]  # fmt: skip
+    rows: list[list[Child]] = []
+    for number, item in enumerate(material.answer["proposals"], 1):
+        words: list[Child] = [drive_words(item), tag("br"), parts_words(item)]
+        rows.append(
+            [
+                tag("b", f"{number}") if number == chosen.rank else f"{number}",
+                tag("b", words) if number == chosen.rank else html(words),
+                figure(item["pressure"], BAR, 3),
+                figure(item["time"], SECONDS, 3),
+                figure(item["air_volume_anr"], LITRES, 3),
+                _likely(item),
+                _reason(item),
+            ]
+        )
+    return table(columns, rows, caption="Proposals, best first; the one of this report in bold.")
+
+
+def _reason(item: Json) -> str:
+    """Without the probability, which has a column of its own."""
+    return "; ".join(part for part in item["reason"].split("; ") if not part.startswith("does the task"))
+
+
+def _likely(item: Json) -> Child:
+    if item["probability"] is None:
+        return "–"
+    return html(percent(item["probability"], 3), f" ± {plain(100.0 * item['probability_error'], 2)}")
+
+
+def rejected_section(material: Material) -> Html:
+    """What does not do the task: why, the limit in the way, what would help; one row for each muscle."""
+    rejected = material.answer["rejected"]
+    if not rejected:
+        return paragraph("Every choice of parts that was tried does the task.")
+    groups: dict[tuple[str, int, str], list[Json]] = {}
+    for item in rejected:
+        groups.setdefault((item["muscle"], item["parallel"], item["binding"]), []).append(item)
+    columns = [
+        Column("Why not", wide=True),
+        Column("Limit in the way"),
+        Column("It would do with", wide=True),
+    ]
+    rows = [
+        [_why(items), limit_name(binding).lower(), items[0]["would_work_if"]]
+        for (_, _, binding), items in groups.items()
+    ]
+    return table(columns, rows, caption=f"{_ORDER} {_GROUPED}")
+
+
+def _why(items: list[Json]) -> Html:
+    more = len(items) - 1
+    told = f" And {more} more with other valves and tubes." if more else ""
+    return html(f"{items[0]['why']}.{told}")

@@ -1,0 +1,109 @@
+"""What fields, limits and figures of a sizing are called, and what they are shown in."""
+
+from __future__ import annotations
+
+from mckibben.report.figures import Scale, figure, plain, scale_of, variable
+from mckibben.report.html import Html, html, tag
+from mckibben.report.sizing.material import Entry, Json
+
+LITRES, SECONDS, NEWTON, JOULE = Scale("l", 1e-3), Scale("s"), Scale("N"), Scale("J")
+MILLIMETRES, BAR, SHARE = Scale("mm", 1e-3), Scale("bar", 1e5), Scale("%", 0.01)
+PER_MILLIMETRE = Scale("N/mm", 1e3)
+_ZERO_CELSIUS = 273.15
+#: Force over load from which the load is next to nothing.
+AMPLE = 100.0
+
+_FIELDS = {
+    "load.mass": "Moved mass",
+    "load.inclination": "Inclination of the way",
+    "load.force": "Constant force against the pull",
+    "load.force_over_stroke": "Force over the stroke",
+    "load.spring": "Spring against the pull",
+    "load.counterweight": "Counterweight",
+    "load.lever_ratio": "Stroke of the muscle per stroke of the load",
+    "load.pair.angle": "Swing of the pair",
+    "load.pair.torque": "Torque against the first muscle",
+    "load.pair.inertia": "Moment of inertia",
+    "load.pair.pulley_radius": "Pulley radius",
+    "stroke": "Stroke of the load",
+    "time": "Time for the stroke",
+    "time_down": "Time for the way back",
+    "cycle_time": "Time up and down",
+    "speed": "Average speed",
+    "stiffness": "Stiffness at the load",
+    "supply_pressure": "Supply pressure (gauge)",
+    "ambient_temperature": "Ambient temperature",
+    "limits.max_contraction": "Largest contraction",
+    "limits.force_reserve": "Force reserve",
+    "limits.pressure_reserve": "Pressure reserve",
+    "limits.max_length": "Largest installed length",
+    "limits.end_fittings": "Length of both end fittings",
+    "limits.max_diameter": "Largest diameter",
+    "limits.max_parallel": "Most muscles in parallel",
+    "limits.life": "Load cycles",
+    "catalogue.muscles": "Muscles that may be used",
+    "catalogue.valves": "Valves that may be used",
+    "catalogue.tubes": "Tubes that may be used",
+    "catalogue.tube_length": "Tube from the valve to each muscle",
+    "uncertainty.blocked_force": "Spread of the blocked force (two standard deviations)",
+    "uncertainty.hysteresis": "Width of the hysteresis loop",
+    "uncertainty.supply_pressure": "Tolerance of the supply pressure",
+    "uncertainty.specimens": "Simulated specimens",
+    "rank_by": "Ranked by",
+    "max_proposals": "Proposals wanted",
+}
+#: Limit -> its name and the verb between what the drive has and what is allowed.
+LIMITS = {
+    "length": "Installed length",
+    "pressure": "Supply pressure",
+    "contraction": "Contraction",
+    "force": "Force over load, at rest",
+    "force_limit": "Tension of a muscle",
+    "diameter": "Outer diameter",
+    "stiffness": "Stiffness at the load",
+    "life": "Load cycles (an estimate)",
+    "temperature": "Ambient temperature",
+    "time": "Time for the stroke",
+    "time_down": "Time for the way back",
+    "cycle_time": "Time up and down",
+}
+
+
+def field_name(path: str) -> str:
+    """A field of the task in words."""
+    return _FIELDS.get(path) or path.rpartition(".")[2].replace("_", " ").capitalize()
+
+
+def limit_name(name: str) -> str:
+    """A limit in words."""
+    return LIMITS.get(name) or name.replace("_", " ").capitalize()
+
+
+def entry_value(entry: Entry) -> Html:
+    """The value of a field; what is not demanded is said so."""
+    if entry.value is None:
+        return html("none")
+    if isinstance(entry.value, str):
+        return html(entry.value)
+    return in_unit(entry.value, entry.unit)
+
+
+def in_unit(value: float, unit: str, digits: int = 4) -> Html:
+    """A value in SI as people of the field write it."""
+    if unit == "K":
+        shown = plain(value - _ZERO_CELSIUS, digits, exact=True)
+        return tag("data", f"{shown}\N{NO-BREAK SPACE}°C", value=repr(float(value)))
+    scale = {"Pa": BAR, "%": SHARE, "1": Scale(""), "": Scale("")}.get(unit) or scale_of(unit)
+    return figure(value, scale, digits, exact=True)
+
+
+def drive_words(proposal: Json) -> str:
+    """The muscles of a proposal in words."""
+    number = f"{proposal['muscles']} × " if proposal["muscles"] > 1 else ""
+    return f"{number}{proposal['muscle']}, {variable('length')[1].of(proposal['nominal_length']):.4g} mm"
+
+
+def parts_words(item: Json) -> str:
+    """Valve and tube of a proposal or rejected choice in words."""
+    named = [item["valve"], item["tube"]]
+    return ", ".join(name for name in named if name) or "whatever the valve and tube"

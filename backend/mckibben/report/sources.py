@@ -1,0 +1,36 @@
+"""Where figures come from: source, grade, and what a grade means."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from mckibben.physics.parameter import GRADES, UNVERIFIED_GRADES
+from mckibben.report.document import Column, mark, table
+from mckibben.report.html import Html, html
+
+
+class Figure(NamedTuple):
+    """Where a figure comes from: short source and grade."""
+
+    source: str
+    grade: str
+
+    @property
+    def verified(self) -> bool:
+        """Whether the figure was read in a source or computed from something read."""
+        return self.grade not in UNVERIFIED_GRADES
+
+
+def source_text(figure: Figure) -> Html:
+    """Source and grade of a figure, with a mark where nobody verified it."""
+    text = f"{figure.source} (grade {figure.grade}: {GRADES.get(figure.grade, 'unknown')})"
+    return html(text) if figure.verified else html(text, " ", mark("not verified"))
+
+
+def grades_table() -> Html:
+    """What each grade means."""
+    rows = [
+        [grade, meaning, mark("no") if grade in UNVERIFIED_GRADES else "yes"]
+        for grade, meaning in GRADES.items()
+    ]
+    return table([Column("Grade"), Column("Meaning"), Column("Verified")], rows)

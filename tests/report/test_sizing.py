@@ -1,0 +1,149 @@
+"""The sizing report from made-up material: what is told of a task, margins and specimens."""
+
+from __future__ import annotations
+
+import re
+from datetime import UTC, datetime
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+
+from mckibben.report.sizing import Command, Entry, Margin, Material, Spread, sizing_report
+from mckibben.report.sizing.given import task_section
+from mckibben.report.sizing.others import rejected_section
+from mckibben.report.sizing.safety import margins_section, uncertainty_section
+from mckibben.report.sizing.words import entry_value
+
+NASTY = "<script>alert(1)</script>\"'&</title>"
+REJECTED = {
+    "muscle": "A", "parallel": 1, "valve": None, "tube": None, "why": "one A is too weak", "binding": "force",
+    "would_work_if": "half the load", "combinations": 3,
+}  # fmt: skip
+
+
+def material(**changes: Any) -> Material:
+    """Of a task that nothing does."""
+    given: dict[str, Any] = {
+        "title": "A title", "made": datetime(2026, 1, 2, tzinfo=UTC), "versions": {"mckibben": "1"},
+        "about": "Lift 1 kg", "entries": [], "pair": False, "profile": ((), ()), "considered": {},
+        "answer": {
+            "proposals": [], "rejected": [REJECTED], "explored": [], "combinations": 3, "pruned": 3,
+            "simulated": 0, "specimens": 0, "message": None,
+        },
+        "chosen": None, "catalogue": {}, "hashes": {"task.json": "ab" * 32},
+        "command": Command(["mckibben size task.json"], {"task.json": "{}"}),
+    }  # fmt: skip
+    return Material(**(given | changes))
+
+
+class Picked:
+    """The fields of a chosen proposal that a section reads."""
+
+    def __init__(self, **fields: Any) -> None:
+        self.__dict__.update(fields)
+
+
+def text_of(part: str) -> str:
+    return re.sub("<[^>]*>", "", part)
+
+
+def cells(part: str) -> list[list[str]]:
+    """Rows of the bodies of all tables."""
+    root = ElementTree.fromstring(f"<r>{part}</r>")
+    return [["".join(cell.itertext()) for cell in row] for body in root.iter("tbody") for row in body]
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "shown"),
+    [
+        (0.06, "m", "60 mm"),
+        (6e5, "Pa", "6 bar"),
+        (293.15, "K", "20 °C"),
+        (0.2, "%", "20 %"),
+        (1.0471975511965976, "rad", "60°"),
+        (2000.0, "N/m", "2000 N/m"),
+        (2.0, "N*m", "2 N·m"),
+        (0.5, "1", "0.5"),
+        (2.0, "", "2"),
+        (1e6, "1", "1·10⁶"),
+        ("balanced", "", "balanced"),
+        (None, "s", "none"),
+    ],
+)
+def test_values_are_shown_as_people_write_them(value: float | str | None, unit: str, shown: str) -> None:
+    entry = Entry("stroke", value, unit, True, "")
+    assert text_of(entry_value(entry)).replace("\xa0", " ") == shown
+
+
+def test_a_task_tells_what_is_given_and_names_what_is_open() -> None:
+    entries = [
+        Entry("load.mass", 20.0, "kg", True, "Moved mass. 0: only what is stated is moved."),
+        Entry("limits.force_reserve", 0.1, "%", False, "Share. 10 %: so much do specimens differ."),
+        Entry("time_down", None, "s", False, "For the way back."),
+    ]
+    section = task_section(material(entries=entries))
+    assert cells(section) == [["Moved mass", "20\xa0kg", "Moved mass."]]
+    assert "Not part of the task: time for the way back." in section
+
+
+def test_margins_are_drawn_to_scale_and_the_nearest_is_named() -> None:
+    margins = [
+        Margin("time", 0.5, 0.4, "s", True, 0.25),
+        Margin("force", 1.1, 1.65, "1", False, 0.5),
+        Margin("life", 1e5, 1e6, "1", False, 9.0),
+    ]
+    section = margins_section(Picked(margins=margins))  # pyright: ignore[reportArgumentType]
+    bars = [e for e in ElementTree.fromstring(f"<r>{section}</r>").iter() if e.tag.endswith("rect")]
+    widths = [float(bar.attrib["width"]) for bar in bars]
+    assert widths[1] == pytest.approx(2 * widths[0], rel=1e-3)
+    assert widths[2] == pytest.approx(4 * widths[0], rel=1e-3)  # cut at 100 %
+    assert bars[0].attrib["fill"] != bars[1].attrib["fill"]
+    assert "the nearest limit is time for the stroke" in section
+    assert "900\xa0%" in section
+    rows = {row[0]: row[1:] for row in cells(section)}
+    assert rows["Force over load, at rest"] == ["at least 1.10 × the load", "1.65 × the load", "50.0\xa0%"]
+    assert rows["Time for the stroke"] == ["at most 0.5\xa0s", "0.4\xa0s", "25.0\xa0%"]
+
+
+def test_a_probability_says_what_it_is_a_share_of() -> None:
+    spread = Spread(0.1, 0.004, None, 0.0, 0.03, ["arrives"])
+    proposal = {"probability": 0.9, "probability_error": 0.03, "specimens": 100}
+    section = uncertainty_section(Picked(proposal=proposal, spread=spread))  # pyright: ignore[reportArgumentType]
+    words = text_of(section).replace("\xa0", " ")
+    assert "90 % of 100 simulated specimens do the task" in words
+    assert "between 84 and 96 %" in words  # two standard errors
+    assert "± 0.80 % of the length" in words  # two standard deviations of the shift
+    assert "no failure rate" in words
+    assert "not known of this muscle" in words
+    none = uncertainty_section(Picked(proposal=proposal, spread=None))  # pyright: ignore[reportArgumentType]
+    assert "is not known" in none
+
+
+def test_rejections_of_the_same_muscles_are_told_once_and_counted() -> None:
+    many = [
+        {**REJECTED, "valve": valve, "binding": "time", "why": f"{valve} is slow"}
+        for valve in ("V1", "V2", "V3")
+    ]
+    answer = {**material().answer, "rejected": [*many, REJECTED]}
+    rows = cells(rejected_section(material(answer=answer)))
+    assert [row[0] for row in rows] == [
+        "V1 is slow. And 2 more with other valves and tubes.",
+        "one A is too weak.",
+    ]
+    assert [row[1] for row in rows] == ["time for the stroke", "force over load, at rest"]
+
+
+def test_a_report_without_a_drive_is_well_formed_and_takes_texts_as_texts() -> None:
+    entry = Entry("load.mass", NASTY, "", True, NASTY)
+    rejected = {**REJECTED, "why": NASTY, "would_work_if": NASTY}
+    answer = {**material().answer, "rejected": [rejected], "message": NASTY}
+    command = Command([NASTY], {NASTY: NASTY}, [NASTY])
+    page = sizing_report(material(title=NASTY, about=NASTY, entries=[entry], answer=answer, command=command))
+    root = ElementTree.fromstring(page.removeprefix("<!DOCTYPE html>\n"))
+    assert "script" not in {element.tag for element in root.iter()}
+    assert root.findtext("head/title") == f"{NASTY} – sizing report"
+    assert ["".join(h.itertext()) for h in root.iter("h2")] == [
+        "1 Result", "2 Task", "3 What does not do the task", "4 Assumptions", "5 To repeat it",
+    ]  # fmt: skip
+    assert "ab" * 32 in page
