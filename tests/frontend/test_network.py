@@ -58,6 +58,18 @@ def test_the_page_is_usable_before_the_plots(page: Page) -> None:
     assert usable < plots_loaded
 
 
+def test_views_that_are_not_shown_are_fetched_when_they_are(page: Page) -> None:
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(urlsplit(request.url).path))
+    open_design(page)
+    pages = [f"/js/views/{view}/page.js" for view in ("transient", "compare", "catalogue")]
+    assert not set(pages) & set(asked)
+    for name, path in zip(("Transient", "Compare & diagnose", "Catalogue"), pages, strict=True):
+        page.get_by_role("button", name=name, exact=True).click()
+        expect(page.locator("main > div:visible")).not_to_contain_text("Loading")
+        assert path in asked
+
+
 def test_a_server_that_is_gone_and_comes_back(page: Page, page_guard: PageGuard) -> None:
     page_guard.allow("Failed to load resource")
     open_design(page)

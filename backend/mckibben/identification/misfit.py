@@ -30,7 +30,9 @@ class Misfit:
         self._names = [parameter.name for parameter in free]
         self._lost = _LOST * float(np.max(np.abs(subject.measured / subject.scale), initial=1.0))
         self._at: bytes | None = None
-        self._last = np.empty(0), np.empty((0, len(free)))
+        self._misfit = np.empty(0)
+        self._predicted: np.ndarray | None = None
+        self._slopes: np.ndarray | None = None
 
     def setting(self, numbers: np.ndarray) -> Setting:
         """The model with these numbers."""
@@ -38,11 +40,31 @@ class Misfit:
 
     def value(self, numbers: np.ndarray) -> np.ndarray:
         """Misfit, shape (values,)."""
-        return self._both(numbers)[0]
+        key = numbers.tobytes()
+        if key != self._at:
+            subject, setting = self._subject, self.setting(numbers)
+            self._predicted, self._slopes = None, None
+            with np.errstate(all="ignore"):
+                if subject.one_sided:  # derivatives are runs of their own: only where a step was good
+                    predicted = self._predicted = subject.predict(setting, clipped=False)
+                else:
+                    predicted, slopes = subject.linearised(setting, self._free)
+                    slopes = np.where(np.isfinite(predicted)[:, None], slopes, 0.0)
+                    self._slopes = self._finite(slopes / subject.scale[:, None])
+                misfit = (predicted - subject.measured) / subject.scale
+            self._at, self._misfit = key, np.where(np.isfinite(misfit), misfit, self._lost)
+        return self._misfit
 
     def derivatives(self, numbers: np.ndarray) -> np.ndarray:
         """Of the misfit, shape (values, free)."""
-        return self._both(numbers)[1]
+        self.value(numbers)
+        if self._slopes is None:
+            slopes = self._subject.differences(self.setting(numbers), self._free, self._predicted)
+            self._slopes = self._finite(slopes / self._subject.scale[:, None])
+        return self._slopes
+
+    def _finite(self, slopes: np.ndarray) -> np.ndarray:
+        return np.where(np.all(np.isfinite(slopes), axis=1, keepdims=True), slopes, 0.0)
 
     def fit(self, *, starts: int, tolerance: float, evaluations: int) -> FitResult:
         """Least squares over the free numbers, see `least_squares_fit`."""
@@ -54,15 +76,3 @@ class Misfit:
             tolerance=tolerance,
             evaluations=evaluations,
         )
-
-    def _both(self, numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        key = numbers.tobytes()
-        if key != self._at:
-            with np.errstate(all="ignore"):
-                predicted, slopes = self._subject.linearised(self.setting(numbers), self._free)
-                misfit = (predicted - self._subject.measured) / self._subject.scale
-                slopes = slopes / self._subject.scale[:, None]
-            lost = ~(np.isfinite(misfit) & np.isfinite(slopes).all(axis=1))
-            misfit[lost], slopes[lost] = self._lost, 0.0
-            self._at, self._last = key, (misfit, slopes)
-        return self._last

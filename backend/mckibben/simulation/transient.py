@@ -132,12 +132,14 @@ def segments_of(drive: Drive) -> tuple[np.ndarray, np.ndarray, Segments]:
     """Segment limits, inputs of each segment, and the command after the dead times of the effects."""
     on, off = dead_times(drive)
     command = delayed(drive.command.segments(drive.duration), on, off, before=drive.command.before)
-    given = drive.command.segments(drive.duration)
-    mirrored = Segments(given.times, np.array([drive.counter(v) for v in given.start_values]), -given.slopes)
-    counter = delayed(mirrored, on, off, before=drive.counter(drive.command.before))
     command, external = merged(command, external_force(drive))
-    counter, _ = merged(counter, command)
-    command, external = merged(command, counter)[0], merged(external, counter)[0]
+    counter = command  # of a single muscle nothing follows it
+    if drive.pair:
+        given = drive.command.segments(drive.duration)
+        opposite = np.array([drive.counter(value) for value in given.start_values])
+        mirrored = Segments(given.times, opposite, -given.slopes)
+        counter, _ = merged(delayed(mirrored, on, off, before=drive.counter(drive.command.before)), command)
+        command, external = merged(command, counter)[0], merged(external, counter)[0]
     columns = {
         "opening": command.start_values,
         "opening_slope": command.slopes,

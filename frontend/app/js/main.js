@@ -10,8 +10,8 @@ import { control, listenToKeys, plain, showShortcuts } from "./shortcuts.js";
 import { goTo, redoAndTell, shell, undoAndTell } from "./shell.js";
 import { designView } from "./views/design/index.js";
 import { plotlyReady } from "./views/design/charts.js";
-import { TRANSIENT_KEYS, transientView } from "./views/transient/index.js";
-import { transientExports } from "./views/transient/exports.js";
+import { TASK_KEYS } from "./views/sizing/index.js";
+import { TRANSIENT_KEYS, transientExports, transientView } from "./views/transient/index.js";
 import { COMPARE_KEYS, compareExports, compareView, listenToDrops } from "./views/compare/index.js";
 import { catalogueView } from "./views/catalogue/index.js";
 
@@ -32,6 +32,7 @@ const KEYS = [
     match: plain(String(i + 1)),
     run: () => goTo(v.id),
   })),
+  ...TASK_KEYS,
   ...TRANSIENT_KEYS,
   ...COMPARE_KEYS,
   { keys: "Ctrl Z", what: "Undo", match: control("z"), run: undoAndTell },

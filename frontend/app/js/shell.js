@@ -13,8 +13,8 @@ import { saveSheet } from "./plots/export.js";
 import { charts } from "./views/design/charts.js";
 import { curvesTable } from "./views/design/curves-table.js";
 import { openExample } from "./views/design/examples.js";
+import { isTaskDocument } from "./views/sizing/document.js";
 import { isDriveDocument } from "./views/transient/document.js";
-import { openDrive } from "./views/transient/model.js";
 
 /** `exports`: what the Export menu offers besides the document; without, that of the Design view.
  * @typedef {{id: string, title: string, build: () => HTMLElement,
@@ -57,8 +57,13 @@ async function openJson(file) {
   try {
     if (file.size > 1e6) throw new Error("it is larger than any document of this program");
     const raw = JSON.parse(await file.text());
-    if (isDriveDocument(raw)) openDrive(raw, null, `open ${file.name}`);
-    else {
+    if (isDriveDocument(raw)) {
+      const { openDrive } = await import("./views/transient/model.js");
+      openDrive(raw, null, `open ${file.name}`);
+    } else if (isTaskDocument(raw)) {
+      const { openTask } = await import("./views/sizing/model.js");
+      openTask(raw, `open ${file.name}`);
+    } else {
       const opened = readDoc(raw);
       edit(() => opened, `open ${file.name}`);
     }

@@ -2,6 +2,7 @@
 // The one document: what undo steps through, what the link carries, what a saved file holds.
 import { batch, computed, signal } from "./reactive.js";
 import { defaultCompare, readCompare } from "./views/compare/document.js";
+import { defaultSizing, readSizing } from "./views/sizing/document.js";
 import { defaultTransient, readTransient } from "./views/transient/document.js";
 
 /** @typedef {import("./types.js").Doc} Doc */
@@ -34,6 +35,7 @@ export const defaultDoc = () => ({
   view: "design",
   units: "bar",
   design: defaultDesign(),
+  sizing: defaultSizing(),
   transient: defaultTransient(),
   compare: defaultCompare(),
   catalogue: {
@@ -174,6 +176,7 @@ export function readDoc(raw) {
     view: typeof raw.view === "string" ? raw.view : start.view,
     units,
     design: readDesign(raw.design),
+    sizing: readSizing(raw.sizing),
     transient: readTransient(raw.transient),
     compare: readCompare(raw.compare),
     catalogue: readFilter(raw.catalogue),

@@ -31,6 +31,7 @@ export const KINDS = [
   "curves",
   "designs",
   "drives",
+  "tasks",
 ];
 
 export const muscles = computed(() => presets.value.muscles ?? []);

@@ -37,6 +37,7 @@
  *   sort: string, descending: boolean, selected: string | null}} CatalogueFilter */
 /** @typedef {import("./views/compare/document.js").Compare} Compare */
 /** @typedef {{schema: 1, view: string, units: import("./format.js").System, design: Design,
+ *   sizing: import("./views/sizing/document.js").Sizing,
  *   transient: import("./views/transient/document.js").Transient,
  *   compare: Compare, catalogue: CatalogueFilter}} Doc */
 

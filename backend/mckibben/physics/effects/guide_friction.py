@@ -3,7 +3,8 @@ r"""Friction of the load's guide: a force against the motion, higher at low spee
 .. math:: F_g = F_{cg}\,\bigl[1 + s\,e^{-|\dot s|/v_s}\bigr]\operatorname{sgn}\dot s + c_g\,\dot s,
    \quad s = F_{sg}/F_{cg} - 1
 
-Without a static share s the first part is constant; with one it falls with the speed (Stribeck). It acts on the load, so it is missing from a force that is measured at the muscle.
+Without a static share s the first part is constant; with one it falls with the speed (Stribeck). It acts on
+the load, so it is missing from a force that is measured at the muscle.
 """
 
 from mckibben.physics import ops

@@ -4,7 +4,6 @@
 import { h, icon } from "../../dom.js";
 import { effect } from "../../reactive.js";
 import { units } from "../../state.js";
-import { goTo } from "../../shell.js";
 import { effectsById } from "../../store.js";
 import { latest, post } from "../../api.js";
 import { siOf } from "../../format.js";
@@ -16,6 +15,7 @@ import { gradeTag, spoken, unverifiedNote } from "../../ui/sources.js";
 import { plotlyReady } from "../design/charts.js";
 import { usePreset } from "../design/muscle.js";
 import { forceSpec } from "../design/specs.js";
+import { showMuscle } from "../sizing/index.js";
 import { shownValue } from "./columns.js";
 import { selected } from "./table.js";
 
@@ -152,7 +152,7 @@ function facts(p) {
           class: "primary block",
           onclick: () => {
             usePreset(p.id);
-            goTo("design");
+            showMuscle();
           },
         },
         "Use in design",

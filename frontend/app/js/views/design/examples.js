@@ -7,7 +7,10 @@ import { status } from "../../store.js";
 export function openExample(preset) {
   try {
     const design = readDesign({ ...defaultDesign(), ...preset.document });
-    edit((d) => ({ ...d, view: "design", design }), `example ${preset.title}`);
+    edit(
+      (d) => ({ ...d, view: "design", design, sizing: { ...d.sizing, mode: "muscle" } }),
+      `example ${preset.title}`,
+    );
     status.value = `${preset.title}: ${preset.description}`;
   } catch (error) {
     const why = /** @type {Error} */ (error).message;

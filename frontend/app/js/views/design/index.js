@@ -1,5 +1,5 @@
 // @ts-check
-// The Design view: inputs, plots, results.
+// The Design view: from a muscle (inputs, plots, results), or from a task.
 import { h } from "../../dom.js";
 import { muscleCard } from "./muscle.js";
 import { operationCard } from "./operation.js";
@@ -9,12 +9,13 @@ import { resultCards } from "./results.js";
 import { inverseCard } from "./inverse.js";
 import { errorCard } from "./errors.js";
 import { fault, startModel } from "./model.js";
+import { inTask, modeSwitch, taskSide } from "../sizing/index.js";
 
 export function designView() {
   const verdict = resultCards();
-  const view = h(
+  const muscle = h(
     "div",
-    { class: "design" },
+    { class: "design", hidden: () => inTask.value },
     h("div", { class: "column inputs" }, muscleCard(), operationCard(), effectsCard()),
     chartColumn(),
     h(
@@ -26,5 +27,5 @@ export function designView() {
     ),
   );
   startModel();
-  return view;
+  return h("div", { class: "start-from" }, modeSwitch(), muscle, taskSide());
 }

@@ -1,5 +1,5 @@
 // @ts-check
-// What the Export menu offers in this view: the run as CSV, the plots, the drive document.
+// What leaves this view: the run as CSV, the plots, the drive document.
 import { units } from "../../state.js";
 import { ApiError } from "../../api.js";
 import { scaleOf, toShown } from "../../format.js";
@@ -7,7 +7,7 @@ import { status } from "../../store.js";
 import { saveSheet } from "../../plots/export.js";
 import { downloadText, toCsv } from "../../ui/table.js";
 import { shownCharts } from "./charts.js";
-import { documentNow, openDrive, simulate } from "./model.js";
+import { documentNow, simulate } from "./model.js";
 
 /** @typedef {import("../../types.js").Run} Run */
 /** @typedef {import("../../format.js").Quantity} Quantity */
@@ -77,7 +77,7 @@ export function runTable(r) {
 const stamp = () => new Date().toISOString().slice(0, 10);
 
 /** The whole run, finer than the plots show it. */
-async function saveCsv() {
+export async function saveCsv() {
   try {
     const whole = await simulate({ drive: documentNow(), points: ROWS });
     downloadText(`mckibben-run-${stamp()}.csv`, toCsv(runTable(whole)), "text/csv");
@@ -87,27 +87,14 @@ async function saveCsv() {
 }
 
 /** @param {"png" | "svg"} format */
-const savePlots = (format) => () =>
+export const savePlots = (format) =>
   saveSheet(shownCharts(), format, `mckibben-run-${stamp()}`).catch((error) => {
     status.value = `The plots could not be saved: ${error.message}`;
   });
 
-const saveDrive = () =>
+export const saveDrive = () =>
   downloadText(
     `mckibben-drive-${stamp()}.json`,
     JSON.stringify(documentNow(), null, 2) + "\n",
     "application/json",
   );
-
-/** @param {import("./document.js").Drive} raw @param {string} name */
-export function openDriveFile(raw, name) {
-  openDrive(raw, null, `open ${name}`);
-}
-
-/** @returns {import("../../ui/menu.js").Item[]} */
-export const transientExports = () => [
-  { label: "Run as CSV", note: `every column, ${ROWS} rows`, run: saveCsv },
-  { label: "Plots as PNG", note: "one sheet", run: savePlots("png") },
-  { label: "Plots as SVG", note: "one sheet", run: savePlots("svg") },
-  { label: "Drive as JSON", note: "opens here, runs with “mckibben simulate”", run: saveDrive },
-];

@@ -1,43 +1,7 @@
 // @ts-check
-// The Transient view: inputs, motion and plots, figures.
-import { append, h, icon } from "../../dom.js";
-import { computed } from "../../reactive.js";
+// The Transient view as the shell sees it: its page is fetched when it is first shown.
+import { later } from "../../later.js";
 import { view } from "../../state.js";
-import { stageCard, togglePlay } from "./animation.js";
-import { paired, plotCards } from "./charts.js";
-import { figureCards } from "./figures.js";
-import { measuredCard } from "./measured.js";
-import { fault, fieldOf, retry, run, startRuns } from "./model.js";
-import { inputCards } from "./panel.js";
-import { startPins } from "./pin-runs.js";
-import { compareCard, pin } from "./pins.js";
-import { startStatics } from "./statics.js";
-
-/** @param {string} path */
-function goToField(path) {
-  const root = document.querySelector(".transient");
-  for (let key = fieldOf(path); key; key = key.replace(/\.?[^.]*$/, "")) {
-    const box = root?.querySelector(`[data-field="${CSS.escape(key)}"]`);
-    box?.closest("details")?.setAttribute("open", "");
-    const input = box?.querySelector("input, select");
-    if (input instanceof HTMLElement) return input.focus();
-  }
-}
-
-function notice() {
-  const told = fault.value;
-  if (!told) return null;
-  const { field } = told;
-  return h(
-    "div",
-    { class: "notice bad", role: "alert" },
-    icon("warn"),
-    h("span", null, told.words, run.value ? " The plots show the last run that was possible." : ""),
-    field
-      ? h("button", { type: "button", onclick: () => goToField(field) }, "Go to the field")
-      : h("button", { type: "button", onclick: retry }, "Try again"),
-  );
-}
 
 /** A focused control keeps the space bar for itself. @param {KeyboardEvent} e */
 const free = (e) =>
@@ -50,37 +14,38 @@ export const TRANSIENT_KEYS = [
     keys: "Space",
     what: "Transient: play or pause the run",
     match: (e) => e.key === " " && free(e),
-    run: togglePlay,
+    run: async () => (await import("./animation.js")).togglePlay(),
   },
   {
     keys: "P",
     what: "Transient: pin this run",
     match: (e) => e.key.toLowerCase() === "p" && free(e),
-    run: pin,
+    run: async () => (await import("./pins.js")).pin(),
   },
 ];
 
-export function transientView() {
-  const stale = computed(() => Boolean(fault.value));
-  const results = h("div", { class: () => `column results${stale.value ? " stale" : ""}` });
-  figureCards().forEach((card) => append(results, card));
-  results.append(measuredCard());
-  const page = h(
-    "div",
-    { class: "transient" },
-    h("div", { class: "column inputs" }, ...inputCards()),
-    h(
-      "div",
-      { class: () => `column runs${stale.value ? " stale" : ""}${paired.value ? " paired" : ""}` },
-      notice,
-      stageCard(),
-      ...plotCards(),
-      compareCard(),
-    ),
-    results,
-  );
-  startRuns();
-  startStatics();
-  startPins();
-  return page;
-}
+/** @returns {import("../../ui/menu.js").Item[]} */
+export const transientExports = () => [
+  {
+    label: "Run as CSV",
+    note: "every column, 2001 rows",
+    run: async () => (await import("./exports.js")).saveCsv(),
+  },
+  {
+    label: "Plots as PNG",
+    note: "one sheet",
+    run: async () => (await import("./exports.js")).savePlots("png"),
+  },
+  {
+    label: "Plots as SVG",
+    note: "one sheet",
+    run: async () => (await import("./exports.js")).savePlots("svg"),
+  },
+  {
+    label: "Drive as JSON",
+    note: "opens here, runs with “mckibben simulate”",
+    run: async () => (await import("./exports.js")).saveDrive(),
+  },
+];
+
+export const transientView = later(async () => (await import("./page.js")).transientPage);

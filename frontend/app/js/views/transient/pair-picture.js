@@ -56,7 +56,8 @@ export function pairPicture(width) {
   const radius = computed(() => numberAt("load.pulley_radius") ?? 0);
   const scene = computed(() => {
     const r = run.value;
-    return r?.joint && radius.value > 0 ? sceneOf(r, width.value, radius.value) : null;
+    const room = width.value > LEFT + MARGIN + GAP; // no width is known before the first layout
+    return r?.joint && room && radius.value > 0 ? sceneOf(r, width.value, radius.value) : null;
   });
   /** @param {{x: number, y: number}} s @param {number} angle @param {number} far */
   const rimAt = (s, angle, far) => [s.x + far * Math.cos(angle), s.y - far * Math.sin(angle)];

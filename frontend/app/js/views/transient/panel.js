@@ -3,10 +3,10 @@
 import { h } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { design, units } from "../../state.js";
-import { goTo } from "../../shell.js";
 import { brief, siOf, withUnit } from "../../format.js";
 import { effectsCard, isStatic } from "../design/effects.js";
 import { preset } from "../design/model.js";
+import { showMuscle } from "../sizing/index.js";
 import { driveField, partMessage } from "./fields.js";
 import {
   arrangement,
@@ -71,7 +71,7 @@ function muscleLine() {
     { class: "part" },
     h("span", null, "Muscle"),
     h("b", { id: "drive-muscle" }, () => [muscleName.value, lengthText.value].filter(Boolean).join(" · ")),
-    h("button", { type: "button", class: "link", onclick: () => goTo("design") }, "Change in Design"),
+    h("button", { type: "button", class: "link", onclick: showMuscle }, "Change in Design"),
     h("p", { class: "error" }, () => {
       const told = fault.value;
       return told?.field && fieldOf(told.field).startsWith("muscle") ? told.words : "";

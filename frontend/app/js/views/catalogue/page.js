@@ -1,0 +1,126 @@
+// @ts-check
+// The page of the Catalogue view: filter, table, detail; preset files that were refused are named with the reason.
+import { h, icon } from "../../dom.js";
+import { computed, effect } from "../../reactive.js";
+import { units } from "../../state.js";
+import { presets, problems } from "../../store.js";
+import { scaleOf } from "../../format.js";
+import { quantityField } from "../../ui/field.js";
+import { KIND_TITLES } from "./columns.js";
+import { detailPanel } from "./detail.js";
+import { filter, partsTable, setFilter } from "./table.js";
+
+const kind = computed(() => filter.value.kind);
+const makers = computed(() =>
+  [...new Set((presets.value[kind.value] ?? []).map((p) => p.maker ?? "").filter(Boolean))].sort()
+);
+
+/** @param {[string, string]} entry */
+const kindButton = ([id, title]) =>
+  h(
+    "button",
+    {
+      type: "button",
+      role: "radio",
+      "aria-checked": () => String(kind.value === id),
+      onclick: () => setFilter({ kind: id, selected: null, maker: "", sort: "title", descending: false }),
+    },
+    title,
+    h("small", null, () => String(presets.value[id]?.length ?? "")),
+  );
+
+/** @param {"from" | "to"} key @param {string} label */
+const sizeField = (key, label) =>
+  quantityField({
+    key: `size.${key}`,
+    label,
+    quantity: "length",
+    slider: false,
+    empty: "any",
+    scale: () => scaleOf("length", units.value),
+    bounds: () => [0, 0.1],
+    get: () => filter.value[key],
+    put: (si) => setFilter({ [key]: si }),
+    clear: () => setFilter({ [key]: null }),
+  });
+
+function filterCard() {
+  const search = h("input", {
+    type: "search",
+    placeholder: "Search  ( / )",
+    "aria-label": "Search the catalogue",
+    oninput: () => setFilter({ search: search.value }),
+  });
+  effect(() => {
+    if (document.activeElement !== search) search.value = filter.value.search;
+  });
+  return h(
+    "section",
+    { class: "card", "aria-label": "Filter" },
+    h("div", { class: "card-head" }, h("h2", null, "Filter")),
+    h("label", { class: "search" }, icon("search"), search),
+    h(
+      "div",
+      { class: "kinds", role: "radiogroup", "aria-label": "Kind of part" },
+      ...Object.entries(KIND_TITLES).map(kindButton),
+    ),
+    h("label", { class: "label", for: "maker" }, "Maker"),
+    h(
+      "select",
+      {
+        id: "maker",
+        onchange: (/** @type {Event} */ e) =>
+          setFilter({ maker: /** @type {HTMLSelectElement} */ (e.target).value }),
+      },
+      () => [
+        h("option", { value: "" }, "All makers"),
+        ...makers.value.map((m) => h("option", { value: m, selected: m === filter.value.maker }, m)),
+      ],
+    ),
+    h("p", { class: "label" }, "Inside diameter"),
+    sizeField("from", "from"),
+    sizeField("to", "to"),
+    h("button", {
+      type: "button",
+      class: "link",
+      onclick: () => {
+        search.value = "";
+        setFilter({ search: "", maker: "", from: null, to: null });
+      },
+    }, "Clear the filter"),
+  );
+}
+
+function problemCard() {
+  const all = problems.value;
+  if (!all.length) return null;
+  return h(
+    "section",
+    { class: "card", "aria-label": "Refused files" },
+    h("div", { class: "card-head" }, h("h2", null, `${all.length} file${all.length > 1 ? "s" : ""} refused`)),
+    h(
+      "ul",
+      { class: "plain" },
+      ...all.map((p) =>
+        h(
+          "li",
+          null,
+          h("b", null, p.file),
+          p.field ? `, ${p.field}` : "",
+          `: ${p.message}. `,
+          p.hint ? h("small", null, p.hint) : null,
+        )
+      ),
+    ),
+  );
+}
+
+export function cataloguePage() {
+  return h(
+    "div",
+    { class: "catalogue" },
+    h("div", { class: "column" }, filterCard(), problemCard),
+    h("div", { class: "column" }, partsTable()),
+    h("div", { class: "column" }, detailPanel()),
+  );
+}

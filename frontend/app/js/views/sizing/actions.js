@@ -1,0 +1,132 @@
+// @ts-check
+// What becomes of a proposal: a muscle in the Design view, a run in the Transient view, a report, a table.
+import { signal } from "../../reactive.js";
+import { edit, units } from "../../state.js";
+import { ApiError, postForText } from "../../api.js";
+import { scaleOf, toShown } from "../../format.js";
+import { musclesById, status } from "../../store.js";
+import { downloadText, toCsv } from "../../ui/table.js";
+import { takenApart } from "../transient/document.js";
+import { answeredTask, proposals, sizing } from "./model.js";
+import { requestOf } from "./document.js";
+import { AIMS, driveWords, limitName } from "./words.js";
+
+/** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
+
+const GRAVITY = 9.80665, BAR = 1e5, NEAR = 0.3 * BAR;
+const stamp = () => new Date().toISOString().slice(0, 10);
+
+/** What one muscle holds at the end of the stroke at rest [N]. @param {Proposal} p */
+export function staticLoad({ drive, nominal_length: length, contraction }) {
+  const { mass = 0, force = 0, spring = 0, inclination = 0, lever_ratio: ratio = 1 } =
+    /** @type {Record<string, number | undefined>} */ (drive.load);
+  const stroke = (length * contraction) / ratio;
+  return (mass * GRAVITY * Math.sin(inclination) + force + spring * stroke) / ratio;
+}
+
+/** Whole bars up to the pressure of the proposal, and that itself. @param {number} most */
+function family(most) {
+  const whole = Array.from({ length: Math.ceil(most / BAR) }, (_, i) => (i + 1) * BAR);
+  return [...whole.filter((p) => p < most - NEAR), most];
+}
+
+/** Points to compare with: the maker’s curve goes by contraction, a measurement is of one length.
+ * @param {Proposal} p */
+const reference = (p) => musclesById.peek().get(p.muscle)?.reference_curve ?? null;
+
+/** @param {Proposal} p */
+const oneOf = ({ parallel }) =>
+  parallel > 1 ? ` One of ${parallel} parallel muscles, with its share of the load.` : "";
+
+/** @param {Proposal} p */
+export function openInDesign(p) {
+  edit((d) => ({
+    ...d,
+    sizing: { ...d.sizing, mode: "muscle" },
+    design: {
+      ...d.design,
+      muscle: { preset: p.muscle, form: "braid", values: { nominal_length: p.nominal_length } },
+      effects: null,
+      reference: reference(p),
+      pressures: family(p.pressure),
+      load: Math.max(0, Number(staticLoad(p).toPrecision(5))),
+      range: null,
+    },
+  }), `proposal ${driveWords(p)}`);
+  status.value = `${driveWords(p)} at its load at the end of the stroke.${oneOf(p)}`;
+}
+
+/** @param {Proposal} p */
+export function openInTransient(p) {
+  const { muscle, effects, transient } = takenApart(p.drive, null);
+  edit((d) => ({
+    ...d,
+    view: "transient",
+    design: { ...d.design, muscle, effects, reference: reference(p) },
+    transient: { ...d.transient, ...transient },
+  }), `proposal ${driveWords(p)}`);
+  status.value = `${driveWords(p)}, filled and vented once.${oneOf(p)}`;
+}
+
+/** Whether a report is being written: the server searches once more. */
+export const writing = signal(false);
+
+/** One file that holds the task, the proposal and why. @param {number} index of the proposal, from 0 */
+export async function saveReport(index) {
+  const task = answeredTask();
+  writing.value = true;
+  try {
+    const text = await postForText("/api/sizings/reports", {
+      task,
+      proposal: index + 1,
+      title: task.title ?? "",
+    });
+    downloadText(`mckibben-sizing-${stamp()}.html`, text, "text/html");
+    status.value = "The report is saved.";
+  } catch (error) {
+    if (!(error instanceof ApiError)) throw error;
+    status.value = `The report could not be written: ${error.words}`;
+  } finally {
+    writing.value = false;
+  }
+}
+
+/** The task as “mckibben size” takes it. */
+export function saveTask() {
+  const text = JSON.stringify({ schema: 1, ...requestOf(sizing.peek()) }, null, 2) + "\n";
+  downloadText(`mckibben-task-${stamp()}.json`, text, "application/json");
+}
+
+/** @returns {import("../../ui/table.js").Table} */
+function proposalTable() {
+  const system = units.peek(), fittings = answeredTask().limits?.end_fittings ?? 0;
+  const aims = Object.values(AIMS), pressure = scaleOf("pressure", system);
+  const length = scaleOf("length", system);
+  return {
+    columns: [
+      ...["rank", "muscle", "muscles", "valve", "tube"].map((title) => ({ title, text: true })),
+      { title: "nominal length", unit: length.unit },
+      { title: "supply pressure", unit: pressure.unit },
+      ...aims.map((a) => ({ title: a.title.toLowerCase(), unit: scaleOf(a.quantity, system).unit })),
+      { title: "probability", unit: "%" },
+      { title: "impact energy", unit: "J" },
+      { title: "binding limit", text: true },
+    ],
+    rows: proposals.peek().map((p, i) => [
+      String(i + 1),
+      p.muscle,
+      String(p.muscles),
+      p.valve,
+      p.tube ?? "",
+      toShown(p.nominal_length, length),
+      toShown(p.pressure, pressure),
+      ...aims.map((a) => toShown(a.of(p, fittings), scaleOf(a.quantity, system))),
+      p.probability === null ? null : 100 * p.probability,
+      p.impact_energy,
+      limitName(p.binding),
+    ]),
+  };
+}
+
+export const saveCsv = () =>
+  downloadText(`mckibben-proposals-${stamp()}.csv`, toCsv(proposalTable()), "text/csv");

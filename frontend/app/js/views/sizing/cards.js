@@ -1,0 +1,217 @@
+// @ts-check
+// The left column in Task mode: the task in grouped cards, the essentials open, the rest folded.
+import { h, icon } from "../../dom.js";
+import { computed } from "../../reactive.js";
+import { presets } from "../../store.js";
+import { menuButton } from "../../ui/menu.js";
+import { rearranged } from "./document.js";
+import { openOnError, profileField, taskField } from "./fields.js";
+import {
+  arrangement,
+  cancel,
+  editSizing,
+  messageFor,
+  openExample,
+  propose,
+  setTask,
+  sizing,
+  stage,
+  valueAt,
+} from "./model.js";
+import { partsField } from "./parts.js";
+import { RANKING_WHY, RANKINGS, USUAL_RANKING } from "./specs.js";
+
+/** @typedef {import("./document.js").Arrangement} Arrangement */
+
+/** @type {[Arrangement, string, string][]} */
+const ARRANGEMENTS = [
+  ["lift", "Lift", "The muscle pulls the load directly"],
+  ["lever", "Lever", "Through a lever or pulley: the muscle’s stroke differs from the load’s"],
+  ["antagonist", "Antagonist", "Two muscles turn a pulley against each other"],
+];
+
+export const examples = () => presets.value.tasks ?? [];
+
+function exampleItems() {
+  const all = examples();
+  if (!all.length) return [{ heading: "No example tasks on this server" }];
+  return all.map((p) => ({ label: p.title, note: p.description, run: () => openExample(p) }));
+}
+
+/** Proposes, or gives up while a search runs. */
+export const proposeButton = () =>
+  h(
+    "button",
+    {
+      type: "button",
+      class: () => `block${stage.value === "running" ? "" : " primary"}`,
+      title: "Ctrl+Enter",
+      onclick: () => stage.peek() === "running" ? cancel() : propose(),
+    },
+    () => stage.value === "running" ? "Cancel the search" : "Propose drives",
+  );
+
+export function taskCard() {
+  const title = h("input", {
+    type: "text",
+    id: "task-title",
+    maxlength: 200,
+    autocomplete: "off",
+    placeholder: "Untitled",
+    value: () => valueAt("title") ?? "",
+    onchange: () => setTask("title", title.value.trim() || undefined, "title"),
+  });
+  return h(
+    "section",
+    { class: "card task-head", "aria-label": "Task" },
+    h(
+      "div",
+      { class: "card-head" },
+      h("h2", null, "Task"),
+      menuButton({
+        label: ["Examples", icon("down")],
+        name: "Examples of tasks",
+        class: "quiet",
+        items: exampleItems,
+      }),
+    ),
+    h("label", { class: "unseen", for: "task-title" }, "Title of the task"),
+    title,
+    h("p", { class: "error", "data-field": "title" }, () => messageFor("title") ?? ""),
+    h(
+      "div",
+      { class: "segments", role: "radiogroup", "aria-label": "Arrangement" },
+      ...ARRANGEMENTS.map(([id, label, hint]) =>
+        h("button", {
+          type: "button",
+          role: "radio",
+          title: hint,
+          "aria-checked": () => String(arrangement.value === id),
+          onclick: () => editSizing(rearranged(sizing.peek(), id), label.toLowerCase()),
+        }, label)
+      ),
+    ),
+    proposeButton(),
+  );
+}
+
+/** @param {string} title @param {import("../../dom.js").Child[]} body */
+const card = (title, ...body) =>
+  h(
+    "section",
+    { class: "card", "aria-label": title },
+    h("div", { class: "card-head" }, h("h2", null, title)),
+    ...body,
+  );
+
+/** Fields one seldom changes; an error opens them.
+ * @param {string} summary @param {string[]} paths @param {import("../../dom.js").Child[]} more */
+const folded = (summary, paths, ...more) =>
+  h(
+    "details",
+    { ref: openOnError(paths) },
+    h("summary", null, summary),
+    ...paths.filter((path) => path !== PROFILE).map((path) => taskField(path)),
+    ...more,
+  );
+const PROFILE = "load.force_over_stroke";
+
+const isPair = computed(() => arrangement.value === "antagonist");
+
+/** The fields of a load, as it is arranged. */
+function loadFields() {
+  if (isPair.value) {
+    return [
+      taskField("load.pair.angle", { needed: true }),
+      taskField("load.pair.torque", { needed: true }),
+      taskField("load.pair.inertia", { needed: true }),
+      taskField("load.pair.pulley_radius"),
+    ];
+  }
+  return [
+    taskField("load.mass", { needed: true }),
+    taskField("load.force"),
+    arrangement.value === "lever" ? taskField("load.lever_ratio", { needed: true }) : null,
+    folded(
+      "Inclination, spring, counterweight, force over stroke",
+      ["load.inclination", "load.spring", "load.counterweight", PROFILE],
+      profileField(),
+    ),
+  ];
+}
+
+function rankField() {
+  return h(
+    "div",
+    { class: "task-field", "data-field": "rank_by" },
+    h(
+      "div",
+      { class: "field-head" },
+      h("label", { for: "rank-by" }, "Ranked by"),
+      h(
+        "select",
+        {
+          id: "rank-by",
+          class: "small",
+          onchange: (/** @type {Event} */ e) =>
+            setTask("rank_by", /** @type {HTMLSelectElement} */ (e.target).value, "ranking"),
+        },
+        () =>
+          RANKINGS.map(([id, name]) =>
+            h("option", { value: id, selected: id === (valueAt("rank_by") ?? USUAL_RANKING) }, name)
+          ),
+      ),
+    ),
+    h("p", { class: "hint" }, RANKING_WHY),
+  );
+}
+
+export function taskCards() {
+  return [
+    card("Load", () => loadFields()),
+    card(
+      "Motion and air",
+      () => isPair.value ? null : taskField("stroke", { needed: true }),
+      taskField("time"),
+      taskField("supply_pressure"),
+      folded("Way back, cycle, stiffness, temperature", [
+        "time_down",
+        "cycle_time",
+        "stiffness",
+        "ambient_temperature",
+      ]),
+      () => isPair.value ? null : folded("Speed in place of the time", ["speed"]),
+    ),
+    card(
+      "Space and margins",
+      taskField("limits.max_length"),
+      taskField("limits.max_diameter"),
+      taskField("limits.max_parallel"),
+      folded("Contraction, reserves, fittings, life", [
+        "limits.max_contraction",
+        "limits.force_reserve",
+        "limits.pressure_reserve",
+        "limits.end_fittings",
+        "limits.life",
+      ]),
+    ),
+    card(
+      "Catalogue",
+      partsField("muscles", "Muscles", "all with complete data", "Then every limit is known."),
+      partsField("valves", "Valves", "all whose flow is known", "Regulators switch too slowly."),
+      partsField("tubes", "Tubes", "all", "The narrow ones save air, the wide ones time."),
+      taskField("catalogue.tube_length"),
+    ),
+    card(
+      "Uncertainty and ranking",
+      rankField(),
+      folded("Specimens, tolerances, number of proposals", [
+        "uncertainty.specimens",
+        "uncertainty.blocked_force",
+        "uncertainty.supply_pressure",
+        "uncertainty.hysteresis",
+        "max_proposals",
+      ]),
+    ),
+  ];
+}

@@ -1,0 +1,142 @@
+// @ts-check
+// The right column: the chosen proposal in figures, what to do with it, and how the search went.
+import { h, icon } from "../../dom.js";
+import { openPopover } from "../../ui/dialog.js";
+import { openInDesign, openInTransient, saveReport, writing } from "./actions.js";
+import { marginBars } from "./margins.js";
+import { answer, chosen, chosenIndex, proposals } from "./model.js";
+import { driveWords, partsWords, percent, say } from "./words.js";
+
+/** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
+
+const LIKELY = 0.9, DOUBTFUL = 0.5;
+
+/** @param {Proposal} p */
+function verdict(p) {
+  const { probability, probability_error: error } = p;
+  if (probability == null) {
+    return h(
+      "p",
+      { class: "verdict warn" },
+      icon("info"),
+      "Does the task as computed; no specimens were asked for.",
+    );
+  }
+  const grade = probability >= LIKELY ? "good" : probability >= DOUBTFUL ? "warn" : "bad";
+  const range = error ? ` ± ${percent(error)}` : "";
+  return h(
+    "p",
+    { class: `verdict ${grade}` },
+    icon(grade === "good" ? "check" : "warn"),
+    h(
+      "span",
+      null,
+      h("b", null, `${percent(probability)}${range}`),
+      ` probability that what is built does the task (${p.specimens} specimens).`,
+    ),
+  );
+}
+
+/** @param {Proposal} p @returns {[string, string][]} */
+const figures = (p) => [
+  ["Time for the stroke", say(p.time, "time")],
+  ["Time back", say(p.time_down, "time")],
+  ["Air per cycle", say(p.air_volume_anr, "normal")],
+  ["Supply pressure", say(p.pressure, "pressure")],
+  ["Pressure that just carries", say(p.needed_pressure, "pressure")],
+  ["Pressure at the start", say(p.pressure_start, "pressure")],
+  ["Pressure on arrival", say(p.pressure_end, "pressure")],
+  ["Contraction", say(p.contraction, "ratio")],
+  ["Force reserve", percent(p.force_reserve)],
+  ["Peak muscle force", say(p.peak_force, "force")],
+  ["Stiffness, valve open", say(p.stiffness, "stiffness")],
+  ["Stiffness, valve closed", say(p.stiffness_closed, "stiffness")],
+  ["Energy at impact", say(p.impact_energy, "energy")],
+  ["End speed", say(p.end_speed, "speed")],
+  ["Largest speed", say(p.max_speed, "speed")],
+  ["Installed length", say(p.installed_length, "length")],
+  ["Diameter, bulged", say(p.diameter, "length")],
+  ["Life, unverified", `${Number(p.life.toPrecision(2)).toLocaleString("en")} cycles`],
+];
+
+/** @param {Proposal} p */
+function unverifiedBadge(p) {
+  if (!p.unverified.length) return null;
+  const button = h(
+    "button",
+    {
+      type: "button",
+      class: "badge warn",
+      "aria-expanded": "false",
+      onclick: () =>
+        openPopover(button, "Unverified figures", () => [
+          h("h3", null, "Unverified figures"),
+          h("p", null, "These figures enter, and nobody read them in a source. Check them before you buy."),
+          h("ul", { class: "plain" }, ...p.unverified.map((text) => h("li", null, text))),
+        ]),
+    },
+    icon("warn"),
+    "unverified",
+  );
+  return button;
+}
+
+/** @param {Proposal} p */
+function card(p) {
+  return [
+    h(
+      "div",
+      { class: "card-head" },
+      h("h2", null, () => `Proposal ${chosenIndex.value + 1} of ${proposals.value.length}`),
+      unverifiedBadge(p),
+    ),
+    h("h3", null, () => driveWords(p)),
+    h("p", { class: "muted" }, () => partsWords(p)),
+    verdict(p),
+    h(
+      "div",
+      { class: "act" },
+      h(
+        "button",
+        { type: "button", class: "primary", onclick: () => openInTransient(p) },
+        "Open in Transient",
+      ),
+      h("button", { type: "button", onclick: () => openInDesign(p) }, "Open in Design"),
+      h(
+        "button",
+        { type: "button", disabled: () => writing.value, onclick: () => saveReport(chosenIndex.peek()) },
+        () => writing.value ? "Writing…" : "Report",
+      ),
+    ),
+    h("dl", null, () => figures(p).flatMap(([name, text]) => [h("dt", null, name), h("dd", null, text)])),
+    h("h3", { class: "second" }, "Margins"),
+    marginBars(p),
+    ...p.notes.map((note) => h("p", { class: "flag note" }, icon("info"), h("span", { title: note }, note))),
+  ];
+}
+
+export function chosenCard() {
+  return h(
+    "section",
+    { class: "card chosen-drive", "aria-label": "Chosen proposal", hidden: () => !chosen.value },
+    () => chosen.value ? card(chosen.value) : null,
+  );
+}
+
+/** How the search went. */
+export function searchLine() {
+  const a = answer.value;
+  if (!a) return null;
+  const count = (/** @type {number} */ n) => n.toLocaleString("en");
+  return h(
+    "p",
+    { class: "muted search-line" },
+    `${
+      count(a.combinations)
+    } combinations of muscle, length, number, pressure, valve and tube within the limits; `,
+    `${count(a.pruned)} sorted out in closed form, ${count(a.simulated)} runs and ${
+      count(a.specimens)
+    } of specimens `,
+    `in ${(a.wall_ms / 1e3).toFixed(1)} s.`,
+  );
+}

@@ -1,0 +1,22 @@
+// @ts-check
+// How far a proposal stays from each limit: one bar each, the fullest is the one that binds.
+import { h } from "../../dom.js";
+import { limitName, spare } from "./words.js";
+
+/** @param {import("../../types.js").S["ProposalAnswer"]} p */
+export function marginBars(p) {
+  const rows = Object.entries(p.margins).sort(([, a], [, b]) => a - b);
+  return h(
+    "div",
+    { class: "margins" },
+    ...rows.map(([name, left]) =>
+      h(
+        "div",
+        { class: name === p.binding ? "binding" : "" },
+        h("span", null, limitName(name)),
+        h("span", { class: "bar" }, h("i", { style: `width:${100 / (1 + Math.max(0, left))}%` })),
+        h("span", { class: "num" }, `${spare(left)}${name === p.binding ? ", nearest" : ""}`),
+      )
+    ),
+  );
+}

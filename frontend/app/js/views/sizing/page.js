@@ -1,0 +1,166 @@
+// @ts-check
+// The Task side of the Design view: task, ranked drives with trade-offs and reasons, the chosen drive.
+import { h, icon } from "../../dom.js";
+import { examples, proposeButton, taskCard, taskCards } from "./cards.js";
+import { chosenCard, searchLine } from "./chosen.js";
+import { frontCard } from "./front.js";
+import {
+  answer,
+  cancel,
+  fault,
+  fieldOf,
+  openExample,
+  proposals,
+  propose,
+  share,
+  stage,
+  stale,
+  startSizing,
+} from "./model.js";
+import { proposalsCard } from "./proposals.js";
+import { rejectedCard } from "./rejected.js";
+
+/** @param {string} path */
+function goToField(path) {
+  const root = document.querySelector(".sizing");
+  for (let key = fieldOf(path); key; key = key.replace(/\.?[^.]*$/, "")) {
+    const box = root?.querySelector(`[data-field="${CSS.escape(key)}"]`);
+    box?.closest("details")?.setAttribute("open", "");
+    const input = box?.querySelector("input, select, textarea");
+    if (input instanceof HTMLElement) return input.focus();
+  }
+}
+
+/** @param {string} kind @param {"info" | "warn"} sign @param {import("../../dom.js").Child[]} body */
+const notice = (kind, sign, ...body) =>
+  h("div", { class: `notice ${kind}`, role: kind === "bad" ? "alert" : "status" }, icon(sign), ...body);
+
+/** What stands between the task and the drives on screen. */
+function notices() {
+  const told = fault.value, { field } = told ?? {};
+  if (stage.value === "running") return null;
+  if (told) {
+    return notice(
+      "bad",
+      "warn",
+      h("span", null, told.words),
+      field
+        ? h("button", { type: "button", onclick: () => goToField(field) }, "Go to the field")
+        : h("button", { type: "button", onclick: propose }, "Try again"),
+    );
+  }
+  if (stale.value) {
+    return notice(
+      "",
+      "info",
+      h("span", null, "The task has changed: these drives are those of the task before."),
+      h("button", { type: "button", onclick: propose }, "Propose again"),
+    );
+  }
+  if (stage.value === "cancelled" && !answer.value) {
+    return notice("", "info", h("span", null, "The search was cancelled."));
+  }
+  const message = answer.value?.message;
+  return message ? notice("", "info", h("span", null, message)) : null;
+}
+
+function progress() {
+  if (stage.value !== "running") return null;
+  return h(
+    "section",
+    { class: "card searching", "aria-label": "Search" },
+    h(
+      "p",
+      { role: "status" },
+      "Searching the catalogue: closed form first, then every choice is run through time…",
+    ),
+    h(
+      "div",
+      null,
+      h("progress", { max: 1, value: () => share.value, "aria-label": "Search" }),
+      h("span", { class: "num" }, () => `${Math.round(100 * share.value)}\u00a0%`),
+      h("button", { type: "button", onclick: cancel }, icon("close"), "Cancel"),
+    ),
+  );
+}
+
+/** Before the first search. */
+function start() {
+  if (answer.value || stage.value === "running") return null;
+  return h(
+    "section",
+    { class: "card empty-state", "aria-label": "Start" },
+    h("h2", null, "Which drive does your task?"),
+    h(
+      "p",
+      null,
+      "Say what is to be moved, how far and how fast, with which supply and in how much room. Every muscle, number, " +
+        "valve and tube of the catalogue is tried; you get the drives that do it, ranked, with what binds each, how " +
+        "sure it is, and why the others do not do.",
+    ),
+    h(
+      "p",
+      { class: "muted" },
+      "The task on the left is an example: take it as it is, change it, or open another.",
+    ),
+    proposeButton(),
+    h("h3", null, "Example tasks"),
+    h("div", { class: "tiles" }, () =>
+      examples().map((p) =>
+        h(
+          "button",
+          { type: "button", class: "tile", onclick: () => openExample(p) },
+          h("b", null, p.title),
+          h("small", null, p.description ?? ""),
+        )
+      )),
+  );
+}
+
+function nothing() {
+  if (!answer.value || proposals.value.length) return null;
+  return h(
+    "section",
+    { class: "card", "aria-label": "No drive" },
+    h("div", { class: "card-head" }, h("h2", null, "No drive of the catalogue does this")),
+    h(
+      "p",
+      { class: "verdict bad" },
+      icon("warn"),
+      h(
+        "span",
+        null,
+        "Below stands of each candidate why not, and what would make it work; the nearest first.",
+      ),
+    ),
+  );
+}
+
+export function taskPage() {
+  const dimmed = () => stale.value || fault.value || stage.value === "running" ? " stale" : "";
+  const page = h(
+    "div",
+    {
+      class: () =>
+        `design sizing${answer.value ? "" : " is-empty"}${proposals.value.length ? "" : " without-drives"}`,
+    },
+    h("div", { class: "column inputs" }, taskCard(), ...taskCards()),
+    h(
+      "div",
+      { class: "column ranked" },
+      h("div", { class: "column" }, notices),
+      h("div", { class: "column" }, progress),
+      h("div", { class: "column" }, start),
+      h("div", { class: () => `column${dimmed()}` }, nothing),
+      h("div", { class: () => `column${dimmed()}`, hidden: () => !proposals.value.length }, proposalsCard()),
+    ),
+    h(
+      "div",
+      { class: () => `column results${dimmed()}`, hidden: () => !proposals.value.length },
+      chosenCard(),
+    ),
+    h("div", { class: () => `column further${dimmed()}` }, frontCard(), rejectedCard(), searchLine),
+  );
+  startSizing();
+  return page;
+}

@@ -1,0 +1,200 @@
+// @ts-check
+// The ranked list: one row a drive, its reasons and margins unfolded below it.
+import { h, icon } from "../../dom.js";
+import { effect, signal } from "../../reactive.js";
+import { menuButton } from "../../ui/menu.js";
+import { saveCsv, saveTask } from "./actions.js";
+import { marginBars } from "./margins.js";
+import { answer, chosenIndex, lookSizing, proposals } from "./model.js";
+import { driveWords, limitName, partsOf, percent, say, spare } from "./words.js";
+
+/** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
+
+/** Ranks whose reasons are unfolded. */
+const unfolded = signal(/** @type {ReadonlySet<number>} */ (new Set()));
+/** @param {number} i */
+function fold(i) {
+  const next = new Set(unfolded.peek());
+  if (!next.delete(i)) next.add(i);
+  unfolded.value = next;
+}
+
+/** @type {[string, string][]} */
+const HEAD = [
+  ["", "No."],
+  ["text", "Drive"],
+  ["", "Time"],
+  ["", "Does it"],
+  ["wide", "Air per cycle"],
+  ["wide roomy", "Force reserve"],
+  ["wide text", "Nearest limit"],
+  ["", ""],
+];
+
+const DOUBTFUL = 0.5;
+
+/** @param {Proposal} p */
+const doubt = (p) =>
+  p.unverified.length
+    ? h(
+      "span",
+      { class: "doubt", title: `Unverified: ${p.unverified.join("; ")}` },
+      icon("warn"),
+      h("span", { class: "unseen" }, "unverified figures"),
+    )
+    : null;
+
+/** @param {Proposal} p @param {number} i */
+function row(p, i) {
+  const open = () => unfolded.value.has(i);
+  return h(
+    "tbody",
+    null,
+    h(
+      "tr",
+      {
+        class: () => `proposal${chosenIndex.value === i ? " chosen" : ""}`,
+        onclick: () => lookSizing({ selected: i }),
+      },
+      h("td", { class: "rank" }, String(i + 1)),
+      h(
+        "th",
+        { scope: "row", class: "text" },
+        h(
+          "button",
+          { type: "button", class: "drive", "aria-pressed": () => String(chosenIndex.value === i) },
+          () => driveWords(p),
+        ),
+        p.front
+          ? h("span", { class: "front-mark", title: "Nothing is better in everything" }, "front")
+          : null,
+        doubt(p),
+        h(
+          "small",
+          null,
+          () =>
+            partsOf(p).map((text, i, all) =>
+              h("span", { class: "whole" }, text, i < all.length - 1 ? ", " : "")
+            ),
+        ),
+      ),
+      h("td", null, () => say(p.time, "time")),
+      h(
+        "td",
+        { class: (p.probability ?? 1) < DOUBTFUL ? "doubtful" : "" },
+        p.probability === null ? "–" : percent(p.probability),
+      ),
+      h("td", { class: "wide" }, () => say(p.air_volume_anr, "normal").replace(/\s*\(ANR\)/, "")),
+      h("td", { class: "wide roomy" }, percent(p.force_reserve)),
+      h(
+        "td",
+        { class: "wide text" },
+        limitName(p.binding),
+        h("small", null, spare(p.margins[p.binding])),
+      ),
+      h(
+        "td",
+        null,
+        h("button", {
+          type: "button",
+          class: () => `mini fold${open() ? " up" : ""}`,
+          "aria-expanded": () => String(open()),
+          "aria-label": `Reasons for proposal ${i + 1}`,
+          onclick: (/** @type {Event} */ e) => {
+            e.stopPropagation();
+            fold(i);
+          },
+        }, icon("down")),
+      ),
+    ),
+    () => (open() ? h("tr", { class: "more" }, h("td", { colspan: HEAD.length }, details(p))) : null),
+  );
+}
+
+/** @param {string} text */
+const capital = (text) => text.replace(/^./, (c) => c.toUpperCase());
+
+/** @param {Proposal} p */
+function details(p) {
+  return h(
+    "div",
+    { class: "reasons" },
+    h(
+      "div",
+      null,
+      h("p", null, `${capital(p.reason)}.`),
+      h(
+        "dl",
+        null,
+        ...figures(p).flatMap(([name, text]) => [h("dt", null, name), h("dd", null, text)]),
+      ),
+      p.notes.length
+        ? h("ul", { class: "plain muted" }, ...p.notes.map((note) => h("li", null, note)))
+        : null,
+    ),
+    h("div", null, h("h3", null, "Margins"), marginBars(p)),
+  );
+}
+
+/** @param {Proposal} p @returns {[string, string][]} */
+const figures = (p) => [
+  ["Pressure at the start", say(p.pressure_start, "pressure")],
+  ["Pressure at the end", say(p.pressure_end, "pressure")],
+  ["Stiffness, valve open", say(p.stiffness, "stiffness")],
+  ["Stiffness, valve closed", say(p.stiffness_closed, "stiffness")],
+  ["Impact energy", say(p.impact_energy, "energy")],
+];
+
+export function proposalsCard() {
+  effect(() => {
+    answer.value;
+    unfolded.value = new Set();
+  });
+  return h(
+    "section",
+    { class: "card proposals", "aria-label": "Proposals" },
+    h(
+      "div",
+      { class: "card-head" },
+      h("h2", null, "Proposals"),
+      h("span", { class: "muted" }, "best first"),
+      menuButton({
+        label: icon("more"),
+        name: "Proposals: save",
+        class: "mini",
+        items: () => [
+          { label: "Proposals as CSV", note: "shown units", run: saveCsv },
+          { label: "Task as JSON", note: "for mckibben size", run: saveTask },
+        ],
+      }),
+    ),
+    h(
+      "div",
+      { class: "scroll", tabindex: 0, role: "region", "aria-label": "Ranked drives" },
+      h(
+        "table",
+        { class: "data" },
+        h("caption", { class: "unseen" }, "Drives that do the task, best first"),
+        h(
+          "thead",
+          null,
+          h(
+            "tr",
+            null,
+            ...HEAD.map(([kind, title]) =>
+              title
+                ? h(
+                  "th",
+                  { scope: "col", class: kind },
+                  title,
+                  title === "Air per cycle" ? h("small", null, "ANR") : null,
+                )
+                : h("td", null)
+            ),
+          ),
+        ),
+        () => proposals.value.map(row),
+      ),
+    ),
+  );
+}

@@ -1,0 +1,71 @@
+// @ts-check
+// Candidates that do not do: why not, and what would make each work.
+import { h } from "../../dom.js";
+import { computed, effect, signal } from "../../reactive.js";
+import { answer, proposals } from "./model.js";
+import { limitName } from "./words.js";
+
+/** @typedef {import("../../types.js").S["RejectedAnswer"]} Rejected */
+
+const SHOWN = 8;
+const all = signal(false);
+
+/** Candidates that differ in the tube only and fail alike are told together.
+ * @param {Rejected[]} list @returns {(Rejected & {tubes: string[]})[]} */
+export function together(list) {
+  /** @type {Map<string, Rejected & {tubes: string[]}>} */
+  const found = new Map();
+  for (const one of list) {
+    const { tube, combinations, ...rest } = one, name = JSON.stringify(rest);
+    const known = found.get(name);
+    const tubes = [...known?.tubes ?? [], ...(tube ? [tube] : [])];
+    found.set(name, { ...one, combinations: combinations + (known?.combinations ?? 0), tubes });
+  }
+  return [...found.values()];
+}
+
+const groups = computed(() => together(answer.value?.rejected ?? []));
+
+/** @param {string} text */
+const capital = (text) => text.replace(/^./, (c) => c.toUpperCase());
+
+/** @param {Rejected & {tubes: string[]}} r */
+function item(r) {
+  const who = [`${r.parallel > 1 ? `${r.parallel} × ` : ""}${r.muscle}`, r.valve, r.tubes.join(" or ")]
+    .filter(Boolean);
+  return h(
+    "li",
+    null,
+    h("b", null, who.map((text, i) => h("span", { class: "whole" }, text, i < who.length - 1 ? ", " : ""))),
+    h("span", { class: "limit" }, limitName(r.binding)),
+    h("p", null, `${capital(r.why)}.`),
+    h("p", { class: "remedy" }, h("span", null, "Would work with "), `${r.would_work_if}.`),
+  );
+}
+
+export function rejectedCard() {
+  effect(() => {
+    answer.value;
+    all.value = false;
+  });
+  const hidden = () => groups.value.length - SHOWN;
+  return h(
+    "section",
+    { class: "card rejected", "aria-label": "Rejected", hidden: () => !groups.value.length },
+    h(
+      "div",
+      { class: "card-head" },
+      h("h2", null, () => proposals.value.length ? "Why not the others" : "Why not"),
+      h("span", { class: "muted" }, "nearest first"),
+    ),
+    h("ul", null, () => (all.value ? groups.value : groups.value.slice(0, SHOWN)).map(item)),
+    () =>
+      hidden() > 0
+        ? h(
+          "button",
+          { type: "button", class: "link", onclick: () => (all.value = !all.peek()) },
+          all.value ? "Show the nearest only" : `Show ${hidden()} more`,
+        )
+        : null,
+  );
+}

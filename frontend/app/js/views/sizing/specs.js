@@ -1,0 +1,266 @@
+// @ts-check
+// The fields of a task: what each is called, its default and the reason for it. Paths are those of the request.
+/** @typedef {import("../../format.js").Quantity} Quantity */
+/** `unit`: of a quantity without a scale of its own; `usual`: the server's default, null = left open, which the
+ * field then says in `empty`; `whole`: a number of things; `bounds` are for the arrow keys.
+ * @typedef {{label: string, quantity: Quantity | null, unit?: string, bounds: [number, number],
+ *   usual: number | null, empty?: string, whole?: boolean, why: string}} Field */
+
+const UPRIGHT = Math.PI / 2;
+
+/** @type {Record<string, Field>} */
+export const FIELDS = {
+  "load.mass": {
+    label: "Mass",
+    quantity: "mass",
+    bounds: [0, 200],
+    usual: 0,
+    why: "Moved mass; 0: only what is stated below is moved.",
+  },
+  "load.force": {
+    label: "External force",
+    quantity: "force",
+    bounds: [0, 2000],
+    usual: 0,
+    why: "Against the pull, besides the weight; 0: only what is stated pulls back.",
+  },
+  "load.inclination": {
+    label: "Inclination",
+    quantity: "angle",
+    bounds: [-UPRIGHT, UPRIGHT],
+    usual: UPRIGHT,
+    why: "Of the way against the horizontal; 90°: a muscle can only pull, so most loads hang.",
+  },
+  "load.spring": {
+    label: "Spring",
+    quantity: "stiffness",
+    bounds: [0, 1e5],
+    usual: 0,
+    why: "Against the contraction, slack at the start; 0: a weight pulls a muscle long again.",
+  },
+  "load.counterweight": {
+    label: "Counterweight",
+    quantity: "mass",
+    bounds: [0, 200],
+    usual: 0,
+    why: "Hangs on the other side of a pulley and pulls with the muscle; 0: none is usual.",
+  },
+  "load.lever_ratio": {
+    label: "Lever ratio",
+    quantity: "number",
+    bounds: [0.1, 5],
+    usual: 1,
+    why: "Stroke of the muscle per stroke of the load; 1: the muscle pulls directly.",
+  },
+  "load.pair.angle": {
+    label: "Angle",
+    quantity: "angle",
+    bounds: [0, Math.PI],
+    usual: null,
+    empty: "needed",
+    why: "Whole swing, from one end to the other.",
+  },
+  "load.pair.torque": {
+    label: "Torque",
+    quantity: "torque",
+    bounds: [0, 50],
+    usual: 0,
+    why: "Against the first muscle, over the whole swing; 0: a pulley turns about its centre.",
+  },
+  "load.pair.inertia": {
+    label: "Inertia",
+    quantity: null,
+    unit: "kg*m^2",
+    bounds: [0, 1],
+    usual: 0,
+    why: "Of everything that turns; 0: then the muscles’ own air decides the time.",
+  },
+  "load.pair.pulley_radius": {
+    label: "Pulley radius",
+    quantity: "length",
+    bounds: [0.005, 0.2],
+    usual: null,
+    empty: "tried",
+    why: "Empty: eight radii from 10 to 120 mm are tried, a free choice of the designer.",
+  },
+  stroke: {
+    label: "Stroke",
+    quantity: "length",
+    bounds: [0, 0.5],
+    usual: null,
+    empty: "needed",
+    why: "Of the load.",
+  },
+  time: {
+    label: "Time up",
+    quantity: "time",
+    bounds: [0, 5],
+    usual: null,
+    empty: "any",
+    why: "For the stroke; empty: the drives are compared by what they take.",
+  },
+  time_down: {
+    label: "Time down",
+    quantity: "time",
+    bounds: [0, 5],
+    usual: null,
+    empty: "any",
+    why: "For the way back; empty: it may take its time.",
+  },
+  cycle_time: {
+    label: "Cycle time",
+    quantity: "time",
+    bounds: [0, 10],
+    usual: null,
+    empty: "any",
+    why: "Up and down together; empty: the times above say it.",
+  },
+  speed: {
+    label: "Speed",
+    quantity: "speed",
+    bounds: [0, 5],
+    usual: null,
+    empty: "by time",
+    why: "Average, in place of the time up; empty: the time says it.",
+  },
+  stiffness: {
+    label: "Hold stiffness",
+    quantity: "stiffness",
+    bounds: [0, 1e5],
+    usual: null,
+    empty: "told",
+    why: "Wanted against the load at the end, valve open (closed holds stiffer); empty: it is told instead.",
+  },
+  supply_pressure: {
+    label: "Supply",
+    quantity: "pressure",
+    bounds: [1e5, 8e5],
+    usual: 6e5,
+    why: "Gauge; 6 bar: the usual net, and the limit of most muscles.",
+  },
+  ambient_temperature: {
+    label: "Ambient",
+    quantity: "temperature",
+    bounds: [253.15, 353.15],
+    usual: 293.15,
+    why: "20 °C: a workshop.",
+  },
+  "limits.max_length": {
+    label: "Length",
+    quantity: "length",
+    bounds: [0.05, 3],
+    usual: 1,
+    why: "Installed, without pressure; 1 m: longer muscles are made, machines seldom have room.",
+  },
+  "limits.max_diameter": {
+    label: "Diameter",
+    quantity: "length",
+    bounds: [0.01, 0.2],
+    usual: null,
+    empty: "told",
+    why: "Outside, bulged at the end of the stroke; empty: the figure is told instead.",
+  },
+  "limits.max_parallel": {
+    label: "In parallel",
+    quantity: "number",
+    bounds: [1, 6],
+    usual: 2,
+    whole: true,
+    why: "Muscles side by side, at most; 2: more seldom share a load evenly.",
+  },
+  "limits.end_fittings": {
+    label: "End fittings",
+    quantity: "length",
+    bounds: [0, 0.3],
+    usual: 0,
+    why: "What both take of the length; 0: no verified figure is known, add yours.",
+  },
+  "limits.max_contraction": {
+    label: "Contraction",
+    quantity: "ratio",
+    bounds: [0.05, 0.4],
+    usual: 0.2,
+    why: "At the end of the stroke; 20 %: makers allow 25 %, but the last of it hardly pulls.",
+  },
+  "limits.force_reserve": {
+    label: "Force reserve",
+    quantity: "ratio",
+    bounds: [0, 1],
+    usual: 0.1,
+    why: "Static force above the load everywhere; 10 %: so much do specimens differ.",
+  },
+  "limits.pressure_reserve": {
+    label: "Pressure reserve",
+    quantity: "ratio",
+    bounds: [0, 0.5],
+    usual: 0,
+    why: "Share of the supply not counted on; 0: the supply’s tolerance has its own field.",
+  },
+  "limits.life": {
+    label: "Life",
+    quantity: "number",
+    bounds: [1e5, 1e7],
+    usual: null,
+    empty: "told",
+    why: "Load cycles; empty: makers publish no curve, an unverified estimate is told.",
+  },
+  "catalogue.tube_length": {
+    label: "Tube length",
+    quantity: "length",
+    bounds: [0, 5],
+    usual: 1,
+    why: "From the valve to each muscle, 0 for none; 1 m: valves seldom sit on the muscle.",
+  },
+  "uncertainty.blocked_force": {
+    label: "Force spread",
+    quantity: "ratio",
+    bounds: [0, 0.5],
+    usual: 0.1,
+    why: "Of specimens, two standard deviations; 10 %: published curves of one size differ by so much.",
+  },
+  "uncertainty.supply_pressure": {
+    label: "Supply tolerance",
+    quantity: "ratio",
+    bounds: [0, 0.3],
+    usual: 0.03,
+    why: "Largest deviation; 3 %: a usual service regulator.",
+  },
+  "uncertainty.hysteresis": {
+    label: "Hysteresis",
+    quantity: "ratio",
+    bounds: [0, 0.1],
+    usual: null,
+    empty: "own",
+    why: "Largest width of the loop, share of the nominal length; empty: the catalogue’s.",
+  },
+  "uncertainty.specimens": {
+    label: "Specimens",
+    quantity: "number",
+    bounds: [0, 1000],
+    usual: 100,
+    whole: true,
+    why: "Simulated for each proposal, 0 for none; 100: within 5 % of the probability.",
+  },
+  max_proposals: {
+    label: "Proposals",
+    quantity: "number",
+    bounds: [1, 30],
+    usual: 10,
+    whole: true,
+    why: "At most; 10: more nobody compares.",
+  },
+};
+
+/** @type {[string, string][]} */
+export const RANKINGS = [
+  ["balanced", "balanced"],
+  ["air", "least air"],
+  ["time", "fastest"],
+  ["length", "shortest"],
+  ["reserve", "most force in reserve"],
+  ["probability", "surest"],
+];
+export const USUAL_RANKING = "balanced";
+export const RANKING_WHY =
+  "Balanced: air times the root of length and number of muscles, because air costs every day " +
+  "and room once. Drives that probably fail come last in any order.";

@@ -1,0 +1,267 @@
+"""Longer ways through Compare & diagnose: drive, mystery, report, a term of one's own, what is left."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import FilePayload, Locator, Page, expect
+
+from tests.frontend.comparing import (
+    ADD,
+    FRICTION,
+    NOISE,
+    REACH,
+    changed,
+    choose,
+    diagnosed,
+    error,
+    file,
+    measured,
+    opened,
+)
+from tests.frontend.guard import PageGuard
+from tests.frontend.views import REFUSED, open_compare, redo, run
+from tests.truth.generate import case
+
+A_DRIVE = 150_000  # ms; each effect tried is a run of the simulation
+LINEAR = "offset + stiffness*kappa + loss*sign(v)"  # beside the true wall force, which is not linear
+
+
+@pytest.fixture(scope="module")
+def sweeps() -> FilePayload:
+    """The measurement with three hidden effects."""
+    return file("sweeps.csv", measured(1))
+
+
+def over_noise(page: Page) -> float:
+    """The error of several channels on screen, in units of their noise."""
+    found = re.match(r"([\d.]+)\s*× noise", page.locator("#error-now").inner_text())
+    assert found
+    return float(found[1])
+
+
+def own_term(page: Page) -> Locator:
+    """The field of a term by hand."""
+    return page.get_by_role("textbox", name="Your own term of the force")
+
+
+def test_a_run_of_a_drive_shows_what_its_valve_does(page: Page) -> None:
+    made = case("flow-steps")
+    (text,) = made.files.values()
+    open_compare(page)
+    page.route("**/api/diagnoses", lambda route: None)  # with the rig of the Transient view, which is another
+    choose(page, file("steps.csv", text))
+    dialog = page.get_by_role("dialog", name="How steps.csv is read")
+    card = page.locator(".file")
+    expect(dialog.or_(card).first).to_be_visible()
+    if dialog.is_visible():
+        dialog.get_by_role("button", name="Use these columns").click()
+    expect(card).to_contain_text("transient")
+    page.get_by_role("button", name="Drive document…").click()
+    page.get_by_label("Drive document as JSON").fill(json.dumps(made.drive))
+    page.unroute("**/api/diagnoses")
+    page.get_by_role("button", name="Use it").click()
+    expect(page.locator(".in-model")).to_have_count(len(made.effects), timeout=20_000)
+    diagnosed(page, A_DRIVE)
+    for channel in made.noise:
+        expect(page.locator(f"#overlay-{channel} .js-line").last).to_be_attached()
+    start = over_noise(page)
+    assert start > 5.0
+    best = page.locator(".candidate").first
+    (hidden,) = made.hidden
+    assert best.get_attribute("data-candidate") in hidden
+    before = page.locator("#error-now").inner_text()
+    best.get_by_role("button", name=ADD).click()
+    expect(page.locator("#error-now")).not_to_have_text(before, timeout=20_000)
+    diagnosed(page, A_DRIVE)
+    assert over_noise(page) < min(2.0, 0.3 * start)
+    expect(page.locator("#verdict-status")).to_have_text("Adequate")
+
+
+def test_a_mystery_is_diagnosed_and_revealed(page: Page) -> None:
+    open_compare(page)
+    page.locator(".tile", has_text="Two lines per pressure").click()
+    expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
+    diagnosed(page)
+    card = page.get_by_role("region", name="Mystery")
+    expect(card).to_contain_text("Add what you think is missing")
+    changed(page, page.locator("#add-all").click)
+    expect(card).to_contain_text("Your diagnosis so far")
+    card.get_by_role("button", name="Reveal what is hidden").click()
+    expect(card.locator(".revealed")).to_have_count(2)
+    expect(card.locator(".revealed.good")).to_have_count(2)
+    expect(card.get_by_role("button")).to_have_count(0)
+
+
+def test_a_mystery_with_a_drive_brings_it_along(page: Page) -> None:
+    open_compare(page)
+    page.locator(".tile", has_text="Slow to let go").click()
+    expect(page.locator("#error-now")).to_contain_text("× noise", timeout=20_000)
+    expect(page.locator("#overlay-pressure .js-line").last).to_be_attached()
+    expect(page.locator("#overlay-displacement .js-line").last).to_be_attached()
+    expect(page.get_by_role("region", name="Rig").get_by_label("Mass")).to_have_value("31.4")
+    expect(page.locator(".path-table")).to_contain_text("Start model")
+
+
+def test_the_report_is_one_file_that_says_it_all(page: Page, sweeps: FilePayload, tmp_path: Path) -> None:
+    opened(page, sweeps)
+    changed(page, page.locator("#add-all").click)
+    with page.expect_download() as saved:
+        page.get_by_role("button", name="Report", exact=True).click()
+    target = tmp_path / "report.html"
+    saved.value.save_as(target)
+    assert saved.value.suggested_filename.endswith(".html")
+    text = target.read_text(encoding="utf-8")
+    identity = page.locator(".file").get_attribute("data-file")
+    assert identity
+    assert identity in text
+    for name in page.locator(".in-model .effect-head b").all_inner_texts():
+        assert name in text
+    assert "sweeps.csv" in text
+    # Nothing is fetched: no script, no picture or style from elsewhere.
+    assert re.findall(r"<script|(?:src|href)=[\"'](?!#|data:)", text) == []
+
+
+def test_the_error_on_a_second_file_stands_beside(page: Page, sweeps: FilePayload) -> None:
+    opened(page, sweeps, file("check.csv", measured(2)))
+    page.get_by_role("radiogroup", name="Use of check.csv").get_by_role("radio", name="Check").click()
+    told = page.locator("#validation-error")
+    expect(told).to_contain_text("N", timeout=20_000)
+    diagnosed(page)
+    start = float(re.findall(r"[\d.]+", told.inner_text())[0])
+    assert start == pytest.approx(error(page), rel=0.05)
+    changed(page, page.locator("#add-all").click)
+    expect(told).to_contain_text("fit")
+    assert float(re.findall(r"[\d.]+", told.inner_text())[0]) < 1.15 * NOISE
+
+
+def test_a_term_by_hand_is_checked_fitted_changed_and_removed(
+    page: Page, page_guard: PageGuard, sweeps: FilePayload
+) -> None:
+    page_guard.allow(REFUSED)
+    opened(page, sweeps)
+    start = error(page)
+    page.get_by_role("button", name="Add a term of your own…").click()
+    form = page.locator(".model-card .term-form")
+    form.get_by_role("button", name="Add and fit").click()
+    expect(form.get_by_role("alert")).to_contain_text("Write a term")
+    own_term(page).fill("loss*'P'")
+    form.get_by_role("button", name="Add and fit").click()
+    expect(form.get_by_role("alert")).to_contain_text("single quote")
+    expect(own_term(page)).to_have_attribute("aria-invalid", "true")
+    expect(own_term(page)).to_be_focused()
+    expect(page.locator(".path-table tr.past")).to_have_count(0)
+    own_term(page).fill("offset + stiffness*")
+    form.get_by_role("button", name="Insert kappa").click()
+    expect(own_term(page)).to_have_value("offset + stiffness*kappa")
+    linear = changed(page, form.get_by_role("button", name="Add and fit").click)
+    assert linear < 0.5 * start
+    expect(form).to_be_hidden()
+    row = page.locator(".in-model", has_text="Own term")
+    expect(row.locator(".parameter")).to_have_count(2)
+    row.get_by_role("button", name="Edit…").click()
+    own_term(page).fill(LINEAR)
+    lossy = changed(page, form.get_by_role("button", name="Take it and fit").click)
+    assert lossy < linear
+    loss = float(row.get_by_label("loss").input_value())
+    assert loss == pytest.approx(FRICTION, rel=0.3)
+    assert changed(page, lambda: page.keyboard.press("Control+z")) == linear
+    assert changed(page, lambda: redo(page)) == lossy
+    assert changed(page, row.get_by_role("button", name="Remove Own term").click) == start
+    expect(page.get_by_role("button", name="Add a term of your own…")).to_be_visible()
+
+
+def test_a_proposed_term_explains_what_no_effect_does(page: Page) -> None:
+    open_compare(page)
+    page.locator(".tile", has_text="The bump at one stroke").click()
+    expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
+    diagnosed(page)
+    expect(page.locator("#verdict-status")).to_have_text("Unknown effect")
+    start = error(page)
+    page.get_by_role("button", name="Add as own term").click()
+    expect(page.locator(".in-model", has_text="Own term")).to_be_visible()
+    diagnosed(page)
+    assert error(page) < 0.6 * start
+    page.get_by_role("button", name="Reveal what is hidden").click()
+    expect(page.locator(".revealed.good")).to_have_count(1)
+
+
+def test_what_is_left_as_autocorrelation_and_loops(page: Page, sweeps: FilePayload) -> None:
+    opened(page, sweeps)
+    page.get_by_role("button", name="Autocorrelation of the residual").click()
+    expect(page.locator("#white")).to_contain_text("Outside")
+    expect(page.locator("#residual .trace .point").first).to_be_attached()
+    expect(page.locator(".brush-handle").first).to_be_hidden()
+    page.get_by_role("button", name="Area of each loop of the residual").click()
+    # Friction alone takes 2 F per way out of a cycle, whatever else the model lacks.
+    told = page.locator(".brush-line")
+    expect(told).to_contain_text(f"{len(REACH)} loops")
+    found = re.search(r"with ([\d.]+)\s*N of friction", told.inner_text())
+    assert found
+    assert float(found[1]) == pytest.approx(FRICTION, rel=0.15)
+    page.get_by_role("button", name=re.compile("Residual.*save or show as table")).click()
+    page.get_by_role("menuitem", name="Show as table").click()
+    expect(page.get_by_role("dialog").locator("tbody tr")).to_have_count(len(REACH))
+    page.keyboard.press("Escape")
+    changed(page, page.locator("#add-all").click)
+    expect(told).to_contain_text("nothing is left")
+    page.get_by_role("button", name="Autocorrelation of the residual").click()
+    expect(page.locator("#white")).to_contain_text("nothing left")
+
+
+def test_data_without_loops_say_so(page: Page) -> None:
+    open_compare(page)
+    page.locator(".tile", has_text="DMSP-20-300").click()
+    expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
+    page.get_by_role("button", name="Area of each loop of the residual").click()
+    expect(page.locator(".brush-line")).to_contain_text("No loops in these data")
+    expect(page.locator("#residual")).to_be_hidden()
+    page.get_by_role("button", name="Residual over pressure").click()
+    expect(page.locator("#residual")).to_be_visible()
+
+
+def test_the_verdict_names_each_effect_and_what_it_cannot_be_told_from(
+    page: Page, sweeps: FilePayload
+) -> None:
+    opened(page, sweeps)
+    found = page.locator(".found-missing > li")
+    expect(found).to_have_count(3)
+    expect(page.locator("#verdict-fall")).to_contain_text(page.locator("#error-now").inner_text())
+    expect(page.locator("#verdict-fall")).to_contain_text("the noise of the data")
+    unsure = page.locator(".found-missing > .unsure")
+    expect(unsure.first).to_contain_text("cannot tell")
+    page.get_by_text(re.compile("^Measure next")).click()
+    tests = page.locator(".experiments > li")
+    assert tests.count() >= unsure.count()
+    expect(tests.first).to_contain_text(" or ")
+
+
+@pytest.mark.parametrize("tile", ["DMSP-10-250", "DMSP-20-300"])
+def test_no_equation_is_cut_without_a_way_to_see_it(page: Page, tile: str) -> None:
+    page.set_viewport_size({"width": 1440, "height": 1000})
+    open_compare(page)
+    page.locator(".tile", has_text=tile).click()
+    expect(page.locator("html")).to_have_attribute("data-diagnosis", "done", timeout=60_000)
+    page.get_by_role("button", name=re.compile("more that were tried")).click()
+    page.evaluate("document.querySelectorAll('.candidate details').forEach((el) => { el.open = true; })")
+    cut = run(
+        page,
+        """
+        return [...document.querySelectorAll(".candidate .equation")].filter((box) =>
+          box.scrollWidth > box.clientWidth + 1
+          && (getComputedStyle(box).overflowX !== "auto" || box.tabIndex !== 0)).map((box) => box.ariaLabel);
+        """,
+    )
+    assert cut == []
+    # Most stand in the card as they are.
+    shares = run(
+        page,
+        """
+        const all = [...document.querySelectorAll(".candidate .equation")];
+        return all.filter((box) => box.scrollWidth <= box.clientWidth + 1).length / all.length;
+        """,
+    )
+    assert shares > 0.6
