@@ -17,7 +17,7 @@ import pytest
 
 from mckibben import __version__, cli
 from mckibben.cli.options import start_model
-from mckibben.cli.serve import _link
+from mckibben.cli.serve import _bind, _link
 from mckibben.resources import presets_folder
 from mckibben.studio import Studio
 from tests.server import MAIN, RunningServer
@@ -388,6 +388,12 @@ def started(tmp_path: Path) -> Iterator[Started]:
     for process in running:
         process.kill()
         process.communicate()
+
+
+def test_small_answers_do_not_wait_to_be_collected() -> None:
+    """Asyncio turns Nagle's algorithm off only on sockets that name their protocol."""
+    with _bind("127.0.0.1", 0) as listening:
+        assert listening.proto == socket.IPPROTO_TCP
 
 
 def test_serve_prints_its_link_when_it_is_ready_and_stops_on_interrupt(started: Started) -> None:

@@ -12,9 +12,9 @@ import pytest
 
 from mckibben.identification.diagnosis import Diagnosis, diagnose
 from mckibben.identification.fit import Free
+from mckibben.identification.fits import CancelledError
 from mckibben.identification.measurement import Measurement
 from mckibben.identification.read import read_measurement
-from mckibben.identification.search import CancelledError
 from mckibben.identification.setting import Setting, free_geometry
 from mckibben.identification.subjects import subject_of
 from mckibben.physics.custom import custom_effect

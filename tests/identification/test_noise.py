@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mckibben.identification.noise import channel_noise, noise_floor
+from mckibben.identification.noise import channel_noise, neighbour_noise, noise_floor
 from tests.identification.synthetic import Plain
 
 ROWS = 20_000
@@ -85,5 +85,35 @@ def test_channels_are_looked_at_alone():
         subject.channels[0].__class__(name, "N", rows, 1.0, 1.0)
         for name, rows in (("force", slice(0, 1000)), ("pressure", slice(1000, 2000)))
     )
-    assert channel_noise(subject, values, one) == pytest.approx(0.1, rel=0.15)
-    assert channel_noise(subject, values, two) == pytest.approx(30.0, rel=0.15)
+    assert channel_noise(subject, values, one)[0] == pytest.approx(0.1, rel=0.15)
+    assert channel_noise(subject, values, two)[0] == pytest.approx(30.0, rel=0.15)
+
+
+def test_scattered_points_tell_the_noise_between_neighbours():
+    draw = np.random.default_rng(5)
+    places = draw.uniform(size=(600, 2)) * [6e5, 0.1] + [0.0, 0.2]
+    smooth = 1e-4 * places[:, 0] + 800.0 * places[:, 1] + 3.0 * np.sin(places[:, 0] / 2e5)
+    values = smooth + draw.normal(0.0, 2.0, 600)
+    assert neighbour_noise(values, places) == pytest.approx(2.0, rel=0.15)
+
+
+def test_repeats_tell_the_noise_whatever_lies_between_the_points():
+    """Forty points far apart in value, each measured twelve times."""
+    draw = np.random.default_rng(6)
+    places = np.repeat(draw.uniform(size=(40, 2)), 12, axis=0)
+    values = np.repeat(draw.normal(0.0, 500.0, 40), 12) + draw.normal(0.0, 2.0, 480)
+    assert neighbour_noise(values, places) == pytest.approx(2.0, rel=0.15)
+
+
+def test_directions_are_not_neighbours():
+    draw = np.random.default_rng(7)
+    place = np.sort(draw.uniform(size=400))
+    direction = np.where(np.arange(400) % 2, 1.0, -1.0)
+    values = 30.0 * direction + draw.normal(0.0, 1.0, 400)
+    assert neighbour_noise(values, np.column_stack([place, direction])) == pytest.approx(1.0, rel=0.2)
+    assert neighbour_noise(values, place[:, None]) > 10.0
+
+
+def test_too_few_points_or_one_place_tell_nothing():
+    assert neighbour_noise(np.ones(29), np.random.default_rng(0).uniform(size=(29, 2))) is None
+    assert neighbour_noise(np.ones(50), np.ones((50, 2))) is None

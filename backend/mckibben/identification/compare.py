@@ -11,7 +11,7 @@ from mckibben.identification.fit import FitResult, Free
 from mckibben.identification.measurement import Measurement
 from mckibben.identification.misfit import Misfit
 from mckibben.identification.node import Node
-from mckibben.identification.noise import channel_noise
+from mckibben.identification.noise import noise_of
 from mckibben.identification.setting import Setting, free_geometry, free_numbers
 from mckibben.identification.subjects import Quasistatic, Subject, subject_of
 from mckibben.physics.custom import CUSTOM, TERM
@@ -36,7 +36,7 @@ class Comparison:
         rmse: root mean square of the residual; over the noise of each channel when there are several.
         holdout_rmse: the same over groups that the fit did not see; equals rmse without a fit, None when
             there is only one group.
-        noise: estimated standard deviation of the noise, None when the sweeps are too short to tell.
+        noise: standard deviation of the noise, None when it cannot be told; noise_how: from what.
         fit: the fit, None when nothing was fitted.
         rows: of the measurement.
         excluded: why rows were left out -> how many.
@@ -49,6 +49,7 @@ class Comparison:
     rmse: float
     holdout_rmse: float | None
     noise: float | None
+    noise_how: str
     fit: FitResult | None
     rows: int
     excluded: Mapping[str, int]
@@ -58,15 +59,6 @@ class Comparison:
     def residual(self) -> np.ndarray:
         """Measured minus predicted."""
         return self.subject.measured - self.predicted
-
-    @property
-    def noise_how(self) -> str:
-        """From what the noise was estimated."""
-        if self.noise is None:
-            return "the sweeps are too short to tell"
-        if len(self.subject.channels) > 1:
-            return "third differences of each channel"
-        return "third differences of the residual within sweeps"
 
     @property
     def full_scale(self) -> float:
@@ -199,7 +191,7 @@ def compare(
         holdout = holdout_rmse(subject, setting, choice)
         if holdout is None:
             messages.append("one group only: no group can be left out")
-    floor = noise_floor_of(subject, (subject.measured - predicted) / subject.scale, noise)
+    floor, how = noise_of(subject, (subject.measured - predicted) / subject.scale, noise)
     if floor is None:
         messages.append("sweeps are too short to estimate the noise")
     return Comparison(
@@ -209,6 +201,7 @@ def compare(
         rmse,
         holdout,
         floor,
+        how,
         result,
         measurement.rows,
         subject.excluded,
@@ -232,14 +225,6 @@ def check_finite(subject: Subject, setting: Setting) -> None:
             field=f"effects.{CUSTOM}.{TERM}" if CUSTOM in setting.ids else "effects",
             hint="look for a division by zero, a root or an exponential, or give other parameters",
         )
-
-
-def noise_floor_of(subject: Subject, scaled: np.ndarray, given: float | None) -> float | None:
-    """Noise of a residual over its scale: given, 1 for several channels, or estimated; None if it cannot."""
-    first, *others = subject.channels
-    if others:
-        return 1.0
-    return given if given is not None else channel_noise(subject, scaled, first)
 
 
 def fit_of(subject: Subject, setting: Setting, choice: Sequence[Free]) -> FitResult:

@@ -11,7 +11,7 @@ from mckibben.identification.fit import FitResult, Free, least_squares_fit
 from mckibben.identification.fits import CancelledError, Fits
 from mckibben.identification.next_measurement import Proposal
 from mckibben.identification.node import Node
-from mckibben.identification.noise import channel_noise
+from mckibben.identification.noise import noise_of
 from mckibben.identification.residuals import Profile, profiles, variables_of
 from mckibben.identification.score import effective_rows, score
 from mckibben.identification.search import search
@@ -24,8 +24,6 @@ from mckibben.identification.verdict import is_force, left_structure, messages, 
 from mckibben.identification.why import Seen, seen, why
 from mckibben.physics.effect import Effect
 from mckibben.simulation.outcome import Outcome, Watch
-
-_ROUNDING = 1e-9  # of the full scale
 
 
 @dataclass(frozen=True)
@@ -148,7 +146,14 @@ def _diagnose(
         if effect.id not in inside and subject.reveals(effect) and _has_needs(effect, setting)
     )
     progress = _Progress(watch or Watch(time_limit=np.inf))
-    work = Fits(subject, tuple(geometry), candidates, None, tell=progress.tell)
+    work = Fits(
+        subject,
+        tuple(geometry),
+        candidates,
+        None,
+        tell=progress.tell,
+        estimate=lambda node: noise_of(subject, node.residual, noise)[0],
+    )
     subject.prepare(setting, candidates, geometry)
     start = Node(
         setting, (), frozenset(), subject.residual(setting) / subject.scale,
@@ -168,7 +173,7 @@ def _diagnose(
         subject.unknown_load = None
         work.known.clear()
         root = work.fit(first, freed)
-    work.noise, how = _noise_of(subject, root, noise)
+    work.noise, how = noise_of(subject, root.residual, noise)
     variables = variables_of(subject, setting.muscle.nominal_length)
     before = seen(root.residual, variables)
     where = profiles(start.residual, variables, subject.folds[0])
@@ -183,7 +188,7 @@ def _diagnose(
             guesses.append((effect, work.guessed(root, effect)))
     progress.share, progress.end = 0.45, 0.85
     best = search(work, root, singles=[node for _, node in singles])
-    work.noise, how = _noise_of(subject, best, noise)
+    work.noise, how = noise_of(subject, best.residual, noise)
     level = work.noise or best.rmse
     progress.share, progress.end = 0.85, 0.95
     path = _path(work, start, root, best, vent)
@@ -228,18 +233,6 @@ class _Progress:
 
 def _has_needs(effect: Effect, setting: Setting) -> bool:
     return all(getattr(setting.muscle, needed) > 0.0 for needed in effect.needs)
-
-
-def _noise_of(subject: Subject, node: Node, given: float | None) -> tuple[float | None, str]:
-    first, *others = subject.channels
-    if others:
-        return 1.0, "third differences of each channel"
-    if given is not None:
-        return given, "given"
-    value = channel_noise(subject, node.residual, first)
-    if value is not None:  # below, it is rounding
-        value = max(value, _ROUNDING * first.full_scale)
-    return value, "third differences of the residual within sweeps"
 
 
 def _candidate(

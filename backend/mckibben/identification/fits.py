@@ -34,6 +34,8 @@ class Fits:
         candidates: effects that may be added.
         noise: of the residual over its scale, None when it cannot be told.
         held: names of numbers that no fit changes, because something else has told them.
+        estimate: the noise as a model's residual shows it; what a model misses may look like noise, so the
+            search asks again as models become better.
         tell: told now and then what is being done; may raise `CancelledError`.
     """
 
@@ -43,6 +45,7 @@ class Fits:
     noise: float | None
     held: frozenset[str] = frozenset()
     tell: Callable[[str], None] = lambda _: None
+    estimate: Callable[[Node], float | None] = lambda _: None
     known: dict[tuple[frozenset[str], frozenset[str]], Node] = field(default_factory=dict)
     acts: dict[str, dict[str, float]] = field(default_factory=dict)
     twice: set[tuple[frozenset[str], frozenset[str]]] = field(default_factory=set)
@@ -170,6 +173,12 @@ class Fits:
         span = np.array([p.upper - p.lower for p in free])
         reach = self._sizes(columns) * span
         return {p.name for p, size in zip(free, reach, strict=True) if not size > self._least}
+
+    def listen(self, node: Node) -> None:
+        """Lower the noise where the residual of a better model shows less."""
+        found = self.estimate(node)
+        if found is not None:
+            self.noise = found if self.noise is None else min(self.noise, found)
 
     def near_floor(self, node: Node) -> bool:
         """Whether only an effect that shows by itself is worth a look."""

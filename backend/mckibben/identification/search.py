@@ -45,6 +45,7 @@ def search(work: Fits, root: Node, *, singles: Sequence[Node]) -> Node:
         rows = _rows(work, min(children, key=lambda node: node.rmse))
         children.sort(key=lambda node: score(node, rows=rows, noise=work.noise))
         first = next((node for node in children if not node.implausible), children[0])
+        work.listen(first)
         if _at_floor(work, first) and better(first, best, rows=_rows(work, first), noise=work.noise):
             best = first
             break
@@ -56,6 +57,7 @@ def search(work: Fits, root: Node, *, singles: Sequence[Node]) -> Node:
         whole = with_further_constants(work, leader)
         beam, leader = [whole if node is leader else node for node in beam], whole
         idle += 1
+        work.listen(leader)
         if better(leader, best, rows=_rows(work, leader), noise=work.noise):
             best, idle = leader, 0
         if idle >= _PATIENCE or _at_floor(work, best):

@@ -49,7 +49,7 @@ def comparison_answer(asked: Asked, *, fit: bool = False) -> Json:
         "geometry": geometry_json(
             start if muscle == start.muscle else replace(start, muscle=muscle, rhombus=None)
         ),
-        "noise_how": "given" if asked.noise is not None else result.noise_how,
+        "noise_how": result.noise_how,
         **failures(result),
         "series": series,
         "validation": validation,

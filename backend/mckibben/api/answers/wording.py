@@ -29,7 +29,8 @@ def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
         return f"No catalogued effect explains the error of {before:.3g} {unit}: {share} of it {follows}."
     at_floor = noise is not None and after <= _AT_FLOOR * noise
     floor = f", the noise of the data ({level})" if at_floor else f"; the noise is {level}" if level else ""
-    text = f"Missing: {names}. With them the error falls from {before:.3g} to {after:.3g} {unit}{floor}."
+    these = "it" if len(result.added) == 1 else "them"
+    text = f"Missing: {names}. With {these} the error falls from {before:.3g} to {after:.3g} {unit}{floor}."
     if result.status == "unknown_effect":
         return f"{text} No catalogued effect explains the rest: {share} of it {follows}."
     if result.status == "ambiguous":

@@ -26,6 +26,7 @@ _UNSURE = 5.0  # times the usual uncertainty of the velocity ...
 _JUMP = 0.05  # ... and of the speed around: there it jumps
 _STILL = 0.25  # of the speed before and after: there it turns
 _SUDDEN = 4.0  # times the changes before and after
+_PAUSE = 3.0  # times the usual time between rows
 _FEW = 0.1  # share of the rows up to which that is an exception
 
 
@@ -162,11 +163,13 @@ def _motion(
         velocity = moved.velocity
         if stroked and not moved.measured:
             unsure = _jumps(columns["time"], lengths(measurement, nominal_length), moved)
-            # What came before the first row of a curve, motion or rest, is not in the file.
-            unsure[1:] |= np.diff(columns["group"]) != 0
-            unsure[0] = True
+            # After a pause it moves already, or is still at rest: the file does not tell.
+            pause = np.diff(columns["time"]) > _PAUSE * np.median(np.abs(np.diff(columns["time"])))
+            unsure[1:] |= pause & (np.diff(columns["group"]) != 0)
         messages += moved.messages
-        if not known:
+        if direction is not None and known:
+            velocity, unsure = _sided(velocity, unsure, np.sign(direction))
+        else:
             direction, known = moved.direction, True
     elif "velocity" in columns:
         velocity = columns["velocity"]
@@ -197,6 +200,17 @@ def _jumps(time: np.ndarray, length: np.ndarray, moved: Motion) -> np.ndarray:
     meet = (risen - after * step) / (before - after)  # after the first of both rows [s]
     found[sudden + (meet > 0.5 * step)] = True
     return found if np.mean(found) < _FEW else np.zeros(len(found), bool)
+
+
+def _sided(velocity: np.ndarray, unsure: np.ndarray, direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where the velocity jumps and the file tells the direction, that of the neighbour on the same side."""
+    found, left = velocity.copy(), unsure.copy()
+    for row in np.flatnonzero(unsure):
+        sides = [side for side in (row - 1, row + 1) if 0 <= side < len(velocity) and not unsure[side]]
+        alike = [side for side in sides if velocity[side] * direction[row] > 0.0]
+        if len(alike) == 1 and len(sides) == 2:
+            found[row], left[row] = velocity[alike[0]], False
+    return found, left
 
 
 def _turning(direction: np.ndarray, records: np.ndarray) -> np.ndarray:

@@ -14,10 +14,12 @@ import { canPatch, patch } from "./patch.js";
 /** A time in which something holds, shaded by kind. @typedef {{x: [number, number], kind: string}} Band */
 /** What both axes show, in shown units. @typedef {{x: [number, number], y: [number, number]}} Ranges */
 /** `level`: the handle; `marks`: instants; `brush`: dragging chooses a range of x, null = all of it; `zoomed`:
- * the zoom is kept outside and comes back as the ranges of the axes.
+ * the zoom is kept outside and comes back as the ranges of the axes; `table`: the values, where the lines are
+ * not the columns.
  * @typedef {{x: Axis, y: Axis, y2?: Axis, traces: Trace[], zones: Zone[], labels?: Label[],
  *   revision: string, level?: {y: number, text: string}, bands?: Band[], marks?: number[],
- *   brush?: (range: [number, number] | null) => void, zoomed?: (ranges: Ranges | null) => void}} Spec */
+ *   brush?: (range: [number, number] | null) => void, zoomed?: (ranges: Ranges | null) => void,
+ *   table?: import("../ui/table.js").Table}} Spec */
 
 const SETTLE_MS = 300;
 

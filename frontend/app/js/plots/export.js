@@ -151,10 +151,11 @@ export async function saveSheet(charts, format, name) {
   else download(`${name}.png`, await pngOf(svg, width, height));
 }
 
-/** The lines of a plot as columns beside their x. @param {Chart} chart
+/** The values of a plot: what it says they are, else its lines as columns beside their x. @param {Chart} chart
  * @returns {import("../ui/table.js").Table} */
 export function chartTable(chart) {
   const spec = chart.spec;
+  if (spec?.table) return spec.table;
   const lines = spec?.traces.filter((t) => t.line) ?? [];
   const [xTitle, xUnit] = split(spec?.x.title ?? "");
   const [, yUnit] = split(spec?.y.title ?? ""), [, rightUnit] = split(spec?.y2?.title ?? "");

@@ -8,8 +8,9 @@ import { brief, plainScale, quantityOf, scaleOf, toShown } from "../../format.js
 import { openPopover } from "../../ui/dialog.js";
 import { spoken } from "../../ui/sources.js";
 import { effectNote } from "../design/effect-note.js";
+import { equationBox } from "./equation.js";
 import { add, titleOf } from "./history.js";
-import { answer, found, stage, stale } from "./model.js";
+import { answer, diagnosis, found, stage, stale } from "./model.js";
 import { errorText, figures } from "./words.js";
 
 /** @typedef {import("./types.js").Candidate} Candidate */
@@ -63,16 +64,6 @@ function parameterList(id, parameters) {
   );
 }
 
-/** @param {Candidate} c */
-function equation(c) {
-  const known = effectsById.value.get(c.effect);
-  return h(
-    "div",
-    { class: "equation", tabindex: 0, role: "region", "aria-label": `Equation of ${c.title}` },
-    known ? mathml(known.equation_mathml) : h("code", null, c.equation),
-  );
-}
-
 const NAMED = 3;
 /** @param {string[]} names */
 const listed = (names) =>
@@ -80,8 +71,8 @@ const listed = (names) =>
     ? `${names.slice(0, NAMED).join(", ")} and ${names.length - NAMED} others`
     : names.join(", ");
 
-/** @param {Candidate} c @param {boolean} best */
-function card(c, best) {
+/** @param {Candidate} c @param {boolean} best @param {boolean} wanted the verdict asks for it */
+function card(c, best, wanted) {
   const effect = effectsById.value.get(c.effect);
   const helps = c.gain_percent >= USEFUL;
   const info = h("button", {
@@ -101,7 +92,7 @@ function card(c, best) {
       effect ? info : null,
       h("button", {
         type: "button",
-        class: best ? "primary" : "",
+        class: best && wanted ? "primary" : "",
         "aria-label": `Add ${c.title}`,
         disabled: () => stale.value,
         onclick: () => add(c),
@@ -129,7 +120,7 @@ function card(c, best) {
       : null,
     h(
       "details",
-      { open: best },
+      { open: best && wanted },
       h("summary", null, "Why, values, equation"),
       c.why ? h("p", { class: "why" }, c.why) : null,
       parameterList(c.effect, c.parameters),
@@ -140,7 +131,7 @@ function card(c, best) {
           `Fitted with it: ${c.freed.map((name) => spoken(name.replace(".", ": "))).join(", ")}.`,
         )
         : null,
-      equation(c),
+      equationBox(c.title, effect?.equation_mathml, c.equation),
       c.next_measurement
         ? h("p", { class: "next" }, h("b", null, "Measure next: "), c.next_measurement)
         : null,
@@ -159,8 +150,14 @@ export function candidatesCard() {
     if (!all.length) return ["running", "waiting"].includes(stage.value) ? skeletons() : null;
     const useful = all.filter((c) => c.gain_percent >= USEFUL);
     const shown = more.value ? all : useful.slice(0, SHOWN);
+    const status = diagnosis.value?.verdict.status;
+    const wanted = status !== "adequate" &&
+      (status !== "unknown_effect" || diagnosis.value?.verdict.effects.length !== 0);
     return [
-      ...shown.map((c, i) => card(c, i === 0 && c.gain_percent >= USEFUL)),
+      status === "adequate" && useful.length
+        ? h("li", { class: "muted" }, "The error is that of the noise: none of these is asked for.")
+        : null,
+      ...shown.map((c, i) => card(c, i === 0 && c.gain_percent >= USEFUL, wanted)),
       shown.length
         ? null
         : h("li", { class: "muted" }, "No effect of the catalogue lowers the error by 1 % or more."),

@@ -12,8 +12,7 @@
 /** A model and its error; `values`: of the geometry. `label` says how it came about.
  * @typedef {{label: string, effects: Effects | null, freed: string[], values: Record<string, number>,
  *   fit: Fit, rmse: number | null, holdout: number | null}} Step */
-/** “auto”: what the overlay is drawn over.
- * @typedef {"auto" | "contraction" | "pressure" | "velocity" | "time" | "histogram"} Tab */
+/** “auto”: what the overlay is drawn over. @typedef {typeof TABS[number]} Tab */
 /** Ranges of variables in SI. @typedef {Record<string, [number, number]>} Brush */
 /** `effects`: null = those of the preset. `history`: the models before this one, the start first.
  * @typedef {{files: Chosen[], muscle: Muscle, start: "ideal" | "preset", effects: Effects | null,
@@ -22,9 +21,19 @@
  *   tab: Tab, over: string | null, channel: string | null, brush: Brush | null,
  *   before: boolean}} Compare */
 
+export const TABS = /** @type {const} */ ([
+  "auto",
+  "contraction",
+  "pressure",
+  "velocity",
+  "time",
+  "histogram",
+  "autocorrelation",
+  "loops",
+]);
 export const MOST_FILES = 16;
 const MOST_STEPS = 40;
-export const IDEAL = "Ideal muscle";
+export const IDEAL = "Ideal muscle", GIVEN = "Start model";
 
 /** @returns {Compare} */
 export const defaultCompare = () => ({
@@ -102,7 +111,7 @@ const CHECKS = {
   noise: (x) => x === null || isNumber(x),
   mystery: isName,
   guided: isBoolean,
-  tab: (x) => ["auto", "contraction", "pressure", "velocity", "time", "histogram"].includes(String(x)),
+  tab: (x) => TABS.some((one) => one === x),
   over: isName,
   channel: isName,
   brush: (x) => x === null || (isObject(x) && Object.values(x).every(isRange)),

@@ -6,7 +6,7 @@ import { isDriveDocument, takenApart } from "../transient/document.js";
 /** @typedef {import("./types.js").FileInfo} FileInfo */
 
 /** Parts a measurement replaces: what was commanded is in the file. */
-const MEASURED = new Set(["command", "controller", "duration", "start_pressure"]);
+const MEASURED = new Set(["command", "controller", "duration"]);
 
 /** @param {Drive} drive @returns {Drive} */
 const rigOf = (drive) => Object.fromEntries(Object.entries(drive).filter(([key]) => !MEASURED.has(key)));
@@ -18,18 +18,34 @@ export const needsDrive = (info) =>
 /** The rig of the Transient view with what the file says of its own.
  * @param {Drive} drive @param {Record<string, unknown>} conditions @returns {Drive} */
 export function driveFor(drive, conditions) {
-  const { load_mass: mass, load_force: force, supply_pressure: pressure } = conditions;
-  const rig = rigOf(drive);
+  const { load_mass: mass, load_force: force, supply_pressure: pressure, start_pressure: start } = conditions;
+  const { start_pressure: _other, ...rig } = rigOf(drive);
   const load = {
     ...rig.load,
     ...(typeof mass === "number" ? { mass } : {}),
     ...(typeof force === "number" ? { force } : {}),
   };
-  return { ...rig, load, ...(typeof pressure === "number" ? { supply: { ...rig.supply, pressure } } : {}) };
+  return {
+    ...rig,
+    load,
+    ...(typeof pressure === "number" ? { supply: { ...rig.supply, pressure } } : {}),
+    ...(typeof start === "number" ? { start_pressure: start } : {}),
+  };
 }
 
-/** Reads a drive document that was pasted or opened.
- * @param {string} text @returns {{drive: Drive, muscle: import("../../types.js").Muscle}}
+const FIRST_ROWS = 5;
+
+/** The pressure a run begins at, the middle one of its first rows. @param {unknown} column
+ * @returns {number | null} */
+export function startOf(column) {
+  const first = Array.isArray(column) ? column.slice(0, FIRST_ROWS).filter((p) => typeof p === "number") : [];
+  return first.length ? first.sort((a, b) => a - b)[first.length >> 1] : null;
+}
+
+/** Reads a drive document that was pasted or opened; `effects`: null = it says nothing of them.
+ * @param {string} text
+ * @returns {{drive: Drive, muscle: import("../../types.js").Muscle,
+ *   effects: import("./types.js").Effects | null}}
  * @throws {Error} says what is wrong with it */
 export function readDrive(text) {
   let raw;
@@ -39,6 +55,6 @@ export function readDrive(text) {
     throw new Error("it is not JSON");
   }
   if (!isDriveDocument(raw)) throw new Error("it is no drive document: it needs “muscle”, “supply”, “valve”");
-  const { muscle, transient } = takenApart(raw, null);
-  return { drive: rigOf(transient.drive ?? {}), muscle };
+  const { muscle, effects, transient } = takenApart(raw, null);
+  return { drive: rigOf(transient.drive ?? {}), muscle, effects };
 }

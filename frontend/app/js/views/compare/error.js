@@ -43,7 +43,9 @@ function fall() {
 function facts(a) {
   const fit = fitPercent(allSeries(a).filter((s) => s.use !== "validation"));
   const check = a.validation ? fitPercent(allSeries(a).filter((s) => s.use === "validation")) : null;
-  const noise = a.noise_floor ?? (a.channels && Object.keys(a.channels).length ? 1 : null);
+  const noise = a.noise_floor;
+  // The errors of several channels are told in noise already.
+  const scaled = Object.keys(a.channels ?? {}).length > 1;
   const holdout = compare.value.holdout ?? diagnosis.value?.baseline.holdout_rmse ?? a.holdout_rmse;
   const both = (/** @type {number | null | undefined} */ error, /** @type {number | null} */ percent) =>
     `${say(error)}${percent === null ? "" : ` · fit ${brief(percent)} %`}`;
@@ -53,8 +55,10 @@ function facts(a) {
     ...row("Fit, 100 % is perfect", fit === null ? "–" : `${brief(fit)} %`),
     ...row("Hold-out", say(holdout)),
     ...(a.validation ? row("Validation", both(a.validation.rmse, check), "validation-error") : []),
-    ...row("Noise floor", noise === null ? "not known" : say(noise), "noise-floor"),
-    ...(noise && a.rmse !== null ? row("Error over noise", `${brief(a.rmse / noise)} ×`) : []),
+    ...(scaled ? [] : [
+      ...row("Noise floor", noise === null ? "not known" : say(noise), "noise-floor"),
+      ...(noise && a.rmse !== null ? row("Error over noise", `${brief(a.rmse / noise)} ×`) : []),
+    ]),
   );
 }
 

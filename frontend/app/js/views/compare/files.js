@@ -5,7 +5,7 @@ import { doc, edit, view } from "../../state.js";
 import { ApiError, get } from "../../api.js";
 import { muscles, references } from "../../store.js";
 import { MOST_FILES } from "./document.js";
-import { driveFor, needsDrive } from "./drive-document.js";
+import { driveFor, needsDrive, startOf } from "./drive-document.js";
 import { fresh } from "./history.js";
 import { openMapping } from "./mapping.js";
 import { compare, editCompare, files } from "./model.js";
@@ -81,10 +81,21 @@ export async function remap(id) {
   }
 }
 
+/** A run that a valve made begins at the pressure of its first rows, unless the file says another.
+ * @param {FileInfo} info @param {Record<string, unknown>} columns @returns {FileInfo} */
+function begun(info, columns) {
+  const start = needsDrive(info) ? startOf(columns.pressure) : null;
+  return start === null ? info : { ...info, conditions: { start_pressure: start, ...info.conditions } };
+}
+
+/** @param {FileInfo} info */
+const withStart = async (info) =>
+  needsDrive(info) ? begun(info, (await get(`/api/measurements/${info.id}`)).columns) : info;
+
 /** @param {File} file @param {Mapping} mapping @param {string | null} instead of which file it comes */
 async function send(file, mapping, instead) {
   reading.value = file.name;
-  const info = await keep(file, mapping);
+  const info = await withStart(await keep(file, mapping));
   sources.set(info.id, { file, mapping });
   infos.value = new Map(infos.peek()).set(info.id, info);
   edit((d) => ({ ...d, compare: taken(d.compare, info, instead) }), `measurement ${info.name}`);
@@ -174,8 +185,8 @@ export function followFiles() {
 /** @param {string} id */
 async function fetchInfo(id) {
   try {
-    const { columns: _columns, ...info } = await get(`/api/measurements/${id}`);
-    infos.value = new Map(infos.peek()).set(id, info);
+    const { columns, ...info } = await get(`/api/measurements/${id}`);
+    infos.value = new Map(infos.peek()).set(id, begun(info, columns));
   } catch (error) {
     const file = files.peek().find((f) => f.id === id);
     if (!(error instanceof ApiError) || !file) return;

@@ -160,7 +160,11 @@ function inWords(a) {
     .slice(0, 4);
   return [
     told.length
-      ? h("ul", { class: "where-words" }, ...told.map(({ text }) => h("li", null, text)))
+      ? h(
+        "ul",
+        { class: "where-words" },
+        ...told.map(({ text }) => h("li", null, text.replace(/(^| )-(?=\d)/g, "$1−"))),
+      )
       : h("p", { class: "muted" }, "The residual follows none of the measured quantities."),
     clickable.length
       ? h(

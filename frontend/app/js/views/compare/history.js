@@ -8,17 +8,21 @@ import { answer, compare, diagnosis, fitWith, preset } from "./model.js";
 import { fitOf, IDEAL, stepOf, withStep } from "./document.js";
 import { keyOf, valuesOf } from "./request.js";
 import { presetValues } from "./muscle-values.js";
+import { OWN_TERM } from "./words.js";
 
 /** @typedef {import("./document.js").Compare} Compare */
 /** @typedef {import("./document.js").Step} Step */
 /** @typedef {import("./types.js").Candidate} Candidate */
+/** @typedef {import("./types.js").Comparison} Comparison */
+/** @typedef {import("./types.js").Effects} Effects */
 /** @typedef {import("./types.js").Model} Model */
 
 /** A fit on request is under way. */
 export const fitting = signal(false);
 
 /** @param {string} id */
-export const titleOf = (id) => effectsById.value.get(id)?.title ?? id.replaceAll("_", " ");
+export const titleOf = (id) =>
+  id === OWN_TERM ? "Own term" : effectsById.value.get(id)?.title ?? id.replaceAll("_", " ");
 
 /** The model of now with its error, as a step of the history. */
 export const here = () =>
@@ -53,7 +57,7 @@ export function addAll() {
   const told = diagnosis.peek();
   const path = told?.path.slice(1) ?? [];
   if (!told || !path.length) return;
-  const names = path.map((s) => titleOf(s.added ?? ""));
+  const names = path.map((s) => s.added ? titleOf(s.added) : "Values fitted");
   go(
     path.map((s, i) => ({
       label: `+ ${names[i]}`,
@@ -80,24 +84,37 @@ export const addModel = (model, label) =>
     holdout: null,
   }], `add ${label}`);
 
-/** Fits the parameters of a model and takes it; null = the fit did not succeed.
- * @param {import("./types.js").Effects | null} effects @param {string} label @param {string} step */
-async function fitted(effects, label, step) {
+/** The values of a model after a fit. @param {Effects} effects @param {Comparison} got @returns {Effects} */
+const fittedValues = (effects, got) =>
+  Object.fromEntries(
+    Object.entries(got.parameters).map(([id, parameters]) => {
+      const numbers = Object.entries(parameters).map(([name, p]) => [name, p.value]);
+      return [id, { ...effects[id], ...Object.fromEntries(numbers) }];
+    }),
+  );
+
+const MOST_FITS = 4;
+
+/** Fits the parameters of a model and takes it.
+ * @param {Effects | null} effects @param {string} label of undo @param {string} step of the history
+ * @throws {ApiError} the server's reason why there is no fit */
+export async function takeFitted(effects, label, step) {
   const c = compare.peek();
   const freed = effects === null ? c.freed : c.freed.filter((name) => name.split(".")[0] in effects);
-  const body = keyOf(c, { effects, freed, values: c.muscle.values });
-  if (!body) return;
+  const start = { freed, values: c.muscle.values };
+  if (!keyOf(c, { effects, ...start })) return;
   fitting.value = true;
   try {
-    const got = await fitWith(body);
-    if (compare.peek() !== c && keyOf(compare.peek()) !== keyOf(c)) return;
-    const values = Object.fromEntries(
-      Object.entries(got.parameters).map(([id, parameters]) => {
-        const own = effects?.[id] ?? {};
-        const numbers = Object.entries(parameters).map(([name, p]) => [name, p.value]);
-        return [id, { ...own, ...Object.fromEntries(numbers) }];
-      }),
-    );
+    let values = effects, tries = 0, stuck = true;
+    let got = /** @type {Comparison | null} */ (null);
+    // The range of a typed term's constant follows from where it starts: at its end, the fit goes on from there.
+    while (stuck && tries++ < MOST_FITS) {
+      got = await fitWith(keyOf(c, { effects: values, ...start }) ?? "");
+      if (compare.peek() !== c && keyOf(compare.peek()) !== keyOf(c)) return;
+      values = fittedValues(values ?? {}, got);
+      stuck = Object.values(got.parameters[OWN_TERM] ?? {}).some((p) => p.at_bound);
+    }
+    if (!got) return;
     const free = Object.fromEntries(
       Object.entries(valuesOf(got.geometry)).filter(([name]) => c.free.includes(name)),
     );
@@ -110,11 +127,19 @@ async function fitted(effects, label, step) {
       rmse: got.rmse,
       holdout: got.holdout_rmse,
     }], label);
+  } finally {
+    fitting.value = false;
+  }
+}
+
+/** As takeFitted; a failure is told in the status line.
+ * @param {Effects | null} effects @param {string} label @param {string} step */
+async function fitted(effects, label, step) {
+  try {
+    await takeFitted(effects, label, step);
   } catch (error) {
     if (!(error instanceof ApiError)) throw error;
     status.value = `The fit did not succeed: ${error.words}`;
-  } finally {
-    fitting.value = false;
   }
 }
 

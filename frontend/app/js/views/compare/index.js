@@ -1,8 +1,6 @@
 // @ts-check
-// The Compare & diagnose view as the shell sees it: its page is fetched when it is first shown, so that the
-// others start without it.
-import { h } from "../../dom.js";
-import { apart } from "../../reactive.js";
+// The Compare & diagnose view as the shell sees it: its page is fetched when it is first shown.
+import { later } from "../../later.js";
 import { view } from "../../state.js";
 
 export { listenToDrops } from "./drop.js";
@@ -56,12 +54,4 @@ export const compareExports = () => [
   },
 ];
 
-export function compareView() {
-  const place = h("div", { class: "compare-place" }, h("p", { class: "loading" }, "Loading…"));
-  import("./page.js").then(({ comparePage }) => place.replaceChildren(apart(comparePage)), () => {
-    place.replaceChildren(
-      h("p", { class: "loading", role: "alert" }, "This view did not load: reload the page."),
-    );
-  });
-  return place;
-}
+export const compareView = later(async () => (await import("./page.js")).comparePage);

@@ -1,7 +1,7 @@
 // @ts-check
 // The effects in the model: each value with its error and its bounds, to be changed, taken out or fitted again.
 import { h, icon, mathml } from "../../dom.js";
-import { computed } from "../../reactive.js";
+import { computed, signal } from "../../reactive.js";
 import { commit, preview, units } from "../../state.js";
 import { effectsById } from "../../store.js";
 import { brief, number, plainScale, quantityOf, scaleOf, toShown } from "../../format.js";
@@ -11,15 +11,18 @@ import { fitting, refit, remove, titleOf } from "./history.js";
 import { answer, compare, diagnosis, messageFor, patchCompare, preset } from "./model.js";
 import { fitOf } from "./document.js";
 import { presetValues } from "./muscle-values.js";
-import { figures } from "./words.js";
+import { newTerm } from "./own-term.js";
+import { figures, FORMULA, OWN_TERM } from "./words.js";
 
-/** @typedef {import("../../types.js").Parameter} Parameter */
+/** What a field needs to know of a parameter.
+ * @typedef {Pick<import("../../types.js").Parameter,
+ *   "name" | "unit" | "symbol_mathml" | "lower" | "upper" | "default">} Field */
 
 /** Effects of the model with their values, those of the preset included. */
 const effects = computed(() => compare.value.effects ?? presetValues(preset.value));
 const ids = computed(() => Object.keys(effects.value).join());
 
-/** @param {Parameter} p */
+/** @param {Field} p */
 const scale = (p) => {
   const quantity = quantityOf(p.unit, p.name);
   return quantity ? scaleOf(quantity, units.value) : plainScale(p.unit);
@@ -28,11 +31,11 @@ const scale = (p) => {
 /** A diagnosis that adds nothing has fitted the model of now. */
 const lastFit = computed(() => diagnosis.value?.path.length === 1 ? fitOf(diagnosis.value.parameters) : {});
 
-/** @param {string} id @param {Parameter} p */
+/** @param {string} id @param {Field} p */
 function range(id, p) {
   const s = scale(p), fit = compare.value.fit[id]?.[p.name] ?? lastFit.value[id]?.[p.name];
   const say = (/** @type {number} */ si) => number(toShown(si, s), s.digits);
-  const bounds = `${say(p.lower)} … ${say(p.upper)} ${s.unit}`.trim();
+  const bounds = Number.isFinite(p.lower) ? `${say(p.lower)} … ${say(p.upper)} ${s.unit}`.trim() : "in SI";
   return h(
     "p",
     { class: "hint" },
@@ -42,7 +45,7 @@ function range(id, p) {
   );
 }
 
-/** @param {string} id @param {Parameter} p */
+/** @param {string} id @param {Field} p */
 function parameterField(id, p) {
   const value = () => {
     const own = effects.value[id]?.[p.name];
@@ -53,13 +56,13 @@ function parameterField(id, p) {
     { class: "parameter" },
     quantityField({
       key: `compare.${id}.${p.name}`,
-      label: spoken(p.name).replace(/^./, (c) => c.toUpperCase()),
-      symbol: mathml(p.symbol_mathml),
+      label: p.symbol_mathml ? spoken(p.name).replace(/^./, (c) => c.toUpperCase()) : p.name,
+      symbol: p.symbol_mathml ? mathml(p.symbol_mathml) : null,
       quantity: quantityOf(p.unit, p.name),
       slider: false,
-      strict: true,
+      strict: Number.isFinite(p.lower),
       scale: () => scale(p),
-      bounds: () => [p.lower, p.upper],
+      bounds: Number.isFinite(p.lower) ? () => [p.lower, p.upper] : undefined,
       get: value,
       put: (si, done) => {
         preview((d) => {
@@ -79,21 +82,57 @@ function parameterField(id, p) {
   );
 }
 
-/** Values of a typed formula, which the catalogue does not know. @param {string} id */
-const typedValues = (id) =>
-  h(
-    "ul",
-    { class: "found-values" },
-    () =>
-      Object.entries(effects.value[id] ?? {}).map(([name, value]) =>
-        h("li", null, typeof value === "string" ? h("code", null, value) : `${name} = ${brief(value)}`)
-      ),
+const editing = signal(false);
+const closeEditor = () => (editing.value = false);
+
+/** A typed formula with its constants, which the catalogue does not know. @param {string} id */
+function typedTerm(id) {
+  const names = computed(() =>
+    Object.entries(effects.value[id] ?? {}).filter(([, v]) => typeof v === "number").map(([name]) => name)
+      .join()
   );
+  return [
+    () =>
+      editing.value ? newTerm(closeEditor) : h(
+        "div",
+        { class: "typed" },
+        h("code", { tabindex: 0 }, () => String(effects.value[id]?.[FORMULA] ?? "")),
+        h("button", { type: "button", class: "link", onclick: () => (editing.value = true) }, "Edit…"),
+      ),
+    () => names.value ? names.value.split(",").map((name) => parameterField(id, constant(id, name))) : null,
+  ];
+}
+
+/** What a constant of a typed term is, as the catalogue would say it.
+ * @param {string} id @param {string} name @returns {Field} */
+const constant = (id, name) => ({
+  name,
+  unit: "1",
+  symbol_mathml: "",
+  lower: -Infinity,
+  upper: Infinity,
+  default: Number(effects.peek()[id]?.[name] ?? 1),
+});
+
+/** The way to a term of the user's own; one at a time. */
+function ownTerm() {
+  if (OWN_TERM in effects.value) return null;
+  return editing.value ? newTerm(closeEditor) : h(
+    "button",
+    {
+      type: "button",
+      class: "link",
+      id: "add-own-term",
+      disabled: () => !answer.value,
+      onclick: () => (editing.value = true),
+    },
+    "Add a term of your own…",
+  );
+}
 
 /** @param {string} id */
 function row(id) {
   const known = effectsById.value.get(id);
-  const typed = Object.values(effects.peek()[id] ?? {}).some((v) => typeof v === "string");
   return h(
     "li",
     { class: "in-model", "data-effect-in": id },
@@ -111,7 +150,7 @@ function row(id) {
       }, icon("close")),
     ),
     h("p", { class: "error" }, () => messageFor(`effects.${id}`) ?? ""),
-    typed || !known ? typedValues(id) : known.parameters.map((p) => parameterField(id, p)),
+    ...(id === OWN_TERM ? typedTerm(id) : (known?.parameters ?? []).map((p) => parameterField(id, p))),
   );
 }
 
@@ -160,6 +199,7 @@ export function modelCard() {
       ids.value
         ? h("ul", { class: "plain" }, ...ids.value.split(",").map(row))
         : h("p", { class: "muted" }, "None: the ideal muscle."),
+    ownTerm,
     correlated,
   );
 }

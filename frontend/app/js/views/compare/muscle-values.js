@@ -1,6 +1,7 @@
 // @ts-check
 // What a muscle preset says, in SI; and which preset a measurement was taken on. Pure functions.
 import { siOf } from "../../format.js";
+import { siNumber } from "../transient/units.js";
 
 /** @typedef {import("../../types.js").Preset} Preset */
 /** @typedef {import("../../types.js").Muscle} Muscle */
@@ -41,8 +42,14 @@ export function muscleOf(muscles, conditions) {
   return { preset: named.preset.id, form: "braid", values: length ? { nominal_length: length } : {} };
 }
 
-/** A muscle of a request as this page keeps it. @param {Record<string, any>} input @returns {Muscle} */
+/** A muscle of a request, "300 mm" or SI, as this page keeps it.
+ * @param {Record<string, any>} input @returns {Muscle} */
 export function muscleFrom({ preset = null, ...rest }) {
-  const values = Object.fromEntries(Object.entries(rest).filter(([, v]) => typeof v === "number"));
+  const values = Object.fromEntries(
+    Object.entries(rest).flatMap(([name, given]) => {
+      const si = siNumber(given);
+      return si === null ? [] : [[name, si]];
+    }),
+  );
   return { preset, form: "turns" in values || "thread_length" in values ? "thread" : "braid", values };
 }

@@ -4,6 +4,7 @@ import { h, icon } from "../../dom.js";
 import { computed, signal } from "../../reactive.js";
 import { edit } from "../../state.js";
 import { ApiError, get, post } from "../../api.js";
+import { GIVEN, IDEAL } from "./document.js";
 import { fresh, titleOf } from "./history.js";
 import { compare } from "./model.js";
 import { muscleFrom } from "./muscle-values.js";
@@ -37,8 +38,11 @@ export function openMystery(m) {
       files: [{ id: m.measurement, name: m.title, use: "fit" }],
       muscle: m.muscle ? muscleFrom(m.muscle) : d.compare.muscle,
       effects: m.effects ?? {},
+      label: Object.keys(m.effects ?? {}).length ? GIVEN : IDEAL,
       drive: m.drive
-        ? Object.fromEntries(Object.entries(m.drive).filter(([k]) => k !== "muscle" && k !== "schema"))
+        ? Object.fromEntries(
+          Object.entries(m.drive).filter(([k]) => !["muscle", "effects", "schema"].includes(k)),
+        )
         : null,
       mystery: m.id,
       guided: false,
@@ -66,7 +70,8 @@ export function mysteryCard() {
   const m = chosen.value;
   if (!m) return null;
   const told = revealed.value?.id === m.id ? revealed.value.answer : null;
-  const named = Object.keys(compare.value.effects ?? {}).map(titleOf);
+  const named = Object.keys(compare.value.effects ?? {}).filter((id) => !(id in (m.effects ?? {})))
+    .map(titleOf);
   return h(
     "section",
     { class: "card mystery", "aria-label": "Mystery" },

@@ -9,7 +9,7 @@ import { dropping } from "./drop.js";
 import { followFiles } from "./files.js";
 import { whereCard } from "./heat.js";
 import { measurementsCard } from "./measurements.js";
-import { again, answer, chosen, fault, files, stage, startComparing } from "./model.js";
+import { again, answer, chosen, diagnosis, fault, files, stage, startComparing } from "./model.js";
 import { modelCard } from "./model-card.js";
 import { fetchMysteries, mysteryCard } from "./mysteries.js";
 import { overlayCards } from "./overlay.js";
@@ -56,8 +56,13 @@ export function comparePage() {
     errorCard(),
     verdictCard(),
     h("div", { class: "column" }, mysteryCard),
+    // Where effects are missing too, they come first.
+    h(
+      "div",
+      { class: () => `column${diagnosis.value?.verdict.effects.length ? " after" : ""}` },
+      unknownCard(),
+    ),
     candidatesCard(),
-    h("div", { class: "column" }, unknownCard()),
   );
   const page = h(
     "div",

@@ -5,7 +5,7 @@ import { future, past, units } from "../../state.js";
 import { redoAndTell, undoAndTell } from "../../shell.js";
 import { goBack, here, titleOf } from "./history.js";
 import { answer, diagnosis, stale, steps } from "./model.js";
-import { errorText } from "./words.js";
+import { errorText, errorUnit } from "./words.js";
 
 /** @typedef {{label: string, rmse: number | null, holdout: number | null,
  *   kind: "past" | "now" | "ahead", index: number}} Row */
@@ -18,7 +18,7 @@ function rows() {
     ...steps.value.map((s, index) => ({ ...s, kind: /** @type {const} */ ("past"), index })),
     { ...now, rmse: stale.value ? null : now.rmse, kind: "now", index: -1 },
     ...ahead.map((s) => ({
-      label: `+ ${titleOf(s.added ?? "")}`,
+      label: s.added ? `+ ${titleOf(s.added)}` : "Values fitted",
       rmse: s.rmse,
       holdout: s.holdout_rmse,
       kind: /** @type {const} */ ("ahead"),
@@ -31,7 +31,7 @@ function rows() {
 function pathRow(row, most, noise) {
   const a = answer.value;
   const say = (/** @type {number | null} */ si) =>
-    errorText(si, a?.unit ?? "N", a?.predicted ?? "force", units.value);
+    errorText(si, a?.unit ?? "N", a?.predicted ?? "force", units.value, false);
   const share = (/** @type {number | null} */ si) => `${si === null ? 0 : Math.min(100, (100 * si) / most)}%`;
   return h(
     "tr",
@@ -86,6 +86,7 @@ export function pathCard() {
     const noise = a?.channels && Object.keys(a.channels).length ? 1 : a?.noise_floor ?? null;
     return all.map((row) => pathRow(row, most, noise));
   };
+  const unit = () => errorUnit(answer.value?.unit ?? "N", answer.value?.predicted ?? "force", units.value);
   return h(
     "section",
     { class: "card path", "aria-label": "Error after each effect" },
@@ -115,8 +116,8 @@ export function pathCard() {
           null,
           h("th", { scope: "col", class: "text" }, "Model"),
           h("td", null),
-          h("th", { scope: "col" }, "Error"),
-          h("th", { scope: "col" }, "Hold-out"),
+          h("th", { scope: "col" }, "Error", h("small", null, unit)),
+          h("th", { scope: "col" }, "Hold-out", h("small", null, unit)),
         ),
       ),
       h("tbody", null, body),

@@ -47,10 +47,14 @@ export const over = computed(() => {
   return all.includes(usual) ? usual : all[0] ?? usual;
 });
 
-/** The variable of the residual plot; what the data do not vary has no tab. */
+/** Pictures of the residual that are not drawn over a variable. */
+const WHOLE = new Set(["histogram", "autocorrelation", "loops"]);
+
+/** The variable of the residual plot, or one of the pictures of all of it; what the data do not vary has no
+ * tab. */
 export const residualOver = computed(() => {
   const all = variables.value, wanted = tab.value;
-  if (wanted === "histogram") return "histogram";
+  if (WHOLE.has(wanted)) return wanted;
   return all.includes(wanted) ? wanted : all.includes(over.value) ? over.value : all[0] ?? "contraction";
 });
 

@@ -1,7 +1,7 @@
 // @ts-check
 // The residual over one variable, with the band of the noise and a range one can choose.
 import { h, icon } from "../../dom.js";
-import { apart, effect } from "../../reactive.js";
+import { apart, computed, effect } from "../../reactive.js";
 import { units, view } from "../../state.js";
 import { number, scaleOf, toShown, toSi } from "../../format.js";
 import { Chart } from "../../plots/chart.js";
@@ -14,10 +14,12 @@ import { plotlyReady } from "../design/charts.js";
 import { brushLayer } from "./brush-layer.js";
 import { brush, lookCompare, shown, stale } from "./model.js";
 import { channel, channels, residualOver, residuals, variables, viewOf } from "./pictures.js";
-import { histogramSpec, residualSpec } from "./specs.js";
+import { autocorrelation, histogram, loops } from "./leftover.js";
+import { residualSpec } from "./specs.js";
 import { errorText, rangeText, rmsInside, VARIABLES } from "./words.js";
 
 /** @typedef {import("./document.js").Tab} Tab */
+/** @typedef {import("./leftover.js").Picture} Picture */
 
 /** @type {[Tab, string, string][]} */
 const TABS = [
@@ -26,6 +28,8 @@ const TABS = [
   ["velocity", "v", "Residual over velocity"],
   ["time", "t", "Residual over time"],
   ["histogram", "Histogram", "How often each size of residual occurs"],
+  ["autocorrelation", "Autocorrelation", "Autocorrelation of the residual"],
+  ["loops", "Loops", "Area of each loop of the residual"],
 ];
 
 const host = h("div", {
@@ -57,10 +61,22 @@ function setBrush(range) {
   lookCompare({ brush: { [residualOver.peek()]: [si[0], si[1]] } });
 }
 
+/** The picture of the whole residual that is chosen, if one is. @returns {Picture | null} */
+const picture = () => {
+  const a = shown.value, x = residualOver.value;
+  if (!a || x in VARIABLES) return null;
+  if (x === "autocorrelation") return autocorrelation(a);
+  if (x === "loops") return loops(a, units.value);
+  const v = viewOf(channel.value, "contraction");
+  return v && histogram(v);
+};
+const whole = computed(picture);
+
 /** "contraction 5 to 10 %: RMS 63 N, 120 rows" */
 function inside() {
   const b = brush.value, a = shown.value, system = units.value;
   if (!a) return null;
+  if (whole.value) return h("span", null, ...whole.value.words);
   if (!b) return h("span", { class: "muted" }, "Drag over the plot: error in a range");
   const { rms, rows } = rmsInside(residuals.value, b);
   const unit = residuals.value[0]?.unit ?? a.unit;
@@ -87,7 +103,7 @@ const tabs = () => {
   return h(
     "div",
     { class: "group", role: "group", "aria-label": "Residual over" },
-    ...TABS.filter(([id]) => id === "histogram" || there.includes(id)).map(([id, label, title]) =>
+    ...TABS.filter(([id]) => !(id in VARIABLES) || there.includes(id)).map(([id, label, title]) =>
       h("button", {
         type: "button",
         title,
@@ -100,7 +116,7 @@ const tabs = () => {
 };
 
 const channelChoice = () =>
-  channels.value.length > 1
+  channels.value.length > 1 && !["autocorrelation", "loops"].includes(residualOver.value)
     ? h(
       "select",
       {
@@ -120,15 +136,16 @@ export function residualCard() {
   const place = brushLayer(chart, {
     get: brushed,
     set: setBrush,
-    usable: () => residualOver.peek() !== "histogram",
+    usable: () => residualOver.peek() in VARIABLES,
     text: (x) => `${number(x, 2)} ${scale()?.unit ?? ""}`,
   });
   effect(() => {
     palette.value;
-    const x = residualOver.value;
-    const v = viewOf(channel.value, x === "histogram" ? "contraction" : x);
-    if (!plotlyReady.value || !v || view.value !== "compare") return;
-    chart.show((p) => x === "histogram" ? histogramSpec(v, p) : residualSpec(v, p));
+    const all = whole.value, x = residualOver.value;
+    const v = all ? null : viewOf(channel.value, x);
+    if (!plotlyReady.value || view.value !== "compare") return;
+    if (all?.spec) chart.show(all.spec);
+    else if (v) chart.show((p) => residualSpec(v, p));
     apart(place);
   });
   return h(
@@ -148,6 +165,6 @@ export function residualCard() {
       }),
     ),
     h("p", { class: "brush-line", role: "status" }, inside),
-    host,
+    h("div", { hidden: () => whole.value !== null && whole.value.spec === null }, host),
   );
 }

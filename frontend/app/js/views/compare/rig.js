@@ -9,8 +9,10 @@ import { openDialog } from "../../ui/dialog.js";
 import { quantityField } from "../../ui/field.js";
 import { at, put } from "../transient/document.js";
 import { siNumber } from "../transient/units.js";
+import { GIVEN, IDEAL } from "./document.js";
 import { driveFor, needsDrive, readDrive } from "./drive-document.js";
 import { infos } from "./files.js";
+import { fresh } from "./history.js";
 import { chosen, compare, editCompare, messageFor, patchCompare } from "./model.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
@@ -47,10 +49,13 @@ function openText() {
   const use = () => {
     try {
       const read = readDrive(text.value);
-      edit(
-        (d) => ({ ...d, compare: { ...d.compare, drive: read.drive, muscle: read.muscle } }),
-        "drive document",
-      );
+      const { muscle, effects } = read, { start_pressure: begun } = conditions.peek();
+      const drive = { ...(begun === undefined ? {} : { start_pressure: begun }), ...read.drive };
+      const start = effects ? { effects, label: Object.keys(effects).length ? GIVEN : IDEAL } : {};
+      edit((d) => {
+        const c = effects ? fresh(d.compare, "ideal") : d.compare;
+        return { ...d, compare: { ...c, drive, muscle, ...start } };
+      }, "drive document");
       dialog.close();
     } catch (error) {
       wrong.textContent = `This cannot be used: ${/** @type {Error} */ (error).message}.`;
@@ -67,12 +72,13 @@ function openText() {
   );
 }
 
-/** @param {string} path @param {string} label @param {Quantity} quantity */
-const field = (path, label, quantity) =>
+/** @param {string} path @param {string} label @param {Quantity} quantity @param {string} [empty] */
+const field = (path, label, quantity, empty) =>
   quantityField({
     key: `rig.${path}`,
     label,
     quantity,
+    empty,
     slider: false,
     scale: () => scaleOf(quantity, units.value),
     get: () => siNumber(at(drive.value ?? {}, path)),
@@ -136,8 +142,9 @@ export function rigCard() {
         ? [
           valveSelect(),
           field("supply.pressure", "Supply pressure", "pressure"),
+          field("start_pressure", "Start pressure", "pressure", "0"),
           field("load.mass", "Mass", "mass"),
-          field("tube.length", "Tube length", "length"),
+          field("tube.length", "Tube length", "length", "no tube"),
           field("stops.max_contraction", "Upper stop", "ratio"),
         ]
         : null,

@@ -9,8 +9,9 @@ import { quantityField } from "../../ui/field.js";
 import { openPopover } from "../../ui/dialog.js";
 import { unverifiedNote } from "../../ui/sources.js";
 import { infos, unknownMuscle } from "./files.js";
+import { GIVEN } from "./document.js";
 import { fresh } from "./history.js";
-import { answer, chosen, compare, editCompare, messageFor, patchCompare, preset } from "./model.js";
+import { answer, chosen, compare, editCompare, messageFor, patchCompare, preset, steps } from "./model.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
 
@@ -154,6 +155,9 @@ const STARTS = [
   ["preset", "Preset’s effects", "With the effects the preset brings along"],
 ];
 
+/** A mystery or a drive document may say what the start model is. */
+const broughtAlong = () => (steps.value[0] ?? compare.value).label === GIVEN;
+
 function startChoice() {
   return h(
     "div",
@@ -163,7 +167,7 @@ function startChoice() {
         type: "button",
         role: "radio",
         title,
-        "aria-checked": () => String(compare.value.start === id),
+        "aria-checked": () => String(compare.value.start === id && !(id === "ideal" && broughtAlong())),
         onclick: () =>
           edit((d) => ({ ...d, compare: fresh(d.compare, id) }), `start from ${label.toLowerCase()}`),
       }, label)

@@ -1,5 +1,5 @@
 // @ts-check
-// What the plots show: measured points, model lines, residuals with the band of the noise, a histogram.
+// What the plots show: measured points, model lines, residuals with the band of the noise.
 import { axisTitle, extent, shown, steadyRange, steadyX } from "../design/axes.js";
 import { number, scaleOf, toShown } from "../../format.js";
 import { pressureColour } from "../../plots/theme.js";
@@ -19,10 +19,15 @@ import { channelScale, column, isInside, VARIABLES } from "./words.js";
 export const usualOver = (kind) =>
   kind === "transient" ? "time" : kind === "isometric" || kind === "isotonic" ? "pressure" : "contraction";
 
+/** One curve, of no pressure of its own: what is measured and the model take different colours.
+ * @param {Series[]} series */
+const isAlone = (series) => series.length === 1 && series[0].pressure === null;
+
 /** Colour of each series: by its pressure, else by its place in the list.
  * @param {Series[]} series @param {Palette} p */
 export function colours(series, p) {
   const known = series.flatMap((s) => s.pressure === null ? [] : [s.pressure]);
+  if (isAlone(series)) return [p.accent];
   const low = Math.min(...known), high = Math.max(...known);
   return series.map((s, i) => {
     if (s.pressure !== null && high > low) return pressureColour((s.pressure - low) / (high - low), p);
@@ -50,6 +55,19 @@ function pieces(s, over, belongs) {
   return line;
 }
 
+/** Points at pressures of their own: no line runs through them. @param {Series} s @param {string} over */
+export const isScattered = (s, over) =>
+  s.pressure === null && over !== "time" && !(s.direction ?? []).some((d) => d);
+
+/** A range with room for the points at its ends. @param {[number, number]} range @returns {[number, number]} */
+export const padded = ([low, high]) => [low - 0.015 * (high - low), high + 0.015 * (high - low)];
+
+/** So many points that they would hide the model. */
+const MANY = 300;
+
+/** A colour that lets what is drawn over it show. @param {string} color "rgb(…)" */
+const faint = (color) => color.replace("rgb(", "rgba(").replace(")", ",0.5)");
+
 /** @param {View} v @param {Palette} p @returns {Spec} */
 export function overlaySpec(v, p) {
   const { title, quantity } = VARIABLES[v.over], { system } = v;
@@ -72,6 +90,16 @@ export function overlaySpec(v, p) {
   }
   traces.push(points(v, p, tints, x, y));
   v.series.forEach((one, i) => {
+    if (isScattered(one, v.over)) {
+      traces.push({
+        id: `m${i}`,
+        x: x(column(one, v.over)),
+        y: y(one.predicted),
+        marker: { size: 8, symbol: "line-ew", color: p.ink },
+        column: "model",
+      });
+      return;
+    }
     const parts = /** @type {const} */ ([
       ["", undefined, (/** @type {number} */ sign) => sign >= 0],
       ["-", "dash", (/** @type {number} */ sign) => sign < 0],
@@ -92,7 +120,10 @@ export function overlaySpec(v, p) {
   const [low, high] = extent([...v.series.flatMap((one) => [y(one.measured), y(one.predicted)]), [0]]);
   const name = v.channel.replace(/^./, (c) => c.toUpperCase());
   return {
-    x: { title: axisTitle(title, quantity, system), range: steadyX(`cmp${v.picture}${v.over}`, xLow, xHigh) },
+    x: {
+      title: axisTitle(title, quantity, system),
+      range: padded(steadyX(`cmp${v.picture}${v.over}`, xLow, xHigh)),
+    },
     y: {
       title: `${name} (${s.unit})`,
       range: steadyRange(`cmp${v.picture}${v.channel}${system}`, low, high),
@@ -100,6 +131,26 @@ export function overlaySpec(v, p) {
     traces,
     zones: brushZone(v),
     revision: `${v.picture}${v.over}${system}`,
+    table: table(v, ["measured", "predicted"]),
+  };
+}
+
+/** Every point of a plot. @param {View} v @param {("measured" | "predicted" | "residual")[]} what
+ * @returns {import("../../ui/table.js").Table} */
+function table(v, what) {
+  const { title, quantity } = VARIABLES[v.over], s = channelScale(v.unit, v.channel, v.system);
+  const say = (/** @type {number | null} */ si, /** @type {string} */ name) =>
+    si == null ? null : name === "residual" ? si / s.factor : toShown(si, s);
+  return {
+    columns: [
+      { title: "series", text: true },
+      { title: title.toLowerCase(), unit: scaleOf(quantity, v.system).unit },
+      ...what.map((name) => ({ title: name, unit: s.unit })),
+    ],
+    rows: v.series.flatMap((one) => {
+      const x = shown(column(one, v.over), quantity, v.system);
+      return one.measured.map((_m, i) => [one.label, x[i], ...what.map((name) => say(one[name][i], name))]);
+    }),
   };
 }
 
@@ -109,16 +160,20 @@ export function overlaySpec(v, p) {
 function points(v, p, tints, x, y) {
   const each = (/** @type {(s: Series, i: number, k: number) => string} */ of) =>
     v.series.flatMap((s, k) => s.measured.map((_m, i) => of(s, i, k)));
+  const alone = isAlone(v.series);
+  const many = v.series.reduce((sum, s) => sum + s.measured.length, 0) > MANY;
   return {
     id: "points",
     x: x(v.series.flatMap((s) => column(s, v.over))),
     y: y(v.series.flatMap((s) => s.measured)),
     marker: {
-      size: v.series.reduce((sum, s) => sum + s.measured.length, 0) > 300 ? 4 : 5,
+      size: many ? 4 : 5,
       symbol: each((s, i) =>
         s.use === "validation" ? "triangle-up" : (s.direction?.[i] ?? 0) < 0 ? "square" : "circle"
       ),
-      color: each((s, i, k) => isInside(s, i, v.brush) ? tints[k] : p.line),
+      color: each((s, i, k) =>
+        !isInside(s, i, v.brush) ? p.line : alone ? p.soft : many ? faint(tints[k]) : tints[k]
+      ),
     },
     column: "measured",
   };
@@ -145,7 +200,10 @@ export function residualSpec(v, p) {
   const size = Math.max(...y.map((r) => Math.abs(r ?? 0)), band ?? 0);
   const [, high] = steadyRange(`res${v.picture}${v.channel}${system}`, 0, size || 1);
   return {
-    x: { title: axisTitle(title, quantity, system), range: steadyX(`res${v.picture}${v.over}`, xLow, xHigh) },
+    x: {
+      title: axisTitle(title, quantity, system),
+      range: padded(steadyX(`res${v.picture}${v.over}`, xLow, xHigh)),
+    },
     y: { title: `Residual (${s.unit})`, range: [-high, high] },
     traces: [{
       id: "residual",
@@ -164,47 +222,7 @@ export function residualSpec(v, p) {
     }],
     zones: band === null ? [] : [{ x: null, y: [-band, band], text: "±2σ of the noise" }],
     revision: `${v.picture}${v.over}${system}`,
-  };
-}
-
-const BINS = 31;
-
-/** How often each size of residual occurs, beside what noise alone would give.
- * @param {View} v @param {Palette} p @returns {Spec} */
-export function histogramSpec(v, p) {
-  const s = channelScale(v.unit, v.channel, v.system);
-  const values = v.series.flatMap((one) => one.residual.flatMap((r) => r == null ? [] : [r / s.factor]));
-  const most = Math.max(...values.map(Math.abs), v.noise === null ? 0 : (3 * v.noise) / s.factor) || 1;
-  const width = (2 * most) / BINS;
-  const counts = Array.from({ length: BINS }, () => 0);
-  for (const r of values) counts[Math.min(BINS - 1, Math.max(0, Math.floor((r + most) / width)))]++;
-  /** @type {Trace[]} */
-  const traces = [{
-    id: "histogram",
-    x: counts.flatMap((_c, i) => [-most + i * width, -most + (i + 1) * width]),
-    y: counts.flatMap((c) => [c, c]),
-    line: { color: p.accent, width: 2 },
-    column: "rows",
-  }];
-  if (v.noise) {
-    const sigma = v.noise / s.factor, x = Array.from({ length: 121 }, (_, i) => -most + (i * 2 * most) / 120);
-    const scale = (values.length * width) / (sigma * Math.sqrt(2 * Math.PI));
-    traces.push({
-      id: "normal",
-      x,
-      y: x.map((r) => scale * Math.exp(-((r / sigma) ** 2) / 2)),
-      line: { color: p.second, width: 1.6, dash: "dash" },
-      column: "noise alone",
-    });
-  }
-  // A narrow peak of the noise must not flatten the data.
-  const top = Math.max(...counts, 1) * 1.6;
-  return {
-    x: { title: `Residual (${s.unit})`, range: [-most, most] },
-    y: { title: "Rows", range: [0, top] },
-    traces,
-    zones: [],
-    revision: `${v.picture}histogram${v.system}`,
+    table: table(v, ["measured", "residual"]),
   };
 }
 

@@ -2,10 +2,11 @@
 // What the diagnosis concludes: a sentence, all effects at once, what to measure next; while it runs, how far.
 import { h, icon } from "../../dom.js";
 import { units } from "../../state.js";
+import { brief } from "../../format.js";
 import { spoken } from "../../ui/sources.js";
 import { addAll, titleOf } from "./history.js";
 import { again, answer, cancel, diagnosis, fault, found, progress, stage, stale, trouble } from "./model.js";
-import { errorText } from "./words.js";
+import { errorText, whatIsLeft } from "./words.js";
 
 /** @typedef {import("./types.js").Status} Status */
 /** @typedef {import("./types.js").Diagnosis} Diagnosis */
@@ -14,7 +15,7 @@ import { errorText } from "./words.js";
 const BADGES = {
   adequate: ["good", "Adequate"],
   missing_effects: ["warn", "Effects are missing"],
-  ambiguous: ["warn", "Not decidable from these data"],
+  ambiguous: ["warn", "Effects are missing, not all decidable"],
   unknown_effect: ["bad", "Unknown effect"],
 };
 
@@ -69,6 +70,56 @@ function allButton() {
   }, `Add all ${path.length} effects: error ${error}`);
 }
 
+const AT_FLOOR = 1.15;
+
+/** "127 N → 3.09 N, which is the noise" @param {Diagnosis} told */
+function fall(told) {
+  const say = (/** @type {number | null} */ si) => errorText(si, told.unit, told.predicted, units.value);
+  const scaled = Object.keys(told.channels).length > 1;
+  const floor = scaled ? 1 : told.noise_floor.rmse, end = told.path.at(-1)?.rmse ?? null;
+  const there = floor !== null && end !== null && end <= AT_FLOOR * floor;
+  return h(
+    "p",
+    { class: "verdict-fall", id: "verdict-fall" },
+    `With ${told.verdict.effects.length > 1 ? "them" : "it"} the error falls `,
+    h("b", null, `${say(told.baseline.rmse)} → ${say(end)}`),
+    there
+      ? `: the noise of the data${scaled ? "" : ` (${say(floor)})`}.`
+      : floor === null || scaled
+      ? "."
+      : `; the noise is ${say(floor)}.`,
+  );
+}
+
+/** Each effect found missing, and what else it could be. @param {Diagnosis["verdict"]} verdict */
+function missing({ effects, indistinguishable }) {
+  return h(
+    "ul",
+    { class: "plain found-missing" },
+    ...effects.map((id) => {
+      const twins = indistinguishable.find(([one]) => one === id)?.slice(1) ?? [];
+      return h(
+        "li",
+        { class: twins.length ? "unsure" : "sure" },
+        icon(twins.length ? "info" : "check"),
+        h(
+          "span",
+          null,
+          h("b", null, titleOf(id)),
+          twins.length
+            ? h("small", null, `or ${twins.map(titleOf).join(", ")}: these data cannot tell`)
+            : h("small", null, "nothing else fits as well"),
+        ),
+      );
+    }),
+  );
+}
+
+/** @param {string} text */
+const sentence = (text) => `${text.replace(/^./, (c) => c.toUpperCase()).replace(/\.$/, "")}.`;
+
+const FEW = 2;
+
 /** What would decide between effects that look alike. @param {Diagnosis["verdict"]} verdict */
 function next({ experiments, next_measurement: told }) {
   if (!experiments.length) {
@@ -79,25 +130,42 @@ function next({ experiments, next_measurement: told }) {
       "li",
       null,
       h("b", null, e.pair.map(titleOf).join(" or ")),
-      `: ${e.declared || e.protocol}.`,
-      e.declared && e.protocol
-        ? h(
-          "small",
-          null,
-          ` Best of the simulated tests: ${e.protocol} (${Math.round(e.separation)} σ apart).`,
-        )
-        : null,
+      e.declared ? h("p", null, sentence(e.declared)) : null,
+      h(
+        "p",
+        { class: "muted" },
+        e.protocol
+          ? `Best of the simulated tests: ${e.protocol}, ${brief(e.separation)}\u00a0σ apart.`
+          : "No simulated test of the force separates them.",
+      ),
     )
   );
   return h(
     "details",
-    { class: "next" },
+    { class: "next", open: items.length <= FEW },
+    h("summary", null, `Measure next: ${items.length} ${items.length > 1 ? "tests" : "test"} would decide`),
+    h("ol", { class: "experiments" }, ...items),
+  );
+}
+
+/** @param {Diagnosis} told */
+function conclusion(told) {
+  const { verdict } = told;
+  const [tone, label] = BADGES[verdict.status] ?? ["warn", spoken(verdict.status)];
+  const some = verdict.effects.length > 0, unknown = verdict.status === "unknown_effect";
+  const rest = `No catalogued effect explains the rest: ${whatIsLeft(verdict)}.`;
+  return h(
+    "div",
+    { class: `verdict ${tone}` },
+    icon(tone === "good" ? "check" : "warn"),
     h(
-      "summary",
+      "div",
       null,
-      `What to measure next: ${items.length} ${items.length > 1 ? "tests" : "test"} would decide`,
+      h("b", { id: "verdict-status" }, some && unknown ? "Effects are missing, the rest is unknown" : label),
+      ...some
+        ? [missing(verdict), fall(told), unknown ? h("p", null, rest) : null]
+        : [h("p", null, verdict.sentence)],
     ),
-    h("ul", { class: "plain" }, ...items),
   );
 }
 
@@ -109,15 +177,9 @@ export function verdictCard() {
     if (!told) {
       return fault.value ? h("p", { class: "muted" }, "There is no comparison to diagnose.") : running();
     }
-    const { verdict, messages } = told;
-    const [tone, label] = BADGES[verdict.status] ?? ["warn", spoken(verdict.status)];
+    const { messages } = told;
     return [
-      h(
-        "p",
-        { class: `verdict ${tone}` },
-        icon(tone === "good" ? "check" : "warn"),
-        h("span", null, h("b", { id: "verdict-status" }, label), h("br"), verdict.sentence),
-      ),
+      conclusion(told),
       allButton(),
       next(told.verdict),
       messages.length

@@ -6,6 +6,15 @@ import { brief, number, plainScale, quantityOf, scaleOf, toShown } from "../../f
 /** @typedef {import("../../format.js").System} System */
 /** @typedef {import("./types.js").Series} Series */
 
+/** The effect that is a typed formula, and the parameter that holds its text. */
+export const OWN_TERM = "custom", FORMULA = "term";
+
+/** "62 % of it follows contraction and pressure" @param {import("./types.js").Diagnosis["verdict"]} verdict */
+export function whatIsLeft({ unexplained_share: share, unexplained_in: names }) {
+  const where = names.map((name) => VARIABLES[name]?.title.toLowerCase() ?? name.replaceAll("_", " "));
+  return `${brief(100 * share)} % of it follows ${where.join(" and ") || "a pattern"}`;
+}
+
 /** The scale of a channel: a contraction is shown in percent.
  * @param {string} unit @param {string} channel @param {System} system */
 export function channelScale(unit, channel, system) {
@@ -14,13 +23,19 @@ export function channelScale(unit, channel, system) {
   return quantity ? scaleOf(quantity, system) : plainScale(unit);
 }
 
-/** An error with its unit. Several channels together are told in units of their noise.
- * @param {number | null | undefined} si @param {string} unit @param {string} channel @param {System} system */
-export function errorText(si, unit, channel, system) {
-  if (si == null) return "–";
+/** The unit of an error: several channels together are told in units of their noise.
+ * @param {string} unit @param {string} channel @param {System} system */
+export function errorUnit(unit, channel, system) {
   const s = channelScale(unit, channel, system);
-  if (unit === "1" && !s.unit) return `${brief(si)} × noise`;
-  return `${brief(si / s.factor)}\u00a0${s.unit}`.trim();
+  return unit === "1" && !s.unit ? "× noise" : s.unit;
+}
+
+/** @param {number | null | undefined} si @param {string} unit @param {string} channel @param {System} system
+ * @param {boolean} [withUnit] */
+export function errorText(si, unit, channel, system, withUnit = true) {
+  if (si == null) return "–";
+  const text = brief(si / channelScale(unit, channel, system).factor);
+  return withUnit ? `${text}\u00a0${errorUnit(unit, channel, system)}`.trim() : text;
 }
 
 /** Variables of the residual by the name the server uses.
