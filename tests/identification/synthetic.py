@@ -80,10 +80,12 @@ def cycle_rows(
     high: float = 0.16,
     each: int = 60,
     seed: int = 3,
+    second: float = 1.0,
     **hidden,
 ) -> list[str]:
     """Rows of isobaric cycles over time, shortening and lengthening again at 20 mm/s; two per pressure.
 
+    The second one of a pressure goes ``second`` times as fast.
     ``extra`` gives a further force [N] from pressure, length, kappa, direction and time.
     """
     rng = np.random.default_rng(seed)
@@ -93,12 +95,13 @@ def cycle_rows(
         way = np.interp(share, [0, 1, 2, 3, 4], [0.0, high, 0.0, high, 0.0])
         direction = np.where(share % 2 < 1, -1, 1)
         step = 0.3 * high / each / 0.02
-        for kappa, sign in zip(way, direction, strict=True):
+        steps = np.where(share < 2, step, step / second)
+        for kappa, sign, pause in zip(way, direction, steps, strict=True):
             length = 0.3 * (1 - kappa)
             force = truth(level, length, **hidden) + rng.normal(0, noise)
             force += extra(pressure=level, length=length, kappa=kappa, direction=sign, time=clock)
             rows.append(f"{clock:.6f},{level},{length:.12g},{force:.12g},{sign}")
-            clock += step
+            clock += pause
     return rows
 
 

@@ -27,6 +27,8 @@ LEAST_GAIN = 0.02
 #: The same where the error is within 15 % of the noise: what is left there may be the form of a right effect.
 LEAST_GAIN_AT_FLOOR = 0.05
 _AT_FLOOR = 1.15  # of the noise
+_ORDER = {"static": 0, "rate": 1, "dynamic": 1, "hysteretic": 2, "measurement": 3}
+_SIMPLER = 1e-2  # of the score for each step of this order: decides ties only
 _BELOW_FLOOR = 0.5  # errors below this share of the noise are luck
 
 
@@ -58,7 +60,12 @@ def score(node: Node, *, rows: float, noise: float | None) -> float:
         for squares, labels in zip(node.fold_squares, node.folds, strict=True)
     ]
     price = len(node.free) * float(np.log(rows)) + LEAST_SCORE * node.implausible
-    return rows * float(np.mean(ways)) + price
+    return rows * float(np.mean(ways)) + price + _complexity(node)
+
+
+def _complexity(node: Node) -> float:
+    """Names the simpler one of two effects that predict the same."""
+    return _SIMPLER * sum(_ORDER.get(effect.type, 0) for effect in node.setting.effects)
 
 
 def log_ratio(before: Node, after: Node) -> tuple[float, float]:

@@ -49,9 +49,8 @@ def search(work: Fits, root: Node, *, singles: Sequence[Node]) -> Node:
         if _at_floor(work, first) and better(first, best, rows=_rows(work, first), noise=work.noise):
             best = first
             break
-        beam = [
-            with_further_constants(work, node, node.setting.effects[-1:]) for node in children[: 2 * _BEAM]
-        ]
+        newest = slice(None) if work.subject.thorough else slice(-1, None)
+        beam = [with_further_constants(work, n, n.setting.effects[newest]) for n in children[: 2 * _BEAM]]
         beam = _different(beam)[:_BEAM]
         leader = min(beam, key=lambda node: (node.implausible > 0, score(node, rows=rows, noise=work.noise)))
         whole = with_further_constants(work, leader)

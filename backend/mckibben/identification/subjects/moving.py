@@ -74,6 +74,7 @@ class Moving(Subject):
 
     step = 2e-2
     one_sided = True
+    thorough = False
     tolerance = 1e-4
     evaluations = 20
     tried = 12

@@ -49,6 +49,7 @@ class Subject(ABC):
         inputs: what the residual may depend on, name -> shape (values,), SI.
         step: of differences, over the size of a number or its usual change; one_sided: half the runs.
         tried: how many candidates are fitted to one model, those that promise most.
+        thorough: further constants of all effects are freed in every model of a search, not the newest one's.
         tolerance, evaluations: of a fit in a search.
         rows_used, excluded, messages: rows that count, why others do not, what was assumed.
         unknown_load: bounds of the load where it has to be fitted.
@@ -69,6 +70,7 @@ class Subject(ABC):
     step: float = 5e-3
     one_sided: bool = False
     tried: int = 40
+    thorough: bool = True
     tolerance: float = 1e-6
     evaluations: int = 60
     unknown_load: Free | None = None
