@@ -114,11 +114,11 @@ def test_friction_is_seen_over_the_direction_and_in_the_loops(
     assert first["mean"] == pytest.approx([-15.0, 15.0], abs=0.5)
     assert sum(first["count"]) == answer["rows_used"]
     assert len(first["edges"]) == len(first["count"]) + 1
-    # Each pressure is cycled twice over 48 mm: 2 F_c times the way.
+    # Each pressure is cycled twice over 48 mm in steps of 1.2 mm: 2 F_c times the way, turning rows left out.
     assert len(answer["loops"]) == 3
     for loop in answer["loops"]:
-        assert loop["area"] == pytest.approx(2 * 2 * 15.0 * 0.048, rel=0.05)
-        assert loop["span"] == pytest.approx(0.048, rel=1e-6)
+        assert 0.048 - 2 * 0.0012 - 1e-9 < loop["span"] < 0.048 + 1e-9
+        assert loop["area"] == pytest.approx(2 * 2 * 15.0 * loop["span"], rel=0.05)
     assert answer["whiteness"]["white"] is False
     assert "direction" in answer["sentences"][0] or "lengthening" in answer["sentences"][0]
     assert answer["sentences"][-1] == "the residual is not noise: it has structure"
@@ -136,12 +136,14 @@ def test_the_right_model_leaves_noise(shared_client: TestClient, rubbing: str) -
 
 
 def test_the_map_covers_pressure_and_contraction(shared_client: TestClient, rubbing: str) -> None:
-    chart = compare(shared_client, IDEAL, rubbing)["heat_map"]
+    answer = compare(shared_client, IDEAL, rubbing)
+    chart = answer["heat_map"]
     assert (chart["x"], chart["y"]) == ("contraction", "pressure")
     assert len(chart["x_edges"]) == len(chart["y_edges"]) == 9
-    assert chart["x_edges"][0] == pytest.approx(0.0, abs=1e-9)
-    assert chart["x_edges"][-1] == pytest.approx(0.16)
-    assert sum(map(sum, chart["count"])) == 480
+    # The turning rows at both ends, 0.004 apart from the next ones, may be left out.
+    assert chart["x_edges"][0] == pytest.approx(0.0, abs=0.0041)
+    assert chart["x_edges"][-1] == pytest.approx(0.16, abs=0.0041)
+    assert sum(map(sum, chart["count"])) == answer["rows_used"] > 460
     for means, counts in zip(chart["mean"], chart["count"], strict=True):
         for mean, count in zip(means, counts, strict=True):
             assert (mean is None) == (count == 0)
@@ -219,7 +221,7 @@ def test_validation_is_judged_by_and_not_fitted_to(shared_client: TestClient, ru
     ComparisonAnswer.model_validate_json(response.content)
     answer = response.json()
     assert answer["parameters"]["coulomb_friction"]["force"]["value"] == pytest.approx(15.0, abs=0.3)
-    assert answer["rows_used"] == 480
+    assert answer["rows_used"] + answer["excluded"]["turning points"] == 480
     validation = answer["validation"]
     assert validation["rows_used"] == 160
     assert validation["rmse"] == pytest.approx((15.0**2 + 1.0) ** 0.5, rel=0.03)

@@ -66,14 +66,14 @@ def client(app: FastAPI) -> Iterator[TestClient]:
 @pytest.fixture(scope="module")
 def rubbing(client: TestClient) -> str:
     """Cycles with a bladder and Coulomb friction."""
-    rows = cycle_rows(coulomb, noise=1.0, each=20, c10=0.4e6)
+    rows = cycle_rows(coulomb, noise=1.0, each=20, c10=0.4e6, second=3.0)
     return upload(client, "rubbing", text(rows, CYCLE_HEADER, "kind: isobaric"))
 
 
 @pytest.fixture(scope="module")
 def other(client: TestClient) -> str:
     """The same muscle at another pressure."""
-    rows = cycle_rows(coulomb, noise=1.0, each=20, c10=0.4e6, levels=(3e5, 5e5), seed=8)
+    rows = cycle_rows(coulomb, noise=1.0, each=20, c10=0.4e6, levels=(3e5, 5e5), seed=8, second=3.0)
     return upload(client, "other", text(rows, CYCLE_HEADER, "kind: isobaric"))
 
 

@@ -211,7 +211,7 @@ def test_a_catalogued_part_is_found_beside_an_unknown_one():
     def both(**state: float) -> float:
         return coulomb(**state) + ripple(**state)  # type: ignore[arg-type]
 
-    found = diagnosis(cycles(both, noise=1.0, each=40))
+    found = diagnosis(cycles(both, noise=1.0, each=40, second=3.0))
     assert found.status == "unknown_effect"
     assert "coulomb_friction" in found.added
     assert found.term is not None

@@ -49,8 +49,7 @@ def search(work: Fits, root: Node, *, singles: Sequence[Node]) -> Node:
         if _at_floor(work, first) and better(first, best, rows=_rows(work, first), noise=work.noise):
             best = first
             break
-        newest = slice(None) if work.subject.thorough else slice(-1, None)
-        beam = [with_further_constants(work, n, n.setting.effects[newest]) for n in children[: 2 * _BEAM]]
+        beam = [with_further_constants(work, n, _examined(work, n, root)) for n in children[: 2 * _BEAM]]
         beam = _different(beam)[:_BEAM]
         leader = min(beam, key=lambda node: (node.implausible > 0, score(node, rows=rows, noise=work.noise)))
         whole = with_further_constants(work, leader)
@@ -72,6 +71,12 @@ def search(work: Fits, root: Node, *, singles: Sequence[Node]) -> Node:
                 for effect in work.promising(node, others)[: min(_TRIED, work.subject.tried)]
             ]
     return _polished(work, best, root)
+
+
+def _examined(work: Fits, node: Node, root: Node) -> list[Effect]:
+    """Effects whose further constants are tried in every model: all, or where runs are dear what was added."""
+    start = () if work.subject.thorough else root.setting.ids
+    return [effect for effect in node.setting.effects if effect.id not in start]
 
 
 def with_further_constants(work: Fits, node: Node, effects: Sequence[Effect] | None = None) -> Node:

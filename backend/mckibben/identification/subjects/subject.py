@@ -49,7 +49,7 @@ class Subject(ABC):
         inputs: what the residual may depend on, name -> shape (values,), SI.
         step: of differences, over the size of a number or its usual change; one_sided: half the runs.
         tried: how many candidates are fitted to one model, those that promise most.
-        thorough: further constants of all effects are freed in every model of a search, not the newest one's.
+        thorough: in a search the further constants of the start model too are tried in every model.
         tolerance, evaluations: of a fit in a search.
         rows_used, excluded, messages: rows that count, why others do not, what was assumed.
         unknown_load: bounds of the load where it has to be fitted.

@@ -167,9 +167,7 @@ def _motion(
             pause = np.diff(columns["time"]) > _PAUSE * np.median(np.abs(np.diff(columns["time"])))
             unsure[1:] |= pause & (np.diff(columns["group"]) != 0)
         messages += moved.messages
-        if direction is not None and known:
-            velocity, unsure = _sided(velocity, unsure, np.sign(direction))
-        else:
+        if not known:
             direction, known = moved.direction, True
     elif "velocity" in columns:
         velocity = columns["velocity"]
@@ -200,17 +198,6 @@ def _jumps(time: np.ndarray, length: np.ndarray, moved: Motion) -> np.ndarray:
     meet = (risen - after * step) / (before - after)  # after the first of both rows [s]
     found[sudden + (meet > 0.5 * step)] = True
     return found if np.mean(found) < _FEW else np.zeros(len(found), bool)
-
-
-def _sided(velocity: np.ndarray, unsure: np.ndarray, direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Where the velocity jumps and the file tells the direction, that of the neighbour on the same side."""
-    found, left = velocity.copy(), unsure.copy()
-    for row in np.flatnonzero(unsure):
-        sides = [side for side in (row - 1, row + 1) if 0 <= side < len(velocity) and not unsure[side]]
-        alike = [side for side in sides if velocity[side] * direction[row] > 0.0]
-        if len(alike) == 1 and len(sides) == 2:
-            found[row], left[row] = velocity[alike[0]], False
-    return found, left
 
 
 def _turning(direction: np.ndarray, records: np.ndarray) -> np.ndarray:

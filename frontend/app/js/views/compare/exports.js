@@ -96,7 +96,11 @@ export function useInDesign() {
     }),
   );
   edit(
-    (d) => ({ ...d, design: { ...d.design, muscle: c.muscle, effects, reference: "auto" } }),
+    (d) => ({
+      ...d,
+      design: { ...d.design, muscle: c.muscle, effects, reference: "auto" },
+      sizing: { ...d.sizing, mode: "muscle" },
+    }),
     "model of the comparison",
   );
   goTo("design");
