@@ -2,8 +2,8 @@
 
     python -m tests.benchmarks.measured [--data FOLDER]
 
-Maps of Martens & Boblan (Actuators 6 (2017) 33), from the ideal muscle with nominal geometry; and Sarosi's formula
-with five parameters, F = (p + a1) exp(a2 k) + a3 k p + a4 p + a5, p in kPa and k in %.
+Maps of Martens & Boblan (Actuators 6 (2017) 33), from the ideal muscle with nominal geometry; and Sarosi's
+formula with five parameters, F = (p + a1) exp(a2 k) + a3 k p + a4 p + a5, p in kPa and k in %.
 """
 
 from __future__ import annotations
@@ -75,10 +75,8 @@ def main() -> None:
             scale = 100.0 / float(np.max(found.subject.measured))
             errors = [scale * error for error in (found.start.rmse, found.best.rmse, found.best.holdout_rmse)]
             label = f"{sample}{' --free braid_angle' if free else ''}"
-            effects = f"{', '.join(found.added)} ({found.status})"
-            say(
-                f"{label:36}{errors[0]:7.2f}{errors[1]:7.2f}{errors[2]:10.2f}  {len(found.best.free)}: {effects}"
-            )
+            effects = f"{len(found.best.free)}: {', '.join(found.added)} ({found.status})"
+            say(f"{label:36}{errors[0]:7.2f}{errors[1]:7.2f}{errors[2]:10.2f}  {effects}")
             inputs, measured = found.subject.inputs, found.subject.measured
         fit, hold = sarosi(inputs["pressure"], 1.0 - inputs["length"] / length, measured)
         say(f"{sample + ' Sarosi':36}{'':7}{scale * fit:7.2f}{scale * hold:10.2f}  5")

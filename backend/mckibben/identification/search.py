@@ -74,7 +74,7 @@ def search(work: Fits, root: Node, *, singles: Sequence[Node]) -> Node:
 
 
 def _examined(work: Fits, node: Node, root: Node) -> list[Effect]:
-    """Effects whose further constants are tried in every model: all, or where runs are dear what was added."""
+    """Effects whose further constants are tried in every model: all; where runs are dear what was added."""
     start = () if work.subject.thorough else root.setting.ids
     return [effect for effect in node.setting.effects if effect.id not in start]
 
