@@ -217,11 +217,10 @@ def check_finite(subject: Subject, setting: Setting) -> None:
     """
     if not isinstance(subject, Quasistatic):
         return  # a run that breaks off is far off
-    with np.errstate(all="ignore"):
-        lost = np.count_nonzero(~np.isfinite(subject.predict(setting, clipped=False)))
+    lost, rows = subject.lost(setting)
     if lost:
         raise InputError(
-            f"the model has no finite value at {lost} of {len(subject.measured)} rows",
+            f"the model has no finite value at {lost} of {rows} rows",
             field=f"effects.{CUSTOM}.{TERM}" if CUSTOM in setting.ids else "effects",
             hint="look for a division by zero, a root or an exponential, or give other parameters",
         )

@@ -42,6 +42,13 @@ class Evaluation:
 
         The second has shape (rows, names); the load is none of the model's own, its column is 0.
         """
+        # A typed term may have no slope, or no value, somewhere: that is looked for in what comes out.
+        with np.errstate(all="ignore"):
+            return self._at(setting, names, state)
+
+    def _at(
+        self, setting: Setting, names: Sequence[str], state: State | None
+    ) -> tuple[dict[str, np.ndarray], np.ndarray]:
         moved = self._memory.by_parameters(setting, names)
         states = sorted({state for own in moved.values() for state in own})
         inner = tuple(name for name in names if name != LOAD)

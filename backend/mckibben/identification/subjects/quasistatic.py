@@ -88,15 +88,22 @@ class Quasistatic(Subject):
 
     def predict(self, setting: Setting, *, clipped: bool = True) -> np.ndarray:
         """Force, length or diameter of each row; a load that passes the braid lock is predicted there."""
-        if self.task.channel == "force":
-            out = self._evaluation.at(_at_once(setting))[0]
-            force = clip_slack(out) if clipped else out["force"]
-            if any(map(late, setting.effects)):
-                force = self._as_read(setting, force)
-            return force[self._counted]
+        return self._everywhere(setting, clipped=clipped)[self._counted]
+
+    def lost(self, setting: Setting) -> tuple[int, int]:
+        """At how many rows of the record a model has no finite value, counted or not, and of how many."""
+        with np.errstate(all="ignore"):
+            values = self._everywhere(setting, clipped=False)
+        return int(np.count_nonzero(~np.isfinite(values))), len(values)
+
+    def _everywhere(self, setting: Setting, *, clipped: bool) -> np.ndarray:
         if self.task.channel == "length":
-            return predicted_lengths(self._evaluation, setting)[0][self._counted]
-        return self._diameter(setting)[self._counted]
+            return predicted_lengths(self._evaluation, setting)[0]
+        if self.task.channel == "diameter":
+            return self._diameter(setting)
+        out = self._evaluation.at(_at_once(setting))[0]
+        force = clip_slack(out) if clipped else out["force"]
+        return self._as_read(setting, force) if any(map(late, setting.effects)) else force
 
     def linearised(self, setting: Setting, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
         """Predicted values and exact derivatives of force and length; differences for what has none."""
@@ -116,6 +123,8 @@ class Quasistatic(Subject):
         ids = {effect.id for effect in setting.effects if late(effect)}
         inner = [p.name for p in free if p.name.partition(".")[0] not in ids]
         out, slopes = self._evaluation.at(_at_once(setting), tuple(inner))
+        # A row without a slope must not take it from all rows after it.
+        slopes = np.where(np.isfinite(slopes), slopes, 0.0)
         shown = self._as_read(setting, np.column_stack([out["force"], slopes]))
         gradient = np.empty((len(shown), len(free)))
         for column, parameter in enumerate(free):
