@@ -57,7 +57,7 @@ def write(name: str, content: object) -> str:
 
 def rubbing(name: str = "rubbing.csv", **options: Any) -> str:
     """Cycles with 15 N of friction; a bladder where asked for."""
-    rows = cycle_rows(lambda direction, **_: 15.0 * direction, noise=1.0, each=20, **options)
+    rows = cycle_rows(lambda direction, **_: 15.0 * direction, noise=1.0, each=20, second=3.0, **options)
     return write(name, text(rows, CYCLE_HEADER, "kind: isobaric"))
 
 
