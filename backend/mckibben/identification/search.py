@@ -117,6 +117,7 @@ def _polished(work: Fits, best: Node, root: Node) -> Node:
             inside = set(best.setting.ids)
             others = [effect for effect in work.candidates if effect.id not in inside]
             swaps = [exchanged(work, less, effect) for effect in work.promising(less, others)[:_BEAM]]
+            swaps = [node for node in swaps if node.implausible <= best.implausible]
             here = score(best, rows=rows, noise=work.noise)
             found = min(swaps, key=lambda node: score(node, rows=rows, noise=work.noise), default=best)
             if score(found, rows=rows, noise=work.noise) < here - LEAST_SCORE:
