@@ -14,9 +14,7 @@ CSV = "# kind: static\npressure_bar;length_mm;force_N\n" + "".join(
 
 
 @pytest.fixture(autouse=True)
-def _own_folders(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setenv("MCKIBBEN_DATA", str(tmp_path / "data"))
-    monkeypatch.chdir(tmp_path)
+def _measurement(_own_folders: None) -> None:
     Path("-my run.csv").write_text(CSV, "utf-8")
 
 

@@ -20,33 +20,14 @@ from mckibben.cli.options import start_model
 from mckibben.cli.serve import _bind, _link
 from mckibben.resources import presets_folder
 from mckibben.studio import Studio
+from tests.cli.conftest import Run, write
 from tests.server import MAIN, RunningServer
 
 CSV = "# kind: static\npressure_bar;length_mm;force_N\n" + "".join(
     f"{p};{length};{100 * p + length / 10:.1f}\n" for p in (1, 2, 3) for length in (280, 290, 300)
 )
 GEOMETRY = {"braid_diameter": "10 mm", "braid_angle": "25 deg", "nominal_length": "100 mm"}
-Run = Callable[..., tuple[int, str, str]]
 Started = Callable[..., tuple[subprocess.Popen[str], str]]
-
-
-@pytest.fixture(autouse=True)
-def _own_folders(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """No test reads or writes the user's own data folder; relative paths are of the test's folder."""
-    monkeypatch.setenv("MCKIBBEN_DATA", str(tmp_path / "data"))
-    monkeypatch.chdir(tmp_path)
-
-
-@pytest.fixture
-def run(capsysbinary: pytest.CaptureFixture[bytes]) -> Run:
-    """Run a command line in this process: exit code, stdout, stderr."""
-
-    def call(*arguments: str) -> tuple[int, str, str]:
-        code = cli.run([*arguments])
-        captured = capsysbinary.readouterr()
-        return code, captured.out.decode(), captured.err.decode()
-
-    return call
 
 
 def refused(result: tuple[int, str, str]) -> str:
@@ -58,12 +39,6 @@ def refused(result: tuple[int, str, str]) -> str:
     assert err.endswith("\n")
     assert "Traceback" not in err
     return err
-
-
-def write(name: str, content: object) -> str:
-    """A file in the test's folder."""
-    Path(name).write_text(content if isinstance(content, str) else json.dumps(content), "utf-8")
-    return name
 
 
 # --- curves

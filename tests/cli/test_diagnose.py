@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from mckibben import cli
 from mckibben.api.schemas.diagnoses import DiagnosisAnswer
+from tests.cli.conftest import Run, write
 from tests.identification.synthetic import CYCLE_HEADER, cycle_rows, text
 
-Run = Callable[..., tuple[int, str, str]]
 MUSCLE = {
     "braid_diameter": "21.8 mm", "braid_angle": "26.5 deg", "nominal_length": "300 mm",
     "wall_thickness": "1.8 mm", "inside_diameter": "20 mm",
@@ -30,29 +28,6 @@ DRIVE: dict[str, Any] = {
     "stops": {"min_contraction": 0.0, "max_contraction": 0.35},
     "duration": "2 s",
 }
-
-
-@pytest.fixture(autouse=True)
-def _own_folders(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setenv("MCKIBBEN_DATA", str(tmp_path / "data"))
-    monkeypatch.chdir(tmp_path)
-
-
-@pytest.fixture
-def run(capsysbinary: pytest.CaptureFixture[bytes]) -> Run:
-    """Run a command line in this process: exit code, stdout, stderr."""
-
-    def call(*arguments: str) -> tuple[int, str, str]:
-        code = cli.run([*arguments])
-        captured = capsysbinary.readouterr()
-        return code, captured.out.decode(), captured.err.decode()
-
-    return call
-
-
-def write(name: str, content: object) -> str:
-    Path(name).write_text(content if isinstance(content, str) else json.dumps(content), "utf-8")
-    return name
 
 
 def rubbing(name: str = "rubbing.csv", **options: Any) -> str:

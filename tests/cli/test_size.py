@@ -3,40 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from mckibben import cli
 from mckibben.api.schemas.sizing_answer import SizingAnswer
 from tests.api.test_sizings import IMPOSSIBLE, TASK
-
-Run = Callable[..., tuple[int, str, str]]
-
-
-@pytest.fixture(autouse=True)
-def _own_folders(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setenv("MCKIBBEN_DATA", str(tmp_path / "data"))
-    monkeypatch.chdir(tmp_path)
-
-
-@pytest.fixture
-def run(capsysbinary: pytest.CaptureFixture[bytes]) -> Run:
-    """Run a command line in this process: exit code, stdout, stderr."""
-
-    def call(*arguments: str) -> tuple[int, str, str]:
-        code = cli.run([*arguments])
-        captured = capsysbinary.readouterr()
-        return code, captured.out.decode(), captured.err.decode()
-
-    return call
-
-
-def write(name: str, content: object) -> str:
-    Path(name).write_text(content if isinstance(content, str) else json.dumps(content), "utf-8")
-    return name
+from tests.cli.conftest import Run, write
 
 
 def test_a_task_gives_one_json_object_and_its_drive_runs(run: Run) -> None:
