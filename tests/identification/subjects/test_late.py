@@ -34,6 +34,27 @@ def test_a_ramp_is_shown_late_by_the_time_constant():
     assert shown == pytest.approx(3.0 * (time - TAU * (1.0 - np.exp(-time / TAU))), abs=1e-12)
 
 
+def test_two_equal_stages_show_a_ramp_critically_damped():
+    """y = t - 2 tau + (t + 2 tau) exp(-t/tau) for r = t behind 1/(1 + tau p)^2."""
+    time = jittered(400)
+    time -= time[0]
+    model = setting(sensor_lag={"force_time": TAU, "second_share": 1.0})
+    shown = as_read(model, time=time, records=[np.arange(400)], values=3.0 * time)
+    expected = 3.0 * (time - 2.0 * TAU + (time + 2.0 * TAU) * np.exp(-time / TAU))
+    assert shown == pytest.approx(expected, abs=1e-5)
+
+
+def test_two_stages_rise_as_the_sum_of_two_lags():
+    """Step response 1 - (T e^(-t/T) - S e^(-t/S)) / (T - S)."""
+    time = np.concatenate([[0.0, 1e-6], np.linspace(0.01, 2.0, 300)])
+    signal = np.where(time > 0.0, 1.0, 0.0)
+    model = setting(sensor_lag={"force_time": TAU, "second_share": 0.3})
+    shown = as_read(model, time=time, records=[np.arange(len(time))], values=signal)
+    short = 0.3 * TAU
+    rest = (TAU * np.exp(-time / TAU) - short * np.exp(-time / short)) / (TAU - short)
+    assert shown[2:] == pytest.approx(1.0 - rest[2:], abs=1e-5)
+
+
 def test_every_record_starts_at_rest_and_columns_go_through_alike():
     time = np.concatenate([jittered(50), jittered(60)])
     records = [np.arange(50), np.arange(50, 110)]

@@ -71,12 +71,23 @@ def test_sensor_lag_has_gain_1_and_the_width_of_a_false_loop() -> None:
 
     values = {"force_time": 0.02}
     states = run(effect, ramp, time, values, slot="drive_rates")
-    assert np.interp(0.45, time, states["force_filtered"]) == pytest.approx(300.0 * (0.45 - 0.02), rel=1e-6)
-    assert states["force_filtered"][-1] == pytest.approx(150.0, rel=1e-6)
+    assert np.interp(0.45, time, states["force_first"]) == pytest.approx(300.0 * (0.45 - 0.02), rel=1e-6)
+    assert states["force_first"][-1] == pytest.approx(150.0, rel=1e-6)
     both = {**effect.defaults, **values, **states}
-    assert np.array_equal(effect.call("force_reading", {"reading": 1.0}, both), states["force_filtered"])
+    assert np.array_equal(effect.call("force_reading", {"reading": 1.0}, both), states["force_first"])
     assert float(effect.call("pressure_reading", {"reading": 2e5}, both)[0]) == 2e5
-    assert np.array_equal(states["stroke_filtered"], np.zeros(501)), "a channel without a lag costs nothing"
+    assert np.array_equal(states["stroke_first"], np.zeros(501)), "a channel without a lag costs nothing"
+
+
+def test_two_equal_stages_are_critically_damped() -> None:
+    """The step response of 1/(1 + tau p)^2 is 1 - (1 + t/tau) exp(-t/tau)."""
+    effect = CATALOGUE["sensor_lag"]
+    time = np.linspace(0.0, 0.2, 201)
+    at = {"instant_pressure_reading": 1e5, "instant_force_reading": 0.0, "instant_stroke_reading": 0.0}
+    values = {"pressure_time": 0.02, "second_share": 1.0, "force_time": 0.0}
+    states = run(effect, lambda _: at, time, values, slot="drive_rates")
+    shown = effect.call("pressure_reading", {"reading": 1e5}, {**effect.defaults, **values, **states})
+    assert shown == pytest.approx(1e5 * (1.0 - (1.0 + time / 0.02) * np.exp(-time / 0.02)), abs=0.5)
 
 
 def test_leak_flows_out_and_stops_at_equal_pressures() -> None:

@@ -5,7 +5,11 @@ between rows the solution is
 
 .. math:: y_{k+1} = a\,y_k + r_{k+1} - a\,r_k - s\tau\,(1 - a), \quad a = e^{-\Delta t/\tau}
 
-with the slope s of the line. A skew shifts the signal in time. Both are linear, so derivatives by a model's
+with the slope s of the line. Stages in a row are a sum of such lags, by partial fractions:
+
+.. math:: \prod_i \frac{1}{1+\tau_i p} = \sum_i \frac{1}{1+\tau_i p}\prod_{j\ne i}\frac{\tau_i}{\tau_i-\tau_j}
+
+A skew shifts the signal in time. Both are linear, so derivatives by a model's
 numbers pass through the same filter.
 """
 
@@ -20,6 +24,7 @@ from mckibben.physics.effect import Effect
 
 _SLOTS = ("skew", "force_reading", "pressure_reading", "stroke_reading")
 _LAG = "drive_rates"
+_APART = 1e-6
 
 
 def late(effect: Effect) -> bool:
@@ -43,25 +48,43 @@ def as_read(
         if not late(effect):
             continue
         own = setting.values[effect.id]
-        rate = _rate(effect, own)
+        constants = _constants(effect, own)
         delay = float(effect.call("skew", {}, own)) if "skew" in effect.slots else 0.0
         for rows in records:
             clock = time[rows]
-            if rate > 0.0:
-                read[rows] = _lagged(clock, read[rows], 1.0 / rate)
+            if constants:
+                read[rows] = _filtered(clock, read[rows], constants)
             if delay:
                 read[rows] = _shifted(clock, read[rows], delay)
     return read
 
 
-def _rate(effect: Effect, values: Mapping[str, float]) -> float:
-    """1/tau of the force channel [1/s], 0 without a lag: how fast its state follows a signal of one."""
+def _constants(effect: Effect, values: Mapping[str, float]) -> list[float]:
+    """Time constants of the stages that the force passes [s]: how fast each state follows what drives it."""
     if _LAG not in effect.slots:
-        return 0.0
+        return []
     signals = {f"instant_{name}_reading": 0.0 for name in ("force", "pressure", "stroke")}
-    at_rest = {state.name: 0.0 for state in effect.states}
-    rates = effect.call(_LAG, signals | {"instant_force_reading": 1.0} | at_rest, values)
-    return float(sum(rates))
+    names = [state.name for state in effect.states]
+
+    def rates(**raised: float) -> np.ndarray:
+        given = signals | dict.fromkeys(names, 0.0) | raised
+        return np.array(effect.call(_LAG, given, values), dtype=float)
+
+    reached = rates(instant_force_reading=1.0) > 0.0
+    constants = {}
+    while np.any(reached):
+        stage = int(np.argmax(reached))
+        answer = rates(**{names[stage]: 1.0})
+        constants[stage] = -1.0 / float(answer[stage])
+        reached = answer > 0.0
+    return list(constants.values())
+
+
+def _filtered(time: np.ndarray, signal: np.ndarray, constants: Sequence[float]) -> np.ndarray:
+    """Behind all stages. Equal ones are taken a millionth apart, which no reading shows."""
+    apart = [constant * (1.0 + _APART * number) for number, constant in enumerate(constants)]
+    weights = [np.prod([own / (own - other) for other in apart if other != own]) for own in apart]
+    return sum(w * _lagged(time, signal, own) for w, own in zip(weights, apart, strict=True))
 
 
 def _lagged(time: np.ndarray, signal: np.ndarray, constant: float) -> np.ndarray:

@@ -1,7 +1,9 @@
-r"""Low-pass filters of the sensors and their amplifiers, :math:`\tau\,\dot y = r - y` per channel.
+r"""Low-pass filters of the sensors and their amplifiers, one or two stages per channel.
 
-A channel with a time constant below 10 microseconds is read directly. A lag makes loops that look like
-hysteresis, of the width :math:`2\tau|\dot F|`; the same lag on all channels makes none.
+.. math:: \tau\,\dot y = r - y,\qquad \varsigma\tau\,\dot z = y - z
+
+A stage below 10 microseconds is passed by. A lag makes loops that look like hysteresis, of the width
+:math:`2\tau(1+\varsigma)|\dot F|`; the same lag on all channels makes none.
 """
 
 from mckibben.physics import ops
@@ -12,23 +14,39 @@ from mckibben.physics.parameter import Parameter, Source
 _SHORTEST = 1e-5  # s
 
 
-def _read(reading: Value, filtered: Value, time: Value) -> Value:
-    return ops.where(ops.greater(time, _SHORTEST), filtered, reading)
+def _read(reading: Value, first: Value, second: Value, time: Value, share: Value) -> Value:
+    once = ops.where(ops.greater(time, _SHORTEST), first, reading)
+    return ops.where(ops.greater(share * time, _SHORTEST), second, once)
 
 
-def force_reading(*, reading: Value, force_filtered: Value, force_time: Value) -> Value:
+def force_reading(
+    *, reading: Value, force_first: Value, force_second: Value, force_time: Value, second_share: Value
+) -> Value:
     """The filtered force [N]; the force itself without a lag."""
-    return _read(reading, force_filtered, force_time)
+    return _read(reading, force_first, force_second, force_time, second_share)
 
 
-def pressure_reading(*, reading: Value, pressure_filtered: Value, pressure_time: Value) -> Value:
+def pressure_reading(
+    *,
+    reading: Value,
+    pressure_first: Value,
+    pressure_second: Value,
+    pressure_time: Value,
+    second_share: Value,
+) -> Value:
     """The filtered pressure [Pa]; the pressure itself without a lag."""
-    return _read(reading, pressure_filtered, pressure_time)
+    return _read(reading, pressure_first, pressure_second, pressure_time, second_share)
 
 
-def stroke_reading(*, reading: Value, stroke_filtered: Value, stroke_time: Value) -> Value:
+def stroke_reading(
+    *, reading: Value, stroke_first: Value, stroke_second: Value, stroke_time: Value, second_share: Value
+) -> Value:
     """The filtered stroke [m]; the stroke itself without a lag."""
-    return _read(reading, stroke_filtered, stroke_time)
+    return _read(reading, stroke_first, stroke_second, stroke_time, second_share)
+
+
+def _rate(signal: Value, shown: Value, time: Value) -> Value:
+    return ops.where(ops.greater(time, _SHORTEST), 1.0, 0.0) * (signal - shown) / ops.maximum(time, _SHORTEST)
 
 
 def drive_rates(
@@ -36,48 +54,52 @@ def drive_rates(
     instant_force_reading: Value,
     instant_pressure_reading: Value,
     instant_stroke_reading: Value,
-    force_filtered: Value,
-    pressure_filtered: Value,
-    stroke_filtered: Value,
+    force_first: Value,
+    pressure_first: Value,
+    stroke_first: Value,
+    force_second: Value,
+    pressure_second: Value,
+    stroke_second: Value,
     force_time: Value,
     pressure_time: Value,
     stroke_time: Value,
+    second_share: Value,
 ) -> tuple[Value, ...]:
-    """(r - y)/tau of force, pressure and stroke; a channel without a lag stands still."""
-    channels = (
-        (instant_force_reading, force_filtered, force_time),
-        (instant_pressure_reading, pressure_filtered, pressure_time),
-        (instant_stroke_reading, stroke_filtered, stroke_time),
-    )
-    return tuple(
-        ops.where(ops.greater(time, _SHORTEST), 1.0, 0.0) * (reading - y) / ops.maximum(time, _SHORTEST)
-        for reading, y, time in channels
+    """dy/dt of force, pressure and stroke, then dz/dt; a stage that is passed by stands still."""
+    return (
+        _rate(instant_force_reading, force_first, force_time),
+        _rate(instant_pressure_reading, pressure_first, pressure_time),
+        _rate(instant_stroke_reading, stroke_first, stroke_time),
+        _rate(force_first, force_second, second_share * force_time),
+        _rate(pressure_first, pressure_second, second_share * pressure_time),
+        _rate(stroke_first, stroke_second, second_share * stroke_time),
     )
 
 
 _RANGE = Source("amplifier filters of 10-1000 Hz", "E")
-_BY_HAND = Source("(200 - 150) N / 5 ms", "D")
+_ORDER = Source("second-order amplifiers without overshoot: from one stage to two equal ones", "D")
+_SHARE = "Time constant of a second stage as a share of the first one's; 0 is one stage only."
+_CHANNELS = (("force", "F", "N", 100.0), ("pressure", "P", "Pa", 1e5), ("stroke", "s", "m", 0.1))
 
 
 def _time(channel: str, symbol: str, default: float) -> Parameter:
+    meaning = f"Time constant of the {channel} channel; 5 ms is a filter of 32 Hz."
     return Parameter(
-        f"{channel}_time",
-        rf"\tau_{symbol}",
-        "s",
-        default,
-        0.0,
-        1.0,
-        _RANGE,
-        f"Time constant of the {channel} channel; 5 ms is a filter of 32 Hz.",
-        off=0.0,
-        fitted=default > 0.0,
+        f"{channel}_time", symbol, "s", default, 0.0, 1.0, _RANGE, meaning, off=0.0, fitted=default > 0.0
     )
 
 
-def _filtered(channel: str, symbol: str, unit: str, scale: float) -> StateVariable:
-    return StateVariable(
-        f"{channel}_filtered", f"y_{symbol}", unit, scale, f"What the {channel} channel shows.", settled=True
+def _stages(stage: str, letter: str) -> tuple[StateVariable, ...]:
+    return tuple(
+        StateVariable(f"{name}_{stage}", f"{letter}_{c}", unit, scale, f"{name} after a stage", settled=True)
+        for name, c, unit, scale in _CHANNELS
     )
+
+
+def _rate_example(index: int, rate: float, by_hand: str, **values: float) -> Example:
+    at = {f"instant_{name}_reading": 0.0 for name, *_ in _CHANNELS}
+    at |= {"instant_force_reading": 200.0, "force_first": 150.0, "force_second": 140.0}
+    return Example(f"slot:drive_rates:{index}", rate, 1e-9, Source(by_hand, "D"), values, {}, at)
 
 
 EFFECT = Effect(
@@ -86,19 +108,22 @@ EFFECT = Effect(
     type="measurement",
     cause="Sensors and their amplifiers smooth what they show. A channel that is slower than another one "
     "opens a loop between both that is no hysteresis of the muscle.",
-    equation=r"\tau_c\,\dot y_c = r_c-y_c,\quad c = F, P, s",
-    parameters=(_time("force", "F", 0.005), _time("pressure", "P", 0.0), _time("stroke", "s", 0.0)),
+    equation=r"\tau_c\,\dot y_c = r_c-y_c,\quad \varsigma\tau_c\,\dot z_c = y_c-z_c,\quad c = F, P, s",
+    parameters=(
+        _time("force", r"\tau_F", 0.005),
+        _time("pressure", r"\tau_P", 0.0),
+        _time("stroke", r"\tau_s", 0.0),
+        Parameter(
+            "second_share", r"\varsigma", "1", 0.0, 0.0, 1.0, _ORDER, _SHARE, fitted=False, natural=True
+        ),
+    ),
     slots={
         "force_reading": force_reading,
         "pressure_reading": pressure_reading,
         "stroke_reading": stroke_reading,
         "drive_rates": drive_rates,
     },
-    states=(
-        _filtered("force", "F", "N", 100.0),
-        _filtered("pressure", "P", "Pa", 1e5),
-        _filtered("stroke", "s", "m", 0.1),
-    ),
+    states=(*_stages("first", "y"), *_stages("second", "z")),
     kinds=frozenset({"isobaric", "isometric", "isotonic", "transient"}),
     signature=Signature(
         text="a false loop whose width grows with the rate, and rounded steps in one channel",
@@ -113,21 +138,9 @@ EFFECT = Effect(
         Twin("coulomb_friction", "very slow loops: the false loop vanishes"),
         Twin("spool_lag", "a second, faster pressure sensor"),
     ),
-    references=(Source("first-order low-pass filter", "D"),),
+    references=(Source("low-pass filters of first and second order", "D"),),
     examples=(
-        Example(
-            "slot:drive_rates:0",
-            1e4,
-            1e-9,
-            _BY_HAND,
-            {"force_time": 0.005},
-            {},
-            {
-                "instant_force_reading": 200.0,
-                "force_filtered": 150.0,
-                "instant_pressure_reading": 0.0,
-                "instant_stroke_reading": 0.0,
-            },
-        ),
+        _rate_example(0, 1e4, "(200 - 150) N / 5 ms", force_time=0.005),
+        _rate_example(3, 4e3, "(150 - 140) N / (0.5 * 5 ms)", force_time=0.005, second_share=0.5),
     ),
 )
