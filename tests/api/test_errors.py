@@ -152,6 +152,36 @@ def test_a_body_that_is_not_json_is_refused(shared_client: TestClient, path: str
     assert_error(response, response.status_code)
 
 
+# body, field, words of the message
+NOT_STRICT = [
+    (b'{"points": NaN}', "points", "NaN"),
+    (b'{"muscle": {"preset": "DMSP-20", "nominal_length": -Infinity}}', "muscle.nominal_length", "infinite"),
+    (b'{"muscle": {"nominal_length": 1e400}, "points": NaN}', "muscle.nominal_length", "infinite"),
+    (b'{"pressures": [1e5, {"a": [2, NaN]}], "points": NaN}', "pressures.1.a.1", "NaN"),
+    (b'{"points": ' + b"1" * 6000 + b"}", "points", "infinite"),
+    (b'{"muscle": {"preset": "\\ud800"}}', "muscle.preset", "surrogate"),
+    (b'{"' + b"a" * 500 + b'": NaN}', "a" * 80, "NaN"),
+    (b"NaN", None, "The body is NaN"),
+    (b'{"points": 12, NaN}', None, "not valid JSON"),
+    (b'{"points": "\xff"}', None, "not valid JSON"),
+    (b'{"points": nan}', None, "not valid JSON"),
+    (b'{".a": [{".b": NaN}]}', ".a.0..b", "NaN"),
+    (b"[" * 900 + b"NaN" + b"]" * 900, "0." * 100, "NaN"),
+    (b"[" * 100_000 + b"NaN", None, "not valid JSON"),
+]
+
+
+@pytest.mark.parametrize(("body", "field", "words"), NOT_STRICT, ids=range(len(NOT_STRICT)))
+def test_what_json_cannot_hold_is_told_by_its_field(
+    shared_client: TestClient, body: bytes, field: str | None, words: str
+) -> None:
+    response = shared_client.post("/api/curves", content=body, headers={"content-type": "application/json"})
+    error = assert_error(response, 400, code="bad_json", field=field)
+    assert error["field"] == field
+    assert words in error["message"]
+    assert error["hint"]
+
+
 @pytest.mark.parametrize("text", ["a\\u0000b", "..", "../../etc/passwd", "a/../b", "\\u202e"])
 def test_odd_ids_are_unknown_or_refused(shared_client: TestClient, text: str) -> None:
     body = f'{{"muscle": {{"preset": "{text}"}}}}'

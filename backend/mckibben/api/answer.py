@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Coroutine
+import math
+from collections.abc import Callable, Coroutine, Iterator
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from fastapi.routing import APIRoute
 from starlette.exceptions import HTTPException
 
 _OPTIONS = orjson.OPT_SERIALIZE_NUMPY
+_LONGEST_PATH = 200  # characters of a field's path that are told
 
 
 def _unusual(value: object) -> object:
@@ -55,23 +57,68 @@ def _refuse_duplicates(pairs: list[tuple[str, object]]) -> dict[str, object]:
     return found
 
 
+class BodyError(HTTPException):
+    """A body that is no strict JSON; ``field`` is the path of what is wrong, where it can be told."""
+
+    def __init__(self, message: str, *, field: str | None = None, hint: str | None = None) -> None:
+        super().__init__(400, message)
+        self.field, self.hint = field, hint
+
+
 def read_json(text: bytes) -> Any:
     """Strict JSON: no NaN, no number beyond double precision, no lone surrogate, no key twice.
 
     Raises:
-        HTTPException: 400 with a sentence that says what is wrong and where.
+        BodyError: a sentence that says what is wrong and where.
     """
     try:
         value = orjson.loads(text)
         # orjson keeps the last of two equal keys silently; a request that says two things says nothing.
         json.loads(text, object_pairs_hook=_refuse_duplicates, parse_int=float)
     except orjson.JSONDecodeError as error:
-        raise HTTPException(400, f"The body is not valid JSON: {error}.") from error
+        raise _refusal(text, error) from error
     except RecursionError as error:
-        raise HTTPException(400, "The body is nested too deeply.") from error
+        raise BodyError("The body is nested too deeply.") from error
     except _DuplicateKeyError as error:
-        raise HTTPException(400, f"The key '{error}' occurs twice in one JSON object.") from error
+        raise BodyError(f"The key '{error}' occurs twice in one JSON object.") from error
     return value
+
+
+def _refusal(text: bytes, error: orjson.JSONDecodeError) -> BodyError:
+    """The refusal of what orjson did not read: by its field where a more lenient reader finds one."""
+    try:
+        path, value = next(_unusable(json.loads(text, parse_int=float)))
+    except (ValueError, RecursionError, StopIteration):
+        return BodyError(f"The body is not valid JSON: {error}.")
+    path = path[:_LONGEST_PATH]
+    name = path or "The body"
+    if isinstance(value, str):
+        return BodyError(f"{name} holds half of a surrogate pair.", field=path or None, hint="Send a text.")
+    shown = "NaN, which is no number" if math.isnan(value) else "infinite, or beyond what a number can be"
+    return BodyError(f"{name} is {shown}.", field=path or None, hint="Send a finite number, or leave it out.")
+
+
+def _unusable(value: object) -> Iterator[tuple[str, float | str]]:
+    """Numbers and texts that JSON cannot hold, with their paths, in the order of the text."""
+    waiting: list[tuple[str, object]] = [("", value)]  # a stack: the nesting may be deeper than Python's
+    while waiting:
+        path, value = waiting.pop()
+        inside: list[tuple[object, object]] = []
+        if isinstance(value, dict):
+            inside = list(value.items())
+        elif isinstance(value, list):
+            inside = list(enumerate(value))
+        elif isinstance(value, float | str) and not _holds(value):
+            yield path, value
+        begin = f"{path}." if path else ""
+        waiting += [(f"{begin}{str(key)[:80]}", item) for key, item in reversed(inside)]
+
+
+def _holds(value: float | str) -> bool:
+    """Whether JSON can hold it."""
+    if isinstance(value, str):
+        return not any("\ud800" <= character <= "\udfff" for character in value)
+    return math.isfinite(value)
 
 
 class _StrictRequest(Request):

@@ -15,7 +15,7 @@ from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 
-from mckibben.api.answer import JsonAnswer
+from mckibben.api.answer import BodyError, JsonAnswer
 from mckibben.api.sentences import first_problem
 from mckibben.physics.errors import InputError
 
@@ -105,13 +105,15 @@ def install(app: FastAPI) -> None:
 
     @app.exception_handler(HTTPException)
     async def _http_error(request: Request, error: HTTPException) -> JsonAnswer:
-        path, hint = request.url.path, None
+        path, hint, field = request.url.path, None, None
         message = str(error.detail)
-        if error.status_code == 404:
+        if isinstance(error, BodyError):
+            field, hint = error.field, error.hint
+        elif error.status_code == 404:
             message, hint = f"There is nothing at {path[:200]}.", _nearest_path(path, app)
         elif error.status_code == 405:
             allowed = (error.headers or {}).get("Allow", "GET")
             message, hint = f"{path[:200]} does not take {request.method}.", f"It takes {allowed}."
-        answer = error_answer(error.status_code, message, hint=hint)
+        answer = error_answer(error.status_code, message, field=field, hint=hint)
         answer.headers.update(error.headers or {})
         return answer

@@ -8,7 +8,7 @@ from mckibben.api.answers.comparisons import comparison_answer
 from mckibben.api.answers.start import Json
 from mckibben.cli.data import points_of
 from mckibben.cli.options import asked_of
-from mckibben.cli.output import figure, remark, write_json, write_table
+from mckibben.cli.output import figure, remark, rows_of, write_json, write_table
 from mckibben.studio import Studio
 
 
@@ -47,10 +47,8 @@ def _write_tables(answer: Json) -> None:
         value = answer[name]
         return figure(None if value is None else value * scale, unit=f" {unit}")
 
-    used = f"{answer['rows_used']} of {answer['rows']} rows"
-    reasons = "".join(f", {count} left out: {reason}" for reason, count in answer["excluded"].items())
     write_table(
-        f"Predicted {answer['predicted']} ({answer['kind']}, {used}{reasons})",
+        f"Predicted {answer['predicted']} ({answer['kind']}, {rows_of(answer)})",
         ["", "value"],
         [
             ["RMS error", shown("rmse")],

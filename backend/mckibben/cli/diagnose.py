@@ -10,7 +10,7 @@ from mckibben.api.answers.diagnoses import prepare
 from mckibben.api.answers.start import Json
 from mckibben.cli.data import points_of
 from mckibben.cli.options import asked_of
-from mckibben.cli.output import figure, progress, remark, write_json, write_table
+from mckibben.cli.output import figure, progress, remark, rows_of, write_json, write_table
 from mckibben.studio import Studio
 
 _SHOWN = 8  # candidates
@@ -66,7 +66,7 @@ def _write(answer: Json) -> None:
         for number, step in enumerate(answer["path"])
     ]
     rows.append(["noise floor", shown(answer["noise_floor"]["rmse"]), answer["noise_floor"]["how"]])
-    title = f"Error of the predicted {answer['predicted']} ({answer['kind']}, {answer['rows_used']} rows)"
+    title = f"Error of the predicted {answer['predicted']} ({answer['kind']}, {rows_of(answer)})"
     write_table(title, ["after adding", "RMS error", "left-out groups"], rows)
     write_table(
         "One effect alone",

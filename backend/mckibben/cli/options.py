@@ -178,7 +178,8 @@ def _drive_of(studio: Studio, path: str, start: StartModel) -> Drive | None:
     if "valve" not in document:
         return None
     try:
-        found = drive_of(read_document({**document, "effects": {}}, path), studio).drive
+        given = read_document({**document, "effects": {}}, path)
+        found = drive_of(given, studio, measured=True).drive
     except InputError as error:
         raise _at(path, error.field, error.message, error.hint) from error
     return replace(found, model=studio.static_model(start))

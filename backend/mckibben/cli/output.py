@@ -12,6 +12,7 @@ from rich.console import Console
 from rich.table import Table
 
 from mckibben.api.answer import to_json
+from mckibben.api.answers.start import Json
 from mckibben.simulation.outcome import Watch
 
 
@@ -53,6 +54,14 @@ def progress(words: str) -> Iterator[Watch]:
 def remark(text: str) -> None:
     """A message for people, on stderr."""
     typer.echo(text, err=True)
+
+
+def rows_of(answer: Json) -> str:
+    """How many rows of the data a comparison or diagnosis uses, and why not the others."""
+    if answer["rows_used"] == answer["rows"]:
+        return f"{answer['rows']} rows"
+    reasons = "".join(f", {count} left out: {reason}" for reason, count in answer["excluded"].items())
+    return f"{answer['rows_used']} of {answer['rows']} rows{reasons}"
 
 
 def figure(value: float | None, digits: int = 4, unit: str = "") -> str:

@@ -52,8 +52,13 @@ class GivenDrive:
     notes: Mapping[str, str]
 
 
-def drive_of(document: DriveDocument, studio: Studio) -> GivenDrive:
+def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False) -> GivenDrive:
     """The drive that a document means.
+
+    Args:
+        document: what the caller says.
+        studio: where presets and effects are looked up.
+        measured: it stands beside a measurement, which has its own command: the document may leave it out.
 
     Raises:
         InputError: an unknown preset, effect or shape (with the nearest match), or numbers that cannot be;
@@ -79,7 +84,7 @@ def drive_of(document: DriveDocument, studio: Studio) -> GivenDrive:
     model = studio.static_model(start)
     regulator = regulator_of(document.regulator, valve_preset)
     valve = valve_of(document.valve, valve_preset)
-    command, controller, reference, notes = _command(document, regulator is not None)
+    command, controller, reference, notes = _command(document, regulator is not None, measured=measured)
     _check_flow(valve, command, controller)
     lowest, highest = _stops(document, model)
     drive = Drive(
@@ -122,18 +127,20 @@ def _preset(studio: Studio, kind: str, preset_id: str | None, field: str) -> Par
 
 
 def _command(
-    document: DriveDocument, regulated: bool
+    document: DriveDocument, regulated: bool, *, measured: bool
 ) -> tuple[Signal, PidController | None, Signal | None, dict[str, str]]:
     """Command, controller and its reference; at rest a valve exhausts and a regulator gives no pressure."""
     rest = 0.0 if regulated else -1.0
     notes: dict[str, str] = {}
+    closed = signal_from({"shape": "step", "level": 0.0, "initial": 0.0}, unit="1", field="command")
     if document.controller is not None:
         controller, reference = _controller(document.controller, rest)
         if document.command is not None:
             notes["command"] = "not used: the controller gives the command"
-        closed = signal_from({"shape": "step", "level": 0.0, "initial": 0.0}, unit="1", field="command")
         return closed, controller, reference, notes
     if document.command is None:
+        if measured:
+            return closed, None, None, notes
         raise InputError(
             "command is missing", field="command", hint='e.g. {"shape": "pulse", "on": "0 s", "off": "2 s"}'
         )

@@ -68,7 +68,7 @@ def asked(request: ModelRequest, studio: Studio, store: MeasurementStore) -> Ask
             }
         )
         try:
-            given = drive_of(document, studio)
+            given = drive_of(document, studio, measured=True)
         except InputError as error:
             field = error.field or ""
             inside = field if field.startswith(("muscle", "effects")) else f"drive.{field}".rstrip(".")

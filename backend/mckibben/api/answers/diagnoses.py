@@ -43,9 +43,11 @@ def prepare(asked: Asked, studio: Studio) -> Callable[[Watch], Json]:
     measurement = asked.points.measurement
     notes: list[str] = []
     used = measurement
+    left_out = dict(asked.points.left_out)
     if measurement.kind != "transient" and measurement.rows > _MOST_ROWS:
         less = reduced(measurement, _MOST_ROWS)
         used = less.measurement
+        left_out |= measurement.exclusions
         notes.append(less.message)
     subject = subject_of(used, setting.muscle, asked.drive)
     check_finite(subject, setting)
@@ -56,6 +58,10 @@ def prepare(asked: Asked, studio: Studio) -> Callable[[Watch], Json]:
         raise InputError(
             "one noise cannot be stated for several predicted channels", field="noise", hint="leave it out"
         )
+    rows = measurement.rows + sum(asked.points.left_out.values())
+    left_out |= subject.excluded
+    if averaged := rows - subject.rows_used - sum(left_out.values()):
+        left_out["averaged into the others"] = averaged
     # A typed term is not a candidate, but stays in the model that has it.
     catalogue = {**studio.catalogue, **asked.start.catalogue}
 
@@ -79,17 +85,15 @@ def prepare(asked: Asked, studio: Studio) -> Callable[[Watch], Json]:
             raise InputError(
                 "the diagnosis was stopped before it was done", hint="fewer rows or effects", code="stopped"
             ) from stop
-        return _answer(asked, result, catalogue, rows=measurement.rows, notes=notes)
+        counts = {"rows": rows, "rows_used": subject.rows_used, "excluded": left_out}
+        return counts | _answer(asked, result, catalogue, notes=notes)
 
     return work
 
 
-def _answer(
-    asked: Asked, result: Diagnosis, catalogue: Mapping[str, Effect], *, rows: int, notes: list[str]
-) -> Json:
+def _answer(asked: Asked, result: Diagnosis, catalogue: Mapping[str, Effect], *, notes: list[str]) -> Json:
     subject, best = result.subject, result.best
     start = asked.start
-    left_out = sum(asked.points.left_out.values())
     full_scale = float(np.max(np.abs(subject.measured / subject.scale)))
     muscle = best.setting.muscle
     titles = {name: effect.title for name, effect in catalogue.items()}
@@ -105,8 +109,6 @@ def _answer(
     nexts = [p.sentence(titles) for p in result.proposals]
     return {
         "kind": subject.kind,
-        "rows": rows + left_out,
-        "rows_used": subject.rows_used,
         "predicted": subject.predicted,
         "unit": subject.unit,
         "baseline": {

@@ -228,8 +228,8 @@ def _command(asked: Asked, comparison: Json, names: Sequence[str], *, diagnosed:
     notes = []
     if asked.drive is not None:
         notes.append(
-            f"{_MODEL_FILE} holds muscle and effects; add valve, supply, load, command and duration of the "
-            "drive document to repeat a transient."
+            f"{_MODEL_FILE} holds muscle and effects; add valve, supply, load and the like of the drive "
+            "document to repeat a transient. The command is that of the file."
         )
     if asked.freed:
         notes.append(f"Constants that were freed in addition: {', '.join(asked.freed)}.")

@@ -44,5 +44,5 @@ def _told(body: ReportRequest, studio: Studio, store: MeasurementStore) -> Told:
         except InputError as error:
             field = f"history.{place}.{error.field or 'effects'}"
             raise InputError(error.message, field=field, hint=error.hint, code=error.code) from error
-    unverified = {} if body.drive is None else drive_of(body.drive, studio).unverified
+    unverified = {} if body.drive is None else drive_of(body.drive, studio, measured=True).unverified
     return Told(body.title, history, unverified, body.fit)

@@ -35,7 +35,9 @@ class ModelRequest(Strict):
     muscle: MuscleInput | None = Field(None, description="Null: the drive's.")
     effects: EffectsInput | None = None
     drive: DriveDocument | None = Field(
-        None, description="Valve, tube, supply and load of transient measurements with a command channel."
+        None,
+        description="Valve, tube, supply and load of transient measurements with a command channel, whose "
+        "command takes the place of one given here.",
     )
     measurement: MeasurementId | None = Field(None, description="One measurement to fit to.")
     measurements: list[UsedMeasurement] = Field(default=[], max_length=16)

@@ -119,6 +119,7 @@ class DiagnosisAnswer(Strict):
     kind: str
     rows: int
     rows_used: int
+    excluded: dict[str, int] = Field(description="Why rows were left out -> how many.")
     predicted: str
     unit: str
     baseline: Baseline

@@ -179,7 +179,8 @@ class DriveDocument(Strict):
     command: Command | None = Field(
         None,
         description="Opening of the valve: 1 fill, 0 closed, -1 exhaust; of a regulator the share of its "
-        "range. What a shape leaves open, e.g. outside a pulse, is exhaust (0 for a regulator).",
+        "range. What a shape leaves open, e.g. outside a pulse, is exhaust (0 for a regulator). To be left "
+        "out with a controller, or beside a measurement, which brings its own.",
         examples=[{"shape": "pulse", "on": "0 s", "off": "2 s"}],
     )
     controller: ControllerInput | None = Field(None, description="Gives the command instead.")

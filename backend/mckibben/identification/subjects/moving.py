@@ -86,9 +86,10 @@ class Moving(Subject):
         found = _channels(measurement, drive, commanded=self.commanded)
         if not found:
             raise InputError(
-                f"{measurement.name}: a transient without a command needs a displacement",
+                f"{measurement.name}: a transient without a command column needs a displacement",
                 field="displacement",
-                hint="add a displacement column, or a command column to simulate valve and pressure",
+                hint="add a displacement column, or a command column to simulate valve and pressure (the "
+                "command of a drive document does not stand in for it)",
             )
         labels = records_of(measurement)
         self._records = [
@@ -97,13 +98,18 @@ class Moving(Subject):
         ]
         if "pressure" not in columns and not self.commanded:
             raise InputError(
-                f"{measurement.name}: neither command nor pressure was measured", field="pressure"
+                f"{measurement.name}: neither command nor pressure was measured",
+                field="pressure",
+                hint="add a command column, or a pressure column (the command of a drive document does not "
+                "stand in for it)",
             )
         rows = np.concatenate([record.rows for record in self._records])
         self.rows, count = rows, len(rows)
         channels: list[Channel] = []
         self.rows_used, self.messages = count, measurement.messages
-        self.excluded = {reason: number for reason, number in measurement.exclusions.items() if number}
+        self.excluded = dict(measurement.exclusions)
+        if between := int(np.count_nonzero(measurement.usable)) - count:
+            self.excluded[f"between the {_MOST_ROWS} rows compared of each run"] = between
         for number, (name, unit, values) in enumerate(found):
             sweeps = [np.flatnonzero(labels == label) for label in np.unique(labels)]
             full_scale = float(np.max(np.abs(values)))

@@ -41,7 +41,7 @@ def error_table(columns: Sequence[tuple[str, Json]]) -> Html:
             f"noise of the data ({first['noise_how']})",
             *(figure(answer["noise_floor"], scale) for _, answer in columns),
         ],
-        ["rows used", *(str(answer["rows_used"]) for _, answer in columns)],
+        ["rows used", *(_rows(answer) for _, answer in columns)],
         [
             "does the residual look like noise?",
             *("yes" if answer["whiteness"]["white"] else "no, it has structure" for _, answer in columns),
@@ -71,7 +71,18 @@ def error_table(columns: Sequence[tuple[str, Json]]) -> Html:
             ]
         )
     names = [Column("", False), *(Column(name, number=True) for name, _ in columns)]
-    return table(names, rows, caption=f"Error of the predicted {words_of(first['predicted'])}.")
+    parts: list[Child] = [
+        table(names, rows, caption=f"Error of the predicted {words_of(first['predicted'])}.")
+    ]
+    if first["rows_used"] < first["rows"]:
+        reasons = "; ".join(f"{number} {reason}" for reason, number in first["excluded"].items())
+        parts.append(paragraph(f"Rows left out: {reasons}.", note=True))
+    return html(parts)
+
+
+def _rows(answer: Json) -> str:
+    used, rows = answer["rows_used"], answer["rows"]
+    return str(rows) if used == rows else f"{used} of {rows}"
 
 
 def words_of(predicted: str) -> str:

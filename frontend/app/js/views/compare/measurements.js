@@ -114,12 +114,13 @@ function fileRow(file, index) {
   );
 }
 
-/** What the comparison left out of all files together. */
+/** What the comparison left out of all files together, unless the only file says it already. */
 function leftOut() {
-  const a = answer.value;
-  const known = chosen.value.length === 1 && infos.value.has(chosen.value[0].id);
-  if (!a || fault.value || !chosen.value.length || known) return null;
+  const a = answer.value, all = chosen.value;
+  if (!a || fault.value || !all.length) return null;
   const out = Object.entries(a.excluded);
+  const info = all.length === 1 ? infos.value.get(all[0].id) : undefined;
+  if (info && out.every(([why]) => why in info.skipped || why in info.excluded)) return null;
   const why = out.length ? `; left out: ${out.map(([text, n]) => `${n} ${text}`).join(", ")}` : "";
   return h("p", { class: "muted" }, `Compared: ${a.rows_used} of ${a.rows} rows${why}.`);
 }

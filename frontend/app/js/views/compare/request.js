@@ -8,15 +8,12 @@ import { muscleInput } from "../design/model.js";
 /** Which files take part. @param {Compare} c */
 export const used = (c) => c.files.filter((file) => file.use !== "off");
 
-/** A drive has a command; the one that was measured takes its place. */
-const NO_COMMAND = { shape: "step" };
-
 /** The model part of every request of this view; a step of the history stands in for the model of now.
  * @param {Compare} c @param {Pick<Step, "effects" | "freed" | "values">} [model] */
 export function modelBody(c, model = { effects: c.effects, freed: c.freed, values: c.muscle.values }) {
   const muscle = muscleInput({ ...c.muscle, values: model.values });
   return {
-    ...(c.drive ? { drive: { schema: 1, command: NO_COMMAND, ...c.drive, muscle } } : { muscle }),
+    ...(c.drive ? { drive: { schema: 1, ...c.drive, muscle } } : { muscle }),
     effects: model.effects,
     measurements: used(c).map(({ id, use }) => ({ id, use })),
     ...(c.free.length ? { free: c.free } : {}),
