@@ -184,8 +184,24 @@ def check_drive_claims(effect: Effect) -> None:
     if "guide" in slots:
         for speed in (-1.0, -SPEED, SPEED, 1.0):
             context = {"stroke": 0.01, "speed": speed, "direction": math.copysign(1.0, speed)}
-            assert effect.call("guide", context, effect.defaults) * speed > 0.0
+            values = effect.defaults | _slid(effect, context, way=0.1)
+            assert effect.call("guide", context, values) * speed > 0.0
         assert signature.energy == "dissipative"
+
+
+def _slid(effect: Effect, context: dict[str, float], *, way: float) -> dict[str, float]:
+    """States of a guide after a way [m] at constant speed."""
+    names = [state.name for state in effect.states]
+
+    def rates(_: float, y: np.ndarray) -> list[float]:
+        values = effect.defaults | dict(zip(names, y, strict=True))
+        return [float(rate) for rate in effect.call("drive_rates", context, values)]
+
+    if not names:
+        return {}
+    rest = [state.initial for state in effect.states]
+    run = solve_ivp(rates, (0.0, way / abs(context["speed"])), rest, method="LSODA")
+    return dict(zip(names, run.y[:, -1], strict=True))
 
 
 RUN_CLAIMS = (

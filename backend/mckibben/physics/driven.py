@@ -48,7 +48,7 @@ class DrivenModel:
         own = [
             StateInfo(f"{effect.id}.{state.name}", state.initial, state.scale, state.settled)
             for effect in model.effects
-            if "rates" in effect.slots or _reads(effect)
+            if "rates" in effect.slots or _reads(effect) or (motion and "guide" in effect.slots)
             for state in effect.states
         ]
         moving = [StateInfo("stroke", None, 0.1), StateInfo("speed", 0.0, 1.0)] if motion else []

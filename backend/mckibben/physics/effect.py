@@ -205,9 +205,9 @@ def _wanted_arguments(slot: str, function: Callable[..., Value], parameters: lis
     if slot not in SLOTS:
         raise ValueError(f"unknown slot '{slot}'; known: {', '.join(SLOTS)}")
     context = SLOTS[slot].context
-    if clash := set(context) & set(parameters):
-        raise ValueError(f"parameter(s) {sorted(clash)} hide what slot '{slot}' offers under that name")
     arguments = inspect.signature(function).parameters.values()
+    if clash := {argument.name for argument in arguments} & set(context) & set(parameters):
+        raise ValueError(f"parameter(s) {sorted(clash)} hide what slot '{slot}' offers under that name")
     for argument in arguments:
         if argument.kind is not argument.KEYWORD_ONLY:
             raise ValueError(f"argument '{argument.name}' of slot '{slot}' must be keyword-only")

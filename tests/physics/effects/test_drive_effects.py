@@ -178,16 +178,32 @@ def test_delays() -> None:
     assert valve.call("command_delay", {"tube_length": 1.0}, valve.defaults) == (0.005, 0.0075)
 
 
-def test_guide_friction_opposes_the_stroke() -> None:
-    """A band of twice the force at creeping speed, none at rest."""
-    guide = CATALOGUE["guide_friction"]
-    up, still, down = (
-        guide.call(
-            "guide",
-            {"direction": sign, "speed": 1e-9 * sign},
-            {**guide.defaults, "force": 5.0, "coefficient": 10.0},
-        )
-        for sign in (1.0, 0.0, -1.0)
+def test_guide_friction_holds_then_slides() -> None:
+    """A spring of F_c/x_g from rest, the Stribeck curve after a long way, twice as stiff at a reversal."""
+    effect = CATALOGUE["guide_friction"]
+    values = {"force": 5.0, "static_share": 0.4, "stribeck_speed": 0.01, "break_way": 1e-4}
+
+    def force(speed: float, states: dict[str, np.ndarray]) -> np.ndarray:
+        return effect.call("guide", {"speed": speed}, {**effect.defaults, **values, **states})
+
+    time = np.linspace(0.0, 1.0, 10001)
+    turned = 0.5
+    creep = 0.005
+    states = run(
+        effect, lambda t: {"speed": creep if t < turned else -creep}, time, values, slot="drive_rates"
     )
-    assert up - down == pytest.approx(10.0, rel=1e-6)
-    assert still == 0.0
+    shown = force(0.0, states)
+    sliding = 5.0 * (1.0 + 0.4 * np.exp(-0.5))
+    assert (shown[1] - shown[0]) / (creep * time[1]) == pytest.approx(5.0 / 1e-4, rel=5e-3)
+    assert shown[4990] == pytest.approx(sliding, rel=1e-6)
+    assert shown[-1] == pytest.approx(-sliding, rel=1e-6)
+    after = (shown[5002] - shown[5001]) / (-creep * (time[1] - time[0]))
+    assert after == pytest.approx(2.0 * 5.0 / 1e-4, rel=0.02), (
+        "bristles bent the other way spring back as well"
+    )
+
+
+def test_guide_friction_of_grease_grows_with_the_speed() -> None:
+    guide = CATALOGUE["guide_friction"]
+    values = {**guide.defaults, "force": 0.0, "coefficient": 10.0, "presliding": 1.0}
+    assert guide.call("guide", {"speed": -0.3}, values) == pytest.approx(-3.0)

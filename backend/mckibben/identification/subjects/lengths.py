@@ -10,7 +10,7 @@ so friction needs no measured direction, and a length that does not move is pred
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -23,6 +23,7 @@ _NEWTON_STEPS = 40
 _TOLERANCE = 1e-9  # m
 _LARGEST_STEP = 0.02  # of the nominal length, per Newton step
 _SHORTEST = 0.35  # share of the nominal length down to which a length is looked for
+_CREEP = 1e-9  # m/s, for the sense of a motion of no speed
 _STEP = 1e-3  # of a parameter's range, for the guide's derivative
 
 Found = tuple[np.ndarray, np.ndarray]
@@ -42,11 +43,9 @@ def predicted_lengths(evaluation: Evaluation, setting: Setting, names: Sequence[
 
 
 def _rubs(effect: Effect) -> bool:
-    """Whether an effect opposes the motion whatever its speed, without memory of its own."""
-    return (
-        any(slot in effect.slots and "direction" in effect.wanted(slot) for slot in ("friction", "guide"))
-        and not effect.states
-    )
+    """Whether an effect opposes the motion whatever its speed: a guide, or friction without memory."""
+    rubbing = "friction" in effect.slots and "direction" in effect.wanted("friction") and not effect.states
+    return "guide" in effect.slots or rubbing
 
 
 def _stuck(evaluation: Evaluation, shortening: Found, lengthening: Found) -> Found:
@@ -101,12 +100,28 @@ def _balance(evaluation: Evaluation, setting: Setting, names: Sequence[str], sta
 
 def _load(stated: np.ndarray, setting: Setting, state: State, length: np.ndarray) -> np.ndarray:
     """What the muscle has to pull: load, unknown load, and the guide against the motion [N]."""
+    creeping = np.where(state["velocity"] == 0.0, _CREEP * state["direction"], state["velocity"])
     context = {
         "stroke": setting.muscle.nominal_length - length,
-        "speed": -state["velocity"],
+        "speed": -creeping,
         "direction": -state["direction"],
     }
-    return stated + setting.load + Model(setting.effects).sum("guide", setting.values, context)
+    guides = [effect for effect in setting.effects if "guide" in effect.slots]
+    values = {e.id: {**setting.values[e.id], **_sliding(e, setting.values[e.id], context)} for e in guides}
+    return stated + setting.load + Model(tuple(guides)).sum("guide", values, context)
+
+
+def _sliding(
+    effect: Effect, values: Mapping[str, float], context: Mapping[str, np.ndarray]
+) -> dict[str, np.ndarray]:
+    """States of a guide when it has slid for long: their rates, linear in each, are zero."""
+    if not effect.states:
+        return {}
+    empty, full = (
+        effect.call("drive_rates", context, {**values, **dict.fromkeys((s.name for s in effect.states), z)})
+        for z in (0.0, 1.0)
+    )
+    return {s.name: low / (low - high) for s, low, high in zip(effect.states, empty, full, strict=True)}
 
 
 def _load_slope(name: str, setting: Setting, state: State, length: np.ndarray) -> np.ndarray | float:

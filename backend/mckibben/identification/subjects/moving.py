@@ -109,7 +109,7 @@ class Moving(Subject):
         self.rows_used, self.messages = count, measurement.messages
         self.excluded = dict(measurement.exclusions)
         if between := int(np.count_nonzero(measurement.usable)) - count:
-            self.excluded[f"between the {_MOST_ROWS} rows compared of each run"] = between
+            self.excluded[f"in between ({_MOST_ROWS} rows of each run are compared, evenly spread)"] = between
         for number, (name, unit, values) in enumerate(found):
             sweeps = [np.flatnonzero(labels == label) for label in np.unique(labels)]
             full_scale = float(np.max(np.abs(values)))

@@ -4,7 +4,7 @@ With the break-away distance :math:`x_b = \varepsilon_b L_0` and the share z of 
 
 .. math:: F = F_c\,z, \qquad \dot z = \frac{\dot L - |\dot L|\,z}{x_b}
 
-Dahl's stiffness is :math:`\sigma_0 = F_c/x_b`: that from rest, and half of that after a reversal at full
+Dahl's stiffness is :math:`\sigma_0 = F_c/x_b` from rest, and twice that after a reversal at full
 friction. Written with z as a share, no friction is a plain zero. Minor loops do not close.
 """
 

@@ -1,36 +1,38 @@
-r"""Friction of the load's guide: a force against the motion, higher at low speed, and a part with the speed.
+r"""Friction of the load's guide: bristles that bend and then slide, and a part with the speed.
 
-.. math:: F_g = F_{cg}\,\bigl[1 + s\,e^{-|\dot s|/v_s}\bigr]\operatorname{sgn}\dot s + c_g\,\dot s,
-   \quad s = F_{sg}/F_{cg} - 1
+With the share z of the friction at high speed
 
-Without a static share s the first part is constant; with one it falls with the speed (Stribeck). It acts on
-the load, so it is missing from a force that is measured at the muscle.
+.. math:: F_g = F_{cg}\,z + c_g\,\dot s, \qquad x_g\,\dot z = \dot s - \frac{|\dot s|\,z}{g},
+   \quad g = 1 + \varsigma\,e^{-|\dot s|/v_s}, \quad \varsigma = F_{sg}/F_{cg} - 1
+
+Over a way of some x_g it comes to :math:`F_{cg}\,g\operatorname{sgn}\dot s`, which falls with the speed where
+there is a static share (Stribeck); below, the guide holds the load like a spring. It acts on the load, so it
+is missing from a force that is measured at the muscle.
 """
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
 
-def guide(
-    *,
-    direction: Value,
-    speed: Value,
-    force: Value,
-    coefficient: Value,
-    static_share: Value,
-    stribeck_speed: Value,
-) -> Value:
-    """F_cg (1 + s exp(-|v|/v_s)) sgn v + c_g v [N], positive against a stroke that grows; 0 at rest."""
-    fading = ops.exp(-ops.absolute(speed) / stribeck_speed)
-    return force * direction * (1.0 + static_share * fading) + coefficient * speed
+def guide(*, presliding: Value, speed: Value, force: Value, coefficient: Value) -> Value:
+    """F_cg z + c_g v [N], positive against a stroke that grows."""
+    return force * presliding + coefficient * speed
+
+
+def drive_rates(
+    *, presliding: Value, speed: Value, break_way: Value, static_share: Value, stribeck_speed: Value
+) -> tuple[Value]:
+    """dz/dt [1/s]: (v - |v| z/g)/x_g; exactly 0 at rest."""
+    sliding = 1.0 + static_share * ops.exp(-ops.absolute(speed) / stribeck_speed)
+    return ((speed - ops.absolute(speed) * presliding / sliding) / break_way,)
 
 
 _RANGE = Source("recirculating guides 1-10 N with seals, plain guides 5-20 % of the load", "E")
 _STRIBECK = Source("Armstrong-Helouvry, Dupont & Canudas de Wit, Automatica 30 (1994) 1083: some mm/s", "M")
 _DEFINITION = Source("definition, by hand", "D")
-_BY_HAND = Source("5 (1 + 0.4/e) at the Stribeck speed", "D")
+_BY_HAND = Source("-(5 + 2.5/(1 + 0.4/e)) mm/s / 0.05 mm at the Stribeck speed", "D")
 
 EFFECT = Effect(
     title="Friction of the guide",
@@ -38,7 +40,8 @@ EFFECT = Effect(
     type="rate",
     cause="The carriage, its seals and the pulleys rub while the load moves. The load feels less than the "
     "muscle gives on the way up, and the muscle has to hold less on the way down.",
-    equation=r"F_g = F_{cg}\left[1+s\,e^{-|\dot s|/v_s}\right]\operatorname{sgn}\dot s + c_g\,\dot s",
+    equation=r"F_g = F_{cg}\,z + c_g\,\dot s,\quad x_g\,\dot z = \dot s - "
+    r"\frac{|\dot s|\,z}{1+\varsigma\,e^{-|\dot s|/v_s}}",
     parameters=(
         Parameter("force", "F_{cg}", "N", 5.0, 0.0, 200.0, _RANGE, "Friction at high speed.", off=0.0),
         Parameter(
@@ -55,7 +58,7 @@ EFFECT = Effect(
         ),
         Parameter(
             "static_share",
-            "s",
+            r"\varsigma",
             "1",
             0.0,
             0.0,
@@ -75,8 +78,20 @@ EFFECT = Effect(
             "Speed at which 1/e of the static share is left.",
             fitted=False,
         ),
+        Parameter(
+            "break_way",
+            "x_g",
+            "m",
+            5e-5,
+            2e-6,
+            2e-3,
+            Source("presliding of rolling and plain guides, some 1 to some 100 micrometres", "E"),
+            "Way over which the friction builds up after a reversal; below it the guide holds like a spring.",
+            fitted=False,
+        ),
     ),
-    slots={"guide": guide},
+    slots={"guide": guide, "drive_rates": drive_rates},
+    states=(StateVariable("presliding", "z", "1", 1.0, "Share of the friction that the guide gives."),),
     kinds=frozenset({"isotonic", "transient"}),
     signature=Signature(
         text="a dead width of the load, the same at every pressure, not seen by a force sensor at the muscle",
@@ -100,16 +115,16 @@ EFFECT = Effect(
             _DEFINITION,
             {"force": 5.0, "coefficient": 20.0},
             {},
-            {"direction": -1.0, "speed": -0.1},
+            {"presliding": -1.0, "speed": -0.1},
         ),
         Example(
-            "slot:guide",
-            5.7357589,
-            1e-7,
+            "slot:drive_rates",
+            -143.5862115,
+            1e-8,
             _BY_HAND,
-            {"force": 5.0, "static_share": 0.4, "stribeck_speed": 0.005},
+            {"break_way": 5e-5, "static_share": 0.4, "stribeck_speed": 0.005},
             {},
-            {"direction": 1.0, "speed": 0.005},
+            {"presliding": 0.5, "speed": -0.005},
         ),
     ),
 )
