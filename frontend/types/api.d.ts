@@ -191,7 +191,7 @@ export interface components {
       /** Null: the drive's. */
       muscle?: components["schemas"]["MuscleInput"] | null;
       effects?: { [key: string]: { [key: string]: number | string } } | null;
-      /** Valve, tube, supply and load of transient measurements with a command channel. */
+      /** Valve, tube, supply and load of transient measurements with a command channel, whose command takes the place of one given here. */
       drive?: components["schemas"]["DriveDocument"] | null;
       /** One measurement to fit to. */
       measurement?: string | null;
@@ -489,6 +489,8 @@ export interface components {
       kind: string;
       rows: number;
       rows_used: number;
+      /** Why rows were left out -> how many. */
+      excluded: { [key: string]: number };
       predicted: string;
       unit: string;
       baseline: components["schemas"]["Baseline"];
@@ -511,7 +513,7 @@ export interface components {
       /** Null: the drive's. */
       muscle?: components["schemas"]["MuscleInput"] | null;
       effects?: { [key: string]: { [key: string]: number | string } } | null;
-      /** Valve, tube, supply and load of transient measurements with a command channel. */
+      /** Valve, tube, supply and load of transient measurements with a command channel, whose command takes the place of one given here. */
       drive?: components["schemas"]["DriveDocument"] | null;
       /** One measurement to fit to. */
       measurement?: string | null;
@@ -556,7 +558,7 @@ export interface components {
       /** Fitting presets; they add their port volumes. */
       fittings?: string[];
       load?: components["schemas"]["LoadInput"];
-      /** Opening of the valve: 1 fill, 0 closed, -1 exhaust; of a regulator the share of its range. What a shape leaves open, e.g. outside a pulse, is exhaust (0 for a regulator). [1] */
+      /** Opening of the valve: 1 fill, 0 closed, -1 exhaust; of a regulator the share of its range. What a shape leaves open, e.g. outside a pulse, is exhaust (0 for a regulator). To be left out with a controller, or beside a measurement, which brings its own. [1] */
       command?: {
         shape: "step";
         /** [s] */
@@ -1559,7 +1561,7 @@ export interface components {
       /** Null: the drive's. */
       muscle?: components["schemas"]["MuscleInput"] | null;
       effects?: { [key: string]: { [key: string]: number | string } } | null;
-      /** Valve, tube, supply and load of transient measurements with a command channel. */
+      /** Valve, tube, supply and load of transient measurements with a command channel, whose command takes the place of one given here. */
       drive?: components["schemas"]["DriveDocument"] | null;
       /** One measurement to fit to. */
       measurement?: string | null;

@@ -32,7 +32,8 @@ MUSCLE = {
 }  # fmt: skip
 PROMISED = {
     "kind", "rows", "predicted", "unit", "baseline", "noise_floor", "where", "candidates", "path", "verdict",
-    "model", "rows_used", "channels", "parameters", "correlations", "geometry", "freed", "messages",
+    "model", "rows_used", "excluded", "channels", "parameters", "correlations", "geometry", "freed",
+    "messages",
 }  # fmt: skip
 STATUS = {"adequate", "missing_effects", "ambiguous", "unknown_effect"}
 
@@ -305,6 +306,59 @@ def test_a_transient_is_told_channel_by_channel(client: TestClient, lifted: str)
     assert known["channels"]["pressure"]["rmse"] == pytest.approx(500.0, rel=0.15)
     assert known["channels"]["displacement"]["rmse"] == pytest.approx(5e-5, rel=0.15)
     assert shown["rmse"] > 2 * known["rmse"]
+
+
+def test_beside_a_measured_command_the_drive_needs_none(client: TestClient, lifted: str) -> None:
+    silent = {name: part for name, part in DRIVE.items() if name != "command"}
+    told, untold = (
+        compare(client, muscle=None, drive=drive, measurement=lifted)["series"] for drive in (DRIVE, silent)
+    )
+    assert untold == told
+    body = {"muscle": None, "drive": silent, "measurement": lifted, "diagnose": False}
+    assert post(client, "/api/reports", body).status_code == 200
+    # A run has nothing else to go by.
+    assert_error(post(client, "/api/simulations", {"drive": silent}), 422, field="drive.command")
+
+
+@pytest.mark.parametrize("part", ["command", "no command"])
+def test_a_file_without_what_moves_it_says_so(client: TestClient, part: str) -> None:
+    drive = {name: value for name, value in DRIVE.items() if part == "command" or name != "command"}
+    for channel, field in (("pressure_bar", "displacement"), ("displacement_mm", "pressure")):
+        content = f"# kind: transient\ntime_s,{channel}\n0,0\n0.1,1\n0.2,2\n0.3,2\n"
+        body = {"drive": drive, "measurement": upload(client, "lacking", content)}
+        for path in (PATH, "/api/comparisons"):
+            error = assert_error(post(client, path, body), 422, field=field)
+            assert "command" in error["message"]
+            assert "add a command column" in error["hint"] or "or a command column" in error["hint"]
+
+
+def test_rows_that_are_not_used_are_counted_with_their_reason(client: TestClient) -> None:
+    time = np.linspace(0.0, 6.0, 1301)
+    rows = [f"{t:.5f},{3 + np.sin(t):.5f},{10 + np.sin(t):.5f}" for t in time]
+    header = "time_s,pressure_bar,displacement_mm"
+    moved = upload(client, "moved", text(rows, header, "load_mass: 20 kg"))
+    answer = compare(client, measurement=moved)
+    assert (answer["rows"], answer["rows_used"]) == (1301, 1000)
+    ((reason, count),) = answer["excluded"].items()
+    assert "1000 rows" in reason
+    assert count == 301
+    shown = post(client, "/api/reports", {"muscle": MUSCLE, "measurement": moved, "diagnose": False}).text
+    assert "1000 of 1301" in shown
+    assert f"301 {reason}" in shown
+
+
+def test_every_row_of_a_diagnosis_is_accounted_for(client: TestClient) -> None:
+    rows = cycle_rows(coulomb, noise=1.0, each=300)
+    for place in (5, 6, 900):  # no pulling force
+        time, pressure, length, _, direction = rows[place].split(",")
+        rows[place] = f"{time},{pressure},{length},0,{direction}"
+    long = upload(client, "long", text(rows, CYCLE_HEADER, "kind: isobaric"))
+    answer = diagnose(client, measurement=long, effects={"coulomb_friction": {}})
+    assert answer["rows"] == 3600 > 3500 > answer["rows_used"]
+    assert answer["rows_used"] + sum(answer["excluded"].values()) == answer["rows"]
+    assert answer["excluded"]["slack"] == 3
+    assert answer["excluded"]["averaged into the others"] > 500
+    assert any("means of up to" in message for message in answer["messages"])
 
 
 def test_several_channels_have_no_one_noise(client: TestClient, lifted: str) -> None:

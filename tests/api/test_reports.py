@@ -96,7 +96,9 @@ def test_figures_are_those_of_the_comparison(diagnosed: tuple[str, dict, dict]) 
     assert exact(rows["mean of the residual"][0][0]) == pytest.approx(comparison["residual_mean"])
     shown = "".join(rows["RMS error"][0][0].itertext())
     assert float(shown.split()[0]) == pytest.approx(comparison["rmse"], rel=1e-3)
-    assert rows["rows used"][0][0].text == str(comparison["rows_used"])
+    assert comparison["excluded"] == {"slack": 66}
+    assert rows["rows used"][0][0].text == "60 of 126"
+    assert "Rows left out: 66 slack." in text
     assert comparison["sentences"][-1] in text
     for profile in comparison["where"]:
         assert any(exact(row[-1]) == pytest.approx(profile["rmse"]) for row in rows[profile["over"]])

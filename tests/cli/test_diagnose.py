@@ -190,6 +190,26 @@ def test_a_trace_is_compared_with_its_drive(run: Run, lifted: str) -> None:
     code, out, _ = run("compare", lifted, "--drive", "drive.json")
     assert code == 0
     assert "x noise" in out
+    rows = sum(not line.startswith("#") for line in Path(lifted).read_text("utf-8").splitlines()) - 1
+    assert f"1000 of {rows} rows, {rows - 1000} left out: in between (1000 rows of each run" in out
+
+
+def test_beside_a_measured_command_the_drive_needs_none(run: Run, lifted: str) -> None:
+    silent = {name: part for name, part in DRIVE.items() if name != "command"}
+    answers = []
+    for name, drive in (("drive.json", DRIVE), ("silent.json", silent)):
+        code, out, err = run("compare", lifted, "--drive", write(name, drive), "--json")
+        assert code == 0, err
+        answers.append(json.loads(out))
+    assert answers[0] == answers[1]
+    # A run has nothing else to go by.
+    assert "command is missing" in refused(run("simulate", "silent.json"))
+    # Neither the file nor, as far as it would count, the document says what moved the drive.
+    write("still.csv", "# kind: transient\ntime_s,displacement_mm\n0,0\n0.1,1\n0.2,2\n0.3,2\n")
+    for name in ("drive.json", "silent.json"):
+        line = refused(run("compare", "still.csv", "--drive", name))
+        assert "neither command nor pressure was measured" in line
+        assert "add a command column" in line
 
 
 def test_a_trace_is_diagnosed_with_its_drive(run: Run, lifted: str) -> None:

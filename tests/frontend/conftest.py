@@ -1,9 +1,12 @@
 """Fixtures of the browser tests: Chromium, the real server, and a guard over what the pages do.
 
-A test takes pytest-playwright's ``page`` (or ``context``, ``new_context``). Every page made that way is
-guarded: an error or warning on the console, an uncaught error, a request that leaves the server's origin or
-an answer 5xx fails the test that caused it. Where a console message is meant, the test says so:
-``page_guard.allow("status of 422")``.
+A test takes pytest-playwright's ``page`` (or ``context``, ``new_context``). The pages of ``context`` share
+its process, and with it compiled code and the browser's cache, from test to test; what a page stores or sets
+does not outlast its test. A test of a browser that has never seen the page takes ``new_context``.
+
+Every page is guarded: an error or warning on the console, an uncaught error, a request that leaves the
+server's origin or an answer 5xx fails the test that caused it. Where a console message is meant, the test
+says so: ``page_guard.allow("status of 422")``.
 """
 
 from __future__ import annotations
@@ -12,11 +15,13 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from playwright.sync_api import BrowserContext
+from playwright.sync_api import Browser, BrowserContext, Page
 
 from tests.frontend.browser import ARGUMENTS, NoBrowserError, find_or_get
 from tests.frontend.guard import PageGuard
 from tests.server import RunningServer
+
+_RESTING = '<title>resting</title><link rel="icon" href="data:,">'  # else the browser asks for /favicon.ico
 
 
 @pytest.fixture(scope="session")
@@ -56,6 +61,41 @@ def page_guard(server: RunningServer) -> Iterator[PageGuard]:
     yield guard
     server.check_alive()
     guard.check()
+
+
+@pytest.fixture(scope="session")
+def resting_page(browser: Browser, browser_context_args: dict[str, Any], base_url: str) -> Iterator[Page]:
+    """A page of the server that stays open, so that the process of the pages lives on between the tests."""
+    context = browser.new_context(**browser_context_args)
+    page = context.new_page()
+    page.route("**/resting", lambda route: route.fulfill(content_type="text/html", body=_RESTING))
+    page.goto("/resting")
+    yield page
+    context.close()
+
+
+@pytest.fixture
+def context(
+    request: pytest.FixtureRequest, pytestconfig: pytest.Config, page_guard: PageGuard
+) -> Iterator[BrowserContext]:
+    """The context of the resting page, watched, and as good as new after the test."""
+    recorded = [pytestconfig.getoption(f"--{what}") for what in ("tracing", "video", "screenshot")]
+    if recorded != ["off"] * 3:  # what is recorded of a test is that of its own context
+        yield request.getfixturevalue("new_context")()
+        return
+    resting = request.getfixturevalue("resting_page")
+    shared = resting.context
+    page_guard.watch(shared)
+    yield shared
+    for page in shared.pages:
+        if page != resting:
+            page.close()
+    page_guard.leave(shared)
+    shared.unroute_all()
+    shared.clear_permissions()
+    shared.clear_cookies()
+    left = resting.evaluate("(localStorage.clear(), indexedDB.databases())")
+    assert left == [], "pages keep nothing but localStorage so far; clear what they keep now"
 
 
 @pytest.fixture

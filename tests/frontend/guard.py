@@ -30,6 +30,13 @@ class PageGuard:
         context.on("request", self._on_request)
         context.on("response", self._on_response)
 
+    def leave(self, context: BrowserContext) -> None:
+        """Listen no more."""
+        context.remove_listener("console", self._on_console)
+        context.remove_listener("weberror", self._on_error)
+        context.remove_listener("request", self._on_request)
+        context.remove_listener("response", self._on_response)
+
     def check(self) -> None:
         """Fail when anything was collected that the test did not allow."""
         if self._complaints:

@@ -104,6 +104,45 @@ def test_before_and_after_flip_with_b(page: Page, sweeps: FilePayload) -> None:
     expect(model).to_have_attribute("d", after or "")
 
 
+def deepest(page: Page) -> int:
+    """The strongest colour of the map, in percent of the full one."""
+    styles = [cell.get_attribute("style") or "" for cell in page.locator(".heat button").all()]
+    return max(int(share) for style in styles for share in re.findall(r"(\d+)%", style))
+
+
+def test_the_map_shows_what_is_left_and_compares_with_the_start(page: Page, sweeps: FilePayload) -> None:
+    opened(page, sweeps)
+    key, note = page.locator(".heat-key"), page.locator(".heat-note")
+    spans = page.get_by_role("group", name="Colours of the map span")
+    own, first = (spans.get_by_role("button", name=f"{name} scale") for name in ("Own", "First"))
+    expect(spans).to_be_hidden()
+    start = key.inner_text()
+    assert deepest(page) > 50
+    changed(page, page.locator("#add-all").click)
+    # In the scale of the start hardly a cell would have a colour.
+    expect(own).to_have_attribute("aria-pressed", "true")
+    assert deepest(page) == 100
+    expect(key).not_to_have_text(start)
+    largest = re.search(
+        r"Largest cell [+−]([\d.]+)\sN at pressure .*; at the start up to ([\d.]+)\sN", note.inner_text()
+    )
+    assert largest
+    assert f"+{largest[1]}" in key.inner_text()
+    assert f"+{largest[2]}" in start
+    first.click()
+    expect(first).to_have_attribute("aria-pressed", "true")
+    expect(key).to_have_text(start, use_inner_text=True)
+    expect(note).to_contain_text("as at the start")
+    assert deepest(page) < 20
+    page.keyboard.press("b")
+    expect(page.locator(".before-tag")).to_be_visible()
+    expect(key).to_have_text(start, use_inner_text=True)
+    assert deepest(page) > 50
+    page.keyboard.press("b")
+    own.click()
+    assert deepest(page) == 100
+
+
 def test_r_fits_again_after_a_value_was_changed(page: Page, sweeps: FilePayload) -> None:
     opened(page, sweeps)
     noise = changed(page, page.locator("#add-all").click)
@@ -182,6 +221,36 @@ def test_a_wrong_column_is_corrected_before_the_file_is_taken(page: Page) -> Non
     expect(dialog.get_by_label("Channel of T [N]")).to_have_value("force")
     page.keyboard.press("Escape")
     expect(page.locator(".file")).to_have_count(1)
+
+
+def test_many_columns_stand_below_each_other_on_a_phone(page: Page) -> None:
+    page.set_viewport_size({"width": 390, "height": 844})
+    open_compare(page)
+    names = ["t", "p [bar]", "L [mm]", "force [N]", *(f"channel {number}" for number in range(9))]
+    rows = "\n".join(f"{i},3,{300 - i},{700 - 9 * i}" + ",7" * 9 for i in range(30))
+    choose(page, file("wide.csv", f"{','.join(names)}\n{rows}\n"))
+    dialog = page.get_by_role("dialog", name="How wide.csv is read")
+    region = dialog.get_by_role("region", name="Columns of the file")
+    size = "(box) => [box.scrollWidth - box.clientWidth, box.scrollHeight - box.clientHeight]"
+    expect(region.get_by_role("listitem")).to_have_count(len(names))
+    assert region.evaluate(size) == [0, 0]  # nothing hides within it
+    expect(region.get_by_role("listitem").nth(2)).to_contain_text("300 · 299 · 298")
+    last = region.get_by_label("Channel of channel 8")
+    last.scroll_into_view_if_needed()
+    expect(last).to_be_in_viewport()
+    last.select_option("temperature")
+    expect(region.get_by_label("Unit of channel 8")).to_be_visible()
+    # Side by side where there is room; what is wider scrolls, by key too, and a shadow tells.
+    page.set_viewport_size({"width": 1024, "height": 800})
+    expect(region.get_by_role("columnheader")).to_have_count(len(names))
+    expect(region.get_by_label("Channel of channel 8")).to_have_value("temperature")
+    sideways, below = region.evaluate(size)
+    assert sideways > 100
+    assert below == 0
+    assert region.evaluate("(box) => getComputedStyle(box).backgroundImage").count("linear-gradient") == 4
+    region.focus()
+    page.keyboard.press("ArrowRight")
+    page.wait_for_function("(box) => box.scrollLeft > 0", arg=region.element_handle())
 
 
 def test_a_file_that_is_no_measurement_says_so(page: Page, page_guard: PageGuard) -> None:

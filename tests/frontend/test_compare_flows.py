@@ -61,9 +61,12 @@ def test_a_run_of_a_drive_shows_what_its_valve_does(page: Page) -> None:
         dialog.get_by_role("button", name="Use these columns").click()
     expect(card).to_contain_text("transient")
     page.get_by_role("button", name="Drive document…").click()
-    page.get_by_label("Drive document as JSON").fill(json.dumps(made.drive))
+    rig = {name: part for name, part in made.drive.items() if name != "command"}  # it was recorded
+    page.get_by_label("Drive document as JSON").fill(json.dumps(rig))
     page.unroute("**/api/diagnoses")
-    page.get_by_role("button", name="Use it").click()
+    with page.expect_request("**/api/comparisons") as asked:
+        page.get_by_role("button", name="Use it").click()
+    assert "command" not in asked.value.post_data_json["drive"]
     expect(page.locator(".in-model")).to_have_count(len(made.effects), timeout=20_000)
     diagnosed(page, A_DRIVE)
     for channel in made.noise:
@@ -104,6 +107,7 @@ def test_a_mystery_with_a_drive_brings_it_along(page: Page) -> None:
     expect(page.locator("#overlay-displacement .js-line").last).to_be_attached()
     expect(page.get_by_role("region", name="Rig").get_by_label("Mass")).to_have_value("31.4")
     expect(page.locator(".path-table")).to_contain_text("Start model")
+    expect(page.locator(".measurements")).to_contain_text("1000 of 1301 rows; left out: 301 in between")
 
 
 def test_the_report_is_one_file_that_says_it_all(page: Page, sweeps: FilePayload, tmp_path: Path) -> None:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Callable
 from pathlib import Path
 from urllib.parse import urlsplit
 from urllib.request import urlopen
 
-from playwright.sync_api import Page, expect
+from playwright.sync_api import BrowserContext, Page, expect
 
 from tests.frontend.guard import PageGuard
 from tests.frontend.views import enter, open_catalogue, open_design, run
@@ -45,7 +46,8 @@ def test_no_effect_is_named_in_the_frontend(server_url: str) -> None:
     assert [name for name in effects if re.search(rf"\b{name}\b", text)] == []
 
 
-def test_the_page_is_usable_before_the_plots(page: Page) -> None:
+def test_the_page_is_usable_before_the_plots(new_context: Callable[..., BrowserContext]) -> None:
+    page = new_context().new_page()  # the first time: nothing is in the browser's cache
     page.goto("/")
     expect(page.locator("html")).to_have_attribute("data-ready", "1")
     usable, plots_loaded = run(

@@ -78,11 +78,11 @@ def structure(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> Stru
             continue
         model = ExtraTreesRegressor(_TREES, min_samples_leaf=4, max_features=1.0, random_state=_SEED)
         model.fit(table[~out], target[~out])
-        left[out] = target[out] - model.predict(table[out])
+        asked = np.tile(table[out], (len(names) + 1, 1, 1))  # the last as it is, each other shuffled in one
         for column in range(len(names)):
-            other = table[out].copy()
-            other[:, column] = random.permutation(other[:, column])
-            shuffled[column, out] = target[out] - model.predict(other)
+            asked[column, :, column] = random.permutation(asked[column, :, column])
+        predicted = model.predict(asked.reshape(-1, len(names))).reshape(len(names) + 1, -1)
+        shuffled[:, out], left[out] = target[out] - predicted[:-1], target[out] - predicted[-1]
     whole = float(np.mean(target**2))
     share = max(0.0, 1.0 - float(np.mean(left**2)) / whole)
     lost = (np.mean(shuffled**2, axis=1) - np.mean(left**2)) / whole

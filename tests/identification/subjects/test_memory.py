@@ -71,16 +71,17 @@ def test_records_begin_at_rest():
 
 def test_models_that_share_their_memory_share_the_run():
     memory = Memory(task_of(cycles(each=30), MUSCLE))
-    first = memory.states(setting(dahl={"force": 10.0}))
-    assert memory.states(setting(dahl={"force": 50.0})) is first  # the force is not in the rates
-    assert memory.states(setting(dahl={"force": 10.0}, prestress={})) is first
-    other = memory.states(setting(dahl={"break_strain": 0.01}))
-    assert other is not first
-    assert not np.allclose(other["dahl.presliding"], first["dahl.presliding"])
+    name = "dahl.presliding"
+    first = memory.states(setting(dahl={"force": 10.0}))[name]
+    assert memory.states(setting(dahl={"force": 50.0}))[name] is first  # the force is not in the rates
+    assert memory.states(setting(dahl={"force": 10.0}, prestress={}))[name] is first
+    assert memory.states(setting(dahl={"force": 10.0}, creep={}))[name] is first, "each effect by itself"
+    other = memory.states(setting(dahl={"break_strain": 0.01}))[name]
+    assert not np.allclose(other, first)
     wider = setting(dahl={}).with_numbers(["nominal_length"], [0.31])
-    assert memory.states(wider) is not first
+    assert memory.states(wider)[name] is not first
     # Sensors turn what is read into what the memory follows.
-    assert memory.states(setting(dahl={}, length_offset={})) is not first
+    assert memory.states(setting(dahl={}, length_offset={}))[name] is not first
 
 
 def test_no_memory_no_states():

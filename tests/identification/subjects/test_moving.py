@@ -273,6 +273,24 @@ def test_long_records_are_thinned_evenly():
     assert np.ptp(np.diff(subject.rows)) <= 1
 
 
+def test_rows_that_are_not_compared_are_counted_with_their_reason():
+    time = np.tile(np.linspace(0.0, 6.0, 1301), 2)  # two runs, each begins at 0 s again
+    stuck = np.zeros(len(time), bool)
+    stuck[40:60] = True
+    measurement = build(
+        {"time": time, "pressure": 3e5 + 1e5 * np.sin(time), "displacement": 0.01 + 1e-3 * np.sin(time)},
+        name="two", id="4" * 64, kind="transient", conditions={"load_mass": 20.0},
+        excluded_rows={"stuck": stuck},
+    )  # fmt: skip
+    subject = subject_of(measurement, MUSCLE)
+    assert subject.rows_used == len(subject.rows) == 2000
+    (between,) = (reason for reason in subject.excluded if reason != "stuck")
+    assert "1000 rows" in between
+    assert subject.excluded == {"stuck": 20, between: 1281 - 1000 + 301}
+    short = subject_of(measured(drive()), MUSCLE, drive())
+    assert (short.rows_used, short.excluded) == (len(GRID), {})
+
+
 @pytest.mark.parametrize(
     ("keep", "field"), [(("pressure",), "displacement"), (("displacement",), "pressure")]
 )
@@ -281,6 +299,7 @@ def test_what_is_missing_is_named(keep, field):
     with pytest.raises(InputError) as error:
         subject_of(measurement, MUSCLE)
     assert error.value.field == field
+    assert "command column" in error.value.hint
 
 
 def test_a_run_of_two_rows_is_too_short():

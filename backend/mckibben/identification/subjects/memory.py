@@ -13,9 +13,9 @@ from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.simulation.driven import driven_states
 from mckibben.simulation.static import StaticModel
 
-_KEPT = 64
+_KEPT = 128
 _SENSORS = ("pressure_sensor", "length_sensor")
-_STEP = 1e-2  # of a parameter, for the derivative of a state by it
+_STEP = 2e-3  # of a parameter, for the derivative of a state by it
 
 
 def remembers(effect: Effect) -> bool:
@@ -27,8 +27,8 @@ class Memory:
     """Trajectories of the states of effects over the rows of a task, kept for models that share them.
 
     They follow the measured length and pressure and start at rest with each record, so they depend on the
-    parameters in the effects' own rates and on the sensors only: a fit of the other parameters never
-    integrates again.
+    parameters in the effect's own rates and on the sensors only: each effect is integrated by itself, and a
+    fit of other parameters never integrates it again.
     """
 
     def __init__(self, task: Task) -> None:
@@ -42,19 +42,18 @@ class Memory:
 
     def states(self, setting: Setting) -> dict[str, np.ndarray]:
         """Value of each state ("effect.state") at each row."""
-        effects = tuple(
-            e for e in setting.effects if remembers(e) or any(slot in e.slots for slot in _SENSORS)
-        )
-        chosen = [e for e in effects if remembers(e)]
-        if not chosen:
-            return {}
-        values = {e.id: dict(setting.values[e.id]) for e in effects}
-        key = (setting.muscle, *(self._key(effect, values[effect.id]) for effect in effects))
-        if key not in self._kept:
-            if len(self._kept) >= _KEPT:
-                self._kept.pop(next(iter(self._kept)))
-            self._kept[key] = self._run(StaticModel.of(setting.muscle, effects, values), chosen)
-        return self._kept[key]
+        sensors = tuple(e for e in setting.effects if any(slot in e.slots for slot in _SENSORS))
+        found: dict[str, np.ndarray] = {}
+        for effect in filter(remembers, setting.effects):
+            effects = (effect, *(sensor for sensor in sensors if sensor is not effect))
+            values = {e.id: dict(setting.values[e.id]) for e in effects}
+            key = (setting.muscle, *(self._key(e, values[e.id]) for e in effects))
+            if key not in self._kept:
+                if len(self._kept) >= _KEPT:
+                    self._kept.pop(next(iter(self._kept)))
+                self._kept[key] = self._run(StaticModel.of(setting.muscle, effects, values), effect)
+            found |= self._kept[key]
+        return found
 
     def by_parameters(self, setting: Setting, names: Sequence[str]) -> dict[str, dict[str, np.ndarray]]:
         """Derivatives of the states by the named parameters that move them: name -> state -> rows."""
@@ -67,11 +66,11 @@ class Memory:
             declared = effect.parameter(parameter)
             here = setting.number(name)
             step = _STEP * max(abs(here), 0.01 * (declared.upper - declared.lower))
-            low, high = max(here - step, declared.lower), min(here + step, declared.upper)
-            ends = [self.states(setting.with_numbers([name], [end])) for end in (low, high)]
+            other = here + step if here + step <= declared.upper else here - step
+            first, last = self.states(setting), self.states(setting.with_numbers([name], [other]))
             found[name] = {
-                state: (ends[1][state] - ends[0][state]) / (high - low)
-                for state in ends[0]
+                state: (last[state] - first[state]) / (other - here)
+                for state in first
                 if state.startswith(f"{effect_id}.")
             }
         return found
@@ -81,9 +80,9 @@ class Memory:
         wanted = effect.wanted("rates") if remembers(effect) else tuple(values)
         return (effect.id, *(values[name] for name in values if name in wanted))
 
-    def _run(self, model: StaticModel, chosen: Sequence[Effect]) -> dict[str, np.ndarray]:
+    def _run(self, model: StaticModel, effect: Effect) -> dict[str, np.ndarray]:
         task = self._task
-        rest = {f"{e.id}.{s.name}": s.initial for e in chosen for s in e.states}
+        rest = {f"{effect.id}.{state.name}": state.initial for state in effect.states}
         found = {name: np.full(len(task.measured), value) for name, value in rest.items()}
         clock = task.time if task.time is not None else np.arange(len(task.measured), dtype=float)
         for rows in self._records:

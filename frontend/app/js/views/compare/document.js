@@ -13,12 +13,14 @@
  * @typedef {{label: string, effects: Effects | null, freed: string[], values: Record<string, number>,
  *   fit: Fit, rmse: number | null, holdout: number | null}} Step */
 /** “auto”: what the overlay is drawn over. @typedef {typeof TABS[number]} Tab */
+/** What the colours of the map span: “auto” = the error of the first model as long as that shows anything.
+ * @typedef {typeof HEATS[number]} Heat */
 /** Ranges of variables in SI. @typedef {Record<string, [number, number]>} Brush */
 /** `effects`: null = those of the preset. `history`: the models before this one, the start first.
  * @typedef {{files: Chosen[], muscle: Muscle, start: "ideal" | "preset", effects: Effects | null,
  *   freed: string[], free: string[], fit: Fit, label: string, holdout: number | null, history: Step[],
  *   drive: Drive | null, noise: number | null, mystery: string | null, guided: boolean,
- *   tab: Tab, over: string | null, channel: string | null, brush: Brush | null,
+ *   tab: Tab, over: string | null, channel: string | null, heat: Heat, brush: Brush | null,
  *   before: boolean}} Compare */
 
 export const TABS = /** @type {const} */ ([
@@ -31,6 +33,7 @@ export const TABS = /** @type {const} */ ([
   "autocorrelation",
   "loops",
 ]);
+export const HEATS = /** @type {const} */ (["auto", "start", "own"]);
 export const MOST_FILES = 16;
 const MOST_STEPS = 40;
 export const IDEAL = "Ideal muscle", GIVEN = "Start model";
@@ -54,6 +57,7 @@ export const defaultCompare = () => ({
   tab: "auto",
   over: null,
   channel: null,
+  heat: "auto",
   brush: null,
   before: false,
 });
@@ -114,6 +118,7 @@ const CHECKS = {
   tab: (x) => TABS.some((one) => one === x),
   over: isName,
   channel: isName,
+  heat: (x) => HEATS.some((one) => one === x),
   brush: (x) => x === null || (isObject(x) && Object.values(x).every(isRange)),
   before: isBoolean,
 };

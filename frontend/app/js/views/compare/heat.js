@@ -3,16 +3,13 @@
 import { h } from "../../dom.js";
 import { units } from "../../state.js";
 import { number, scaleOf, toShown } from "../../format.js";
-import { brush, fault, lookCompare, shown, stale, steps } from "./model.js";
+import { bin, scaleNote, scaleOf as heatScaleOf, scaleSwitch } from "./heat-scale.js";
+import { brush, fault, lookCompare, shown, stale } from "./model.js";
 import { channelScale, errorText, rangeText, VARIABLES } from "./words.js";
 
 /** @typedef {import("./types.js").HeatMap} HeatMap */
 /** @typedef {import("./types.js").Where} Where */
 /** @typedef {import("./types.js").Comparison} Comparison */
-
-/** The colours span the error of the first model, so that what is left after a fix looks as small as it is.
- * @param {Comparison} a */
-const scaleFor = (a) => 2 * (steps.value[0]?.rmse ?? a.rmse ?? 1) || 1;
 
 /** @param {number} share −1…1: too low, right, too high */
 const tint = (share) => {
@@ -21,9 +18,6 @@ const tint = (share) => {
     share < 0 ? "--heat-low" : "--heat-high"
   }) ${size}%, var(--heat-zero))`;
 };
-
-/** @param {(number | null)[]} edges @param {number} i @returns {[number, number]} */
-const bin = (edges, i) => [edges[i] ?? 0, edges[i + 1] ?? edges[i] ?? 0];
 
 /** @param {HeatMap} map @param {number} ix @param {number} iy */
 const isChosen = (map, ix, iy) => {
@@ -52,7 +46,7 @@ function walk(event) {
 
 /** @param {Comparison} a @param {HeatMap} map */
 function grid(a, map) {
-  const system = units.value, most = scaleFor(a);
+  const system = units.value, spanned = heatScaleOf(a, map), { most } = spanned;
   const xs = VARIABLES[map.x], ys = VARIABLES[map.y];
   if (!xs || !ys) return null;
   const say = (/** @type {typeof xs} */ v, /** @type {number} */ si) =>
@@ -137,6 +131,7 @@ function grid(a, map) {
       `+${end}`,
       h("small", null, s.unit ? "measured − model" : "measured − model, over noise"),
     ),
+    h("p", { class: "heat-note muted" }, scaleNote(a, map, spanned)),
   ];
 }
 
@@ -187,7 +182,7 @@ export function whereCard() {
   return h(
     "section",
     { class: () => `card where${stale.value ? " stale" : ""}`, "aria-label": "Where it fails" },
-    h("div", { class: "card-head" }, h("h2", null, "Where it fails")),
+    h("div", { class: "card-head" }, h("h2", null, "Where it fails"), scaleSwitch()),
     () => {
       const a = shown.value;
       if (!a && fault.value) return h("p", { class: "muted" }, "There is no comparison yet.");

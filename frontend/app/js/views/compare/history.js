@@ -178,6 +178,7 @@ export const fresh = (c, start = c.start) => ({
   label: start === "ideal" ? IDEAL : "Effects of the preset",
   holdout: null,
   history: [],
+  heat: "auto",
   brush: null,
   before: false,
 });

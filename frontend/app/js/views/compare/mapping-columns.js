@@ -1,6 +1,7 @@
 // @ts-check
 // The columns of a file: what each is taken for, in which unit, and its first values.
 import { h } from "../../dom.js";
+import { signal } from "../../reactive.js";
 import { brief } from "../../format.js";
 import { spoken } from "../../ui/sources.js";
 
@@ -16,13 +17,48 @@ const SAMPLE_ROWS = 5;
 /** @param {Event} event */
 export const valueOf = (event) => /** @type {HTMLSelectElement | HTMLInputElement} */ (event.target).value;
 
+// Columns side by side need the width; on a phone they stand one under the other.
+const phone = matchMedia("(max-width: 700px)");
+const isPhone = signal(phone.matches);
+phone.addEventListener("change", () => (isPhone.value = phone.matches));
+
 /** @param {Context} c */
 export function columnTable({ preview, mapping, change }) {
   const p = preview.value;
-  const row = (/** @type {number} */ k) => p.sample[k] ?? [];
   /** @param {PreviewColumn} column @param {any} choice */
   const set = (column, choice) => change({ columns: { ...mapping.peek().columns, [column.header]: choice } });
   const names = p.channel_choices.map((one) => one.name);
+  return isPhone.value ? stacked(p, names, set) : sideBySide(p, names, set);
+}
+
+/** @param {Preview} p @param {string[]} names
+ * @param {(column: PreviewColumn, choice: object | null) => void} set */
+const stacked = (p, names, set) =>
+  h(
+    "ol",
+    { class: "plain map-list" },
+    ...p.columns.map((column, i) => {
+      const first = p.sample.slice(0, SAMPLE_ROWS).map((row) => row[i] ?? "");
+      return h(
+        "li",
+        null,
+        h("h3", null, column.header),
+        h(
+          "div",
+          { class: "map-choice" },
+          h("div", null, channelSelect(column, names, set)),
+          h("div", null, unitSelect(column, p, set)),
+        ),
+        h("p", { class: "sample" }, `${first.filter((v) => v !== "").join(" · ") || "empty"} …`),
+        h("p", { class: "range" }, h("small", null, rangeText(column, p))),
+      );
+    }),
+  );
+
+/** @param {Preview} p @param {string[]} names
+ * @param {(column: PreviewColumn, choice: object | null) => void} set */
+function sideBySide(p, names, set) {
+  const row = (/** @type {number} */ k) => p.sample[k] ?? [];
   return h(
     "table",
     { class: "data" },
