@@ -62,6 +62,26 @@ KIND_CASES = {
         {},
         "isotonic",
     ),
+    "weights one after the other": (
+        {
+            "time": TIME,
+            "pressure": 6e5 * SWEPT,
+            "length": 0.3 - 0.05 * SWEPT + 0.0001 * HELD_LENGTH,
+            "force": np.repeat([10.0, 30.0, 50.0], len(LOOP)),
+        },
+        {},
+        "isotonic",
+    ),
+    "steps of force at held pressures": (
+        {
+            "time": TIME,
+            "pressure": HELD,
+            "length": 0.3 - 0.05 * SWEPT,
+            "force": np.repeat([10.0, 30.0, 50.0], len(LOOP)),
+        },
+        {},
+        "isobaric",
+    ),
     "no force": ({"pressure": 6e5 * RAMP, "displacement": 0.04 * RAMP}, {"load_force": 60.0}, "isotonic"),
     "no force, in time": (
         {"time": RAMP, "pressure": 6e5 * RAMP, "displacement": 0.04 * RAMP},

@@ -19,6 +19,8 @@ STROKES = ("length", "contraction", "displacement")
 
 _GRAIN = 0.01  # of the range: two readings nearer than this are the same level
 _MANY = 25  # levels from which the finer axis of a grid is a sweep rather than a map
+_JUMP = 0.02  # of the range: where one load gives way to the next
+_FEWEST_IN_RUN = 5  # rows with one load
 _MANY_EXTREMES = 200_000  # walked one by one
 
 
@@ -38,10 +40,10 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
 
     1. time with a valve command: ``transient``.
     2. force, pressure and stroke: ``transient`` with time and a stated load mass; ``isotonic`` when the force
-       is held and both others vary; ``isobaric``/``isometric`` when pressure/stroke is held throughout.
-       Otherwise the occupied 1 % steps of both ranges are counted: a filled grid without time and direction
-       is ``static`` (unless one axis is fine, >= 25 levels and 4 times the other); an axis with at most half
-       the steps of the other is the held one; neither: ``static``.
+       is held, or held run by run, and both others vary; ``isobaric``/``isometric`` when pressure/stroke is
+       held throughout. Otherwise the occupied 1 % steps of both ranges are counted: a filled grid without
+       time and direction is ``static`` (unless one axis is fine, >= 25 levels and 4 times the other); an axis
+       with at most half the steps of the other is the held one; neither: ``static``.
     3. diameter with pressure or stroke: ``diameter``.
     4. pressure and stroke: ``transient`` with time, else ``isotonic``.
     5. time with pressure or stroke: ``transient``.
@@ -74,8 +76,11 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
 
 
 def _force_kind(pressure: Array, stroke: Array, force: Array, *, swept: bool) -> tuple[str, str]:
-    if np.any(force) and _held(force) and not _held(pressure) and not _held_stroke(stroke):
-        return "isotonic", "the force is held while pressure and stroke vary"
+    if np.any(force) and not _held(pressure) and not _held_stroke(stroke):
+        if _held(force):
+            return "isotonic", "the force is held while pressure and stroke vary"
+        if runs := _held_runs(force, pressure, stroke):
+            return "isotonic", f"the force is held {runs} times while pressure and stroke vary"
     if _held(pressure) != _held_stroke(stroke):
         if _held(pressure):
             return "isobaric", "the pressure is held throughout"
@@ -97,6 +102,19 @@ def _force_kind(pressure: Array, stroke: Array, force: Array, *, swept: bool) ->
 def _held(values: Array) -> bool:
     """Whether a pressure or force stays the same: within 2 % of its magnitude."""
     return bool(np.ptp(values) <= 0.02 * np.max(np.abs(values)))
+
+
+def _held_runs(force: Array, pressure: Array, stroke: Array) -> int:
+    """Number of runs of rows with a load each, while pressure and stroke vary; 0 where one is no such run."""
+    jumps = np.flatnonzero(np.abs(np.diff(force)) > _JUMP * np.ptp(force)) + 1
+    runs = np.split(np.arange(len(force)), jumps)
+    largest = np.max(np.abs(force))
+    for rows in runs:
+        if len(rows) < _FEWEST_IN_RUN or np.ptp(force[rows]) > _GRAIN * largest:
+            return 0
+        if any(np.ptp(values[rows]) < 0.2 * np.ptp(values) for values in (pressure, stroke)):
+            return 0
+    return len(runs)
 
 
 def _held_stroke(values: Array) -> bool:
