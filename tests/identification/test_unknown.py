@@ -148,3 +148,15 @@ def test_at_most_three_terms():
     assert term is not None
     assert len(term.coefficients) <= 6  # a wave has two
     assert 0.4 < term.share < 0.9
+
+
+def test_terms_that_vanish_wherever_they_would_act_are_passed_over():
+    """A muscle that moves at the lowest pressures only: a bump at 5 bar times the speed is nowhere."""
+    pressure = np.linspace(1e5, 6e5, ROWS)
+    bump = 60.0 * np.exp(-(((pressure - 3.2e5) / 2e4) ** 2))
+    velocity = np.where(pressure < 1.1e5, 0.02, 0.0)
+    with np.errstate(all="raise", under="ignore"):
+        term = proposed_term(bump + NOISE, {"pressure": pressure, "velocity": velocity}, np.zeros((ROWS, 1)))
+    assert term is not None
+    assert term.share > 0.8
+    assert np.sqrt(np.mean((term.values - bump) ** 2)) < 0.2 * np.sqrt(np.mean(bump**2))

@@ -107,7 +107,8 @@ def proposed_term(
     columns = np.column_stack([column for _, group in library for column in group])
     sizes = [len(group) for _, group in library]
     starts = np.concatenate([[0], np.cumsum(sizes)])
-    taken = np.empty((len(residual), 0)) if basis is None or not basis.size else np.linalg.qr(basis)[0]
+    basis = np.empty((len(residual), 0)) if basis is None else basis[:, np.any(basis, axis=0)]
+    taken = np.linalg.qr(basis)[0]
     left = residual - taken @ (taken.T @ residual)
     whole = float(left @ left)
     chosen: list[int] = []
@@ -117,7 +118,7 @@ def proposed_term(
         for number, start in enumerate(starts[:-1]):
             group = projected[:, start : starts[number + 1]]
             norm = np.linalg.norm(group, axis=0)
-            if np.any(norm < 1e-6 * np.linalg.norm(columns[:, start : starts[number + 1]], axis=0)):
+            if np.any(norm <= 1e-6 * np.linalg.norm(columns[:, start : starts[number + 1]], axis=0)):
                 gains.append(0.0)
                 continue
             solution = np.linalg.lstsq(group / norm, left, rcond=1e-8)[0]
@@ -132,7 +133,7 @@ def proposed_term(
     if not chosen:
         return None
     design = np.column_stack([columns[:, starts[n] : starts[n + 1]] for n in chosen])
-    whole_design = design if basis is None or not basis.size else np.column_stack([design, basis])
+    whole_design = np.column_stack([design, basis])
     weights = np.linalg.lstsq(whole_design / np.linalg.norm(whole_design, axis=0), residual, rcond=1e-10)[0]
     weights = (weights / np.linalg.norm(whole_design, axis=0))[: design.shape[1]]
     texts = [text for n in chosen for text in library[n][0]]
