@@ -178,3 +178,19 @@ def test_a_row_counts_once():
     result = made(columns, marked_slack=slack, excluded_rows={"one": bad, "two": bad})
     assert dict(result.exclusions) == {"slack": 10, "one": 10}
     assert np.count_nonzero(result.usable) == ROWS - 20
+
+
+def test_rows_in_which_the_muscle_pushes_are_left_out():
+    """A force that runs through zero and on, and not the flat reading of a slack muscle with a wrong zero."""
+    random = np.random.default_rng(4)
+    pull = 220.0 * (1.0 - TRIANGLE / 0.9)
+    read = pull + random.normal(0.0, 1.0, ROWS)
+    columns = {"time": TIME, "pressure": np.full(ROWS, 2e5), "length": 0.3 - 0.06 * TRIANGLE}
+    pushed = build({**columns, "force": read}, name="pushed", id="0")
+    reason, count = next(iter(pushed.exclusions.items()))
+    assert reason == "the muscle pushes (force below zero)"
+    assert count == pytest.approx(np.count_nonzero(pull < -3.0), rel=0.1)
+    slack = build({**columns, "force": np.maximum(pull, 0.0) - 15.0 + read - pull}, name="tared", id="1")
+    assert slack.exclusions == {}
+    wrong = build({**columns, "force": read - 150.0}, name="wrong zero", id="2")
+    assert wrong.exclusions == {}

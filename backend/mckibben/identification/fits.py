@@ -107,6 +107,10 @@ class Fits:
             return [whole]
         return [self.fit(node.setting, node.freed | {name}) for name in sorted(names)]
 
+    def holding(self, node: Node, name: str, value: float) -> Node:
+        """The model with a freed constant held at a value again, refitted."""
+        return self.fit(node.setting.with_numbers([name], [value]), node.freed - {name})
+
     def dropping(self, node: Node, effect_id: str) -> Node:
         """The model without an effect, refitted."""
         freed = frozenset(name for name in node.freed if not name.startswith(f"{effect_id}."))

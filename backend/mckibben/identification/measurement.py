@@ -23,7 +23,7 @@ from mckibben.identification.kind import (
     explain_kind,
     group_rows,
 )
-from mckibben.identification.saturation import unusable_rows
+from mckibben.identification.saturation import pushing_rows, unusable_rows
 from mckibben.identification.segments import Segments, segments_of
 from mckibben.physics.errors import InputError, did_you_mean
 
@@ -183,6 +183,10 @@ def build(
         notes.append(f"{np.count_nonzero(slack)} of {rows} rows hold no pulling force (slack)")
     if excluded_rows is None:
         excluded_rows = unusable_rows(table, kind, slack=slack)
+        if kind in FORCE_KINDS and ("time" in table or "direction" in table):
+            pushing = pushing_rows(table["force"])
+            if pushing.any():
+                excluded_rows |= {"the muscle pushes (force below zero)": pushing}
     notes += [
         f"{np.count_nonzero(bad)} of {rows} rows are excluded: {reason}"
         for reason, bad in excluded_rows.items()

@@ -31,6 +31,8 @@ _CORNER = 0.3  # a fifth of the way in less than this share of the rows: the sig
 _PACE = 0.25  # of the pace before: slower, and the other channels have stopped as well
 _SET_POINTS = 50  # a signal that stands at more levels than these is made to
 _MANY_RUNS = 2000
+_PUSH = 0.01  # of the largest force: a force that far below zero is no zero error of a good load cell
+_MOSTLY = 0.2  # share of rows below zero from which it is the zero that is wrong
 _EXAMINED = 200  # runs of one value; more are judged by these
 
 #: What may stand still because the muscle does, or because the test holds it.
@@ -85,6 +87,27 @@ def unusable_rows(
             if chosen.any():
                 found[f"{name} {reason}"] = _mask(bad.only(chosen), rows)
     return found
+
+
+def pushing_rows(force: Array) -> NDArray[np.bool_]:
+    """Rows in which the muscle pushes, shape (rows,); a model of its pull has nothing to say about them.
+
+    A force that falls further and further below zero is no noise, and no wrong zero either: behind that a
+    slack muscle shows one and the same force. Where more than a fifth of the rows are below zero it is the
+    zero that is wrong, and no row is marked.
+
+    Args:
+        force: [N], rows that follow each other, so that their scatter is noise.
+    """
+    noise, largest = noise_of(force), float(np.max(np.abs(force)))
+    clear = max(5.0 * noise, _PUSH * largest)
+    below = force < -clear
+    none = np.zeros(len(force), bool)
+    if not np.any(below) or np.mean(force < 0.0) > _MOSTLY:
+        return none
+    if np.subtract(*np.quantile(force[below], (0.75, 0.25))) < clear:  # all of them alike: slack
+        return none
+    return force < -max(3.0 * noise, 0.1 * _PUSH * largest)
 
 
 def _runs(values: Array) -> _Runs:

@@ -98,9 +98,31 @@ def exchanged(work: Fits, less: Node, effect: Effect) -> Node:
     return with_further_constants(work, work.adding(less, effect), [effect])
 
 
+def lean(work: Fits, node: Node, root: Node) -> Node:
+    """The node without freed constants that do not earn their price, which they may have done earlier."""
+    while True:
+        rows = _rows(work, node)
+        less = [work.holding(node, name, _held(name, node, root)) for name in sorted(node.freed - root.freed)]
+        less = [other for other in less if other.free and other.implausible <= node.implausible]
+        found = min(less, key=lambda n: score(n, rows=rows, noise=work.noise), default=node)
+        if score(found, rows=rows, noise=work.noise) >= score(node, rows=rows, noise=work.noise):
+            return node
+        node = found
+
+
+def _held(name: str, node: Node, root: Node) -> float:
+    """A further constant where no fit changes it: as the start model says, or the effect's default."""
+    effect_id, _, parameter = name.partition(".")
+    if effect_id in root.setting.ids:
+        return root.setting.number(name)
+    effect = next(effect for effect in node.setting.effects if effect.id == effect_id)
+    return effect.parameter(parameter).default
+
+
 def _polished(work: Fits, best: Node, root: Node) -> Node:
     """Drop what is not needed, exchange what another effect does better, until nothing changes."""
     start = set(root.setting.ids)
+    best = lean(work, best, root)
     for _ in range(_DEEPEST):
         rows = _rows(work, best)
         before = best
@@ -117,6 +139,7 @@ def _polished(work: Fits, best: Node, root: Node) -> Node:
             inside = set(best.setting.ids)
             others = [effect for effect in work.candidates if effect.id not in inside]
             swaps = [exchanged(work, less, effect) for effect in work.promising(less, others)[:_BEAM]]
+            swaps = [lean(work, node, root) if _as_good(node, best) else node for node in swaps]
             swaps = [node for node in swaps if node.implausible <= best.implausible]
             here = score(best, rows=rows, noise=work.noise)
             found = min(swaps, key=lambda node: score(node, rows=rows, noise=work.noise), default=best)
@@ -126,6 +149,10 @@ def _polished(work: Fits, best: Node, root: Node) -> Node:
         if best is before:
             return best
     return best
+
+
+def _as_good(node: Node, best: Node) -> bool:
+    return node.mean_square < (1.0 + _ALIKE) * best.mean_square
 
 
 def _different(nodes: Sequence[Node]) -> list[Node]:

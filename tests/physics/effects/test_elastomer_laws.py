@@ -14,7 +14,8 @@ from mckibben.physics.muscle import Muscle
 
 CATALOGUE = default_catalogue()
 MUSCLE = Muscle(0.3, 0.0218, radians(26.5), 0.0018)
-LATEX = {"shear_modulus": 118.4e3, "mooney_constant": 105.7e3}  # Klute & Hannaford 2000
+# Klute & Hannaford 2000
+LATEX = {"shear_modulus": 118.4e3, "mooney_constant": 105.7e3, "stiffening": 0.0}
 
 
 def tension(length: float, values: dict[str, float] = LATEX, muscle: Muscle = MUSCLE) -> float:
@@ -57,6 +58,19 @@ def test_tension_is_the_derivative_of_mooney_and_rivlins_energy() -> None:
         second = -2.0 * (lam**-3 + hoop**-3 * hoop_slope + radial**-3 * radial_slope)
         expected = rubber / 0.3 * (118.4e3 * first + 105.7e3 * second)
         assert tension(0.3 * lam) == pytest.approx(expected, rel=1e-11)
+
+
+def test_a_stiffening_wall_is_gents_to_second_order() -> None:
+    """-C10 J ln(1 - x/J), x = I1 - 3, of chains with a limit J, differentiated by hand; y = 1/(2 J)."""
+    limit = 200.0
+    cot2 = 1.0 / tan(MUSCLE.braid_angle) ** 2
+    for lam in (1.01, 0.97, 0.9):
+        hoop2 = 1.0 + cot2 * (1.0 - lam**2)
+        first = lam**2 + hoop2 + 1.0 / (lam**2 * hoop2) - 3.0
+        slope = 2.0 * lam - 2.0 * lam * cot2 - 2.0 / (lam**3 * hoop2) + 2.0 * cot2 / (lam * hoop2**2)
+        gent = pi * 0.0218 * 0.0018 * 250e3 * slope / (1.0 - first / limit)
+        wall = {"shear_modulus": 250e3, "mooney_constant": 0.0, "stiffening": 0.5 / limit}
+        assert tension(0.3 * lam, wall) == pytest.approx(gent, rel=2.0 * (first / limit) ** 2 + 1e-12)
 
 
 def test_stretch_pulls_and_contraction_pushes() -> None:

@@ -2,9 +2,13 @@ r"""Bladder elasticity: a hyperelastic wall that the braid forces to grow in dia
 
 With :math:`\lambda_z = L/L_0`, the braid ties the hoop stretch to the axial one,
 :math:`\lambda_\theta^2 = 1 + \cot^2\theta_0\,(1-\lambda_z^2)`, and incompressibility gives
-:math:`\lambda_r = 1/(\lambda_z\lambda_\theta)`. The Mooney-Rivlin energy of the wall volume
-:math:`\pi D_b H L_0` is neo-Hookean for :math:`C_{01}=0`. Because the hoop stretch dominates, the tension
-falls steeply over the first 5 % of contraction and then saturates, whatever the pressure.
+:math:`\lambda_r = 1/(\lambda_z\lambda_\theta)`. The energy of the wall volume :math:`\pi D_b H L_0` is
+
+.. math:: w = C_{10}\left[(I_1-3) + y\,(I_1-3)^2\right] + C_{01}\,(I_2-3)
+
+neo-Hookean for y = 0 and :math:`C_{01}=0`, Mooney-Rivlin for y = 0, Yeoh's of second order for
+:math:`C_{01}=0`. Because the hoop stretch dominates, the tension falls steeply over the first 5 % of
+contraction and then saturates, whatever the pressure; a stiffening wall (y > 0) goes on.
 """
 
 from mckibben.physics import ops
@@ -14,25 +18,25 @@ from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
 
-def energy(*, length: Value, muscle: Muscle, shear_modulus: Value, mooney_constant: Value) -> Value:
-    """Stored energy V_b [C10 (I1 - 3) + C01 (I2 - 3)] of the wall [J]; 0 at the nominal length."""
+def energy(
+    *, length: Value, muscle: Muscle, shear_modulus: Value, mooney_constant: Value, stiffening: Value
+) -> Value:
+    """Stored energy V_b {C10 [(I1-3) + y (I1-3)^2] + C01 (I2-3)} of the wall [J]; 0 at the nominal length."""
     axial = (length / muscle.nominal_length) ** 2
     hoop = 1.0 + (1.0 - axial) / ops.tan(muscle.braid_angle) ** 2
     radial = 1.0 / (axial * hoop)
     wall_volume = ops.pi * muscle.braid_diameter * muscle.wall_thickness * muscle.nominal_length
     first = axial + hoop + radial - 3.0
     second = 1.0 / axial + 1.0 / hoop + 1.0 / radial - 3.0
-    return wall_volume * (shear_modulus * first + mooney_constant * second)
+    return wall_volume * (shear_modulus * (first + stiffening * first**2) + mooney_constant * second)
 
 
-def elastomer(*, length: Value, muscle: Muscle, shear_modulus: Value, mooney_constant: Value) -> Value:
+def elastomer(
+    *, length: Value, muscle: Muscle, shear_modulus: Value, mooney_constant: Value, stiffening: Value
+) -> Value:
     """Tension dW/dL of the wall [N]; negative (it resists shortening) below the nominal length."""
-    return ops.derivative(
-        lambda x: energy(
-            length=x, muscle=muscle, shear_modulus=shear_modulus, mooney_constant=mooney_constant
-        ),
-        length,
-    )
+    constants = {"shear_modulus": shear_modulus, "mooney_constant": mooney_constant, "stiffening": stiffening}
+    return ops.derivative(lambda x: energy(length=x, muscle=muscle, **constants), length)
 
 
 _MAPS = Source("fit of the force maps of Martens & Boblan 2017, doi 10.3390/act6040033", "D")
@@ -52,7 +56,8 @@ EFFECT = Effect(
     cause="The elastomer wall is stretched around the muscle when the braid makes it thicker. Its energy "
     "has to be paid by the gas, so the muscle pulls less the more it is contracted.",
     equation=r"F_{bl} = \frac{\pi D_b H L_0}{L_0}\,\frac{d}{d\lambda_z}"
-    r"\left[C_{10}(I_1-3) + C_{01}(I_2-3)\right],\quad \lambda_\theta^2 = 1+\cot^2\theta_0\,(1-\lambda_z^2)",
+    r"\left[C_{10}\{(I_1-3)+y(I_1-3)^2\} + C_{01}(I_2-3)\right],\quad "
+    r"\lambda_\theta^2 = 1+\cot^2\theta_0\,(1-\lambda_z^2)",
     parameters=(
         Parameter(
             "shear_modulus",
@@ -77,6 +82,17 @@ EFFECT = Effect(
             off=0.0,
             fitted=False,
         ),
+        Parameter(
+            "stiffening",
+            "y",
+            "1",
+            0.0,
+            -0.3,
+            1.0,
+            Source("Yeoh's C20/C10; Gent's 1/(2 J_m): 0.005 of gum, 0.1 of highly filled rubber", "M"),
+            "Excess of the energy at large strain; 0 is a neo-Hookean wall, chains near their end have more.",
+            fitted=False,
+        ),
     ),
     slots={"elastomer": elastomer},
     needs=("wall_thickness",),
@@ -95,6 +111,7 @@ EFFECT = Effect(
         Twin("contraction_factor", "several pressures: the factor's share grows with pressure"),
     ),
     references=(
+        Source("Yeoh, Rubber Chem. Technol. 66 (1993) 754; Gent, ibid. 69 (1996) 59", "M"),
         Source("Klute & Hannaford, J. Dyn. Syst. Meas. Control 122 (2000) 386", "M"),
         Source("Martens & Boblan, Actuators 6(4):33 (2017), doi 10.3390/act6040033", "S2"),
     ),
