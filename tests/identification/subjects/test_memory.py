@@ -11,7 +11,16 @@ from mckibben.identification.subjects.quasistatic import Quasistatic
 from mckibben.identification.subjects.task import Task, task_of
 from mckibben.simulation.driven import driven_force
 from mckibben.simulation.static import StaticModel
-from tests.identification.synthetic import CATALOGUE, CYCLE_HEADER, MUSCLE, csv, cycle_rows, cycles, force_map
+from tests.identification.synthetic import (
+    CATALOGUE,
+    CYCLE_HEADER,
+    MUSCLE,
+    csv,
+    cycle_rows,
+    cycles,
+    force_map,
+    truth,
+)
 
 SLIP = {"force": 30.0, "break_strain": 0.02, "ratio": 2.0}
 
@@ -103,3 +112,19 @@ def test_derivatives_are_asked_for_where_there_are_any():
     by_hand = way / (0.01 * xb) * np.exp(-way / xb)  # d/d eps of -(1 - exp(-way/(eps L0)))
     derivative = found["dahl.break_strain"]["dahl.presliding"][:40]
     assert derivative == pytest.approx(by_hand, abs=0.02 * np.max(by_hand))
+
+
+def test_after_a_new_level_the_first_way_is_not_counted():
+    """3 mm of 20 mm at each pressure but the first; the history of the first is known: there was none."""
+    sweep = np.concatenate([np.linspace(0.30, 0.28, 101), np.linspace(0.28, 0.30, 101)[1:]])
+    lines = [
+        f"{(number * 203 + row) * 0.05},{pressure},{length},{truth(pressure, length)}"
+        for number, pressure in enumerate((2e5, 4e5, 6e5))
+        for row, length in enumerate(sweep)
+    ]
+    task = task_of(csv(lines, "time_s,pressure_Pa,length_m,force_N", "kind: isobaric"), MUSCLE)
+    unseen = task.turning.reshape(3, 201)
+    assert 0 < task.excluded["history unknown after a break"] <= 2 * 16  # some of them are turning points too
+    assert not unseen[0, 2:16].any()
+    assert unseen[1:, :16].all()
+    assert not unseen[:, 20:95].any()

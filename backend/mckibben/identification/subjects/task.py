@@ -9,6 +9,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
@@ -26,6 +27,9 @@ _UNSURE = 5.0  # times the usual uncertainty of the velocity ...
 _JUMP = 0.05  # ... and of the speed around: there it jumps
 _STILL = 0.25  # of the speed before and after: there it turns
 _SUDDEN = 4.0  # times the changes before and after
+_NEW_LEVEL = 0.05  # of the range of what is held, from one row to the next
+_FORGOTTEN = 0.15  # of the range of what is swept
+_HELD = {"isobaric": "pressure", "isometric": "length", "isotonic": "force"}
 _PAUSE = 3.0  # times the usual time between rows
 _FEW = 0.1  # share of the rows up to which that is an exception
 
@@ -129,6 +133,9 @@ def task_of(measurement: Measurement, muscle: Muscle) -> Task:
     ordered = "time" in columns
     turning = _turning(state["direction"], records) | unsure
     excluded["turning points"] = int(np.count_nonzero(turning & keep))
+    unseen = _after_breaks(measurement, length)
+    excluded["history unknown after a break"] = int(np.count_nonzero(unseen & keep & ~turning))
+    turning |= unseen
     return Task(
         kind,
         channel,
@@ -164,8 +171,7 @@ def _motion(
         if stroked and not moved.measured:
             unsure = _jumps(columns["time"], lengths(measurement, nominal_length), moved)
             # After a pause it moves already, or is still at rest: the file does not tell.
-            pause = np.diff(columns["time"]) > _PAUSE * np.median(np.abs(np.diff(columns["time"])))
-            unsure[1:] |= pause & (np.diff(columns["group"]) != 0)
+            unsure[1:] |= _pauses(columns["time"], columns["group"])
         messages += moved.messages
         if not known:
             direction, known = moved.direction, True
@@ -177,6 +183,35 @@ def _motion(
         messages.append("direction of motion unknown: friction cannot show in these rows")
         return velocity, np.zeros(measurement.rows), unsure
     return velocity, np.sign(direction).astype(float), unsure
+
+
+def _pauses(time: np.ndarray, group: np.ndarray) -> np.ndarray:
+    """Whether the recording paused before each row but the first, and went on with another group."""
+    steps = np.diff(time)
+    return (steps > _PAUSE * np.median(np.abs(steps))) & (np.diff(group) != 0)
+
+
+def _after_breaks(measurement: Measurement, length: np.ndarray | None) -> np.ndarray:
+    """Rows after a break in which what is held was set anew, until the muscle has forgotten the way there.
+
+    Such a break is a pause between groups, or a jump of the held quantity. What happened in it was not
+    recorded, and where friction was left by it is known only after some way.
+    """
+    columns, rows = measurement.columns, np.zeros(measurement.rows, bool)
+    if measurement.kind not in _HELD or "time" not in columns or length is None or measurement.rows < 3:
+        return rows
+    held = columns.get(_HELD[measurement.kind]) if measurement.kind != "isometric" else length
+    swept = length if measurement.kind == "isobaric" else columns["pressure"]
+    breaks = _pauses(columns["time"], columns["group"])
+    if held is not None:
+        jumps = np.abs(np.diff(held)) > _NEW_LEVEL * max(np.ptp(held), 0.2 * np.max(np.abs(held)))
+        breaks |= jumps & (np.diff(columns["group"]) != 0)
+    edges = [*(np.flatnonzero(breaks) + 1), measurement.rows]
+    for first, last in itertools.pairwise(edges):
+        moved = np.abs(swept[first:last] - swept[first]) > _FORGOTTEN * np.ptp(swept)
+        until = int(np.argmax(moved)) if np.any(moved) else 0
+        rows[first : first + min(until, (last - first) // 4)] = True
+    return rows
 
 
 def _jumps(time: np.ndarray, length: np.ndarray, moved: Motion) -> np.ndarray:
