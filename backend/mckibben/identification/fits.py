@@ -97,7 +97,7 @@ class Fits:
         return self.acts[effect.id]
 
     def freeing(self, node: Node, effect: Effect) -> list[Node]:
-        """The model with further constants of an effect freed: together, or each where that is too much."""
+        """The model with further constants of an effect freed: together, or fewer where that is too much."""
         names = {f"{effect.id}.{p.name}" for p in effect.parameters if not p.fitted} - node.freed
         names -= self._blind(node, names)
         if not names:
@@ -105,7 +105,9 @@ class Fits:
         whole = self.fit(node.setting, node.freed | names)
         if len(names) == 1 or whole.implausible <= node.implausible:
             return [whole]
-        return [self.fit(node.setting, node.freed | {name}) for name in sorted(names)]
+        stuck = {p.name for p, at in zip(whole.free, whole.at_bound, strict=True) if at}
+        fewer = [names - stuck] if 1 < len(names - stuck) < len(names) else []
+        return [self.fit(node.setting, node.freed | some) for some in (*fewer, *({n} for n in sorted(names)))]
 
     def holding(self, node: Node, name: str, value: float) -> Node:
         """The model with a freed constant held at a value again, refitted."""

@@ -13,9 +13,10 @@ CREEP = default_catalogue()["creep"]
 MULLINS = default_catalogue()["mullins"]
 
 
-def creep_force(velocity, time: np.ndarray) -> np.ndarray:
-    states = run(CREEP, lambda t: {"velocity": velocity(t)}, time, {"stiffness": 900.0, "time": 3.0})
-    return CREEP.call("friction", {}, {"stiffness": 900.0, **states})
+def creep_force(velocity, time: np.ndarray, **constants: float) -> np.ndarray:
+    values = CREEP.defaults | {"stiffness": 900.0, "time": 3.0} | constants
+    states = run(CREEP, lambda t: {"velocity": velocity(t)}, time, values)
+    return CREEP.call("friction", {}, {**values, **states})
 
 
 @pytest.mark.parametrize("frequency", [1e-3, 0.05, 1.0, 100.0])
@@ -33,6 +34,23 @@ def test_creep_has_the_moduli_of_three_maxwell_arms(frequency: float) -> None:
     assert loss > 0.0
     if frequency == 100.0:
         assert storage == pytest.approx(900.0, rel=0.01), "fast: all arms"
+
+
+def test_a_spread_of_one_is_a_single_arm() -> None:
+    """k v tau (1 - exp(-t/tau)) for a motion at constant speed, whatever the power."""
+    time = np.linspace(0.0, 12.0, 241)
+    expected = 900.0 * 0.002 * 3.0 * (1.0 - np.exp(-time / 3.0))
+    force = creep_force(lambda _: 0.002, time, spread=1.0, power=0.5)
+    np.testing.assert_allclose(force, expected, atol=1e-5)
+
+
+def test_a_power_makes_the_fast_arms_stronger() -> None:
+    """A step of 10 mm: k d sum w exp(-t/tau), w of the arms 10^0.4 : 1 : 10^-0.4."""
+    time = np.concatenate([np.linspace(0.0, 1e-4, 11), np.geomspace(1.1e-4, 100.0, 300)])
+    force = creep_force(lambda t: 100.0 if t < 1e-4 else 0.0, time, power=0.4)
+    weights = np.array([2.511886, 1.0, 0.398107])
+    decays = np.exp(-time[11:, None] / np.array([0.3, 3.0, 30.0]))
+    np.testing.assert_allclose(force[11:], 9.0 * decays @ weights / weights.sum(), atol=5e-3)
 
 
 def test_slow_motion_adds_nothing() -> None:

@@ -2,31 +2,33 @@ r"""Creep and relaxation of the elastomer: three Maxwell arms, a decade apart in
 
 With the extension :math:`d_j` of the spring in arm j, counted from when it was last relaxed,
 
-.. math:: F = \frac{k}{3}\sum_{j=1}^3 d_j, \qquad \dot d_j = \dot L - \frac{d_j}{\tau_j},
-   \quad \tau_j = \frac{\tau}{10},\ \tau,\ 10\,\tau
+.. math:: F = k\,\frac{\sum_j s_j^{-\alpha} d_j}{\sum_j s_j^{-\alpha}}, \qquad
+   \dot d_j = \dot L - \frac{d_j}{s_j\tau}, \qquad s_j = \frac{1}{s},\ 1,\ s
 
-Slow motion adds nothing, fast motion the stiffness k; three decades make a step relax nearly with log time.
+Slow motion adds nothing, fast motion the stiffness k. With a spread s of 10 a step relaxes nearly with the
+log of time for :math:`\alpha = 0`, with a power of time for :math:`\alpha > 0`; a spread of 1 is one arm.
 """
 
 from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
-# Names of the arms and their times over the middle one.
-_ARMS = {"fast": 0.1, "middle": 1.0, "slow": 10.0}
+_ARMS = ("fast", "middle", "slow")
 
 
-def friction(*, fast: Value, middle: Value, slow: Value, stiffness: Value) -> Value:
-    """Tension k (d1 + d2 + d3)/3 of the arms [N]; 0 when they are relaxed."""
-    return stiffness * (fast + middle + slow) / 3.0
+def friction(
+    *, fast: Value, middle: Value, slow: Value, stiffness: Value, spread: Value, power: Value
+) -> Value:
+    """Tension of the arms [N]; 0 when they are relaxed."""
+    strong, weak = spread**power, spread**-power
+    return stiffness * (strong * fast + middle + weak * slow) / (strong + 1.0 + weak)
 
 
-def rates(*, velocity: Value, fast: Value, middle: Value, slow: Value, time: Value) -> tuple[Value, ...]:
+def rates(
+    *, velocity: Value, fast: Value, middle: Value, slow: Value, time: Value, spread: Value
+) -> tuple[Value, ...]:
     """d/dt of the extensions [m/s]: v - d/tau."""
-    return tuple(
-        velocity - extension / (share * time)
-        for extension, share in zip((fast, middle, slow), _ARMS.values(), strict=True)
-    )
+    return (velocity - fast * spread / time, velocity - middle / time, velocity - slow / (spread * time))
 
 
 _FESTO = Source("relaxation of at most 3-4 % of the force in catalogues", "M")
@@ -39,8 +41,8 @@ EFFECT = Effect(
     type="dynamic",
     cause="Rubber flows back slowly after it was stretched. Held at a length the force drifts, and under a "
     "constant load and pressure the muscle goes on shortening for seconds to minutes.",
-    equation=r"F_{ve} = \frac{k}{3}\sum_j d_j,\quad \dot d_j = \dot L-\frac{d_j}{\tau_j},\quad "
-    r"\tau_j = \frac{\tau}{10},\,\tau,\,10\,\tau",
+    equation=r"F_{ve} = k\,\frac{\sum_j s_j^{-\alpha} d_j}{\sum_j s_j^{-\alpha}},\quad "
+    r"\dot d_j = \dot L-\frac{d_j}{s_j\tau},\quad s_j = \frac{1}{s},\,1,\,s",
     parameters=(
         Parameter(
             "stiffness",
@@ -61,7 +63,32 @@ EFFECT = Effect(
             0.3,
             100.0,
             _TIMES,
-            "Time constant of the middle arm; the others are a tenth and ten times of it.",
+            "Time constant of the middle arm.",
+            fitted=False,
+        ),
+        Parameter(
+            "spread",
+            "s",
+            "1",
+            10.0,
+            1.0,
+            30.0,
+            _TIMES,
+            "Ratio of the times of neighbouring arms; 1 is a single arm.",
+            fitted=False,
+            natural=True,
+        ),
+        Parameter(
+            "power",
+            r"\alpha",
+            "1",
+            0.0,
+            -0.3,
+            0.8,
+            Source(
+                "relaxation of filled rubber with a power of time, exponents of some 0.01 to some 0.1", "E"
+            ),
+            "How much stronger the faster arms are: weights with the power -alpha of their times.",
             fitted=False,
         ),
     ),
