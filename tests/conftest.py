@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import hypothesis
 import hypothesis.configuration
@@ -15,6 +16,28 @@ from tests.server import RunningServer
 # them as an explicit @example, not in a database that only one checkout has.
 hypothesis.settings.register_profile("mckibben", hypothesis.settings(), deadline=None, database=None)
 hypothesis.settings.load_profile("mckibben")
+
+
+# Where most of the time goes, the longest first. Whoever takes one of these last lets the other worker wait.
+LONGEST = (
+    "frontend/test_compare_flows.py",
+    "frontend/test_compare.py",
+    "api/test_schemathesis.py",
+    "frontend/test_transient.py",
+    "frontend/test_sizing.py",
+    "test_toolchain.py",
+    "frontend/test_design.py",
+    "frontend/test_accessibility.py",
+    "identification/test_hidden_effects.py",
+    "physics/test_effect_contract.py",
+)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with the longest files; the others keep their order."""
+    folder = Path(__file__).parent
+    rank = {folder / name: number for number, name in enumerate(LONGEST)}
+    items.sort(key=lambda item: rank.get(item.path, len(rank)))
 
 
 def pytest_configure(config: pytest.Config) -> None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
-from collections.abc import Iterator
+from collections.abc import Coroutine, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import pytest
 from fastapi import FastAPI
@@ -15,6 +17,7 @@ from mckibben.api.app import create_app
 from mckibben.api.settings import Settings
 from mckibben.simulation.engine import kernel
 
+T = TypeVar("T")
 URL = "http://127.0.0.1:8000"
 CSV = b"# kind: static\npressure_bar;length_mm;force_N\n" + b"".join(
     f"{p};{length};{100 * p + length / 10:.1f}\n".encode() for p in (1, 2, 3) for length in (280, 290, 300)
@@ -80,3 +83,9 @@ def assert_error(response: Any, status: int, *, code: str | None = None, field: 
 def post(client: TestClient, path: str, body: object) -> Any:
     """POST a JSON body."""
     return client.post(path, content=json.dumps(body), headers={"content-type": "application/json"})
+
+
+def run_async(work: Coroutine[Any, Any, T]) -> T:
+    """What asynchronous work returns; in a thread, for the browser tests keep a loop running in this one."""
+    with ThreadPoolExecutor(1) as thread:
+        return thread.submit(asyncio.run, work).result()

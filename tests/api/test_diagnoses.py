@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 import threading
 from collections.abc import Iterator
@@ -21,7 +20,7 @@ from mckibben.api.schemas.diagnoses import Candidate, DiagnosisAnswer, Diagnosis
 from mckibben.api.settings import Settings
 from mckibben.physics.errors import InputError
 from mckibben.simulation.outcome import Outcome, Watch
-from tests.api.conftest import URL, assert_error, post
+from tests.api.conftest import URL, assert_error, post, run_async
 from tests.api.test_simulations import events_of
 from tests.identification.synthetic import CYCLE_HEADER, cycle_rows, text
 
@@ -427,7 +426,7 @@ def test_closing_the_stream_ends_the_search(app: FastAPI, client: TestClient, ru
             assert b"progress" in bytes(await anext(stream))  # type: ignore[arg-type]
         await stream.aclose()  # type: ignore[union-attr]
 
-    asyncio.run(listen_and_leave())
+    run_async(listen_and_leave())
     assert over.wait(60)
     assert [getattr(end, "code", None) for end in ends] == ["stopped"]
 

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import asyncio
-
 import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 from starlette.types import Message
 
 from mckibben.api.settings import Settings
-from tests.api.conftest import URL, assert_error, post
+from tests.api.conftest import URL, assert_error, post, run_async
 
 DMSP = {"preset": "DMSP-20"}
 
@@ -269,7 +267,7 @@ def test_hanging_up_within_a_body_is_nobodys_error(
         "query_string": b"name=a.csv",
         "headers": [(b"host", b"127.0.0.1"), (b"content-length", b"1000")],
     }
-    asyncio.run(app(scope, receive, send))
+    run_async(app(scope, receive, send))
     assert not caplog.records
     assert not sent
     assert not [path for path in settings.data.rglob("*") if path.is_file()]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 import threading
 import time
@@ -25,7 +24,7 @@ from mckibben.drive_input import drive_of
 from mckibben.simulation.engine import kernel
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.timing import FIGURES
-from tests.api.conftest import assert_error, post
+from tests.api.conftest import assert_error, post, run_async
 from tests.server import RunningServer
 
 PATH = "/api/simulations"
@@ -307,7 +306,7 @@ def test_closing_a_stream_ends_the_work() -> None:
         assert b"progress" in bytes(await anext(stream))  # type: ignore[arg-type]
         await stream.aclose()  # type: ignore[union-attr]
 
-    asyncio.run(listen_and_leave())  # waits for the thread
+    run_async(listen_and_leave())  # waits for the thread
     assert ends == [Outcome.CANCELLED]
 
 
@@ -318,7 +317,7 @@ def test_leaving_without_a_stream_ends_the_work() -> None:
         return {"type": "http.disconnect"}
 
     request = Request({"type": "http", "headers": []}, gone)
-    assert asyncio.run(finished(request, until_cancelled(ends))) == "cancelled"
+    assert run_async(finished(request, until_cancelled(ends))) == "cancelled"
     assert ends == [Outcome.CANCELLED]
 
 
@@ -329,7 +328,7 @@ def test_an_unexpected_error_in_a_stream_tells_no_traceback(caplog: pytest.LogCa
     async def listen() -> list[bytes]:
         return [bytes(part) async for part in events(broken).body_iterator]  # type: ignore[arg-type]
 
-    name, data = events_of(b"".join(asyncio.run(listen())).decode())[-1]
+    name, data = events_of(b"".join(run_async(listen())).decode())[-1]
     assert name == "error"
     assert data["error"]["code"] == "internal_error"
     assert "secret" not in json.dumps(data)

@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 from playwright.sync_api import FilePayload, Page, expect
 
+from tests.frontend.diagnoses import remember
 from tests.frontend.views import open_compare
 
 NOISE = 2.0  # N
@@ -77,6 +78,7 @@ def diagnosed(page: Page, within: float = 60_000) -> None:
 
 def opened(page: Page, *files: FilePayload) -> None:
     """The view with these files, compared and diagnosed."""
+    remember(page)
     open_compare(page)
     choose(page, *files)
     expect(page.locator("#error-now")).to_be_visible(timeout=20_000)

@@ -22,6 +22,7 @@ from tests.frontend.comparing import (
     measured,
     opened,
 )
+from tests.frontend.diagnoses import remember
 from tests.frontend.guard import PageGuard
 from tests.frontend.views import REFUSED, open_compare, redo, run
 from tests.truth.generate import case
@@ -246,6 +247,7 @@ def test_the_verdict_names_each_effect_and_what_it_cannot_be_told_from(
 @pytest.mark.parametrize("tile", ["DMSP-10-250", "DMSP-20-300"])
 def test_no_equation_is_cut_without_a_way_to_see_it(page: Page, tile: str) -> None:
     page.set_viewport_size({"width": 1440, "height": 1000})
+    remember(page)
     open_compare(page)
     page.locator(".tile", has_text=tile).click()
     expect(page.locator("html")).to_have_attribute("data-diagnosis", "done", timeout=60_000)

@@ -8,6 +8,8 @@ from typing import Any
 
 from playwright.sync_api import Locator, Page, expect
 
+from tests.frontend.diagnoses import remember
+
 SIZES = ((1440, 1000), (1024, 800), (390, 844))
 REFUSED = "status of 422"  # what the console says when the server refuses an input
 
@@ -41,6 +43,7 @@ def open_compare(page: Page) -> None:
 
 def open_compared(page: Page) -> None:
     """The Compare & diagnose view with a built-in measurement and its diagnosis."""
+    remember(page)
     open_compare(page)
     page.locator(".tile", has_text="DMSP-20-300").click()
     expect(page.locator("html")).to_have_attribute("data-diagnosis", "done", timeout=60_000)

@@ -1,10 +1,11 @@
 r"""The supply gives way: its pressure falls with the flow drawn, and recovers.
 
-With the drop d below the nominal supply pressure and the flow :math:`q = \dot m/\rho_0`
+With the drop d below the nominal supply pressure, the flow :math:`q = \dot m/\rho_0` and :math:`d_1` = 1 bar
 
-.. math:: p_s = p_{s,0} - d, \qquad \tau\,\dot d = R\,q - d
+.. math:: p_s = p_{s,0} - d, \qquad \tau\,\dot d = R\,q - d\left(\frac{d}{d_1}\right)^{m-1}
 
-R is the droop of the pressure regulator; a reservoir of volume :math:`V_r = \tau R_g T\rho_0/R`
+R is the droop of what refills, at a drop of 1 bar: linear (m = 1) for a pressure regulator, with the root of
+the drop (m = 0.5) for an orifice or a long line. A reservoir of volume :math:`V_r = \tau R_g T\rho_0/R`
 (:math:`\tau p_0/R`, 2.5 l with the defaults) makes it slow.
 """
 
@@ -13,6 +14,9 @@ from mckibben.physics.effect import Effect, Example, Signature, StateVariable, T
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
+_REFERENCE = 1e5  # Pa
+_ROUNDING = 0.01
+
 
 def supply(*, supply_pressure: Value, drop: Value, droop: Value) -> Value:
     """p_s - d [Pa]."""
@@ -20,9 +24,14 @@ def supply(*, supply_pressure: Value, drop: Value, droop: Value) -> Value:
     return supply_pressure - ops.where(ops.greater(droop, 0.0), drop, 0.0)
 
 
-def drive_rates(*, supply_flow: Value, drop: Value, droop: Value, time: Value) -> tuple[Value]:
-    """dd/dt [Pa/s]; steady at the droop times the flow, back to 0 without flow."""
-    return ((droop * supply_flow / gas.ANR_DENSITY - drop) / time,)
+def drive_rates(
+    *, supply_flow: Value, drop: Value, droop: Value, time: Value, exponent: Value
+) -> tuple[Value]:
+    """dd/dt [Pa/s]; steady at the droop times the flow where m is 1, back to 0 without flow."""
+    bars = drop / _REFERENCE
+    # |d| is rounded below 1 kPa, where the slope of a root would be infinite.
+    refilled = drop * ops.exp(0.5 * (exponent - 1.0) * ops.log(bars**2 + _ROUNDING**2))
+    return ((droop * supply_flow / gas.ANR_DENSITY - refilled) / time,)
 
 
 _DROOP = Source("0.02-0.5 bar per l/s for small regulators", "E")
@@ -35,7 +44,8 @@ EFFECT = Effect(
     type="dynamic",
     cause="The pressure regulator and the line before the valve pass a limited flow. While the muscle fills, "
     "the supply pressure falls and takes a while to come back.",
-    equation=r"p_s = p_{s,0}-d,\quad \tau\,\dot d = R\,\frac{\dot m}{\rho_0}-d",
+    equation=r"p_s = p_{s,0}-d,\quad "
+    r"\tau\,\dot d = R\,\frac{\dot m}{\rho_0}-d\left(\frac{d}{d_1}\right)^{m-1}",
     parameters=(
         Parameter(
             "droop",
@@ -58,6 +68,18 @@ EFFECT = Effect(
             _RESERVOIR,
             "Time in which the supply falls and recovers.",
             fitted=False,
+        ),
+        Parameter(
+            "exponent",
+            "m",
+            "1",
+            1.0,
+            0.5,
+            1.0,
+            Source("flow over a pressure drop: laminar or regulated 1, turbulent 0.5", "D"),
+            "How the flow that refills grows with the drop: 1 a regulator, 0.5 an orifice or a long line.",
+            fitted=False,
+            natural=True,
         ),
     ),
     slots={"supply": supply, "drive_rates": drive_rates},
@@ -87,6 +109,16 @@ EFFECT = Effect(
             {"droop": 2e7, "time": 0.5},
             {},
             {"supply_flow": 1.185e-3, "drop": 5e3},
+        ),
+        Example(
+            # (2e7 * 4e-3 - 1e5 sqrt(0.25))/0.5
+            "slot:drive_rates",
+            6e4,
+            1e-3,
+            _BY_HAND,
+            {"droop": 2e7, "time": 0.5, "exponent": 0.5},
+            {},
+            {"supply_flow": 4.74e-3, "drop": 2.5e4},
         ),
     ),
 )
