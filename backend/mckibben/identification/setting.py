@@ -21,7 +21,6 @@ _UNITS = {name: "rad" if name == "braid_angle" else "m" for name in GEOMETRY} | 
 # How far a fit may take a geometry field whose tolerance is not known: +- rad or share of the value.
 _DEFAULT_TOLERANCE = {"braid_angle": 0.06, "nominal_length": 0.02}
 _DEFAULT_SHARE = 0.10
-_USUAL_SHARE = 0.1  # of its range: a usual change of a share that is 0 by default
 
 
 @dataclass(frozen=True)
@@ -115,7 +114,7 @@ def free_numbers(
 def _free(effect: str, p: Parameter, value: float) -> Free:
     usual = abs(p.default) if p.off is None else abs(p.default - p.off)
     if not usual and p.natural:
-        usual = _USUAL_SHARE * (p.upper - p.lower)
+        usual = p.upper - p.lower  # a share that is 0 by default
     return Free(f"{effect}.{p.name}", value, p.lower, p.upper, p.unit, p.off, usual or None, p.natural)
 
 

@@ -84,7 +84,10 @@ def _filtered(time: np.ndarray, signal: np.ndarray, constants: Sequence[float]) 
     """Behind all stages. Equal ones are taken a millionth apart, which no reading shows."""
     apart = [constant * (1.0 + _APART * number) for number, constant in enumerate(constants)]
     weights = [np.prod([own / (own - other) for other in apart if other != own]) for own in apart]
-    return sum(w * _lagged(time, signal, own) for w, own in zip(weights, apart, strict=True))
+    shown = np.zeros_like(signal)
+    for weight, own in zip(weights, apart, strict=True):
+        shown += weight * _lagged(time, signal, own)
+    return shown
 
 
 def _lagged(time: np.ndarray, signal: np.ndarray, constant: float) -> np.ndarray:

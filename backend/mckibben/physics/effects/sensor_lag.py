@@ -2,7 +2,7 @@ r"""Low-pass filters of the sensors and their amplifiers, one or two stages per 
 
 .. math:: \tau\,\dot y = r - y,\qquad \varsigma\tau\,\dot z = y - z
 
-A stage below a microsecond is passed by. A lag makes loops that look like hysteresis, of the width
+A stage below 10 microseconds is passed by. A lag makes loops that look like hysteresis, of the width
 :math:`2\tau(1+\varsigma)|\dot F|`; the same lag on all channels makes none.
 """
 
@@ -11,7 +11,7 @@ from mckibben.physics.effect import Effect, Example, Signature, StateVariable, T
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
-_SHORTEST = 1e-6  # s
+_SHORTEST = 1e-5  # s
 
 
 def _read(reading: Value, first: Value, second: Value, time: Value, share: Value) -> Value:
