@@ -53,6 +53,24 @@ def of_friction(noise: float) -> Diagnosis:
     return diagnosis(cycles(coulomb, noise=noise, each=30, second=3.0))
 
 
+# --- made-up data without noise
+
+
+def test_data_without_noise_end_at_their_digits():
+    found = diagnosis(force_map(prestress=-30.0))
+    assert (found.status, found.added) == ("ambiguous", ("prestress",))
+    assert found.best.setting.values["prestress"]["force"] == pytest.approx(-30.0, rel=1e-6)
+    assert {other.effect for other in found.alternatives} == {"force_offset"}
+
+
+def test_what_changes_nothing_has_no_twins():
+    """Without motion or a change of temperature several candidates do nothing, and are not alike for that."""
+    found = diagnosis(force_map(noise=2.0, prestress=-30.0))
+    idle = [candidate for candidate in found.candidates if abs(candidate.gain) < 1e-3]
+    assert len(idle) > 3
+    assert all(candidate.twins == () for candidate in idle)
+
+
 # --- nothing is missing
 
 

@@ -47,7 +47,9 @@ def test_a_constant_force_is_never_told_from_another():
     words, apart = separation(setting(prestress={"force": 40.0}), setting(force_offset={}), TESTS, noise=1.0)
     assert apart < 0.5
     text = Proposal("prestress", "force_offset", "remove the muscle", words or "any", apart).sentence({})
-    assert "no simulated force measurement" in text
+    assert "a force measurement alone does not" in text
+    text = Proposal("prestress", "force_offset", "", words or "any", apart).sentence({})
+    assert "no simulated force measurement separates them, and no other experiment is known" in text
 
 
 def test_friction_and_damping_differ_over_speed():

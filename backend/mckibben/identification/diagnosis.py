@@ -17,13 +17,17 @@ from mckibben.identification.score import effective_rows, score
 from mckibben.identification.search import search
 from mckibben.identification.setting import Setting
 from mckibben.identification.subjects.subject import Subject
-from mckibben.identification.twins import Alternative, alternatives, same_predictions
+from mckibben.identification.twins import Alternative, alternatives, same, same_predictions
 from mckibben.identification.unknown import Structure, Term, proposed_term
 from mckibben.identification.vent import Vented, vented
 from mckibben.identification.verdict import is_force, left_structure, messages, proposals, status_of
 from mckibben.identification.why import Seen, seen, why
 from mckibben.physics.effect import Effect
 from mckibben.simulation.outcome import Outcome, Watch
+
+#: Values that a diagnosis needs at least: fewer than these many effects fit by themselves.
+FEWEST_VALUES = 12
+_DIGITS = 1e-9  # of the largest value
 
 
 @dataclass(frozen=True)
@@ -189,14 +193,16 @@ def _diagnose(
     progress.share, progress.end = 0.45, 0.85
     best = search(work, root, singles=[node for _, node in singles])
     work.noise, how = noise_of(subject, best.residual, noise)
-    level = work.noise or best.rmse
+    # Made-up data have no noise: what differs by less than their digits is the same.
+    level = max(work.noise or best.rmse, _DIGITS * float(np.max(np.abs(subject.measured / subject.scale))))
     progress.share, progress.end = 0.85, 0.95
     path = _path(work, start, root, best, vent)
     added = tuple(step.added for step in path if step.added)
     proven = () if vent is None else (vent.effect.id,)
     others = tuple(alternatives(work, best, [name for name in added if name not in proven], level))
     fit = _final_fit(subject, best)
-    alike = same_predictions([(effect.id, node) for effect, node in singles], level)
+    changing = [(effect.id, node) for effect, node in singles if not same(node, root, level)]
+    alike = same_predictions(changing, level)
     ranked = sorted(
         (
             _candidate(work, root, effect, node, before, alike.get(effect.id, ()))

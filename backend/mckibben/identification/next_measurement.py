@@ -56,8 +56,10 @@ class Proposal:
         parts = [f"{pair}: {self.declared}" if self.declared else f"{pair}:"]
         if self.protocol and self.separation >= 1.0:
             parts.append(f"simulated best: {self.protocol} ({self.separation:.1f} sigma apart)")
+        elif self.protocol and self.declared:
+            parts.append("a force measurement alone does not: no simulated one separates them")
         elif self.protocol:
-            parts.append("no simulated force measurement separates them; it takes the declared experiment")
+            parts.append("no simulated force measurement separates them, and no other experiment is known")
         return "; ".join(part.rstrip(":") for part in parts)
 
 

@@ -62,10 +62,15 @@ def same_predictions(nodes: Sequence[tuple[str, Node]], noise: float) -> dict[st
     found: dict[str, list[str]] = {name: [] for name, _ in nodes}
     for number, (first, one) in enumerate(nodes):
         for second, two in nodes[number + 1 :]:
-            if np.mean((one.residual - two.residual) ** 2) < (SAME * noise) ** 2:
+            if same(one, two, noise):
                 found[first].append(second)
                 found[second].append(first)
     return found
+
+
+def same(one: Node, two: Node, noise: float) -> bool:
+    """Whether two fitted models predict the same as far as the noise lets see."""
+    return bool(np.mean((one.residual - two.residual) ** 2) < (SAME * noise) ** 2)
 
 
 def _cosine(first: np.ndarray, second: np.ndarray) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 
@@ -31,6 +32,12 @@ def did_you_mean(word: str, options: Iterable[str]) -> str | None:
     known = sorted(options)
     by_lower = {option.lower(): option for option in known}
     near = get_close_matches(word.lower(), by_lower, n=1, cutoff=0.6)
-    if near:
+    if not near:  # a part of one name alone, as "blader" of "bladder_elasticity"
+        parts = [(p, option) for option in by_lower for p in re.split(r"[^a-z0-9]+", option) if len(p) > 3]
+        nearest = get_close_matches(word.lower(), {part for part, _ in parts}, n=1, cutoff=0.75)
+        near = [option for part, option in parts if part in nearest]
+    if len(near) == 1:
         return f"Did you mean '{by_lower[near[0]]}'?"
+    if 1 < len(near) <= 4:
+        return f"Did you mean one of {', '.join(sorted(by_lower[option] for option in near))}?"
     return f"Known: {', '.join(known)}." if 0 < len(known) <= 60 else None

@@ -11,7 +11,7 @@ from mckibben.api.answers.asked import Asked
 from mckibben.api.answers.start import Json, geometry_json
 from mckibben.api.answers.wording import sentence_of
 from mckibben.identification.compare import check_finite, parameter_table
-from mckibben.identification.diagnosis import Candidate, Diagnosis, diagnose
+from mckibben.identification.diagnosis import FEWEST_VALUES, Candidate, Diagnosis, diagnose
 from mckibben.identification.fits import CancelledError
 from mckibben.identification.next_measurement import declared
 from mckibben.identification.node import Node
@@ -51,6 +51,12 @@ def prepare(asked: Asked, studio: Studio) -> Callable[[Watch], Json]:
         notes.append(less.message)
     subject = subject_of(used, setting.muscle, asked.drive)
     check_finite(subject, setting)
+    if len(subject.measured) < FEWEST_VALUES:
+        raise InputError(
+            f"{measurement.name}: {len(subject.measured)} values are too few for a diagnosis",
+            field="measurement",
+            hint=f"measure at least {FEWEST_VALUES}, at several pressures or lengths; 'compare' takes fewer",
+        )
     geometry = free_geometry(
         setting.muscle, asked.free, {} if asked.start.preset is None else asked.start.preset.tolerance
     )
