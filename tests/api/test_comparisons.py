@@ -118,7 +118,8 @@ def test_friction_is_seen_over_the_direction_and_in_the_loops(
     assert len(answer["loops"]) == 3
     for loop in answer["loops"]:
         assert 0.048 - 2 * 0.0012 - 1e-9 < loop["span"] < 0.048 + 1e-9
-        assert loop["area"] == pytest.approx(2 * 2 * 15.0 * loop["span"], rel=0.05)
+        # After the first pressure 15 % of the first and of the last way are not counted, 7.5 % of all.
+        assert 0.89 < loop["area"] / (2 * 2 * 15.0 * loop["span"]) < 1.03
     assert answer["whiteness"]["white"] is False
     assert "direction" in answer["sentences"][0] or "lengthening" in answer["sentences"][0]
     assert answer["sentences"][-1] == "the residual is not noise: it has structure"
@@ -143,7 +144,7 @@ def test_the_map_covers_pressure_and_contraction(shared_client: TestClient, rubb
     # The turning rows at both ends, 0.004 apart from the next ones, may be left out.
     assert chart["x_edges"][0] == pytest.approx(0.0, abs=0.0041)
     assert chart["x_edges"][-1] == pytest.approx(0.16, abs=0.0041)
-    assert sum(map(sum, chart["count"])) == answer["rows_used"] > 460
+    assert sum(map(sum, chart["count"])) == answer["rows_used"] > 440
     for means, counts in zip(chart["mean"], chart["count"], strict=True):
         for mean, count in zip(means, counts, strict=True):
             assert (mean is None) == (count == 0)
@@ -228,9 +229,9 @@ def test_validation_is_judged_by_and_not_fitted_to(shared_client: TestClient, ru
     ComparisonAnswer.model_validate_json(response.content)
     answer = response.json()
     assert answer["parameters"]["coulomb_friction"]["force"]["value"] == pytest.approx(15.0, abs=0.3)
-    assert answer["rows_used"] + answer["excluded"]["turning points"] == 480
+    assert answer["rows_used"] + sum(answer["excluded"].values()) == 480
     validation = answer["validation"]
-    assert 150 < validation["rows_used"] < 160  # the turning rows are left out
+    assert 140 < validation["rows_used"] < 160  # without turning rows and the first after a break
     assert validation["rmse"] == pytest.approx((15.0**2 + 1.0) ** 0.5, rel=0.03)
     assert {series["use"] for series in validation["series"]} == {"validation"}
     assert compare(shared_client, IDEAL, rubbing)["validation"] is None

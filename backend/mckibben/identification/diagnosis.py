@@ -26,7 +26,7 @@ from mckibben.physics.effect import Effect
 from mckibben.simulation.outcome import Outcome, Watch
 
 #: Values that a diagnosis needs at least: fewer than these many effects fit by themselves.
-FEWEST_VALUES = 12
+FEWEST_VALUES = 6
 _DIGITS = 1e-9  # of the largest value
 
 

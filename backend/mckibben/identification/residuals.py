@@ -211,12 +211,18 @@ def loops(force: np.ndarray, length: np.ndarray, groups: np.ndarray) -> list[dic
     r"""Area :math:`\oint r\,dL` of the force residual over each group that returns to where it began [J].
 
     Positive areas take energy out of the motion, as friction does; negative ones cannot come from friction.
+    What follows the last return is not part of the loop: the way there may not have been counted.
     """
     found = []
     for label in np.unique(groups):
         rows = np.flatnonzero(groups == label)
+        whole = float(np.ptp(length[rows]))
+        away = np.abs(length[rows] - length[rows[0]])
+        near = np.flatnonzero(away <= 0.1 * whole)
+        last = near[np.flatnonzero(np.diff(near, prepend=-2) > 1)[-1] :]  # the last time it comes by
+        rows = rows[: last[np.argmin(away[last])] + 1]
         span = float(np.ptp(length[rows]))
-        if len(rows) < 8 or abs(length[rows[-1]] - length[rows[0]]) > 0.1 * span:
+        if len(rows) < 8 or span < 0.5 * whole:
             continue
         middle = 0.5 * (force[rows][1:] + force[rows][:-1])
         found.append(

@@ -208,7 +208,7 @@ def _after_breaks(measurement: Measurement, length: np.ndarray | None) -> np.nda
         breaks |= jumps & (np.diff(columns["group"]) != 0)
     edges = [*(np.flatnonzero(breaks) + 1), measurement.rows]
     for first, last in itertools.pairwise(edges):
-        moved = np.abs(swept[first:last] - swept[first]) > _FORGOTTEN * np.ptp(swept)
+        moved = np.abs(swept[first:last] - swept[first]) > _FORGOTTEN * np.ptp(swept[first:last])
         until = int(np.argmax(moved)) if np.any(moved) else 0
         rows[first : first + min(until, (last - first) // 4)] = True
     return rows
