@@ -29,7 +29,6 @@ _STILL = 0.25  # of the speed before and after: there it turns
 _SUDDEN = 4.0  # times the changes before and after
 _NEW_LEVEL = 0.05  # of the range of what is held, from one row to the next
 _FORGOTTEN = 0.15  # of the range of what is swept
-_HELD = {"isobaric": "pressure", "isometric": "length", "isotonic": "force"}
 _PAUSE = 3.0  # times the usual time between rows
 _FEW = 0.1  # share of the rows up to which that is an exception
 
@@ -198,10 +197,14 @@ def _after_breaks(measurement: Measurement, length: np.ndarray | None) -> np.nda
     recorded, and where friction was left by it is known only after some way.
     """
     columns, rows = measurement.columns, np.zeros(measurement.rows, bool)
-    if measurement.kind not in _HELD or "time" not in columns or length is None or measurement.rows < 3:
+    ways = {  # what is held and what is swept
+        "isobaric": (columns.get("pressure"), length),
+        "isometric": (length, columns.get("pressure")),
+        "isotonic": (columns.get("force"), columns.get("pressure")),
+    }
+    held, swept = ways.get(measurement.kind, (None, None))
+    if swept is None or "time" not in columns or measurement.rows < 3:
         return rows
-    held = columns.get(_HELD[measurement.kind]) if measurement.kind != "isometric" else length
-    swept = length if measurement.kind == "isobaric" else columns["pressure"]
     breaks = _pauses(columns["time"], columns["group"])
     if held is not None:
         jumps = np.abs(np.diff(held)) > _NEW_LEVEL * max(np.ptp(held), 0.2 * np.max(np.abs(held)))
