@@ -22,13 +22,9 @@ from mckibben.physics.errors import InputError
 from mckibben.simulation.outcome import Outcome, Watch
 from tests.api.conftest import URL, assert_error, post, run_async
 from tests.api.test_simulations import events_of
-from tests.identification.synthetic import CYCLE_HEADER, cycle_rows, text
+from tests.identification.synthetic import BRAID, CYCLE_HEADER, LIFT, cycle_rows, text
 
 PATH = "/api/diagnoses"
-MUSCLE = {
-    "braid_diameter": "21.8 mm", "braid_angle": "26.5 deg", "nominal_length": "300 mm",
-    "wall_thickness": "1.8 mm", "inside_diameter": "20 mm",
-}  # fmt: skip
 PROMISED = {
     "kind", "rows", "predicted", "unit", "baseline", "noise_floor", "where", "candidates", "path", "verdict",
     "model", "rows_used", "excluded", "channels", "parameters", "correlations", "geometry", "freed",
@@ -79,14 +75,14 @@ def other(client: TestClient) -> str:
 
 def diagnose(client: TestClient, **options: Any) -> dict[str, Any]:
     """A checked answer."""
-    response = post(client, PATH, {"muscle": MUSCLE, **options})
+    response = post(client, PATH, {"muscle": BRAID, **options})
     assert response.status_code == 200, response.text
     DiagnosisAnswer.model_validate_json(response.content)
     return response.json()
 
 
 def compare(client: TestClient, **options: Any) -> dict[str, Any]:
-    response = post(client, "/api/comparisons", {"muscle": MUSCLE, **options})
+    response = post(client, "/api/comparisons", {"muscle": BRAID, **options})
     assert response.status_code == 200, response.text
     return response.json()
 
@@ -269,22 +265,11 @@ def test_prestress_and_zero_error_of_the_sensor_are_one_group(client: TestClient
 
 # --- transients
 
-DRIVE: dict[str, Any] = {
-    "muscle": MUSCLE,
-    "effects": {},
-    "supply": {"pressure": "6 bar"},
-    "valve": {"sonic_conductance": "0.4 l/(s*bar)", "critical_pressure_ratio": 0.3},
-    "load": {"mass": "12 kg"},
-    "command": {"shape": "pulse", "on": "0 s", "off": "1 s"},
-    "stops": {"min_contraction": 0.0, "max_contraction": 0.35},
-    "duration": "2 s",
-}
-
 
 @pytest.fixture(scope="module")
 def lifted(client: TestClient) -> str:
     """A run of the drive with a damping that the model does not have."""
-    hidden = {**DRIVE, "effects": {"viscous_damping": {"coefficient": "300 N*s/m"}}}
+    hidden = {**LIFT, "effects": {"viscous_damping": {"coefficient": "300 N*s/m"}}}
     run = post(client, "/api/simulations", {"drive": hidden, "points": 201}).json()
     random = np.random.default_rng(2)
     rows = [
@@ -295,11 +280,11 @@ def lifted(client: TestClient) -> str:
 
 
 def test_a_transient_is_told_channel_by_channel(client: TestClient, lifted: str) -> None:
-    shown = compare(client, muscle=None, drive=DRIVE, measurement=lifted)
+    shown = compare(client, muscle=None, drive=LIFT, measurement=lifted)
     assert (shown["unit"], shown["noise_floor"]) == ("1", 1.0)
     assert set(shown["channels"]) == {"pressure", "displacement"}
     known = compare(
-        client, muscle=None, drive=DRIVE, measurement=lifted,
+        client, muscle=None, drive=LIFT, measurement=lifted,
         effects={"viscous_damping": {"coefficient": 300.0}},
     )  # fmt: skip
     assert known["channels"]["pressure"]["rmse"] == pytest.approx(500.0, rel=0.15)
@@ -308,9 +293,9 @@ def test_a_transient_is_told_channel_by_channel(client: TestClient, lifted: str)
 
 
 def test_beside_a_measured_command_the_drive_needs_none(client: TestClient, lifted: str) -> None:
-    silent = {name: part for name, part in DRIVE.items() if name != "command"}
+    silent = {name: part for name, part in LIFT.items() if name != "command"}
     told, untold = (
-        compare(client, muscle=None, drive=drive, measurement=lifted)["series"] for drive in (DRIVE, silent)
+        compare(client, muscle=None, drive=drive, measurement=lifted)["series"] for drive in (LIFT, silent)
     )
     assert untold == told
     body = {"muscle": None, "drive": silent, "measurement": lifted, "diagnose": False}
@@ -321,7 +306,7 @@ def test_beside_a_measured_command_the_drive_needs_none(client: TestClient, lift
 
 @pytest.mark.parametrize("part", ["command", "no command"])
 def test_a_file_without_what_moves_it_says_so(client: TestClient, part: str) -> None:
-    drive = {name: value for name, value in DRIVE.items() if part == "command" or name != "command"}
+    drive = {name: value for name, value in LIFT.items() if part == "command" or name != "command"}
     for channel, field in (("pressure_bar", "displacement"), ("displacement_mm", "pressure")):
         content = f"# kind: transient\ntime_s,{channel}\n0,0\n0.1,1\n0.2,2\n0.3,2\n"
         body = {"drive": drive, "measurement": upload(client, "lacking", content)}
@@ -341,7 +326,7 @@ def test_rows_that_are_not_used_are_counted_with_their_reason(client: TestClient
     ((reason, count),) = answer["excluded"].items()
     assert "1000 rows" in reason
     assert count == 301
-    shown = post(client, "/api/reports", {"muscle": MUSCLE, "measurement": moved, "diagnose": False}).text
+    shown = post(client, "/api/reports", {"muscle": BRAID, "measurement": moved, "diagnose": False}).text
     assert "1000 of 1301" in shown
     assert f"301 {reason}" in shown
 
@@ -361,7 +346,7 @@ def test_every_row_of_a_diagnosis_is_accounted_for(client: TestClient) -> None:
 
 
 def test_several_channels_have_no_one_noise(client: TestClient, lifted: str) -> None:
-    body = {"drive": DRIVE, "measurement": lifted, "noise": 5.0}
+    body = {"drive": LIFT, "measurement": lifted, "noise": 5.0}
     assert_error(post(client, PATH, body), 422, field="noise")
 
 
@@ -378,7 +363,7 @@ def listened(client: TestClient, body: dict[str, Any]) -> list[tuple[str, Any]]:
 def test_a_stream_tells_progress_candidates_and_the_answer(
     client: TestClient, rubbing: str, answer: dict[str, Any]
 ) -> None:
-    found = listened(client, {"muscle": MUSCLE, "measurement": rubbing})
+    found = listened(client, {"muscle": BRAID, "measurement": rubbing})
     assert found[0] == ("progress", {"share": 0.0})
     assert [name for name, _ in found[:-1]] == ["progress"] * (len(found) - 1)
     shares = [data["share"] for name, data in found[:-1]]
@@ -395,13 +380,13 @@ def test_a_stream_tells_progress_candidates_and_the_answer(
 
 
 def test_refusals_come_before_a_stream_begins(client: TestClient, rubbing: str) -> None:
-    body = {"muscle": MUSCLE, "measurement": rubbing, "effects": {"prestres": {}}}
+    body = {"muscle": BRAID, "measurement": rubbing, "effects": {"prestres": {}}}
     response = client.post(PATH, json=body, headers={"accept": "text/event-stream"})
     assert_error(response, 422, field="effects.prestres")
 
 
 def work_of(app: FastAPI, measurement: str):
-    request = DiagnosisRequest.model_validate({"muscle": MUSCLE, "measurement": measurement})
+    request = DiagnosisRequest.model_validate({"muscle": BRAID, "measurement": measurement})
     studio = app.state.studio
     return prepare(asked(request, studio, app.state.store), studio)
 
@@ -456,12 +441,12 @@ REFUSED: dict[str, tuple[dict[str, Any], int, str, str]] = {
         {"effects": {"custom": {"term": "c/(L-0.3)"}}}, 422, "effects.custom.term", "division by zero"
     ),
     "no wall": (
-        {"muscle": {**MUSCLE, "wall_thickness": 0}, "effects": {"bladder_elasticity": {}}}, 422,
+        {"muscle": {**BRAID, "wall_thickness": 0}, "effects": {"bladder_elasticity": {}}}, 422,
         "muscle.wall_thickness", "mm",
     ),
     "unknown geometry": ({"free": ["braid_angel"]}, 422, "free.0", "braid_angle"),
     "geometry that is not known": (
-        {"muscle": {**MUSCLE, "wall_thickness": 0}, "free": ["wall_thickness"]}, 422,
+        {"muscle": {**BRAID, "wall_thickness": 0}, "free": ["wall_thickness"]}, 422,
         "muscle.wall_thickness", "",
     ),
     "unknown constant": ({"freed": ["prestress.forc"]}, 422, "freed.0", "prestress.force"),
@@ -477,14 +462,14 @@ REFUSED: dict[str, tuple[dict[str, Any], int, str, str]] = {
     "unknown use": ({"measurements": [{"id": "musclesim-20", "use": "test"}]}, 422, "measurements.0.use", ""),
     "no muscle": ({"muscle": None}, 422, "muscle", "DMSP-20"),
     "unknown preset": ({"muscle": {"preset": "DMSP-21"}}, 422, "muscle.preset", "DMSP-20"),
-    "impossible muscle": ({"muscle": {**MUSCLE, "braid_angle": "95 deg"}}, 422, "muscle.braid_angle", ""),
+    "impossible muscle": ({"muscle": {**BRAID, "braid_angle": "95 deg"}}, 422, "muscle.braid_angle", ""),
     "unknown field": ({"fit": True}, 422, "fit", ""),
-    "drive without supply": ({"drive": {"muscle": MUSCLE}}, 422, "drive.supply", ""),
+    "drive without supply": ({"drive": {"muscle": BRAID}}, 422, "drive.supply", ""),
     "unknown valve": (
-        {"drive": {**DRIVE, "valve": {"preset": "MPYE"}}}, 422, "drive.valve.preset", "Did you mean"
+        {"drive": {**LIFT, "valve": {"preset": "MPYE"}}}, 422, "drive.valve.preset", "Did you mean"
     ),
     "effect of the drive": (
-        {"muscle": None, "drive": {**DRIVE, "effects": {"creeep": {}}}}, 422, "effects.creeep", "creep"
+        {"muscle": None, "drive": {**LIFT, "effects": {"creeep": {}}}}, 422, "effects.creeep", "creep"
     ),
 }  # fmt: skip
 
@@ -492,7 +477,7 @@ REFUSED: dict[str, tuple[dict[str, Any], int, str, str]] = {
 @pytest.mark.parametrize("name", REFUSED)
 def test_refusals_name_the_field(client: TestClient, rubbing: str, name: str) -> None:
     change, status, field, hint = REFUSED[name]
-    body = {"muscle": MUSCLE, "measurement": rubbing, **change}
+    body = {"muscle": BRAID, "measurement": rubbing, **change}
     error = assert_error(post(client, PATH, body), status, field=field)
     assert hint in (error["hint"] or "")
 
@@ -515,7 +500,7 @@ FILES = {
 @pytest.mark.parametrize("path", [PATH, "/api/comparisons"])
 def test_what_a_measurement_lacks_is_named(client: TestClient, path: str, name: str) -> None:
     content, field = FILES[name]
-    body = {"muscle": MUSCLE, "measurement": upload(client, "lacking", content)}
+    body = {"muscle": BRAID, "measurement": upload(client, "lacking", content)}
     assert_error(post(client, path, body), 422, field=field)
 
 
@@ -552,6 +537,6 @@ def test_a_start_term_without_a_slope_at_a_row_is_diagnosed(shared_client: TestC
 def test_a_handful_of_rows_is_refused_in_words(client: TestClient) -> None:
     lines = ["1,300,100", "2,295,190", "3,290,260", "4,285,300"]
     few = upload(client, "few", text(lines, "pressure_bar,length_mm,force_N"))
-    response = post(client, PATH, {"muscle": MUSCLE, "measurement": few})
+    response = post(client, PATH, {"muscle": BRAID, "measurement": few})
     assert response.status_code == 422
     assert "4 values are too few for a diagnosis" in response.text

@@ -11,23 +11,9 @@ import pytest
 
 from mckibben.api.schemas.diagnoses import DiagnosisAnswer
 from tests.cli.conftest import Run, write
-from tests.identification.synthetic import CYCLE_HEADER, cycle_rows, text
+from tests.identification.synthetic import BRAID, CYCLE_HEADER, LIFT, cycle_rows, text
 
-MUSCLE = {
-    "braid_diameter": "21.8 mm", "braid_angle": "26.5 deg", "nominal_length": "300 mm",
-    "wall_thickness": "1.8 mm", "inside_diameter": "20 mm",
-}  # fmt: skip
-DRIVE: dict[str, Any] = {
-    "schema": 1,
-    "muscle": MUSCLE,
-    "effects": {},
-    "supply": {"pressure": "6 bar"},
-    "valve": {"sonic_conductance": "0.4 l/(s*bar)", "critical_pressure_ratio": 0.3},
-    "load": {"mass": "12 kg"},
-    "command": {"shape": "pulse", "on": "0 s", "off": "1 s"},
-    "stops": {"min_contraction": 0.0, "max_contraction": 0.35},
-    "duration": "2 s",
-}
+DRIVE = {"schema": 1, **LIFT}
 
 
 def rubbing(name: str = "rubbing.csv", **options: Any) -> str:
@@ -55,7 +41,7 @@ def answer_of(result: tuple[int, str, str]) -> dict[str, Any]:
 
 
 def test_the_json_has_the_promised_shape(run: Run) -> None:
-    answer = answer_of(run("diagnose", rubbing(c10=0.4e6), "--muscle", write("m.json", MUSCLE), "--json"))
+    answer = answer_of(run("diagnose", rubbing(c10=0.4e6), "--muscle", write("m.json", BRAID), "--json"))
     assert answer["kind"] == "isobaric"
     assert answer["rows"] == 240
     assert (answer["predicted"], answer["unit"]) == ("force", "N")
@@ -84,7 +70,7 @@ def test_the_json_has_the_promised_shape(run: Run) -> None:
 
 
 def test_tables_and_the_verdict(run: Run) -> None:
-    code, out, err = run("diagnose", rubbing(), "--muscle", write("m.json", MUSCLE))
+    code, out, err = run("diagnose", rubbing(), "--muscle", write("m.json", BRAID))
     assert code == 0
     for word in ("start model", "coulomb_friction", "noise floor", "One effect alone", "Parameters", "gain"):
         assert word in out
@@ -95,14 +81,14 @@ def test_tables_and_the_verdict(run: Run) -> None:
 def test_what_cannot_be_told_apart_comes_with_an_experiment(run: Run) -> None:
     rows = cycle_rows(noise=1.0, each=20, prestress=40.0)
     file = write("shifted.csv", text(rows, CYCLE_HEADER, "kind: isobaric"))
-    code, _, err = run("diagnose", file, "--muscle", write("m.json", MUSCLE))
+    code, _, err = run("diagnose", file, "--muscle", write("m.json", BRAID))
     assert code == 0
     assert "cannot tell" in err
     assert "muscle removed" in err
 
 
 def test_the_start_model_is_ideal_named_or_the_presets(run: Run) -> None:
-    file, muscle = rubbing(), write("m.json", MUSCLE)
+    file, muscle = rubbing(), write("m.json", BRAID)
 
     def start(*options: str) -> tuple[set[str], str]:
         answer = answer_of(run("diagnose", file, *options, "--json"))
@@ -118,7 +104,7 @@ def test_the_start_model_is_ideal_named_or_the_presets(run: Run) -> None:
 def test_a_freed_geometry_and_a_stated_noise(run: Run) -> None:
     rows = cycle_rows(noise=1.0, each=20, angle=25.5)
     file = write("bent.csv", text(rows, CYCLE_HEADER, "kind: isobaric"))
-    options = ("--muscle", write("m.json", MUSCLE), "--free", "braid_angle", "--noise", "1.2", "--json")
+    options = ("--muscle", write("m.json", BRAID), "--free", "braid_angle", "--noise", "1.2", "--json")
     answer = answer_of(run("diagnose", file, *options))
     assert answer["noise_floor"] == {"rmse": 1.2, "how": "given"}
     assert answer["verdict"]["status"] == "adequate"
@@ -127,7 +113,7 @@ def test_a_freed_geometry_and_a_stated_noise(run: Run) -> None:
 
 
 def test_the_model_goes_back_into_compare(run: Run) -> None:
-    file, muscle = rubbing(c10=0.4e6), write("m.json", MUSCLE)
+    file, muscle = rubbing(c10=0.4e6), write("m.json", BRAID)
     answer = answer_of(run("diagnose", file, "--muscle", muscle, "--free", "braid_angle", "--json"))
     write("model.json", answer["model"])
     code, out, _ = run("compare", file, "--drive", "model.json", "--json")
@@ -144,11 +130,14 @@ def test_the_model_goes_back_into_compare(run: Run) -> None:
 
 def test_a_proposed_term_goes_back_into_compare(run: Run) -> None:
     rows = cycle_rows(lambda kappa, **_: 12.0 * float(np.sin(150.0 * kappa)), noise=1.0, each=40)
-    file, muscle = write("waved.csv", text(rows, CYCLE_HEADER, "kind: isobaric")), write("m.json", MUSCLE)
+    file, muscle = (
+        write("waved.csv", text(rows, CYCLE_HEADER, "kind: isobaric")),
+        write("m.json", BRAID),
+    )
     answer = answer_of(run("diagnose", file, "--muscle", muscle, "--json"))
     term = answer["verdict"]["proposed_term"]
     assert answer["verdict"]["status"] == "unknown_effect"
-    write("term.json", {"muscle": MUSCLE, **term["model"]})
+    write("term.json", {"muscle": BRAID, **term["model"]})
     code, out, err = run("compare", file, "--drive", "term.json", "--json")
     assert code == 0, err
     left = answer["path"][-1]["rmse"] * np.sqrt(1.0 - term["share"])
@@ -157,7 +146,7 @@ def test_a_proposed_term_goes_back_into_compare(run: Run) -> None:
 
 def test_several_files_are_diagnosed_together(run: Run) -> None:
     first, second = rubbing(), rubbing("other.csv", levels=(3e5, 5e5), seed=8)
-    answer = answer_of(run("diagnose", first, second, "--muscle", write("m.json", MUSCLE), "--json"))
+    answer = answer_of(run("diagnose", first, second, "--muscle", write("m.json", BRAID), "--json"))
     assert answer["rows"] == 400
     assert answer["verdict"]["effects"] == ["coulomb_friction"]
 
@@ -300,8 +289,8 @@ FILES = {
 def test_bad_input_is_one_line_that_says_what_would_be_right(run: Run, name: str) -> None:
     arguments, words = WRONG[name]
     rubbing(levels=(4e5, 6e5))
-    write("m.json", MUSCLE)
-    write("thin.json", {**MUSCLE, "wall_thickness": 0})
+    write("m.json", BRAID)
+    write("thin.json", {**BRAID, "wall_thickness": 0})
     write("list.json", [])
     write("key.json", {"effect": {}})
     write("term.json", {"effects": {"custom": {"term": "c*log(P)"}}})

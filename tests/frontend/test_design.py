@@ -13,7 +13,18 @@ import pytest
 from playwright.sync_api import Download, Page, expect
 
 from tests.frontend.guard import PageGuard
-from tests.frontend.views import REFUSED, drawings, enter, field, link_of, open_design, redrawn, rmse, run
+from tests.frontend.views import (
+    REFUSED,
+    drawings,
+    enter,
+    field,
+    link_of,
+    open_design,
+    redrawn,
+    rmse,
+    run,
+    settled,
+)
 from tests.server import RunningServer
 
 
@@ -30,7 +41,7 @@ def example(page: Page, title: str) -> None:
     page.get_by_role("button", name="Examples").click()
     page.get_by_role("menuitem").filter(has_text=title).click()
     expect(page.locator(".status")).to_contain_text(title)
-    page.wait_for_timeout(250)  # two figures may be of the same curves: then nothing is asked
+    settled(page)
 
 
 def test_first_open_shows_a_real_muscle_with_its_error(page: Page) -> None:
@@ -53,7 +64,6 @@ def test_the_whole_flow(page: Page, tmp_path: Path) -> None:
     # The angle changes the error; undo brings it back.
     enter(page, "Length", "25 cm")
     expect(field(page, "Length")).to_have_value("250")
-    page.wait_for_timeout(400)
     start = rmse(page)
     redrawn(page, lambda: enter(page, "Braid angle", "22°"))
     expect(page.locator("#rmse .rmse.first b")).not_to_contain_text(f"{start}")
@@ -138,7 +148,6 @@ def test_three_forms_of_one_geometry(page: Page) -> None:
     assert 2 * along * side == pytest.approx(thread, rel=1e-3)
     page.get_by_role("radio", name="Angle").click()
     expect(field(page, "Braid angle")).to_have_value("26.53")
-    page.wait_for_timeout(300)
     assert rmse(page) == pytest.approx(start, abs=0.1)
 
 

@@ -68,6 +68,11 @@ def redrawn(page: Page, act: Callable[[], object]) -> None:
     expect(page.locator("html")).not_to_have_attribute("data-drawn", str(before))
 
 
+def settled(page: Page) -> None:
+    """Wait until the model's error is that of what is set."""
+    expect(page.locator("#rmse")).to_have_attribute("aria-busy", "false")
+
+
 def field(page: Page, name: str) -> Locator:
     """The number field of this name, the first on the page."""
     return page.get_by_role("textbox", name=name, exact=True).first
@@ -80,7 +85,8 @@ def enter(page: Page, name: str, text: str) -> None:
 
 
 def rmse(page: Page) -> float:
-    """The model's error as shown, in the shown unit."""
+    """The error of the model as set, in the shown unit."""
+    settled(page)
     text = page.locator("#rmse .rmse.first b").inner_text()
     found = re.match(r"[\d.]+", text)
     assert found, text

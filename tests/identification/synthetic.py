@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from math import cos, pi, radians, sin, sqrt, tan
+from typing import Any
 
 import numpy as np
 
@@ -18,6 +19,21 @@ from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import Muscle
 
 MUSCLE = Muscle(0.3, 0.0218, radians(26.5), 0.0018, 0.02)
+# The same muscle as a request gives it.
+BRAID = {
+    "braid_diameter": "21.8 mm", "braid_angle": "26.5 deg", "nominal_length": "300 mm",
+    "wall_thickness": "1.8 mm", "inside_diameter": "20 mm",
+}  # fmt: skip
+LIFT: dict[str, Any] = {
+    "muscle": BRAID,
+    "effects": {},
+    "supply": {"pressure": "6 bar"},
+    "valve": {"sonic_conductance": "0.4 l/(s*bar)", "critical_pressure_ratio": 0.3},
+    "load": {"mass": "12 kg"},
+    "command": {"shape": "pulse", "on": "0 s", "off": "1 s"},
+    "stops": {"min_contraction": 0.0, "max_contraction": 0.35},
+    "duration": "2 s",
+}
 CATALOGUE = default_catalogue()
 G = 9.80665
 

@@ -6,7 +6,7 @@ import { design, editDesign, units } from "../../state.js";
 import { presets, references } from "../../store.js";
 import { brief, siOf, withUnit } from "../../format.js";
 import { saveDialog } from "./save-preset.js";
-import { curves, errors, fault, preset, reference, referenceId } from "./model.js";
+import { curves, errors, errorsOutdated, fault, preset, reference, referenceId } from "./model.js";
 
 /** @typedef {import("../../types.js").Comparison} Comparison */
 
@@ -117,7 +117,11 @@ export function errorCard() {
     { class: "card", "aria-label": "Model error" },
     h("div", { class: "card-head" }, h("h2", null, "Model error")),
     referenceSelect(),
-    h("div", { class: "found", id: "rmse" }, body),
+    h(
+      "div",
+      { class: "found", id: "rmse", "aria-busy": () => String(errorsOutdated.value) },
+      body,
+    ),
     lengthNote,
     h(
       "div",

@@ -179,24 +179,36 @@ export const referenceId = computed(() => {
 });
 export const reference = computed(() => references.value.find((r) => r.id === referenceId.value) ?? null);
 
-/** @typedef {{model: Comparison | null, ideal: Comparison | null, words: string | null}} Errors */
-export const errors = signal(/** @type {Errors} */ ({ model: null, ideal: null, words: null }));
+/** What the model's error depends on, as the text of a question; null without points. */
+const comparison = computed(() => {
+  const points = reference.value;
+  if (!points) return null;
+  const { muscle: m, effects: e } = design.value;
+  return JSON.stringify({ muscle: muscleInput(m), effects: e, measurement: points.id });
+});
 
-/** @param {unknown} body @param {AbortSignal} [control] */
-const compare = (body, control) => post("/api/comparisons", body, control);
+/** @typedef {{model: Comparison | null, ideal: Comparison | null, words: string | null}} Errors */
+/** @type {Errors & {of: string | null}} */
+const NONE = { model: null, ideal: null, words: null, of: null };
+/** The answer and the question it belongs to. */
+export const errors = signal(NONE);
+/** What is shown is not yet the error of what is set. */
+export const errorsOutdated = computed(() => errors.value.of !== comparison.value);
+
 const askErrors = latest(
-  async (/** @type {any} */ body, control) => {
+  async (/** @type {string} */ of, control) => {
+    const body = JSON.parse(of);
     const [model, ideal] = await Promise.all([
-      compare(body, control),
-      compare({ ...body, effects: {} }, control),
+      post("/api/comparisons", body, control),
+      post("/api/comparisons", { ...body, effects: {} }, control),
     ]);
-    return { model, ideal, words: null };
+    return { ...NONE, model, ideal, of };
   },
   (answer) => {
     errors.value = answer;
   },
-  (error) => {
-    errors.value = { model: null, ideal: null, words: error.words };
+  (error, of) => {
+    errors.value = { ...NONE, words: error.words, of };
   },
 );
 
@@ -207,10 +219,8 @@ export function startModel() {
   effect(() => {
     const answer = curves.value, points = reference.value;
     clearTimeout(timer);
-    if (!points) errors.value = { model: null, ideal: null, words: null };
-    if (!points || !answer) return;
-    const { muscle: m, effects: e } = design.peek();
-    const body = { muscle: muscleInput(m), effects: e, measurement: points.id };
-    timer = setTimeout(() => askErrors(body), COMPARE_AFTER_MS);
+    if (!points) errors.value = NONE;
+    const asked = comparison.peek();
+    if (answer && asked) timer = setTimeout(() => askErrors(asked), COMPARE_AFTER_MS);
   });
 }
