@@ -12,7 +12,7 @@ from collections.abc import Callable
 from playwright.sync_api import FilePayload, Page, expect
 
 from tests.frontend.diagnoses import remember
-from tests.frontend.views import open_compare
+from tests.frontend.views import marked, open_compare
 
 NOISE = 2.0  # N
 # A muscle of the catalogue as its preset gives it, DMSP-20 at 300 mm.
@@ -73,7 +73,7 @@ def choose(page: Page, *files: FilePayload) -> None:
 def diagnosed(page: Page, within: float = 60_000) -> None:
     """Wait (at most so many ms) until the numbers belong to the model and the diagnosis is complete."""
     expect(page.locator(".error-card")).not_to_have_class(re.compile("stale"), timeout=20_000)
-    expect(page.locator("html")).to_have_attribute("data-diagnosis", "done", timeout=within)
+    marked(page, '[data-diagnosis="done"]', within)
 
 
 def opened(page: Page, *files: FilePayload) -> None:

@@ -24,7 +24,7 @@ from tests.frontend.comparing import (
 )
 from tests.frontend.diagnoses import remember
 from tests.frontend.guard import PageGuard
-from tests.frontend.views import REFUSED, open_compare, redo, run
+from tests.frontend.views import REFUSED, marked, open_compare, redo, run
 from tests.truth.generate import case
 
 A_DRIVE = 150_000  # ms; each effect tried is a run of the simulation
@@ -250,7 +250,7 @@ def test_no_equation_is_cut_without_a_way_to_see_it(page: Page, tile: str) -> No
     remember(page)
     open_compare(page)
     page.locator(".tile", has_text=tile).click()
-    expect(page.locator("html")).to_have_attribute("data-diagnosis", "done", timeout=60_000)
+    marked(page, '[data-diagnosis="done"]', 60_000)
     page.get_by_role("button", name=re.compile("more that were tried")).click()
     page.evaluate("document.querySelectorAll('.candidate details').forEach((el) => { el.open = true; })")
     cut = run(

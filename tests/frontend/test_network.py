@@ -12,7 +12,7 @@ from urllib.request import urlopen
 from playwright.sync_api import BrowserContext, Page, expect
 
 from tests.frontend.guard import PageGuard
-from tests.frontend.views import enter, open_catalogue, open_design, run
+from tests.frontend.views import enter, marked, open_catalogue, open_design, run
 
 APP = Path(__file__).resolve().parents[2] / "frontend" / "app"
 
@@ -49,7 +49,7 @@ def test_no_effect_is_named_in_the_frontend(server_url: str) -> None:
 def test_the_page_is_usable_before_the_plots(new_context: Callable[..., BrowserContext]) -> None:
     page = new_context().new_page()  # the first time: nothing is in the browser's cache
     page.goto("/")
-    expect(page.locator("html")).to_have_attribute("data-ready", "1")
+    marked(page, '[data-ready="1"]')
     usable, plots_loaded = run(
         page,
         """

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page
 
-from tests.frontend.views import redrawn
+from tests.frontend.views import marked, redrawn
 from tests.server import RunningServer
 
 README = Path(__file__).parents[2] / "README.md"
@@ -36,7 +36,7 @@ def blocked_force(page: Page) -> int:
 
 def test_the_example_of_the_readme_appears_and_acts(page: Page, server: RunningServer) -> None:
     page.goto(f"{server.url}/")  # in full: the base URL is that of the other tests' server
-    expect(page.locator("html[data-drawn]")).to_be_attached()
+    marked(page, "[data-drawn]")
     before = blocked_force(page)
     page.get_by_placeholder(re.compile("Search effects")).fill("seal")
     redrawn(page, lambda: page.get_by_role("switch", name=re.compile("Seal drag")).click())

@@ -16,7 +16,7 @@ from mckibben.api.schemas.sizings import SizingTask
 from tests.frontend.guard import PageGuard
 from tests.frontend.test_accessibility import violations
 from tests.frontend.test_layout import OVERLAPS, SIDEWAYS, TOO_SMALL
-from tests.frontend.views import REFUSED, SIZES, enter, field, link_of, run
+from tests.frontend.views import REFUSED, SIZES, enter, field, link_of, marked, run
 
 GRAVITY = 9.80665  # m/s^2
 ACTIONS = 12
@@ -48,7 +48,7 @@ def searched(page: Page) -> tuple[dict[str, Any], dict[str, Any]]:
     """Propose and wait for the drives on screen; what was asked for, and the answer that came."""
     with page.expect_request("**/api/sizings") as sent:
         propose_button(page).click()
-    expect(page.locator("html")).to_have_attribute("data-sizing", "done", timeout=60_000)
+    marked(page, '[data-sizing="done"]', 60_000)
     answer = run(page, "return (await import('/js/views/sizing/model.js')).answer.peek();")
     return json.loads(sent.value.post_data or ""), answer
 
@@ -286,7 +286,7 @@ def test_cancel_keeps_what_was_there(page: Page) -> None:
     field(page, "Mass").press("Control+Enter")
     expect(page.get_by_role("progressbar")).to_be_visible()
     page.locator(".searching").get_by_role("button", name="Cancel").click()
-    expect(page.locator("html")).to_have_attribute("data-sizing", "cancelled")
+    marked(page, '[data-sizing="cancelled"]')
     expect(page.get_by_role("progressbar")).to_have_count(0)
     expect(rows(page)).to_have_count(found)
     expect(page.locator(".notice")).to_contain_text("The task has changed")
@@ -341,7 +341,7 @@ def test_the_drives_survive_a_look_at_another_view(page: Page) -> None:
     open_task(page)
     propose_button(page).click()
     page.get_by_role("button", name="Catalogue", exact=True).click()
-    expect(page.locator("html")).to_have_attribute("data-sizing", "done", timeout=60_000)
+    marked(page, '[data-sizing="done"]', 60_000)
     expect(page.locator(".status")).to_contain_text("found; first")
     page.get_by_role("button", name="Design", exact=True).click()
     expect(rows(page).first).to_be_visible()
@@ -454,7 +454,7 @@ def test_whatever_leads_to_the_muscle_shows_the_muscle(page: Page) -> None:
 def test_the_views_stay_apart(page: Page) -> None:
     """Switching is a step of the document, and the muscle's own page is untouched by the task."""
     page.goto("/")
-    expect(page.locator("html[data-drawn]")).to_be_attached(timeout=20_000)
+    marked(page, "[data-drawn]", 20_000)
     page.get_by_role("radio", name="Task", exact=True).click()
     expect(page.locator("#force")).to_be_hidden()
     expect(page.locator(".task-head")).to_be_visible(timeout=20_000)
@@ -467,7 +467,7 @@ def test_the_views_stay_apart(page: Page) -> None:
 def test_axe_finds_nothing(page: Page, theme: Literal["light", "dark"]) -> None:
     page.emulate_media(color_scheme=theme)
     open_task(page)
-    expect(page.locator("html")).to_have_attribute("data-theme", theme)
+    marked(page, f'[data-theme="{theme}"]')
     assert violations(page) == []
     searched(page)
     expect(page.locator(".rank-mark").first).to_be_attached()

@@ -19,7 +19,7 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, Route, expect
 
 from tests.frontend.guard import PageGuard
-from tests.frontend.views import REFUSED, SIZES, enter, field, link_of, run
+from tests.frontend.views import REFUSED, SIZES, enter, field, link_of, marked, run
 
 TIMED = ("position", "pressure", "speed", "lower", "acceleration")
 
@@ -38,7 +38,7 @@ def open_transient(page: Page, link: str = START) -> None:
     """The Transient view with its first run drawn; the Design view is not even built."""
     page.goto("about:blank")
     page.goto(f"/{link}")
-    expect(page.locator("html[data-ran]")).to_be_attached(timeout=30_000)  # a busy machine takes its time
+    marked(page, "[data-ran]", 30_000)  # a busy machine takes its time
 
 
 def runs(page: Page) -> int:
@@ -51,7 +51,7 @@ def rerun(page: Page, act: Callable[[], object]) -> None:
     with page.expect_response("**/api/simulations"):
         before = runs(page)
         act()
-    expect(page.locator("html")).not_to_have_attribute("data-ran", str(before))
+    marked(page, f':not([data-ran="{before}"])')
 
 
 def figure(page: Page, name: str, column: int = 1) -> float | None:
@@ -633,7 +633,7 @@ def test_axe_finds_nothing(page: Page) -> None:
     expect(page.get_by_role("region", name="Pinned runs and the run now")).to_be_visible()
     for theme in ("light", "dark"):
         page.emulate_media(color_scheme="dark" if theme == "dark" else "light")
-        expect(page.locator("html")).to_have_attribute("data-theme", theme)
+        marked(page, f'[data-theme="{theme}"]')
         found = Axe().run(page).response["violations"]
         assert [f"{rule['id']}: {rule['nodes'][0]['html'][:160]}" for rule in found] == [], theme
 
