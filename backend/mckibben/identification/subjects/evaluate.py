@@ -17,10 +17,15 @@ from mckibben.identification.subjects.memory import Memory, remembers
 from mckibben.identification.subjects.task import Task
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import Model
+from mckibben.physics.muscle import GEOMETRY
 from mckibben.simulation.compile import INPUTS, compiled_state
 from mckibben.simulation.static import settle
 
 State = Mapping[str, np.ndarray]
+
+# Up to here a structure is compiled once with the derivatives by all its parameters: another 10 ms for each
+# choice of them would take longer than to evaluate what is not asked for.
+_FEW_ROWS = 600
 
 
 class Evaluation:
@@ -50,17 +55,17 @@ class Evaluation:
         self, setting: Setting, names: Sequence[str], state: State | None
     ) -> tuple[dict[str, np.ndarray], np.ndarray]:
         moved = self._memory.by_parameters(setting, names)
-        states = sorted({state for own in moved.values() for state in own})
-        inner = tuple(name for name in names if name != LOAD)
-        compiled = compiled_state(
-            sorted_effects(setting.effects),
-            (*inner, *states),
-            memory=any(map(remembers, setting.effects)),
-            quick=True,
-        )
+        effects = sorted_effects(setting.effects)
+        memory = any(map(remembers, effects))
+        inner = [name for name in names if name != LOAD]
+        inner += sorted({state for own in moved.values() for state in own})
+        few = len(self.task.measured) <= _FEW_ROWS
+        gradient_by = _derivatives(effects, inner, memory) if few else tuple(inner)
+        compiled = compiled_state(effects, gradient_by, memory=memory, quick=True)
         constants = compiled.pack(setting.muscle, setting.values)
         out, raw = settle(compiled, constants, state or self.state(setting))
-        force, tension, _, compliance = (raw[index::4] for index in range(4))
+        picked = [gradient_by.index(name) for name in inner]
+        force, tension, _, compliance = np.moveaxis(raw.reshape(-1, 4, raw.shape[1])[picked], 1, 0)
         pulling = out["tension"] > 0.0
         c = np.where(pulling, out["compliance"], 0.0)
         slope = out["length_by_length"] + c * out["tension_by_length"]
@@ -73,8 +78,17 @@ class Evaluation:
             if name != LOAD:
                 gradient[:, column] = total[inner.index(name)]
             for own, rate in moved.get(name, {}).items():
-                gradient[:, column] += total[len(inner) + states.index(own)] * rate
+                gradient[:, column] += total[inner.index(own)] * rate
         return out, gradient
+
+
+def _derivatives(effects: Sequence[Effect], names: Sequence[str], memory: bool) -> tuple[str, ...]:
+    """All that fits of these effects may ask derivatives by."""
+    geometry = [name for name in GEOMETRY if name in names]
+    parameters = [f"{effect.id}.{parameter.name}" for effect in effects for parameter in effect.parameters]
+    remembering = filter(remembers, effects) if memory else ()
+    states = [f"{effect.id}.{state.name}" for effect in remembering for state in effect.states]
+    return (*geometry, *parameters, *states)
 
 
 def sorted_effects(effects: Sequence[Effect]) -> tuple[Effect, ...]:
