@@ -63,6 +63,11 @@ def clipped_smooth_force(s: Sensors):
     return made(isobaric(s, SINE, np.minimum(s.force(true), 1300))), "force saturated", true > 1300
 
 
+def clipped_before_the_noise(s: Sensors):
+    true = 1500 * (1 - TRIANGLE) + 100
+    return made(isobaric(s, TRIANGLE, s.force(np.minimum(true, 1300)))), "force saturated", true > 1300
+
+
 def clipped_below(s: Sensors):
     true = 1500 * (1 - TRIANGLE) - 300
     return made(isobaric(s, TRIANGLE, np.maximum(s.force(true), -3))), "force saturated", true < -3
@@ -91,7 +96,15 @@ def stuck_force(s: Sensors):
 @pytest.mark.parametrize("step", [0.0, 1.0])
 @pytest.mark.parametrize(
     "case",
-    [clipped_force, clipped_smooth_force, clipped_below, clipped_pressure, clipped_in_motion, stuck_force],
+    [
+        clipped_force,
+        clipped_smooth_force,
+        clipped_before_the_noise,
+        clipped_below,
+        clipped_pressure,
+        clipped_in_motion,
+        stuck_force,
+    ],
 )
 def test_bad_sensors_are_found(case, noise, step):
     measurement, reason, bad = case(Sensors(noise, step))

@@ -25,6 +25,7 @@ from mckibben.identification.kind import (
 )
 from mckibben.identification.saturation import pushing_rows, unusable_rows
 from mckibben.identification.segments import Segments, segments_of
+from mckibben.identification.spikes import spiked_rows
 from mckibben.physics.errors import InputError, did_you_mean
 
 __all__ = [
@@ -183,6 +184,8 @@ def build(
         notes.append(f"{np.count_nonzero(slack)} of {rows} rows hold no pulling force (slack)")
     if excluded_rows is None:
         excluded_rows = unusable_rows(table, kind, slack=slack)
+        if "time" in table:
+            excluded_rows |= spiked_rows(table)
         if kind in FORCE_KINDS and ("time" in table or "direction" in table):
             pushing = pushing_rows(table["force"])
             if pushing.any():

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.identification.derivative import noise_of, rounding_step
-from mckibben.identification.kind import STROKES
+from mckibben.identification.kind import FORCE_KINDS, STROKES
 
 Array = NDArray[np.float64]
 
@@ -75,6 +75,11 @@ def unusable_rows(
     for name, values in sensors.items():
         others = [other for key, other in sensors.items() if key != name]
         may_rest = name in _MAY_REST.get(kind, (*STROKES, "diameter", "velocity"))
+        if name == "force" and kind in FORCE_KINDS:
+            level = _noisy_ceiling(values, others)
+            if level.any():
+                found["force saturated"] = level
+                continue
         runs = _runs(values)
         runs = runs.only(runs.rows >= _SHORTEST)
         if name == "force" and len(runs.begin):
@@ -108,6 +113,41 @@ def pushing_rows(force: Array) -> NDArray[np.bool_]:
     if np.subtract(*np.quantile(force[below], (0.75, 0.25))) < clear:  # all of them alike: slack
         return none
     return force < -max(3.0 * noise, 0.1 * _PUSH * largest)
+
+
+def _noisy_ceiling(force: Array, others: list[Array]) -> NDArray[np.bool_]:
+    """Rows at the upper end of a load cell's range whose noise was added behind it, shape (rows,).
+
+    There the force keeps one level but for its noise, although another channel goes on so far that it would
+    have risen clearly. The lower end of a force is a slack muscle.
+    """
+    noise = noise_of(force)
+    if noise == 0.0 or np.count_nonzero(force == np.max(force)) >= _SHORTEST:  # cut off behind the noise
+        return np.zeros(len(force), bool)
+    top = float(np.median(force[force >= np.max(force) - 8.0 * noise]))
+    above = np.where(force >= top - 5.0 * noise, top, force)
+    runs = _runs(above)
+    runs = runs.only((above[runs.begin] == top) & (runs.rows >= 3 * _SHORTEST))
+    clear = 10.0 * noise / float(np.ptp(force))
+    kept = (
+        _level(force[begin:end], noise) and any(_way(other, begin, end) > clear for other in others)
+        for begin, end in zip(*runs, strict=True)
+    )
+    if not any(kept):
+        return np.zeros(len(force), bool)
+    return force >= top - 3.0 * noise  # in short visits too
+
+
+def _level(values: Array, noise: float) -> bool:
+    """Whether nothing but noise moves these values: neither a slope nor a tip."""
+    thirds = [float(np.mean(part)) for part in np.array_split(values, 3)]
+    return max(thirds) - min(thirds) < 5.0 * noise / np.sqrt(len(values) / 3.0)
+
+
+def _way(values: Array, begin: int, end: int) -> float:
+    """How far a channel goes in these rows without its noise, as a share of its range."""
+    fifths = [float(np.mean(part)) for part in np.array_split(values[begin:end], 5)]
+    return (max(fifths) - min(fifths)) / float(np.ptp(values))
 
 
 def _runs(values: Array) -> _Runs:

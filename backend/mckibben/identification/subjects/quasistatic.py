@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,6 +18,10 @@ from mckibben.identification.subjects.subject import Channel, Subject
 from mckibben.identification.subjects.task import Task
 from mckibben.physics.effect import Effect
 from mckibben.simulation.static import clip_slack
+
+_LEAST = 0.01  # quantile of the forces: one row alone may be a slip
+_NEAR_ZERO = 0.05  # of the range of the force
+_SLACK_BAND = 0.02  # of the range of the force
 
 
 class Quasistatic(Subject):
@@ -59,6 +63,9 @@ class Quasistatic(Subject):
         }
         if task.unknown_load:
             self.unknown_load = Free(LOAD, 0.05 * largest_load, 0.0, largest_load, "N")
+        self._idle = (
+            _like_slack(task.measured) if task.channel == "force" else np.zeros(len(task.measured), bool)
+        )
         self._evaluation = Evaluation(task)
         self._wide: tuple[Effect, ...] = ()
 
@@ -71,7 +78,7 @@ class Quasistatic(Subject):
             return False
         if delays and self.task.channel != "force":
             return False
-        return "compliance" not in effect.slots or self.task.channel == "force"
+        return "compliance" not in effect.slots or self.task.channel != "diameter"
 
     def prepare(self, setting: Setting, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
         """One structure that holds every model of a search: absent effects are off in it."""
@@ -102,7 +109,7 @@ class Quasistatic(Subject):
         if self.task.channel == "diameter":
             return self._diameter(setting)
         out = self._evaluation.at(_at_once(setting))[0]
-        force = clip_slack(out) if clipped else out["force"]
+        force = clip_slack(out) if clipped else self._followed(out)
         return self._as_read(setting, force) if any(map(late, setting.effects)) else force
 
     def linearised(self, setting: Setting, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
@@ -114,7 +121,8 @@ class Quasistatic(Subject):
             return self._late_linearised(setting, free)
         if self.task.channel == "force":
             out, gradient = self._evaluation.at(setting, names)
-            return out["force"][self._counted], gradient[self._counted]
+            gradient[self._slack(out)] = 0.0
+            return self._followed(out)[self._counted], gradient[self._counted]
         length, gradient = predicted_lengths(self._evaluation, setting, names)
         return length[self._counted], gradient[self._counted]
 
@@ -125,7 +133,9 @@ class Quasistatic(Subject):
         out, slopes = self._evaluation.at(_at_once(setting), tuple(inner))
         # A row without a slope must not take it from all rows after it.
         slopes = np.where(np.isfinite(slopes), slopes, 0.0)
-        shown = self._as_read(setting, np.column_stack([out["force"], slopes]))
+        slopes[self._slack(out)] = 0.0
+        force = self._followed(out)
+        shown = self._as_read(setting, np.column_stack([force, slopes]))
         gradient = np.empty((len(shown), len(free)))
         for column, parameter in enumerate(free):
             if parameter.name in inner:
@@ -135,11 +145,18 @@ class Quasistatic(Subject):
             step = self.step * min(parameter.upper - parameter.lower, max(abs(here), parameter.typical))
             low, high = max(here - step, parameter.lower), min(here + step, parameter.upper)
             first, last = (
-                self._as_read(setting.with_numbers([parameter.name], [end]), out["force"])
-                for end in (low, high)
+                self._as_read(setting.with_numbers([parameter.name], [end]), force) for end in (low, high)
             )
             gradient[:, column] = (last - first) / (high - low)
         return shown[:, 0][self._counted], gradient[self._counted]
+
+    def _followed(self, out: Mapping[str, np.ndarray]) -> np.ndarray:
+        """The force that a fit follows: below zero too, but not where slack is what was measured."""
+        return np.where(self._slack(out), out["slack_force"], out["force"])
+
+    def _slack(self, out: Mapping[str, np.ndarray]) -> np.ndarray:
+        """Rows that a model has slack and that read like it."""
+        return self._idle & (out["tension"] <= 0.0)
 
     def _as_read(self, setting: Setting, values: np.ndarray) -> np.ndarray:
         """Values of every row behind the lags and the skew of a model."""
@@ -154,6 +171,17 @@ class Quasistatic(Subject):
         length, _ = predicted_lengths(self._evaluation, setting)
         state = {**self._evaluation.state(setting), "length": length}
         return self._evaluation.at(setting, (), state)[0]["diameter"]
+
+
+def _like_slack(force: np.ndarray) -> np.ndarray:
+    """Whether a force may be what a slack muscle shows, shape (rows,): near the least, and that near zero.
+
+    The least of them tell how far the readings without any pull scatter.
+    """
+    least, span = float(np.quantile(force, _LEAST)), float(np.ptp(force))
+    if span == 0.0 or abs(least) > _NEAR_ZERO * span:
+        return np.zeros(len(force), bool)
+    return force <= max(least + _SLACK_BAND * span, -least)
 
 
 def _at_once(setting: Setting) -> Setting:
