@@ -21,7 +21,8 @@ from mckibben.physics.custom import custom_effect
 from mckibben.resources import presets_folder
 from mckibben.simulation.outcome import Watch
 from mckibben.studio import Studio
-from tests.identification.synthetic import CATALOGUE, MUSCLE, cycles, force_map
+from tests.identification.synthetic import CATALOGUE, MUSCLE, csv, cycles, force_map
+from tests.identification.synthetic import truth as hidden_force
 
 DATA = Path(__file__).parents[3] / "shared" / "data"
 FRICTION = 15.0
@@ -203,6 +204,19 @@ def test_an_offset_of_the_sensor_and_a_prestress_are_one_group():
     assert len(found.proposals) == 1
     assert "with the muscle removed" in found.proposals[0].declared
     assert found.proposals[0].separation < 1.0  # nor can any force measurement
+
+
+def test_slack_rows_with_noise_do_not_bend_the_fit():
+    """A load cell shows the slack muscle as 0 N with its noise, not as the model's force below zero."""
+    rng = np.random.default_rng(5)
+    pressure, length = rng.uniform(1.5e5, 6e5, 200), rng.uniform(0.22, 0.3, 200)
+    force = np.maximum(hidden_force(pressure, length, c10=0.5e6), 0.0) + rng.normal(0.0, 2.0, 200)
+    assert np.count_nonzero(force < 6.0) > 40
+    rows = [f"{p / 1e5},{1e3 * x},{f}" for p, x, f in zip(pressure, length, force, strict=True)]
+    found = diagnosis(csv(rows, "pressure_bar,length_mm,force_N", "kind: static"))
+    assert found.added == ("bladder_elasticity",)
+    assert found.best.rmse < 1.1 * 2.0
+    assert found.best.setting.number("bladder_elasticity.shear_modulus") == pytest.approx(0.5e6, rel=0.02)
 
 
 # --- what nobody knows

@@ -99,6 +99,16 @@ def _(rng: np.random.Generator, seed: int) -> Case:
     return case_of("rig-isobaric", seed, truth, isobaric(truth, levels=FIVE), "isobaric", rng)
 
 
+@BOOK.recipe("rig-isotonic")
+def _(rng: np.random.Generator, seed: int) -> Case:
+    m = made(size(seed), rng)
+    rig = geometry.hardening_rig(0.012 * m.nominal / m.blocked, 2.5 * m.blocked, "rig_compliance")
+    truth = Truth(m, hidden=(rig,))
+    loads = tuple(share * m.blocked for share in (0.08, 0.2, 0.35, 0.5))
+    record = pressure_cycles(low=3e5, high=6e5, loads=loads, rows=160)
+    return case_of("rig-isotonic", seed, truth, record, "isotonic", rng)
+
+
 @BOOK.recipe("nothing-isobaric")
 def _(rng: np.random.Generator, seed: int) -> Case:
     m = made(size(seed), rng)
