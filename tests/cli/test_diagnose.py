@@ -40,6 +40,13 @@ def answer_of(result: tuple[int, str, str]) -> dict[str, Any]:
     return answer
 
 
+@pytest.mark.parametrize("noise", ["0", "-1", "inf", "nan"])
+def test_a_noise_is_above_zero_and_finite(run: Run, noise: str) -> None:
+    err = refused(run("diagnose", rubbing(), "--muscle", write("m.json", BRAID), "--noise", noise))
+    assert "--noise" in err
+    assert "leave it out to have it estimated" in err
+
+
 def test_the_json_has_the_promised_shape(run: Run) -> None:
     answer = answer_of(run("diagnose", rubbing(c10=0.4e6), "--muscle", write("m.json", BRAID), "--json"))
     assert answer["kind"] == "isobaric"

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mckibben.api.answers.wording import sentence_of
 from mckibben.identification.diagnosis import Diagnosis, diagnose
 from mckibben.identification.fit import Free
 from mckibben.identification.fits import CancelledError
@@ -217,6 +218,27 @@ def test_slack_rows_with_noise_do_not_bend_the_fit():
     assert found.added == ("bladder_elasticity",)
     assert found.best.rmse < 1.1 * 2.0
     assert found.best.setting.number("bladder_elasticity.shear_modulus") == pytest.approx(0.5e6, rel=0.02)
+
+
+def test_another_braid_angle_is_told_beside_the_effects():
+    """A muscle of 27 degrees taken for one of 26.5: effects can do that, the angle does it better."""
+    found = diagnosis(force_map(noise=1.0, angle=27.0))
+    assert found.added
+    assert any("braid angle of 27.0" in said and "instead of 26.50°" in said for said in found.messages)
+    freed = diagnosis(force_map(noise=1.0, angle=27.0), geometry=free_geometry(MUSCLE, ["braid_angle"], {}))
+    assert freed.added == ()
+    assert freed.status == "adequate"
+    assert sentence_of(freed, {}).startswith("Nothing is missing: the error of ")
+    assert "with the numbers of the model refitted; before" in sentence_of(freed, {})
+
+
+def test_an_error_is_not_called_noise_where_the_noise_is_not_known():
+    """Bar under a heading in pascal, twelve rows: 500 N off, and nothing tells the noise."""
+    rows = [f"{p},{x},{hidden_force(1e5 * p, 1e-3 * x)}" for p in (2, 4, 6) for x in (300, 290, 280, 270)]
+    found = diagnosis(csv(rows, "pressure_Pa,length_mm,force_N", "kind: static"))
+    assert found.noise is None
+    assert found.status == "unknown_effect"
+    assert "do not tell their noise" in sentence_of(found, {})
 
 
 # --- what nobody knows

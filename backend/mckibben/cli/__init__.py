@@ -49,6 +49,14 @@ def _show_version(wanted: bool) -> None:
         raise typer.Exit
 
 
+def _level(noise: float | None) -> float | None:
+    if noise is not None and not 0.0 < noise < float("inf"):
+        raise typer.BadParameter(
+            "the noise is a standard deviation above 0; leave it out to have it estimated"
+        )
+    return noise
+
+
 @app.callback()
 def _root(
     version: bool = typer.Option(
@@ -146,7 +154,8 @@ def diagnose(
     ),
     free: Free = None,
     noise: Annotated[
-        float | None, typer.Option("--noise", min=0.0, help="Noise of the predicted channel in SI, if known.")
+        float | None,
+        typer.Option("--noise", callback=_level, help="Noise of the predicted channel in SI, if known."),
     ] = None,
     report: Annotated[
         Path | None, typer.Option("--report", metavar="FILE", help="Also write it as one HTML file.")
@@ -168,7 +177,7 @@ def diagnose(
         effects=effect or [],
         drive=drive,
         free=free or [],
-        noise=noise or None,
+        noise=noise,
         as_json=as_json,
         report=report,
     )

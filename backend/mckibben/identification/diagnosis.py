@@ -194,7 +194,8 @@ def _diagnose(
     best = search(work, root, singles=[node for _, node in singles])
     work.noise, how = noise_of(subject, best.residual, noise)
     # Made-up data have no noise: what differs by less than their digits is the same.
-    level = max(work.noise or best.rmse, _DIGITS * float(np.max(np.abs(subject.measured / subject.scale))))
+    full_scale = float(np.max(np.abs(subject.measured / subject.scale)))
+    level = max(work.noise or best.rmse, _DIGITS * full_scale)
     progress.share, progress.end = 0.85, 0.95
     path = _path(work, start, root, best, vent)
     added = tuple(step.added for step in path if step.added)
@@ -211,7 +212,7 @@ def _diagnose(
         key=lambda candidate: candidate.score,
     )
     rest = left_structure(subject, best.residual, variables)
-    status = status_of(start, best, work.noise, added, others, rest)
+    status = status_of(start, best, work.noise, added, others, rest, full_scale)
     term = None
     if status == "unknown_effect" and is_force(subject):
         term = proposed_term(best.residual, variables, best.jacobian[:, best.inner])
@@ -219,7 +220,7 @@ def _diagnose(
     return Diagnosis(
         subject, start, root, work.noise, how, tuple(where), before, tuple(ranked), path, best, fit, status,
         added, others, rest, term, tuple(proposals(best, others, catalogue, level, subject)),
-        (*([] if vent is None else [vent.message]), *messages(work, best, fit)),
+        (*([] if vent is None else [vent.message]), *messages(work, first, best, fit)),
     )  # fmt: skip
 
 

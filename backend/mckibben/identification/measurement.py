@@ -40,6 +40,8 @@ CHANNEL_UNITS: Mapping[str, str] = MappingProxyType({
     "diameter": "m", "velocity": "m/s", "command": "1", "temperature": "K", "direction": "1", "group": "1",
 })  # fmt: skip
 
+_HARDLY_A_PRESSURE = 2e3  # Pa: a muscle does not notice it
+
 
 class Channel(NamedTuple):
     """Where a channel came from; ``unit``, ``minimum`` and ``maximum`` are SI, ``source_unit`` the file's."""
@@ -180,6 +182,9 @@ def build(
         exact_zero = table["force"] == 0.0
         if np.count_nonzero(exact_zero) >= 2:  # a sensor hardly shows exactly 0 twice, a clipped table does
             slack |= exact_zero
+    highest = float(np.max(table["pressure"])) if "pressure" in table else 0.0
+    if 0.0 < highest < _HARDLY_A_PRESSURE:
+        notes.append(f"the pressure only reaches {highest:.3g} Pa: is its unit right?")
     if slack.any():
         notes.append(f"{np.count_nonzero(slack)} of {rows} rows hold no pulling force (slack)")
     if excluded_rows is None:

@@ -8,17 +8,20 @@ import numpy as np
 
 from mckibben.identification.fit import FitResult
 from mckibben.identification.fits import Fits
+from mckibben.identification.geometry_instead import geometry_instead
 from mckibben.identification.next_measurement import Proposal, declared, protocols, separation
 from mckibben.identification.node import Node
+from mckibben.identification.setting import Setting
 from mckibben.identification.subjects.subject import Subject
 from mckibben.identification.twins import Alternative
 from mckibben.identification.unknown import Structure, structure
 from mckibben.physics.effect import Effect
 
 _AT_FLOOR = 1.15  # of the noise: nothing more is asked for
-_FAR = 2.0  # of the noise: structure that is left is said to be unknown whatever was explained before
+_FAR = 2.0  # of the noise: something is left that is not known, whatever was explained before
 _STRUCTURED = 0.3  # share of the residual a regression predicts, from which it is structure
 _EXPLAINED = 0.98  # of the excess over the noise
+_SMALL = 0.03  # of full scale: an error of data that do not tell their noise, up to which nothing is missed
 
 
 def left_structure(subject: Subject, residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> Structure:
@@ -44,15 +47,27 @@ def status_of(
     added: Sequence[str],
     others: Sequence[Alternative],
     rest: Structure,
+    full_scale: float,
 ) -> str:
-    """adequate, missing_effects, ambiguous or unknown_effect."""
+    """adequate, missing_effects, ambiguous or unknown_effect.
+
+    Args:
+        start, best: the model as given, and as far as it got.
+        noise: None when the data do not tell it.
+        added: effects that are missing.
+        others: what could stand in for them.
+        rest: structure that is left.
+        full_scale: largest value that was measured, over the scale of the residual.
+    """
+    if noise is None and not added:
+        return "adequate" if best.rmse <= _SMALL * full_scale else "unknown_effect"
     floor = noise or 0.0
+    if noise is not None and best.rmse > _FAR * floor:
+        return "unknown_effect"
     excess = max(start.mean_square - floor**2, 1e-300)
     explained = 1.0 - max(best.mean_square - floor**2, 0.0) / excess
     above = best.rmse > _AT_FLOOR * floor and rest.share > _STRUCTURED
-    if noise is not None and not added and best.rmse > _FAR * floor:
-        return "unknown_effect"
-    if above and (best.rmse > _FAR * floor or explained < _EXPLAINED):
+    if above and explained < _EXPLAINED:
         return "unknown_effect"
     if not added:
         return "adequate"
@@ -81,9 +96,17 @@ def proposals(
     return found
 
 
-def messages(work: Fits, best: Node, fit: FitResult | None) -> list[str]:
-    """What has to be said of the noise, of geometry that took up an effect, and of the fit."""
+def messages(work: Fits, first: Setting, best: Node, fit: FitResult | None) -> list[str]:
+    """What has to be said of the noise, of geometry that took up an effect or could, and of the fit.
+
+    Args:
+        work: the fits of the search.
+        first: the start model.
+        best: the best model; fit: its numbers with errors.
+    """
     found = []
+    if len(best.setting.ids) > len(first.ids) and not work.geometry:
+        found += geometry_instead(work.subject, first, best)
     if work.noise is None:
         found.append("the sweeps are too short to estimate the noise: state it to know when to stop")
     for p in work.geometry:

@@ -232,6 +232,20 @@ def test_command_must_be_a_share():
 
 
 @pytest.mark.parametrize(
+    ("header", "newton"), [("load_kg", 19.6133), ("weight [g]", 19.6133e-3), ("force_lb", 8.8964)]
+)
+def test_a_weight_may_be_given_as_a_mass(header, newton):
+    result = read(f"pressure_bar,length_mm,{header}\n1,300,2\n2,290,2\n")
+    assert result.columns["force"] == pytest.approx(newton, rel=1e-4)
+    assert f"column '{header}' is a mass: its weight is the force" in result.messages
+
+
+def test_a_pressure_that_is_none_is_asked_about():
+    result = read("pressure_Pa,length_mm,force_N\n1,300,500\n6,290,3000\n")
+    assert "the pressure only reaches 6 Pa: is its unit right?" in result.messages
+
+
+@pytest.mark.parametrize(
     ("shorter", "longer"),
     [
         ("up", "down"),

@@ -87,6 +87,20 @@ def test_a_drive_with_known_numbers_is_predicted_back():
     assert np.max(np.abs(ideal - subject.measured)[subject.channels[1].rows]) > 1e-3
 
 
+def test_a_run_that_begins_filled_starts_at_its_measured_pressure():
+    held = signal_from(
+        {"shape": "pulse", "on": "0.5 s", "off": "1.5 s", "level": 1.0, "initial": 0.0},
+        unit="1",
+        field="command",
+    )
+    filled = measured(drive(command=held, start_pressure=2.5e5))
+    assert filled.columns["displacement"][0] > 0.02  # hanging still, contracted
+    subject = subject_of(filled, MUSCLE, drive({}))  # documented as vented
+    found = subject.predict(setting(HIDDEN))
+    for channel, tolerance in zip(subject.channels, (50.0, 5e-6), strict=True):
+        assert found[channel.rows] == pytest.approx(subject.measured[channel.rows], abs=tolerance)
+
+
 def test_force_is_a_channel_where_it_was_measured():
     subject = subject_of(measured(drive(), keep=("pressure", "displacement", "force")), MUSCLE, drive({}))
     force = subject.channels[2]

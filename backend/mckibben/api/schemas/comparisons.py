@@ -48,7 +48,10 @@ class ModelRequest(Strict):
         default=[], max_length=64, description="Further constants that are fitted, as effect.parameter."
     )
     noise: float | None = Field(
-        None, gt=0.0, description="Standard deviation of the predicted channel in SI, when it is known."
+        None,
+        gt=0.0,
+        allow_inf_nan=False,
+        description="Standard deviation of the predicted channel in SI, when it is known.",
     )
 
     def chosen(self) -> list[UsedMeasurement]:

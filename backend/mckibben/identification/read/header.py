@@ -18,7 +18,7 @@ SYNONYMS = {
     for channel, words in {
         "time": "time t",
         "pressure": "pressure p",
-        "force": "force load f",
+        "force": "force load weight f",
         "length": "length l",
         "contraction": "contraction kappa strain κ ε",
         "displacement": "displacement position stroke x",
@@ -242,6 +242,9 @@ def _with_unit(column: Column, letter: str, where: str, noun: str, messages: lis
         return column._replace(use=use)
     if use == "temperature" and unit in ("C", "F"):
         unit = f"deg{unit}"
+    if use == "force" and unit in _WEIGHTS:
+        messages.append(f"{noun} '{column.header}' is a mass: its weight is the force")
+        unit = _WEIGHTS[unit]
     if use == "contraction" and _fits(unit, "m"):
         use = "displacement"
     elif use == "displacement" and _fits(unit, "1"):
@@ -261,6 +264,7 @@ def _with_unit(column: Column, letter: str, where: str, noun: str, messages: lis
     )
 
 
+_WEIGHTS = {"kg": "kgf", "g": "gf", "lb": "lbf"}
 _UNIT_EXAMPLES = {
     "pressure": "bar", "length": "mm", "displacement": "mm", "diameter": "mm", "contraction": "pct",
     "command": "pct", "temperature": "degC",

@@ -57,10 +57,12 @@ def _bare_drive(measurement: Measurement, muscle: Muscle) -> Drive:
         )
     conditions = measurement.conditions
     if not {"load_mass", "load_force"} & set(conditions):
+        unused = ", ".join(f"'{header}'" for header in measurement.ignored)
+        also = f"; is one of the columns that are not used, {unused}, the force?" if unused else ""
         raise InputError(
             f"{measurement.name}: the load of a transient measurement is not given",
             field="load_mass",
-            hint="add a line '# load_mass: 6 kg' before the header, or give a drive document",
+            hint=f"add a line '# load_mass: 6 kg' before the header, or give a drive document{also}",
         )
     return Drive(
         model=StaticModel(muscle),

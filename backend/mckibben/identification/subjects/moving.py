@@ -30,6 +30,8 @@ from mckibben.simulation.transient import simulate
 
 _MOST_ROWS = 1000  # per record; more are thinned evenly
 _FEW_LEVELS = 0.2  # share of rows with another command than the row before, up to which it is held
+_FIRST_ROWS = 50
+_NOT_VENTED = 30e3  # Pa from the documented start; less is a zero error of the gauge
 _LOST = 1e3  # noises by which a run that broke off is said to miss
 _TIME_LIMIT = 2.0  # s; a run that takes longer is a bad guess of a fit
 # What only acts on the way of the air, and is not there when the pressure is measured.
@@ -241,10 +243,20 @@ def _record(measurement: Measurement, drive: Drive, rows: np.ndarray) -> Record:
     if "command" in columns:
         changed["command"] = _command(columns["time"], columns["command"], rows)
     pressure = columns["pressure"][rows] if "pressure" in columns else None
+    if pressure is not None and "command" in columns:
+        changed["start_pressure"] = _start_pressure(drive, pressure, columns["command"][rows])
     stroke = _stroke(measurement, drive)
     return Record(
         replace(drive, **changed), time, pressure, 0.0 if stroke is None else float(stroke[rows[0]]), rows
     )
+
+
+def _start_pressure(drive: Drive, pressure: np.ndarray, command: np.ndarray) -> float:
+    """As documented, unless it is clearly another that was measured before the valve first moved [Pa]."""
+    closed = command[0] == 0.0
+    resting = int(np.argmax(command != 0.0)) or len(command) if closed else 1
+    measured = float(np.median(pressure[: min(resting, _FIRST_ROWS)]))
+    return measured if abs(measured - drive.start_pressure) > _NOT_VENTED else drive.start_pressure
 
 
 def _command(time: np.ndarray, command: np.ndarray, rows: np.ndarray) -> Recorded:

@@ -187,6 +187,8 @@ def _motion(
 def _pauses(time: np.ndarray, group: np.ndarray) -> np.ndarray:
     """Whether the recording paused before each row but the first, and went on with another group."""
     steps = np.diff(time)
+    if not len(steps):
+        return np.zeros(0, bool)
     return (steps > _PAUSE * np.median(np.abs(steps))) & (np.diff(group) != 0)
 
 
