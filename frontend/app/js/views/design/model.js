@@ -179,13 +179,11 @@ export const referenceId = computed(() => {
 });
 export const reference = computed(() => references.value.find((r) => r.id === referenceId.value) ?? null);
 
-/** What the model's error depends on, as the text of a question; null without points. */
-const comparison = computed(() => {
-  const points = reference.value;
-  if (!points) return null;
-  const { muscle: m, effects: e } = design.value;
-  return JSON.stringify({ muscle: muscleInput(m), effects: e, measurement: points.id });
-});
+/** What the model's error depends on, as the text of a question; null without points.
+ * @param {Design} d @param {{id: string} | null} points */
+const questionOf = (d, points) =>
+  points && JSON.stringify({ muscle: muscleInput(d.muscle), effects: d.effects, measurement: points.id });
+const question = computed(() => questionOf(design.value, reference.value));
 
 /** @typedef {{model: Comparison | null, ideal: Comparison | null, words: string | null}} Errors */
 /** @type {Errors & {of: string | null}} */
@@ -193,7 +191,9 @@ const NONE = { model: null, ideal: null, words: null, of: null };
 /** The answer and the question it belongs to. */
 export const errors = signal(NONE);
 /** What is shown is not yet the error of what is set. */
-export const errorsOutdated = computed(() => errors.value.of !== comparison.value);
+export const errorsOutdated = computed(() =>
+  question.value !== null && errors.value.of !== question.value
+);
 
 const askErrors = latest(
   async (/** @type {string} */ of, control) => {
@@ -220,7 +220,7 @@ export function startModel() {
     const answer = curves.value, points = reference.value;
     clearTimeout(timer);
     if (!points) errors.value = NONE;
-    const asked = comparison.peek();
+    const asked = questionOf(design.peek(), points);
     if (answer && asked) timer = setTimeout(() => askErrors(asked), COMPARE_AFTER_MS);
   });
 }
