@@ -40,7 +40,7 @@ OPERATIONS = [(method, path) for path, methods in PATHS.items() for method in so
 INFALLIBLE = [("get", path) for path in ("/api/health", "/api/effects", "/api/mysteries")]
 FALLIBLE = [operation for operation in OPERATIONS if operation not in INFALLIBLE]
 MODELS = ["/api/curves", "/api/inverse", "/api/comparisons"]
-EXAMPLES = 80
+EXAMPLES = 50
 HOST = {"host": "127.0.0.1"}
 
 

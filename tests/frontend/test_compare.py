@@ -286,6 +286,7 @@ def test_dropped_anywhere(page: Page, sweeps: FilePayload) -> None:
 
 
 def test_a_built_in_map_opens_with_one_click_and_guides(page: Page) -> None:
+    remember(page)
     open_compare(page)
     page.get_by_role("button", name="Guided example").click()
     expect(page.locator(".guide")).to_be_visible()
@@ -293,7 +294,6 @@ def test_a_built_in_map_opens_with_one_click_and_guides(page: Page) -> None:
     expect(page.locator(".guide")).to_contain_text("Press Add")
     page.get_by_role("button", name="Skip the guide").click()
     expect(page.locator(".guide")).to_be_hidden()
-    remember(page)
     page.get_by_role("button", name="Remove Martens").click()
     page.locator(".tile", has_text="DMSP-20-300").click()
     expect(page.locator("#compare-preset")).to_have_value("DMSP-20")

@@ -120,7 +120,7 @@ def _csv_structure(random: np.random.Generator) -> Iterator[Variant]:
         twice[number] = HEADERS[number - 1].upper()
         yield Variant("duplicate", "twice.csv", files.csv(header=twice), ("row 2", "occurs twice"))
         wrong = list(HEADERS)
-        wrong[number] = wrong[number].split("_")[0] + "_kg"
+        wrong[number] = wrong[number].split("_")[0] + "_Hz"
         yield Variant("wrong unit", "unit.csv", files.csv(header=wrong), ("row 2", wrong[number]))
         wrong = list(HEADERS)
         wrong[number] = wrong[number].split("_")[0] + " [parsnip]"
@@ -251,8 +251,8 @@ def _matlab(random: np.random.Generator) -> Iterator[Variant]:
         yield Variant("nan", "nan.mat", files.mat(columns), (), left_out=4)
         yield Variant("inf", "inf73.mat", files.mat73({**COLUMNS, name: np.full(ROWS, np.inf)}), (name,))
         yield Variant("shorter", "short.mat", files.mat({**COLUMNS, name: COLUMNS[name][:-3]}), (name,))
-        renamed = {(key.split("_")[0] + "_kg" if key == name else key): v for key, v in COLUMNS.items()}
-        yield Variant("wrong unit", "unit.mat", files.mat(renamed), (name.split("_")[0] + "_kg",))
+        renamed = {(key.split("_")[0] + "_Hz" if key == name else key): v for key, v in COLUMNS.items()}
+        yield Variant("wrong unit", "unit.mat", files.mat(renamed), (name.split("_")[0] + "_Hz",))
     yield Variant(
         "negative length",
         "value.mat",
@@ -282,7 +282,7 @@ def _tdms(random: np.random.Generator) -> Iterator[Variant]:
         yield Variant("nan", "nan.tdms", files.tdms(columns), (), left_out=4)
         channel = name.split("_")[0]
         yield Variant("shorter", "short.tdms", files.tdms({**COLUMNS, name: COLUMNS[name][:-3]}), (channel,))
-        renamed = {(f"{channel}_kg" if key == name else key): v for key, v in COLUMNS.items()}
-        yield Variant("wrong unit", "unit.tdms", files.tdms(renamed), (channel, "kg"))
+        renamed = {(f"{channel}_Hz" if key == name else key): v for key, v in COLUMNS.items()}
+        yield Variant("wrong unit", "unit.tdms", files.tdms(renamed), (channel, "Hz"))
     yield Variant("index", "good.tdms_index", b"TDSh" + good[4:], ())
     yield Variant("wrong extension", "good.csv", good, None)

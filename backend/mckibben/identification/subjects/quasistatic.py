@@ -70,8 +70,12 @@ class Quasistatic(Subject):
         self._wide: tuple[Effect, ...] = ()
 
     def reveals(self, effect: Effect) -> bool:
-        """By the kinds that the effect names; memory needs an order in time, temperature a change."""
-        if self.kind not in effect.kinds:
+        """By the kinds that the effect names; memory needs an order in time, temperature a change.
+
+        Rows in time with nothing held show what both kinds do in which one thing is held.
+        """
+        free = self.kind == "static" and self.task.time is not None
+        if not effect.kinds & ({"static", "isobaric", "isometric"} if free else {self.kind}):
             return False
         delays = late(effect)
         if (remembers(effect) or delays) and self.task.time is None:

@@ -132,8 +132,10 @@ def task_of(measurement: Measurement, muscle: Muscle) -> Task:
     ordered = "time" in columns
     turning = _turning(state["direction"], records) | unsure
     excluded["turning points"] = int(np.count_nonzero(turning & keep))
-    unseen = _after_breaks(measurement, length)
-    excluded["history unknown after a break"] = int(np.count_nonzero(unseen & keep & ~turning))
+    unseen = _unknown_history(measurement, length)
+    excluded["history unknown at the start or after a break"] = int(
+        np.count_nonzero(unseen & keep & ~turning)
+    )
     turning |= unseen
     return Task(
         kind,
@@ -192,11 +194,12 @@ def _pauses(time: np.ndarray, group: np.ndarray) -> np.ndarray:
     return (steps > _PAUSE * np.median(np.abs(steps))) & (np.diff(group) != 0)
 
 
-def _after_breaks(measurement: Measurement, length: np.ndarray | None) -> np.ndarray:
+def _unknown_history(measurement: Measurement, length: np.ndarray | None) -> np.ndarray:
     """Rows after a break in which what is held was set anew, until the muscle has forgotten the way there.
 
     Such a break is a pause between groups, or a jump of the held quantity. What happened in it was not
-    recorded, and where friction was left by it is known only after some way.
+    recorded, and where friction was left by it is known only after some way. A record begins at rest, but
+    for a muscle that already carries its weight: it was filled before.
     """
     columns, rows = measurement.columns, np.zeros(measurement.rows, bool)
     ways = {  # what is held and what is swept
@@ -212,6 +215,8 @@ def _after_breaks(measurement: Measurement, length: np.ndarray | None) -> np.nda
         jumps = np.abs(np.diff(held)) > _NEW_LEVEL * max(np.ptp(held), 0.2 * np.max(np.abs(held)))
         breaks |= jumps & (np.diff(columns["group"]) != 0)
     edges = [*(np.flatnonzero(breaks) + 1), measurement.rows]
+    if measurement.kind == "isotonic":
+        edges.insert(0, 0)
     for first, last in itertools.pairwise(edges):
         moved = np.abs(swept[first:last] - swept[first]) > _FORGOTTEN * np.ptp(swept[first:last])
         until = int(np.argmax(moved)) if np.any(moved) else 0

@@ -1,20 +1,26 @@
 r"""Hysteresis driven by pressure: the force on filling is lower than on venting, even at constant length.
 
-.. math:: F = -F_p\,z, \qquad \dot z = \frac{\dot P - |\dot P|\,z}{P_b}
+.. math:: F = -F_p\,\bigl(1 - a + a\,A(L)_+/A(L_0)\bigr)\,z,
+   \qquad \dot z = \frac{\dot P - |\dot P|\,z}{P_b}
 
 Friction that follows the length alone has exactly no loop at constant length; real muscles show one, because
-threads micro-slip when the pressure strains them and presses them together.
+threads micro-slip when the pressure strains them and presses them together. Where it is the pressure that
+lags (a Preisach operator between gauge and braid), the loop is as wide in pressure at every length and has
+the effective area A of the ideal braid in force: a = 1.
 """
 
-from mckibben.physics import ops
+from mckibben.physics import ideal, ops
 from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
+from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
 
-def friction(*, filling: Value, force: Value) -> Value:
-    """-F_p z [N], within +-F_p: negative on filling."""
-    return -force * filling
+def friction(*, muscle: Muscle, length: Value, filling: Value, force: Value, along_area: Value) -> Value:
+    """-F_p (1 - a + a A/A_0) z [N], negative on filling; the share a ends at the zero-force length."""
+    here = ideal.area(braid=muscle.braid, length=length)
+    relative = ops.positive_part(here / ideal.area(braid=muscle.braid, length=muscle.nominal_length))
+    return -force * (1.0 - along_area + along_area * relative) * filling
 
 
 def rates(*, pressure_rate: Value, filling: Value, break_pressure: Value) -> tuple[Value]:
@@ -26,6 +32,8 @@ _LOOP = Source(
     "hysteresis of at most 2.5-3 % of the force in catalogues, a part of it at constant length", "E"
 )
 _WAY = Source("a tenth of the working pressure", "E")
+_SHARE = Source("a share: 0 all of it in force, 1 all of it in pressure", "D")
+_SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
 _DEFINITION = Source("definition, by hand", "D")
 
 EFFECT = Effect(
@@ -34,7 +42,7 @@ EFFECT = Effect(
     type="hysteretic",
     cause="The pressure strains the threads and presses them together, so that they slip a little even when "
     "the length is held. The force on filling is then lower than on venting at the same pressure.",
-    equation=r"F_{h} = -F_p\,z,\quad \dot z = \frac{\dot P-|\dot P|\,z}{P_b}",
+    equation=r"F_{h} = -F_p\,(1-a+a\,A_+/A_0)\,z,\quad \dot z = \frac{\dot P-|\dot P|\,z}{P_b}",
     parameters=(
         Parameter(
             "force", "F_p", "N", 5.0, 0.0, 100.0, _LOOP, "Half the width of the pressure loop.", off=0.0
@@ -49,6 +57,18 @@ EFFECT = Effect(
             _WAY,
             "Change of pressure over which the loop opens after a reversal.",
             fitted=False,
+        ),
+        Parameter(
+            "along_area",
+            "a",
+            "1",
+            0.0,
+            0.0,
+            1.0,
+            _SHARE,
+            "Share of the loop that follows the effective area; 1: one width in pressure at every length.",
+            fitted=False,
+            natural=True,
         ),
     ),
     slots={"friction": friction, "rates": rates},
@@ -72,7 +92,25 @@ EFFECT = Effect(
         Source("Lin, Lin, Yu & Chen, Control Eng. Pract. 40 (2015) 35", "M"),
     ),
     examples=(
-        Example("slot:friction", -3.0, 1e-12, _DEFINITION, {"force": 5.0}, {}, {"filling": 0.6}),
+        Example(
+            "slot:friction",
+            -3.0,
+            1e-12,
+            _DEFINITION,
+            {"force": 5.0},
+            _SIZE_20,
+            {"filling": 0.6, "length": 0.3},
+        ),
+        Example(
+            "slot:friction",
+            # -3 N (3 (5/6)^2 cos^2 25° - 1)/(3 cos^2 25° - 1)
+            -1.457272,
+            1e-6,
+            _DEFINITION,
+            {"force": 5.0, "along_area": 1.0},
+            _SIZE_20,
+            {"filling": 0.6, "length": 0.25},
+        ),
         Example(
             "slot:rates",
             # (-1e5 - 1e5 * 0.5) Pa/s / 0.3 bar

@@ -191,9 +191,7 @@ const NONE = { model: null, ideal: null, words: null, of: null };
 /** The answer and the question it belongs to. */
 export const errors = signal(NONE);
 /** What is shown is not yet the error of what is set. */
-export const errorsOutdated = computed(() =>
-  question.value !== null && errors.value.of !== question.value
-);
+export const errorsOutdated = computed(() => question.value !== null && errors.value.of !== question.value);
 
 const askErrors = latest(
   async (/** @type {string} */ of, control) => {
