@@ -51,7 +51,8 @@ def _warped(effect_id: str, *, warp: float) -> np.ndarray:
             "pressure_rate": 2e5 * np.cos(1.5 * tau) * 1.5 * rate,
         }
 
-    force = effect.call("friction", {}, effect.defaults | run(effect, path, time))
+    at_rest = {"muscle": MUSCLE, "length": MUSCLE.nominal_length}
+    force = effect.call("friction", at_rest, effect.defaults | run(effect, path, time))
     return np.interp(np.linspace(0.0, 6.0 * np.pi, 800), time + warp * np.sin(time), force)
 
 
@@ -75,6 +76,20 @@ def test_pressure_driven_loop_shows_at_constant_length() -> None:
     filling, venting = np.interp([8.0, 10.0], time, force)  # sin = 0, rising and falling
     assert filling == pytest.approx(-5.0, rel=1e-3)
     assert venting == pytest.approx(5.0, rel=1e-3)
+
+
+def test_pressure_driven_loop_along_the_area_is_as_wide_in_pressure_at_every_length() -> None:
+    """F_p A/A_0: with 1/A_0 of force per pressure, the same pressure at both lengths."""
+    effect, braid = CATALOGUE["pressure_hysteresis"], MUSCLE.braid
+    values = effect.defaults | {"force": 5.0, "along_area": 1.0, "filling": 1.0}
+    widths = []
+    for length in (MUSCLE.nominal_length, 0.85 * MUSCLE.nominal_length):
+        force = effect.call("friction", {"muscle": MUSCLE, "length": length}, values)
+        gas = 3.0 * length**2 / braid.thread_length**2 - 1.0  # the ideal force over P b^2/(4 pi n^2)
+        widths.append(force / gas)
+    assert widths[1] == pytest.approx(widths[0], rel=1e-12)
+    beyond = effect.call("friction", {"muscle": MUSCLE, "length": 0.5 * MUSCLE.nominal_length}, values)
+    assert beyond == 0.0
 
 
 def test_dahl_in_closed_form() -> None:
