@@ -20,7 +20,7 @@ def test_one_row_or_two_are_found(height: float, rows: int) -> None:
     for start in (30, 222):
         force[start : start + rows] += height
     (reason, found) = next(iter(spiked_rows({"force": force}).items()))
-    assert reason == "force spike"
+    assert reason == "spikes of the force"
     assert set(np.flatnonzero(found)) == {start + k for start in (30, 222) for k in range(rows)}
 
 
@@ -46,5 +46,5 @@ def test_a_spike_does_not_count_and_is_told() -> None:
     columns = {"time": TIME, "pressure": np.full(ROWS, 3e5), "length": 0.3 - 0.03 * TRIANGLE, "force": force}
     measurement = build(columns, name="a.csv", id="0" * 64)
     assert np.flatnonzero(~measurement.usable).tolist() == [57]
-    assert measurement.exclusions["force spike"] == 1
-    assert "1 of 400 rows are excluded: force spike" in measurement.messages
+    assert measurement.exclusions["spikes of the force"] == 1
+    assert "1 of 400 rows are excluded: spikes of the force" in measurement.messages

@@ -34,7 +34,7 @@ def spiked_rows(columns: Mapping[str, NDArray]) -> dict[str, NDArray[np.bool_]]:
         if name in columns and len(columns[name]) >= _FEWEST:
             spiked = _spikes(np.asarray(columns[name], dtype=float))
             if 0 < np.count_nonzero(spiked) <= max(3, _MOST * len(spiked)):
-                found[f"{name} spike"] = spiked
+                found[f"spikes of the {name}"] = spiked
     return found
 
 
