@@ -36,13 +36,16 @@ def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
         of_noise = f"is of the size of the noise ({level})" if level else "is noise"
         return f"Nothing is missing: {error} {of_noise}."
     at_floor = noise is not None and after <= _AT_FLOOR * noise
-    floor = f", the noise of the data ({level})" if at_floor else f"; the noise is {level}" if level else ""
+    # Over the noise of each channel the error says it by itself.
+    floor = (
+        "" if not level else f", the noise of the data ({level})" if at_floor else f"; the noise is {level}"
+    )
     these = "it" if len(result.added) == 1 else "them"
     text = f"Missing: {names}. With {these} the error falls from {before:.3g} to {after:.3g} {unit}{floor}."
     if result.status == "unknown_effect":
         return f"{text} No catalogued effect explains the rest: {rest}."
     if noise is not None and not at_floor and result.structure.share >= _WORTH_TELLING:
-        text += f" Of what is left {rest.replace(' of it', '')}."
+        text += f" Of the rest, {_structured(result)}."
     if result.status == "ambiguous":
         pairs = []
         for added in dict.fromkeys(other.of for other in result.alternatives):
@@ -56,10 +59,14 @@ def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
 
 def _rest(result: Diagnosis) -> str:
     """What the last residual follows."""
-    share, variables = result.structure.share, [name for name, _ in result.structure.variables[:2]]
-    if share < _WORTH_TELLING:
+    if result.structure.share < _WORTH_TELLING:
         return "it follows nothing that was measured; repeat the run to see whether it comes again"
-    return f"{100.0 * share:.0f} % of it follows {_joined(variables) or 'a pattern'}"
+    return _structured(result, " of it")
+
+
+def _structured(result: Diagnosis, of: str = "") -> str:
+    variables = [name for name, _ in result.structure.variables[:2]]
+    return f"{100.0 * result.structure.share:.0f} %{of} follows {_joined(variables) or 'a pattern'}"
 
 
 def _joined(names: list[str], word: str = "and") -> str:
