@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import numpy as np
 
 from mckibben.identification.node import Node, fitted_node
@@ -13,7 +15,9 @@ _AS_GOOD = 1.05  # of the error that the effects leave
 _PLAUSIBLE = 0.6  # of what a fit of geometry may change
 
 
-def geometry_instead(subject: Subject, first: Setting, best: Node) -> list[str]:
+def geometry_instead(
+    subject: Subject, first: Setting, best: Node, *, held: Collection[str] = ()
+) -> list[str]:
     """The dimension that explains the data as well as the added effects, in a sentence; empty without one.
 
     Transients are not judged: they hardly tell the geometry, and each fit takes long.
@@ -22,13 +26,15 @@ def geometry_instead(subject: Subject, first: Setting, best: Node) -> list[str]:
         subject: the data.
         first: the start model.
         best: the best model, with effects added to it.
+        held: numbers of the start model that no fit changes.
     """
     if subject.one_sided:
         return []
     found = []
     for name in _BY_HAND:
         (dimension,) = free_geometry(first.muscle, [name], {})
-        free = free_numbers(first, [dimension], load=subject.unknown_load)
+        numbers = free_numbers(first, [dimension], load=subject.unknown_load)
+        free = [parameter for parameter in numbers if parameter.name not in held]
         node = fitted_node(subject, first, free)
         value = node.setting.number(name)
         moved = abs(value - dimension.start) / (dimension.upper - dimension.start)

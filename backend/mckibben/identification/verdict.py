@@ -106,7 +106,7 @@ def messages(work: Fits, first: Setting, best: Node, fit: FitResult | None) -> l
     """
     found = []
     if len(best.setting.ids) > len(first.ids) and not work.geometry:
-        found += geometry_instead(work.subject, first, best)
+        found += geometry_instead(work.subject, first, best, held=work.held)
     if work.noise is None:
         found.append("the sweeps are too short to estimate the noise: state it to know when to stop")
     for p in work.geometry:
