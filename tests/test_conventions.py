@@ -24,6 +24,7 @@ EFFECTS = sorted(file for file in (PHYSICS / "effects").glob("*.py") if file.ste
 # Modules of physics/ that hold no formulas: their arguments are operands, texts and declarations.
 NOT_FORMULAS = {
     "custom",
+    "term_check",
     "ops",
     "units",
     "errors",

@@ -16,9 +16,6 @@ from inspect import Parameter as Argument
 from inspect import Signature as CallSignature
 from typing import Any
 
-import numpy as np
-import symengine as se
-
 from mckibben.physics import ops
 from mckibben.physics.effect import Effect, Example, Signature, StateVariable
 from mckibben.physics.errors import InputError, did_you_mean
@@ -26,6 +23,15 @@ from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 from mckibben.physics.slots import SLOTS
+from mckibben.physics.term_check import (
+    Worth,
+    check_derivatives,
+    check_written_out,
+    finite,
+    named,
+    refused,
+    shown,
+)
 
 CUSTOM = "custom"
 TERM = "term"
@@ -34,7 +40,9 @@ SYMBOLS = {
     "t": "time [s]", "pi": "3.14159...",
 }  # fmt: skip
 FUNCTIONS: Mapping[str, Callable[[Value], Value]] = {
-    "abs": ops.absolute,
+    # The argument twice, not three times as in ops.absolute, and never negated: a negated copy is another
+    # expression, which symengine takes apart anew at every level of a nest.
+    "abs": lambda x: x * ops.where(ops.greater(x, 0.0), 1.0, -1.0),
     "exp": ops.exp, "sqrt": ops.sqrt, "sin": ops.sin, "cos": ops.cos,
     "tanh": lambda x: 1.0 - 2.0 / (ops.exp(2.0 * x) + 1.0),
 }  # fmt: skip
@@ -42,8 +50,6 @@ _LONGEST = 500
 _DEEPEST = 40
 _LONGEST_NAME = 64
 _USABLE = re.compile(r"[A-Za-z0-9_+\-*/^().,\s]*")
-# What symengine writes for a number that is not finite or not real.
-_UNREAL = re.compile(r"\b(zoo|nan|oo|inf|I)\b")
 _QUOTES = {"'": "a single quote", '"': "a double quote"}
 # Names with another meaning: what the effect's functions are given, its state, and the term itself.
 _TAKEN = {*SLOTS["friction"].context, "elapsed", TERM}
@@ -51,8 +57,6 @@ _LARGEST = 1e12  # SI; bounds of a parameter whose size nobody stated
 _REACH = 1e3  # times the stated value
 
 _ALLOWED = f"numbers, + - * / **, {', '.join((*SYMBOLS, 'sign', *FUNCTIONS))} and parameters"
-
-_Make = Callable[[Mapping[str, Value]], Value]
 
 
 def custom_effect(term: str, given: Mapping[str, float] | None = None) -> Effect:
@@ -66,25 +70,27 @@ def custom_effect(term: str, given: Mapping[str, float] | None = None) -> Effect
         InputError: names what in the term cannot be used; field "effects.custom.term".
     """
     if not isinstance(term, str) or not term.strip():
-        raise _error("the term is empty", hint="e.g. -c*sign(v)*P")
+        raise refused("the term is empty", hint="e.g. -c*sign(v)*P")
     if len(term) > _LONGEST:
-        raise _error(f"the term has {len(term)} characters, at most {_LONGEST}")
+        raise refused(f"the term has {len(term)} characters, at most {_LONGEST}")
     if odd := term[_USABLE.match(term).end() :]:  # type: ignore[union-attr] - it matches the empty text
-        raise _error(f"{_named(odd[0])} cannot be part of a term", hint=_ALLOWED)
+        raise refused(f"{_named(odd[0])} cannot be part of a term", hint=_ALLOWED)
     try:
         tree = ast.parse(term.strip().replace("^", "**"), mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-        raise _error(f"'{term[:80]}' is not a formula", hint="e.g. -c*sign(v)*P") from error
+        raise refused(f"'{shown(part=term)}' is not a formula", hint="e.g. -c*sign(v)*P") from error
     names: dict[str, None] = {}
-    make = _node(tree.body, names, 0)
+    with named(term=term):
+        worth = _node(tree.body, names, 0)
     parameters = [name for name in names if name not in SYMBOLS]
     for name in parameters:
         if name in _TAKEN or name.startswith("_") or len(name) > _LONGEST_NAME:
-            raise _error(f"'{name[:80]}' cannot be the name of a parameter", hint="e.g. c, c1, stiffness")
+            raise refused(f"'{name[:80]}' cannot be the name of a parameter", hint="e.g. c, c1, stiffness")
     timed = "t" in names
     if not parameters:
-        raise _error("the term has no parameter that could be fitted", hint="e.g. c*sign(v)*P")
-    _check_real(make, names, term)
+        raise refused("the term has no parameter that could be fitted", hint="e.g. c*sign(v)*P")
+    check_written_out(tree=tree.body, term=term)
+    check_derivatives(worth=worth, names=names, term=term)
     unknown = [name for name in given or {} if name not in parameters]
     if unknown:
         raise InputError(
@@ -104,7 +110,8 @@ def custom_effect(term: str, given: Mapping[str, float] | None = None) -> Effect
             "t": known.get("elapsed", 0.0),
             "pi": math.pi,
         }
-        return make({**values, **{name: known[name] for name in parameters}})
+        with named(term=term):
+            return worth({**values, **{name: known[name] for name in parameters}})
 
     def rates(**_: Any) -> tuple[Value, ...]:
         return (1.0,)
@@ -155,7 +162,7 @@ def typed_effect(given: Mapping[str, float | str]) -> tuple[Effect, str]:
             raise InputError(f"{name} is {values[name]:g}, beyond {_LARGEST:g}", field=where, hint="in SI")
     term = given.get(TERM)
     if not isinstance(term, str):
-        raise _error("a custom effect needs its term as a text", hint="e.g. c*sign(v)*P")
+        raise refused("a custom effect needs its term as a text", hint="e.g. c*sign(v)*P")
     return _kept(term, tuple(sorted(values.items()))), term
 
 
@@ -176,40 +183,23 @@ def _declare(function: Callable[..., Value], names: list[str]) -> None:
     function.__signature__ = CallSignature(arguments)  # type: ignore[attr-defined]
 
 
-def _check_real(make: _Make, names: Mapping[str, None], term: str) -> None:
-    """Refuse a term that is nowhere finite and real, or whose derivatives are not."""
-    symbols = {name: se.Symbol(name) for name in (*names, "direction")} | {"pi": math.pi}
-    value = se.sympify(make(symbols))
-    left = [value, *(value.diff(x) for x in symbols.values() if ops.is_symbolic(x))]
-    seen: set[se.Basic] = set()  # each part once: a nested abs doubles what is written out with every level
-    while left:
-        part = left.pop()
-        if part in seen:
-            continue
-        seen.add(part)
-        left += part.args
-        if isinstance(part, se.Number) and _UNREAL.search(str(part)):
-            raise _error(f"'{term[:80]}' has no finite value", hint="look for a division by zero or a root")
-
-
-def _node(node: ast.expr, names: dict[str, None], depth: int) -> _Make:
+def _node(node: ast.expr, names: dict[str, None], depth: int) -> Worth:
     """A function of the known values from a whitelisted part of the formula; its numbers are worked out."""
-    make = _part(node, names, depth)
+    part = _part(node, names, depth)
+
+    def worth(known: Mapping[str, Value]) -> Value:
+        return finite(part=node, worth=part, known=known)
+
     try:
-        with np.errstate(all="raise"):
-            number = make({"pi": math.pi})
+        number = worth({"pi": math.pi})
     except KeyError:  # it has symbols or parameters
-        return make
-    except ArithmeticError:
-        number = math.nan
-    if isinstance(number, complex) or not math.isfinite(number):
-        raise _error(f"'{ast.unparse(node)[:60]}' is not a number that can be used")
-    return lambda _: float(number)
+        return worth
+    return lambda _: number
 
 
-def _part(node: ast.expr, names: dict[str, None], depth: int) -> _Make:
+def _part(node: ast.expr, names: dict[str, None], depth: int) -> Worth:
     if depth > _DEEPEST:
-        raise _error("the term is nested too deeply")
+        raise refused("the term is nested too deeply")
     if isinstance(node, ast.Constant) and type(node.value) in (int, float):
         written: Any = node.value
         return lambda _: float(written)
@@ -217,7 +207,7 @@ def _part(node: ast.expr, names: dict[str, None], depth: int) -> _Make:
         name = node.id
         names.setdefault(name)
         if name in FUNCTIONS or name == "sign":
-            raise _error(f"{name} is a function", hint=f"e.g. {name}(v)")
+            raise refused(f"{name} is a function", hint=f"e.g. {name}(v)")
         return lambda known: known[name]
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.UAdd):
         inner = _node(node.operand, names, depth + 1)
@@ -228,15 +218,15 @@ def _part(node: ast.expr, names: dict[str, None], depth: int) -> _Make:
         return lambda known: operate(left(known), right(known))
     if isinstance(node, ast.Call):
         return _call(node, names, depth)
-    raise _error(f"'{ast.unparse(node)[:60]}' cannot be part of a term", hint=_ALLOWED)
+    raise refused(f"'{shown(part=node)}' cannot be part of a term", hint=_ALLOWED)
 
 
-def _call(node: ast.Call, names: dict[str, None], depth: int) -> _Make:
-    name = node.func.id if isinstance(node.func, ast.Name) else ast.unparse(node.func)[:40]
+def _call(node: ast.Call, names: dict[str, None], depth: int) -> Worth:
+    name = node.func.id if isinstance(node.func, ast.Name) else shown(part=node.func)
     if name != "sign" and name not in FUNCTIONS:
-        raise _error(f"there is no function '{name}'", hint=did_you_mean(name, ("sign", *FUNCTIONS)))
+        raise refused(f"there is no function '{name}'", hint=did_you_mean(name, ("sign", *FUNCTIONS)))
     if len(node.args) != 1 or node.keywords:
-        raise _error(f"{name} takes one argument", hint=f"e.g. {name}(v)")
+        raise refused(f"{name} takes one argument", hint=f"e.g. {name}(v)")
     if name == "sign":
         if isinstance(node.args[0], ast.Name) and node.args[0].id == "v":
             return lambda known: known["direction"]
@@ -253,7 +243,7 @@ def _named(character: str) -> str:
 
 
 def _sign(value: Value) -> Value:
-    falling = ops.where(ops.greater(-value, 0.0), -1.0, 0.0)
+    falling = ops.where(ops.greater(0.0, value), -1.0, 0.0)
     return ops.where(ops.greater(value, 0.0), 1.0, falling)
 
 
@@ -264,7 +254,3 @@ _OPERATORS: Mapping[type[ast.operator], Callable[[Any, Any], Value]] = {
     ast.Div: lambda a, b: a / b,
     ast.Pow: lambda a, b: a**b,
 }
-
-
-def _error(message: str, hint: str | None = None) -> InputError:
-    return InputError(message, field=f"effects.{CUSTOM}.{TERM}", hint=hint)
