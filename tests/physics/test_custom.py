@@ -15,7 +15,8 @@ from fastapi.testclient import TestClient
 
 from mckibben.api.app import create_app
 from mckibben.api.settings import Settings
-from mckibben.physics.custom import custom_effect, typed_effect
+from mckibben.physics.catalogue import default_catalogue
+from mckibben.physics.custom import blamed_on_the_term, custom_effect, typed_effect
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.physics.muscle import Muscle
@@ -268,6 +269,32 @@ def test_time_is_a_state_that_runs_with_the_record():
     bare = driven_force(StaticModel(MUSCLE), **rows)
     assert force - bare == pytest.approx(20.0 * (1 - np.exp(-(time - 3.0) / 2.0)), abs=1e-3)
     assert custom_effect("c*P").states == ()
+
+
+@pytest.mark.parametrize(
+    "term", ["c*t**n", "c*sqrt(t)", "c*abs(t - 5)*P", "c*P*t*exp(-t/tau)", "c*sign(t - 1)"]
+)
+def test_curves_are_those_at_the_begin(term):
+    effect = custom_effect(term)
+    model = StaticModel(MUSCLE, {"custom": {}}, catalogue={"custom": effect})
+    at = {"length": 0.28, "pressure": 2e5}
+    change = model.force(clipped=False, **at) - StaticModel(MUSCLE).force(clipped=False, **at)
+    assert change == pytest.approx([float(worth(effect, {}, **at))], abs=1e-8)
+
+
+# --- what cannot be compiled
+
+
+def test_a_failure_to_compile_is_blamed_on_the_term_where_there_is_one():
+    typed = custom_effect("c*P")
+    with pytest.raises(InputError) as error, blamed_on_the_term([typed]):
+        raise RuntimeError("LLVMDouble can only represent real valued infinity")
+    assert error.value.field == PLACE
+    assert error.value.message == "'c*P' cannot be computed together with the rest of the model"
+    with pytest.raises(RuntimeError, match="LLVM"), blamed_on_the_term(list(default_catalogue().values())):
+        raise RuntimeError("LLVM")
+    with pytest.raises(InputError, match="geometry"), blamed_on_the_term([typed]):
+        raise InputError("the geometry", field="muscle")
 
 
 # --- parameters

@@ -10,7 +10,9 @@ from __future__ import annotations
 import ast
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import lru_cache
 from inspect import Parameter as Argument
 from inspect import Signature as CallSignature
@@ -57,6 +59,13 @@ _LARGEST = 1e12  # SI; bounds of a parameter whose size nobody stated
 _REACH = 1e3  # times the stated value
 
 _ALLOWED = f"numbers, + - * / **, {', '.join((*SYMBOLS, 'sign', *FUNCTIONS))} and parameters"
+
+
+@dataclass(frozen=True, eq=False)
+class TypedEffect(Effect):
+    """The effect of a typed term, with the term as it was typed."""
+
+    term: str = ""
 
 
 def custom_effect(term: str, given: Mapping[str, float] | None = None) -> Effect:
@@ -125,7 +134,8 @@ def custom_effect(term: str, given: Mapping[str, float] | None = None) -> Effect
         slots["rates"] = rates
         states = (StateVariable("elapsed", "t", "s", 1.0, "Time since the record began."),)
     user = Source("typed by the user", "user")
-    return Effect(
+    return TypedEffect(
+        term=term,
         title="Custom term",
         family="friction",
         type="static",
@@ -170,6 +180,29 @@ def typed_effect(given: Mapping[str, float | str]) -> tuple[Effect, str]:
 def _kept(term: str, values: tuple[tuple[str, float], ...]) -> Effect:
     # The same object for the same term, so that its machine code is found again.
     return custom_effect(term, dict(values))
+
+
+@contextmanager
+def blamed_on_the_term(effects: Sequence[Effect]) -> Iterator[None]:
+    """Turn what goes wrong while a model with a typed term is built and compiled into an error of the term.
+
+    A model without one is made of catalogued effects alone: its error passes as it is.
+
+    Raises:
+        InputError: names the term.
+    """
+    try:
+        yield
+    except InputError:
+        raise
+    except (ArithmeticError, RuntimeError, ValueError) as error:  # of symengine and LLVM
+        terms = [effect.term for effect in effects if isinstance(effect, TypedEffect)]
+        if not terms:
+            raise
+        raise refused(
+            f"'{shown(part=terms[0])}' cannot be computed together with the rest of the model",
+            hint="look for a division by zero, or for a root or power of a negative number",
+        ) from error
 
 
 def _parameter(name: str, value: float, source: Source) -> Parameter:

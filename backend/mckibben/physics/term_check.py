@@ -35,6 +35,7 @@ _MOST_WRITTEN = 2**23
 _MOST_PARTS = 20_000
 _FEWER = "use fewer factors, and fewer functions in each other"
 _UNREAL = "look for a division by zero, a root or power of a negative number, a number beyond 1e308"
+_AT_REST = " at t = 0, at which curves are taken"
 _LONGEST_SHOWN = 60
 
 
@@ -95,16 +96,21 @@ def finite(*, part: ast.expr, worth: Worth, known: Mapping[str, Value]) -> Value
 
 
 @contextmanager
-def named(*, term: str) -> Iterator[None]:
-    """Turn what goes wrong while a term is worked out into an error that names the part and the term."""
+def named(*, term: str, where: str = "") -> Iterator[None]:
+    """Turn what goes wrong while a term is worked out into an error that names the part and the term.
+
+    Args:
+        term: as it was typed.
+        where: appended to the message, e.g. " at t = 0".
+    """
     try:
         yield
     except NoValueError as error:
         part, whole = shown(part=error.part), shown(part=term)
         place = f"'{part}'" if "".join(part.split()) == "".join(whole.split()) else f"'{part}' in '{whole}'"
-        raise refused(f"{place} has no finite value", hint=_UNREAL) from error
+        raise refused(f"{place} has no finite value{where}", hint=_UNREAL) from error
     except RuntimeError as error:  # of symengine, e.g. the exponential of what is infinite
-        raise refused(f"'{shown(part=term)}' has no finite value", hint=_UNREAL) from error
+        raise refused(f"'{shown(part=term)}' has no finite value{where}", hint=_UNREAL) from error
 
 
 def check_written_out(*, tree: ast.expr, term: str) -> None:
@@ -179,6 +185,11 @@ def check_derivatives(*, worth: Worth, names: Iterable[str], term: str) -> None:
             parts.add(slopes[name])
     moving = [symbols[name] for name in ("L", "kappa", "P", "v", "direction") if name in symbols]
     if "t" in symbols:
+        with named(term=term, where=_AT_REST):
+            begin = se.sympify(worth(known | {"t": 0.0}))
+            at_rest = _Parts(term, _AT_REST)  # of its own: equal parts of two expressions are slow to compare
+            for part in (begin, *(begin.diff(x) for x in moving)):
+                at_rest.add(part)
         moving.append(symbols["t"])
     # With something in series the tension holds dF/dL, of which the integrator takes the derivatives.
     with named(term=term):
@@ -190,8 +201,8 @@ def check_derivatives(*, worth: Worth, names: Iterable[str], term: str) -> None:
 class _Parts:
     """Different parts of expressions, counted until there are too many."""
 
-    def __init__(self, term: str) -> None:
-        self._term = term
+    def __init__(self, term: str, where: str = "") -> None:
+        self._term, self._where = term, where
         self._seen: set[Any] = set()
         self._count = 0
 
@@ -213,7 +224,7 @@ class _Parts:
                     hint=_FEWER,
                 )
             if real and isinstance(part, se.Number) and not _is_real(part):
-                raise refused(f"'{shown(part=self._term)}' has no finite value", hint=_UNREAL)
+                raise refused(f"'{shown(part=self._term)}' has no finite value{self._where}", hint=_UNREAL)
 
 
 def _is_real(number: Any) -> bool:

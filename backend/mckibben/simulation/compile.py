@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import symengine as se
 
+from mckibben.physics.custom import blamed_on_the_term
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import Model, State
 from mckibben.physics.muscle import GEOMETRY, Muscle
@@ -112,5 +113,10 @@ class CompiledState:
 def compiled_state(
     effects: tuple[Effect, ...], gradient: tuple[str, ...] = (), *, memory: bool = False, quick: bool = False
 ) -> CompiledState:
-    """The compiled structure, built once (10 to 30 ms) and kept."""
-    return CompiledState(effects, gradient, memory=memory, quick=quick)
+    """The compiled structure, built once (10 to 30 ms) and kept.
+
+    Raises:
+        InputError: a typed term among the effects cannot be compiled.
+    """
+    with blamed_on_the_term(effects):
+        return CompiledState(effects, gradient, memory=memory, quick=quick)

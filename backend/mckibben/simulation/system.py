@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from mckibben.physics.custom import blamed_on_the_term
 from mckibben.physics.drive import DriveModel
 from mckibben.physics.drive_terms import Structure
 from mckibben.physics.driven import DrivenModel
@@ -109,14 +110,23 @@ def compiled_drive(structure: Structure, level: int = 0) -> CompiledDrive:
     Args:
         structure: what decides the equations.
         level: see `mckibben.simulation.machine_code.machine_code`; 1 pays from some hundred runs on.
+
+    Raises:
+        InputError: a typed term among the effects cannot be compiled.
     """
-    return compile_system(DriveModel(structure), level)
+    with blamed_on_the_term(structure.effects):
+        return compile_system(DriveModel(structure), level)
 
 
 @lru_cache(maxsize=128)
 def compiled_driven(effects: tuple[Effect, ...], motion: bool, level: int = 0) -> CompiledDrive:
-    """The compiled equations of a muscle whose pressure is measured, built once and kept."""
-    return compile_system(DrivenModel(effects, motion=motion), level)
+    """The compiled equations of a muscle whose pressure is measured, built once and kept.
+
+    Raises:
+        InputError: a typed term among the effects cannot be compiled.
+    """
+    with blamed_on_the_term(effects):
+        return compile_system(DrivenModel(effects, motion=motion), level)
 
 
 def compile_system(model: DriveModel | DrivenModel, level: int = 0) -> CompiledDrive:
