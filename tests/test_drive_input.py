@@ -74,6 +74,16 @@ def test_the_example_means_this_in_si(read: Callable[..., GivenDrive]) -> None:
     assert (drive.min_contraction, drive.max_contraction) == (0.0, 0.25)
 
 
+def test_a_tube_may_be_stated_left_out_or_excluded(read: Callable[..., GivenDrive]) -> None:
+    assert read().drive.assumed_tube is None
+    left_out = read(tube=None).drive
+    assert left_out.tube is None
+    assert left_out.assumed_tube is not None
+    document = {name: value for name, value in EXAMPLE.items() if name != "tube"} | {"tube": None}
+    excluded = drive_of(read_document(document, "the drive"), Studio(presets=presets_folder())).drive
+    assert (excluded.tube, excluded.assumed_tube) == (None, None)
+
+
 def test_outside_a_pulse_a_valve_exhausts_and_a_regulator_gives_no_pressure(
     read: Callable[..., GivenDrive],
 ) -> None:

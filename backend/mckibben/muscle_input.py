@@ -7,7 +7,7 @@ physics' own `Muscle` and a choice of effects.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from mckibben.physics.braid import Braid, Rhombus, braid_from_rhombus, rest_diameter_and_angle
 from mckibben.physics.catalogue import Catalogue
@@ -89,6 +89,8 @@ class StartModel:
         rhombus: the lattice, when the caller gave the geometry by it.
         catalogue: where its effects are found: the known ones, and the typed term where there is one.
         term: the typed term, as it was typed.
+        assumed: fields of the muscle that nobody stated and that an effect multiplies; they hold a typical
+            value.
     """
 
     muscle: Muscle
@@ -97,6 +99,7 @@ class StartModel:
     rhombus: Rhombus | None = None
     catalogue: Mapping[str, Effect] = field(default_factory=dict)
     term: str | None = None
+    assumed: tuple[str, ...] = ()
 
     @property
     def limits(self) -> Limits:
@@ -165,7 +168,8 @@ def start_model(
     """
     muscle = _muscle(given, None if preset is None else preset.muscle)
     if effects is None:
-        return StartModel(muscle, {} if preset is None else preset.effects, preset, given.rhombus, catalogue)
+        own = {} if preset is None else preset.effects
+        return _complete_model(StartModel(muscle, own, preset, given.rhombus, catalogue), given)
     known: Mapping[str, Effect] = catalogue
     term = None
     if CUSTOM in effects and CUSTOM not in catalogue:
@@ -173,7 +177,19 @@ def start_model(
         known = {**catalogue, CUSTOM: effect}
         effects = {name: own if name != CUSTOM else effect.defaults for name, own in effects.items()}
     chosen = {name: _effect_values(name, values, known) for name, values in effects.items()}
-    return StartModel(muscle, chosen, preset, given.rhombus, known, term)
+    return _complete_model(StartModel(muscle, chosen, preset, given.rhombus, known, term), given)
+
+
+def _complete_model(start: StartModel, given: GivenMuscle) -> StartModel:
+    """The model with a typical value in the fields that its effects need and nobody stated.
+
+    A stated 0 stays: the model refuses it.
+    """
+    needed = dict.fromkeys(field for name in start.effects for field in start.catalogue[name].needs)
+    assumed = tuple(name for name in needed if getattr(start.muscle, name) == 0.0 and not _has(given, name))
+    if not assumed:
+        return start
+    return replace(start, muscle=start.muscle.assuming(assumed), assumed=assumed)
 
 
 def _muscle(given: GivenMuscle, base: Muscle | None) -> Muscle:

@@ -506,6 +506,8 @@ export interface components {
       /** Muscle and effects; can be given to a comparison as a drive. */
       model: { [key: string]: unknown };
       freed: string[];
+      /** Effects of the catalogue that were no candidates, and why. */
+      not_tried: components["schemas"]["NotTried"][];
       messages: string[];
     };
     /** The start model and the measurements that it should explain. */
@@ -553,7 +555,7 @@ export interface components {
       supply: components["schemas"]["SupplyInput"];
       valve: components["schemas"]["ValveInput"];
       regulator?: components["schemas"]["RegulatorInput"] | null;
-      /** Left out: the valve sits on the muscle. */
+      /** Left out: the valve sits on the muscle, and a diagnosis tries a typical tube (4 mm, 1 m) as an explanation. null: there is none, and none is tried. */
       tube?: components["schemas"]["TubeInput"] | null;
       /** Fitting presets; they add their port volumes. */
       fittings?: string[];
@@ -1265,6 +1267,11 @@ export interface components {
     NoiseFloor: {
       rmse: number | null;
       how: string;
+    };
+    /** An effect that these data cannot show, or that the question excludes. */
+    NotTried: {
+      effect: string;
+      why: string;
     };
     /** Where the muscle holds the load at one pressure. */
     OperatingPoint: {

@@ -118,6 +118,19 @@ def test_effects_null_are_the_presets_own_and_none_are_ideal(shared_client: Test
     assert list(curves(shared_client, {"preset": "DMSP-20"}, effects={one: {}})["model"]["effects"]) == [one]
 
 
+def test_an_assumed_wall_is_said_and_acts(shared_client: TestClient) -> None:
+    ideal = curves(shared_client, PAPER)
+    assert ideal["flags"] == []
+    walled = curves(shared_client, PAPER, effects={"bladder_elasticity": {}})
+    (flag,) = walled["flags"]
+    assert (flag["code"], flag["field"]) == ("assumed", "muscle.wall_thickness")
+    assert "is assumed" in flag["message"]
+    assert walled["geometry"]["wall_thickness"] == pytest.approx(1.5e-3)
+    assert walled["characteristics"][0]["free_contraction"] < ideal["characteristics"][0]["free_contraction"]
+    stated = PAPER | {"wall_thickness": "1.5 mm"}
+    assert curves(shared_client, stated, effects={"bladder_elasticity": {}})["force"] == walled["force"]
+
+
 def test_units_of_a_request_do_not_matter(shared_client: TestClient) -> None:
     texts = curves(shared_client, PAPER, pressures=["600 kPa"], load="50 N", contraction_to="20 %")
     numbers = {"braid_diameter": 0.01, "braid_angle": math.radians(25), "nominal_length": 0.1}

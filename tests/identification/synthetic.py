@@ -153,8 +153,8 @@ class Plain(Subject):
     def predict(self, setting: Setting, *, clipped: bool = True) -> np.ndarray:
         return np.zeros(len(self.measured))
 
-    def reveals(self, effect: Effect) -> bool:
-        return False
+    def why_hidden(self, effect: Effect) -> str:
+        return "nothing shows here"
 
     def prepare(self, setting: Setting, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
         pass

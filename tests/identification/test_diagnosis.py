@@ -177,13 +177,34 @@ def test_every_effect_that_can_show_is_a_candidate_with_its_reason():
         assert candidate.node.setting.ids[-1] == candidate.effect.id
 
 
-def test_effects_that_need_what_the_muscle_lacks_are_no_candidates():
+def test_a_bladder_is_found_without_a_stated_wall_by_its_product_with_the_modulus():
     bare = MUSCLE._replace(wall_thickness=0.0)
     subject = subject_of(force_map(noise=1.0, c10=0.3e6), bare)
     found = diagnose(subject, Setting(bare), catalogue=CATALOGUE)
-    ids = {candidate.effect.id for candidate in found.candidates}
-    assert "bladder_elasticity" not in ids
-    assert "prestress" in ids
+    assert found.added == ("bladder_elasticity",)
+    best = found.best.setting
+    assert found.best.rmse == pytest.approx(1.0, rel=0.2)
+    assert best.assumed == {"wall_thickness"}
+    # The hidden wall of 1.8 mm at 0.3 MPa; what was assumed instead of it only shifts the modulus.
+    product = best.values["bladder_elasticity"]["shear_modulus"] * best.muscle.wall_thickness
+    assert product == pytest.approx(0.3e6 * 0.0018, rel=0.02)
+    said = next(message for message in found.messages if "wall thickness" in message)
+    assert "1.5 mm is assumed" in said
+    assert f"shear modulus x wall thickness = {product:.4g} N/m" in said
+    assert "state wall_thickness" in said
+    # Without the effect nothing of the muscle was assumed.
+    assert found.start.setting.muscle == bare
+    assert best.without("bladder_elasticity").muscle == bare
+
+
+def test_every_effect_is_a_candidate_or_told_with_the_reason():
+    found = diagnosis(force_map(noise=1.0), setting(prestress={"force": 0.0}))
+    tried = {candidate.effect.id for candidate in found.candidates}
+    reasons = {item.effect: item.why for item in found.not_tried}
+    assert tried | set(reasons) | {"prestress"} == set(CATALOGUE)
+    assert not tried & set(reasons)
+    assert reasons["dahl"].startswith("it does not show in static data, only in isobaric")
+    assert "only in transient" in reasons["leak"]
 
 
 # --- what cannot be told apart

@@ -99,3 +99,8 @@ def _write(answer: Json) -> None:
         remark(f"proposed term: {verdict['proposed_term']['formula']}")
     for message in answer["messages"]:
         remark(message)
+    reasons: dict[str, list[str]] = {}
+    for item in answer["not_tried"]:
+        reasons.setdefault(item["why"], []).append(item["effect"])
+    for why, effects in reasons.items():
+        remark(f"not tried: {', '.join(effects)} ({why})")

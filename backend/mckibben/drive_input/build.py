@@ -13,6 +13,7 @@ from typing import Any
 from mckibben.api.schemas.convert import given_muscle
 from mckibben.api.schemas.drives import ControllerInput, DriveDocument
 from mckibben.drive_input.parts import (
+    TYPICAL_TUBE,
     Part,
     load_of,
     port_volume_of,
@@ -96,6 +97,7 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
         supply_pressure=document.supply.pressure,
         regulator=regulator,
         tube=tube_of(document.tube, tube_preset),
+        assumed_tube=None if "tube" in document.model_fields_set else TYPICAL_TUBE,
         min_contraction=lowest,
         max_contraction=highest,
         start_pressure=document.start_pressure,

@@ -97,6 +97,10 @@ def regulator_of(given: RegulatorInput | None, preset: ValvePreset | None) -> Re
     return Regulator(**values)
 
 
+#: A tube that nobody stated, where an effect of the model acts on one: 1 m of the size most valves come with.
+TYPICAL_TUBE = Tube(inside_diameter=4e-3, length=1.0)
+
+
 def tube_of(given: TubeInput | None, preset: TubePreset | None) -> Tube | None:
     """Bore and length; None without a tube."""
     if given is None:

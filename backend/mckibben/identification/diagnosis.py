@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -60,6 +60,14 @@ class Step:
 
 
 @dataclass(frozen=True)
+class NotTried:
+    """An effect that was no candidate, and why."""
+
+    effect: str
+    why: str
+
+
+@dataclass(frozen=True)
 class Diagnosis:
     """The answer.
 
@@ -78,6 +86,7 @@ class Diagnosis:
         structure: what a regression still predicts of the last residual; term: a formula for it.
         proposals: experiments that would separate what is alike.
         messages: what has to be said.
+        not_tried: effects of the catalogue that were no candidates, with the reason.
     """
 
     subject: Subject
@@ -97,7 +106,8 @@ class Diagnosis:
     structure: Structure
     term: Term | None
     proposals: tuple[Proposal, ...]
-    messages: tuple[str, ...] = field(default_factory=tuple)
+    messages: tuple[str, ...] = ()
+    not_tried: tuple[NotTried, ...] = ()
 
 
 def diagnose(
@@ -144,11 +154,9 @@ def _diagnose(
     found: Callable[[Candidate], None],
 ) -> Diagnosis:
     inside = set(setting.ids)
-    candidates = tuple(
-        effect
-        for effect in catalogue.values()
-        if effect.id not in inside and subject.reveals(effect) and _has_needs(effect, setting)
-    )
+    absent = [effect for effect in catalogue.values() if effect.id not in inside]
+    candidates = tuple(effect for effect in absent if subject.reveals(effect))
+    not_tried = [NotTried(effect.id, why) for effect in absent if (why := subject.why_hidden(effect))]
     progress = _Progress(watch or Watch(time_limit=np.inf))
     work = Fits(
         subject,
@@ -220,7 +228,7 @@ def _diagnose(
     return Diagnosis(
         subject, start, root, work.noise, how, tuple(where), before, tuple(ranked), path, best, fit, status,
         added, others, rest, term, tuple(proposals(best, others, catalogue, level, subject)),
-        (*([] if vent is None else [vent.message]), *messages(work, first, best, fit)),
+        (*([] if vent is None else [vent.message]), *messages(work, first, best, fit)), tuple(not_tried),
     )  # fmt: skip
 
 
@@ -236,10 +244,6 @@ class _Progress:
         self.share += 0.02 * (self.end - self.share)
         if self._watch.ended(self.share) in (Outcome.CANCELLED, Outcome.TIMED_OUT):
             raise CancelledError
-
-
-def _has_needs(effect: Effect, setting: Setting) -> bool:
-    return all(getattr(setting.muscle, needed) > 0.0 for needed in effect.needs)
 
 
 def _candidate(

@@ -34,12 +34,15 @@ class Setting:
         effects: the effects, in the order in which they were added.
         values: effect id -> parameter -> value, SI; complete.
         load: the load where a measurement does not say it [N].
+        assumed: fields of the muscle that nobody stated and that an effect multiplies; they hold a typical
+            value.
     """
 
     muscle: Muscle
     effects: tuple[Effect, ...] = ()
     values: Mapping[str, Mapping[str, float]] = ()  # type: ignore[assignment]
     load: float = 0.0
+    assumed: frozenset[str] = frozenset()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "values", {name: dict(own) for name, own in dict(self.values).items()})
@@ -70,16 +73,30 @@ class Setting:
         return replace(self, muscle=muscle, values=values, load=load)
 
     def adding(self, effect: Effect, values: Mapping[str, float] | None = None) -> Setting:
-        """The model with one more effect, at its defaults unless values are given."""
-        own = {**effect.defaults, **(values or {})}
-        return replace(self, effects=(*self.effects, effect), values={**self.values, effect.id: own})
+        """The model with one more effect, at its defaults unless values are given.
 
-    def without(self, effect_id: str) -> Setting:
-        """The model without an effect."""
+        What the effect needs of the muscle and nobody stated is assumed.
+        """
+        own = {**effect.defaults, **(values or {})}
+        unknown = {name for name in effect.needs if getattr(self.muscle, name) == 0.0}
         return replace(
             self,
-            effects=tuple(effect for effect in self.effects if effect.id != effect_id),
+            muscle=self.muscle.assuming(unknown),
+            effects=(*self.effects, effect),
+            values={**self.values, effect.id: own},
+            assumed=self.assumed | unknown,
+        )
+
+    def without(self, effect_id: str) -> Setting:
+        """The model without an effect, and without what was assumed for it alone."""
+        effects = tuple(effect for effect in self.effects if effect.id != effect_id)
+        idle = self.assumed - {name for effect in effects for name in effect.needs}
+        return replace(
+            self,
+            muscle=self.muscle._replace(**dict.fromkeys(idle, 0.0)),
+            effects=effects,
             values={name: own for name, own in self.values.items() if name != effect_id},
+            assumed=self.assumed - idle,
         )
 
     @property

@@ -16,6 +16,7 @@ from mckibben.identification.subjects.subject import Subject
 from mckibben.identification.twins import Alternative
 from mckibben.identification.unknown import Structure, structure
 from mckibben.physics.effect import Effect
+from mckibben.physics.muscle import assumption
 
 _AT_FLOOR = 1.15  # of the noise: nothing more is asked for
 _FAR = 2.0  # of the noise: something is left that is not known, whatever was explained before
@@ -96,6 +97,26 @@ def proposals(
     return found
 
 
+def _assumptions(best: Node) -> list[str]:
+    """Fields of the muscle that were assumed, and the products that the data determine instead."""
+    found = []
+    for name in sorted(best.setting.assumed):
+        value = best.setting.number(name)
+        products = [
+            f"{p.name.replace('_', ' ')} x {name.replace('_', ' ')} = "
+            f"{best.setting.values[effect.id][p.name] * value:.4g} N/m"
+            for effect in best.setting.effects
+            if name in effect.needs
+            for p in effect.parameters
+            if p.unit == "Pa" and best.setting.values[effect.id][p.name] != 0.0
+        ]
+        found.append(
+            f"{assumption(best.setting.muscle, name)}. What these data determine is {', '.join(products)}; "
+            f"state {name} to know the modulus itself"
+        )
+    return found
+
+
 def messages(work: Fits, first: Setting, best: Node, fit: FitResult | None) -> list[str]:
     """What has to be said of the noise, of geometry that took up an effect or could, and of the fit.
 
@@ -104,7 +125,7 @@ def messages(work: Fits, first: Setting, best: Node, fit: FitResult | None) -> l
         first: the start model.
         best: the best model; fit: its numbers with errors.
     """
-    found = []
+    found = _assumptions(best)
     if len(best.setting.ids) > len(first.ids) and not work.geometry:
         found += geometry_instead(work.subject, first, best, held=work.held)
     if work.noise is None:

@@ -125,7 +125,8 @@ class Effect:
         references: literature.
         examples: worked examples, at least one.
         order: position in chained slots; lower acts first.
-        needs: fields of the muscle that must be known (not zero) for the effect to mean anything.
+        needs: fields of the muscle that the effect multiplies; where one is not known (zero), a typical value
+            is assumed (`mckibben.physics.muscle.Muscle.assuming`).
         states: memory of the effect; ``rates`` (of the muscle) or ``drive_rates`` gives their derivatives.
         id: the file name, set by the catalogue.
     """
@@ -191,6 +192,13 @@ class Effect:
     def off(self) -> dict[str, float]:
         """Values at which the effect vanishes (parameters without an off value keep their default)."""
         return {p.name: p.default if p.off is None else p.off for p in self.parameters}
+
+    @property
+    def of_tube(self) -> bool:
+        """Whether it acts on a tube between valve and muscle, so that it needs one."""
+        return "tube_conductance" in self.slots or any(
+            "tube_length" in names for names in self._wanted.values()
+        )
 
     def wanted(self, slot: str) -> tuple[str, ...]:
         """Names of what the slot's function asks for."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import acos, degrees, isfinite
 from typing import NamedTuple
 
@@ -14,6 +15,11 @@ GEOMETRY = ("nominal_length", "braid_diameter", "braid_angle", "wall_thickness",
 
 NEUTRAL_ANGLE = acos(3.0**-0.5)  # 54.7356 degrees: no force at any pressure
 
+# Wall of a muscle that does not state it: 1.8 mm in DMSP-10 and DMSP-20 (Martens & Boblan 2017), 0.5 to
+# 1.6 mm in hand-made ones; at most this share of the diameter, so that a thin muscle keeps a bore.
+_TYPICAL_WALL = 1.5e-3
+_TYPICAL_WALL_SHARE = 0.15
+
 # Field -> (smallest, largest) accepted [m].
 _RANGES = {
     "nominal_length": (1e-3, 50.0),
@@ -21,6 +27,15 @@ _RANGES = {
     "wall_thickness": (0.0, 0.1),
     "inside_diameter": (0.0, 1.0),
 }
+
+
+def assumption(muscle: Muscle, field: str) -> str:
+    """What to say of a field in which a typical value stands in (`Muscle.assuming`)."""
+    value = 1e3 * getattr(muscle, field)
+    return (
+        f"the {field.replace('_', ' ')} of the muscle is not stated: {value:.3g} mm is assumed; only its "
+        "product with the modulus of the wall acts"
+    )
 
 
 class Muscle(NamedTuple):
@@ -50,6 +65,15 @@ class Muscle(NamedTuple):
     def contraction(self, length: Value) -> Value:
         """Contraction ratio 1 - L/L0 of a length (positive = shorter)."""
         return 1.0 - length / self.nominal_length
+
+    def assuming(self, fields: Iterable[str]) -> Muscle:
+        """This muscle with a typical value in those of the fields that are not known (0).
+
+        A wall is 1.5 mm, at most 15 % of the braid diameter. Other fields have no typical value and stay.
+        """
+        if "wall_thickness" not in fields or self.wall_thickness != 0.0:
+            return self
+        return self._replace(wall_thickness=min(_TYPICAL_WALL, _TYPICAL_WALL_SHARE * self.braid_diameter))
 
     def checked(self) -> Muscle:
         """This muscle, when its numbers describe one that can pull.

@@ -65,6 +65,8 @@ class Drive:
     Attributes:
         model: the muscle with its effects.
         valve, regulator, tube: the way of the air; a regulator takes the valve's conductances.
+        assumed_tube: stands in where no tube is stated and an effect of the model acts on one; None where the
+            drive states that there is none.
         load: what is pulled.
         command: opening of the valve, 1 fill, 0 closed, -1 exhaust; of a regulator the share of its range.
         supply_pressure: [Pa].
@@ -86,6 +88,7 @@ class Drive:
     supply_pressure: float
     regulator: Regulator | None = None
     tube: Tube | None = None
+    assumed_tube: Tube | None = None
     min_contraction: float = 0.0
     max_contraction: float = 0.25
     start_pressure: float = 0.0
@@ -106,9 +109,32 @@ class Drive:
         return self.model.muscle
 
     @property
+    def tube_in_use(self) -> Tube | None:
+        """The tube that resists the flow: the stated one, or the assumed one where an effect acts on it.
+
+        None: the valve sits on the muscle.
+        """
+        if self.tube is None and any("tube_conductance" in effect.slots for effect in self.model.effects):
+            return self.assumed_tube
+        return self.tube
+
+    @property
+    def tube_assumption(self) -> str | None:
+        """What to say where the assumed tube is in use."""
+        tube = self.assumed_tube
+        if tube is None or self.tube is not None or not any(e.of_tube for e in self.model.effects):
+            return None
+        return (
+            f"the tube is not stated: {tube.inside_diameter * 1e3:.3g} mm bore and {tube.length:.3g} m "
+            "length are assumed, because an effect acts on it; state the tube, or null if there is none"
+        )
+
+    @property
     def structure(self) -> Structure:
         """What decides the equations."""
-        return Structure(self.model.effects, self.tube is not None, self.regulator is not None, self.pair)
+        return Structure(
+            self.model.effects, self.tube_in_use is not None, self.regulator is not None, self.pair
+        )
 
     @property
     def stops(self) -> tuple[float, float]:

@@ -60,7 +60,7 @@ class Run:
 
 def constants_of(drive: Drive) -> dict[str, float]:
     """The numbers of a run by the names of the model's parameters."""
-    load, tube, rest = drive.load, drive.tube, drive.muscle.nominal_length
+    load, tube, rest = drive.load, drive.tube_in_use, drive.muscle.nominal_length
     mass = max(load.mass + drive.own_mass, _LIGHTEST)
     blocked = ideal.force(braid=drive.muscle.braid, pressure=drive.supply_pressure, length=rest)
     stop = max(mass * _STOP_FREQUENCY**2, float(blocked) / _STOP_GIVE)
@@ -111,7 +111,8 @@ def parameters_of(drive: Drive, compiled: CompiledDrive) -> np.ndarray:
 
 def dead_times(drive: Drive) -> tuple[float, float]:
     """Dead time of opening and of closing that the effects make [s]."""
-    tube_length = drive.tube.length if drive.tube else 0.0
+    tube = drive.tube or drive.assumed_tube
+    tube_length = 0.0 if tube is None else tube.length
     on, off = 0.0, 0.0
     for effect in Model(drive.model.effects).effects:
         if "command_delay" in effect.slots:

@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 
 from mckibben.identification.compare import compare
+from mckibben.identification.diagnosis import diagnose
 from mckibben.identification.measurement import Measurement, build
 from mckibben.identification.setting import Setting, free_numbers
 from mckibben.identification.subjects import Moving, subject_of
 from mckibben.physics.errors import InputError
 from mckibben.simulation.driven import driven_motion
-from mckibben.simulation.parts import Drive, Load, Valve
+from mckibben.simulation.parts import Drive, Load, Tube, Valve
 from mckibben.simulation.signals import signal_from
 from mckibben.simulation.static import StaticModel
 from mckibben.simulation.transient import simulate
@@ -245,9 +246,34 @@ def test_what_acts_on_the_air_or_the_force_alone():
     subject = subject_of(measured(drive()), MUSCLE, drive({}))
     assert subject.reveals(CATALOGUE["leak"])
     assert not subject.reveals(CATALOGUE["force_offset"])  # no force was measured
-    assert not subject.reveals(CATALOGUE["tube_resistance"])  # there is no tube
+    assert "states that there is none" in subject.why_hidden(CATALOGUE["tube_resistance"])
     forced = subject_of(measured(drive(), keep=("displacement", "force")), MUSCLE, drive({}))
     assert forced.reveals(CATALOGUE["force_offset"])
+
+
+def test_a_tube_that_the_drive_does_not_state_is_tried():
+    """The truth has the assumed tube, written down as a tube; the model of the diagnosis states none."""
+    tube = Tube(inside_diameter=4e-3, length=1.0)
+    measurement = measured(drive(tube=tube), noise={"pressure": 300.0, "displacement": 3e-5})
+    subject = subject_of(measurement, MUSCLE, drive(assumed_tube=tube))
+    assert subject.reveals(CATALOGUE["tube_resistance"])
+    found = diagnose(
+        subject, setting(HIDDEN), catalogue={name: CATALOGUE[name] for name in ("tube_resistance", "leak")}
+    )
+    assert found.start.rmse > 3.0
+    assert found.added == ("tube_resistance",)
+    assert found.best.rmse == pytest.approx(1.0, rel=0.1)
+    assert found.best.setting.values["tube_resistance"]["factor"] == pytest.approx(1.0, abs=0.05)
+
+
+def test_a_drive_that_states_no_tube_runs_without_one():
+    tube = Tube(inside_diameter=4e-3, length=1.0)
+    plain, assumed = drive(), drive(assumed_tube=tube)
+    assert (plain.tube_in_use, assumed.tube_in_use, assumed.tube_assumption) == (None, None, None)
+    kinked = drive({"tube_resistance": {"factor": 0.5}}, assumed_tube=tube)
+    assert kinked.tube_in_use == tube
+    assert kinked.tube_assumption is not None
+    assert "4 mm bore and 1 m length are assumed" in kinked.tube_assumption
 
 
 def test_differences_are_those_of_two_runs():

@@ -39,10 +39,21 @@ class Asked:
     freed: Sequence[str] = ()
     noise: float | None = None
 
+    def __post_init__(self) -> None:
+        for name in self.free:
+            if name in self.start.assumed:
+                raise InputError(
+                    f"the muscle's {name.replace('_', ' ')} is not known, so no fit can start from it",
+                    field=f"muscle.{name}",
+                    hint=f"state {name}, or leave it out of 'free'",
+                )
+
     def setting(self) -> Setting:
         """The start model as identification knows it."""
         effects = tuple(self.start.catalogue[name] for name in self.start.effects)
-        return Setting(self.start.muscle.checked(), effects, self.start.effects)
+        return Setting(
+            self.start.muscle.checked(), effects, self.start.effects, assumed=frozenset(self.start.assumed)
+        )
 
     def effects_json(self, setting: Setting) -> dict[str, dict[str, float | str]]:
         """Effects with their values as a request takes them, a typed term with its text."""

@@ -160,6 +160,7 @@ def _answer(asked: Asked, result: Diagnosis, catalogue: Mapping[str, Effect], *,
             "effects": asked.effects_json(best.setting),
         },
         "freed": sorted(best.freed),
+        "not_tried": [{"effect": item.effect, "why": item.why} for item in result.not_tried],
         "messages": [*asked.points.measurement.messages, *notes, *result.messages],
     }
 

@@ -256,10 +256,13 @@ def _joint(run: Run, rows: Array) -> Json | None:
 
 def _part_flags(given: GivenDrive) -> list[Json]:
     why = "from general knowledge or estimated, not read in a source"
-    return [
+    found = [
         flag("unverified", f"{part}: {', '.join(names)} {why}", "valve")
         for part, names in given.unverified.items()
     ]
+    if (text := given.drive.tube_assumption) is not None:
+        found.append(flag("assumed", text, "tube"))
+    return found
 
 
 def _crossed(run: Run) -> Iterable[Flag]:

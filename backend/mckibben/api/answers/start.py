@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from mckibben.muscle_input import StartModel
-from mckibben.physics.muscle import Muscle
+from mckibben.physics.muscle import Muscle, assumption
 from mckibben.simulation.limits import Flag
 
 Json = dict[str, Any]
@@ -42,9 +42,9 @@ def geometry_json(start: StartModel) -> Json:
 def start_flags(start: StartModel) -> list[Json]:
     """What to know about the muscle itself: figures nobody verified, a length the maker does not sell."""
     preset = start.preset
+    found = [flag("assumed", assumption(start.muscle, name), f"muscle.{name}") for name in start.assumed]
     if preset is None:
-        return []
-    found = []
+        return found
     if preset.unverified:
         why = "from general knowledge or estimated, not read in a source"
         found.append(

@@ -113,6 +113,13 @@ class Verdict(Strict):
     sentence: str
 
 
+class NotTried(Strict):
+    """An effect that these data cannot show, or that the question excludes."""
+
+    effect: str
+    why: str
+
+
 class DiagnosisAnswer(Strict):
     """What the model is missing, and how sure that is."""
 
@@ -134,6 +141,9 @@ class DiagnosisAnswer(Strict):
     geometry: MuscleGeometry
     model: dict[str, Any] = Field(description="Muscle and effects; can be given to a comparison as a drive.")
     freed: list[str]
+    not_tried: list[NotTried] = Field(
+        description="Effects of the catalogue that were no candidates, and why."
+    )
     messages: list[str]
 
 

@@ -171,7 +171,11 @@ class DriveDocument(Strict):
     supply: SupplyInput
     valve: ValveInput
     regulator: RegulatorInput | None = None
-    tube: TubeInput | None = Field(None, description="Left out: the valve sits on the muscle.")
+    tube: TubeInput | None = Field(
+        None,
+        description="Left out: the valve sits on the muscle, and a diagnosis tries a typical tube (4 mm, "
+        "1 m) as an explanation. null: there is none, and none is tried.",
+    )
     fittings: list[Id] = Field(
         default_factory=list, max_length=20, description="Fitting presets; they add their port volumes."
     )

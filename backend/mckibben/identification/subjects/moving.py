@@ -139,23 +139,28 @@ class Moving(Subject):
         self.inputs = {name: np.tile(v, len(found)) for name, v in {"time": time, **others}.items()}
         self._wide: tuple[Effect, ...] = ()
 
-    def reveals(self, effect: Effect) -> bool:
-        """By the kinds that the effect names; the way of the air acts under a command only."""
+    def why_hidden(self, effect: Effect) -> str:
+        """By the kinds that the effect names; what acts on the flow of air shows under a command only."""
         if self.kind not in effect.kinds:
-            return False
+            return f"it does not show in {self.kind} data, only in {' or '.join(sorted(effect.kinds))}"
         forced = any(channel.name == "force" for channel in self.channels)
         if not forced and set(effect.slots) <= {"force_sensor", "skew"}:
-            return False
-        piped = self._records[0].drive.tube is not None
-        if not piped and set(effect.slots) == {"tube_conductance"}:
-            return False
-        return self.commanded or not set(effect.slots) & set(_AIR)
+            return "it acts on the force reading, and no force was measured"
+        if not self.commanded and set(effect.slots) & set(_AIR):
+            return "it acts on the flow of air; here the measured pressure is the input"
+        drive = self._records[0].drive
+        if effect.of_tube and drive.tube is None and drive.assumed_tube is None:
+            return "it acts on the tube, and the drive states that there is none"
+        return ""
 
     def prepare(self, setting: Setting, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
         """One structure with every candidate that can be off, to look at their changes by."""
         inside = {effect.id for effect in setting.effects}
         # An energy balance in place of a polytrope is another structure even when no heat flows.
-        further = [e for e in candidates if e.id not in inside and "heat" not in e.slots and not _fast(e)]
+        # So is a tube that the drive does not state.
+        tubeless = self._records[0].drive.tube is None
+        other = {"heat", "tube_conductance"} if tubeless else {"heat"}
+        further = [e for e in candidates if e.id not in inside and not other & set(e.slots) and not _fast(e)]
         self._wide = Model((*setting.effects, *further)).effects
 
     def trial(self, setting: Setting) -> np.ndarray:

@@ -69,20 +69,22 @@ class Quasistatic(Subject):
         self._evaluation = Evaluation(task)
         self._wide: tuple[Effect, ...] = ()
 
-    def reveals(self, effect: Effect) -> bool:
-        """By the kinds that the effect names; memory needs an order in time, temperature a change.
+    def why_hidden(self, effect: Effect) -> str:
+        """By the kinds that the effect names; memory needs an order in time.
 
         Rows in time with nothing held show what both kinds do in which one thing is held.
         """
         free = self.kind == "static" and self.task.time is not None
         if not effect.kinds & ({"static", "isobaric", "isometric"} if free else {self.kind}):
-            return False
+            return f"it does not show in {self.kind} data, only in {' or '.join(sorted(effect.kinds))}"
         delays = late(effect)
         if (remembers(effect) or delays) and self.task.time is None:
-            return False
+            return "it depends on what happened before, and the rows have no time"
         if delays and self.task.channel != "force":
-            return False
-        return "compliance" not in effect.slots or self.task.channel != "diameter"
+            return "it delays the force reading, and no force was predicted"
+        if "compliance" in effect.slots and self.task.channel == "diameter":
+            return "it does not change the diameter"
+        return ""
 
     def prepare(self, setting: Setting, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
         """One structure that holds every model of a search: absent effects are off in it."""

@@ -84,8 +84,12 @@ class Subject(ABC):
         return self.predict(setting, clipped=False)
 
     @abstractmethod
+    def why_hidden(self, effect: Effect) -> str:
+        """Why an effect cannot show in these data; empty when it can."""
+
     def reveals(self, effect: Effect) -> bool:
         """Whether an effect can show in these data at all."""
+        return not self.why_hidden(effect)
 
     @abstractmethod
     def prepare(self, setting: Setting, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
