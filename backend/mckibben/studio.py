@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from mckibben.muscle_input import GivenMuscle, PresetFacts, StartModel, preset_facts, start_model
@@ -46,6 +46,11 @@ class Studio:
         """
         preset = None if muscle.preset is None else self.facts(muscle.preset)
         return start_model(muscle, effects, preset=preset, catalogue=self.catalogue)
+
+    def is_built_in(self, preset_id: str | None, effects: Iterable[str]) -> bool:
+        """Whether a muscle and effects come with the program: no file and no code of the user is needed."""
+        known = preset_id is None or self.library.is_built_in("muscles", preset_id)
+        return known and set(effects) <= set(default_catalogue())
 
     def facts(self, preset_id: str) -> PresetFacts:
         """A muscle preset in SI; converted once, and again when its file has changed.

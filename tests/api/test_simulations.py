@@ -317,7 +317,7 @@ def test_leaving_without_a_stream_ends_the_work() -> None:
         return {"type": "http.disconnect"}
 
     request = Request({"type": "http", "headers": []}, gone)
-    assert run_async(finished(request, until_cancelled(ends))) == "cancelled"
+    assert run_async(finished(request, until_cancelled(ends), str.encode)) == b"cancelled"
     assert ends == [Outcome.CANCELLED]
 
 

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import json
 import math
+from collections import Counter
 from collections.abc import Callable, Coroutine, Iterator
 from typing import Any
 
 import numpy as np
 import orjson
 from fastapi import Request, Response
+from fastapi.concurrency import run_in_threadpool
 from fastapi.routing import APIRoute
 from starlette.exceptions import HTTPException
 
 _OPTIONS = orjson.OPT_SERIALIZE_NUMPY
 _LONGEST_PATH = 200  # characters of a field's path that are told
+_LARGE_BODY = 50_000  # bytes; reading more takes longer than other requests should wait
 
 
 def _unusual(value: object) -> object:
@@ -52,8 +55,8 @@ class _DuplicateKeyError(ValueError):
 def _refuse_duplicates(pairs: list[tuple[str, object]]) -> dict[str, object]:
     found = dict(pairs)
     if len(found) < len(pairs):
-        keys = [key for key, _ in pairs]
-        raise _DuplicateKeyError(next(key for key in keys if keys.count(key) > 1))
+        times = Counter(key for key, _ in pairs)
+        raise _DuplicateKeyError(next(key for key in times if times[key] > 1))
     return found
 
 
@@ -123,7 +126,10 @@ def _holds(value: float | str) -> bool:
 
 class _StrictRequest(Request):
     async def json(self) -> Any:
-        return read_json(await self.body())
+        body = await self.body()
+        if len(body) < _LARGE_BODY:
+            return read_json(body)
+        return await run_in_threadpool(read_json, body)
 
 
 class StrictRoute(APIRoute):

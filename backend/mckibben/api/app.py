@@ -16,6 +16,7 @@ from mckibben.api import errors, static
 from mckibben.api.routes import (
     comparisons,
     curves,
+    description,
     diagnoses,
     effects,
     health,
@@ -79,6 +80,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         # Their pages load scripts from elsewhere, which the content security policy forbids.
         docs_url=None,
         redoc_url=None,
+        openapi_url=None,  # FastAPI's own route writes the description on the event loop; see `description`
         openapi_tags=_TAGS,
         generate_unique_id_function=_operation_name,
         lifespan=lifespan,
@@ -104,6 +106,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         measurements,
         reports,
         mysteries,
+        description,
         static,
     ):
         app.include_router(noun.router)

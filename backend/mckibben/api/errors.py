@@ -103,8 +103,9 @@ def install(app: FastAPI) -> None:
             return error_answer(404, problem.message, field=problem.field, hint=problem.hint)
         return error_answer(422, problem.message, code=problem.code, field=problem.field, hint=problem.hint)
 
+    # In a worker thread: writing the list of paths takes half a second the first time.
     @app.exception_handler(HTTPException)
-    async def _http_error(request: Request, error: HTTPException) -> JsonAnswer:
+    def _http_error(request: Request, error: HTTPException) -> JsonAnswer:
         path, hint, field = request.url.path, None, None
         message = str(error.detail)
         if isinstance(error, BodyError):

@@ -85,6 +85,8 @@ class PresetLibrary:
         Raises:
             InputError: code ``not_found``, with the nearest known id as hint.
         """
+        if self.is_built_in(kind, preset_id):  # wins over any file of the user: no need to look there
+            return self._built_in[kind].presets[slug(preset_id).lower()]
         presets = self._all(kind)
         found = presets.get(slug(preset_id).lower())
         if found is None:
@@ -95,6 +97,10 @@ class PresetLibrary:
                 code="not_found",
             )
         return found
+
+    def is_built_in(self, kind: str, preset_id: str) -> bool:
+        """Whether a preset comes with the program; reads no file."""
+        return kind in self._built_in and slug(preset_id).lower() in self._built_in[kind].presets
 
     def muscle(self, preset_id: str) -> MusclePreset:
         """`get` for muscles, typed."""

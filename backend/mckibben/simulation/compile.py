@@ -31,6 +31,8 @@ DERIVATIVES = (
     ("volume", "pressure"),
 )
 OUTPUTS = (*State._fields, *(f"{field}_by_{by}" for field, by in DERIVATIVES))
+# The compiled function holds the interpreter while it runs: in short calls other threads come in between.
+_ROWS_AT_ONCE = 20_000
 
 
 class CompiledState:
@@ -106,7 +108,10 @@ class CompiledState:
         for index, column in enumerate(columns):
             rows[:, index] = column
         rows[:, len(self.inputs) :] = constants
-        return np.ascontiguousarray(self._function(rows).T)
+        if len(rows) <= _ROWS_AT_ONCE:
+            return np.ascontiguousarray(self._function(rows).T)
+        pieces = (rows[begin : begin + _ROWS_AT_ONCE] for begin in range(0, len(rows), _ROWS_AT_ONCE))
+        return np.concatenate([self._function(piece).T for piece in pieces], axis=1)
 
 
 @lru_cache(maxsize=1024)

@@ -674,3 +674,13 @@ def test_a_table_larger_than_the_careful_reader_takes():
     result = read(b"time_s,pressure_bar,length_mm,force_N\n" + row * 50_000)
     assert result.rows == 100_000
     assert result.columns["pressure"][-1] == pytest.approx(1.3345e5)
+
+
+@pytest.mark.parametrize("beyond", [-1, 0, 1, 1_000_000])
+def test_a_control_character_is_found_wherever_it_is(beyond: int) -> None:
+    lines = b"pressure_bar,length_mm,force_N\n" + b"1,280,100\n" * 250_000
+    at = 1_000_000 + beyond  # the file is searched in pieces of a million bytes
+    content = lines[:at] + b"\x07" + lines[at:]
+    row = lines.count(b"\n", 0, at) + 1
+    with pytest.raises(InputError, match=f"row {row}: the file holds control characters"):
+        read_csv(content, "a.csv")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fastapi import APIRouter
+from fastapi.concurrency import run_in_threadpool
 
 from mckibben.api.answer import JsonAnswer, StrictRoute
 from mckibben.api.answers.curves import curves_answer
@@ -13,8 +14,10 @@ from mckibben.api.schemas.curves import CurvesAnswer, CurvesRequest
 router = APIRouter(prefix="/api/curves", tags=["curves"], route_class=StrictRoute)
 
 
-# On the event loop, not in a worker thread: an answer takes less than the change of thread would.
 @router.post("", response_model=CurvesAnswer, responses=errors(400, 413, 415, 422))
 async def compute_curves(body: CurvesRequest, studio: StudioDep) -> JsonAnswer:
     """Force, stiffness, volume and diameter over the length for each pressure, and what bounds them."""
-    return JsonAnswer(curves_answer(body, studio))
+    if studio.is_built_in(body.muscle.preset, body.effects or ()):
+        # On the event loop: such an answer takes about as long as the change of thread would.
+        return JsonAnswer(curves_answer(body, studio))
+    return await run_in_threadpool(lambda: JsonAnswer(curves_answer(body, studio)))

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request, Response
 
-from mckibben.api.answer import JsonAnswer, StrictRoute
+from mckibben.api.answer import JsonAnswer, StrictRoute, to_json
 from mckibben.api.answers.asked import asked
 from mckibben.api.answers.diagnoses import TIME_LIMIT, prepare
 from mckibben.api.context import StoreDep, StudioDep
-from mckibben.api.long_work import events, finished, wants_events
+from mckibben.api.long_work import events, finished, prepared, wants_events
 from mckibben.api.schemas.common import errors
 from mckibben.api.schemas.diagnoses import DiagnosisAnswer, DiagnosisEvents, DiagnosisRequest
 
@@ -22,7 +22,8 @@ async def diagnose_model(
     body: DiagnosisRequest, request: Request, studio: StudioDep, store: StoreDep
 ) -> Response:
     """The missing effects with reasons, twins, path and verdict; closing the connection ends the search."""
-    work = prepare(asked(body, studio, store), studio)
+    question = await prepared(request, asked, body, studio, store)
+    work = await prepared(request, prepare, question, studio)
     if wants_events(request):
         return events(work, time_limit=TIME_LIMIT)
-    return JsonAnswer(await finished(request, work, time_limit=TIME_LIMIT))
+    return JsonAnswer(await finished(request, work, to_json, time_limit=TIME_LIMIT))

@@ -72,8 +72,9 @@ async def upload_measurement(
     With a mapping the measurement has an id of its own: both readings of a file can be compared.
     """
     content, correction = await _file(request, mapping)
-    measurement = await run_in_threadpool(store.put, content, name, correction)
-    return JsonAnswer(await run_in_threadpool(measurement_answer, measurement))
+    return await run_in_threadpool(
+        lambda: JsonAnswer(measurement_answer(store.put(content, name, correction)))
+    )
 
 
 @router.post(
@@ -85,8 +86,9 @@ async def upload_measurement(
 async def preview_measurement(request: Request, name: _Name, mapping: _Mapping = None) -> JsonAnswer:
     """How a file would be understood: columns, units, rows, kind, conditions. Nothing is kept."""
     content, correction = await _file(request, mapping)
-    found = await run_in_threadpool(preview, content, clean_name(name), correction)
-    return JsonAnswer(await run_in_threadpool(preview_answer, found))
+    return await run_in_threadpool(
+        lambda: JsonAnswer(preview_answer(preview(content, clean_name(name), correction)))
+    )
 
 
 async def _file(request: Request, mapping: str | None) -> tuple[bytes, Correction]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from fastapi import APIRouter, Request, Response
-from fastapi.concurrency import run_in_threadpool
 from fastapi.responses import HTMLResponse
 
 from mckibben.api.answer import StrictRoute
@@ -11,7 +10,7 @@ from mckibben.api.answers.asked import asked
 from mckibben.api.answers.diagnoses import TIME_LIMIT
 from mckibben.api.answers.reports import Told, prepare
 from mckibben.api.context import StoreDep, StudioDep
-from mckibben.api.long_work import finished
+from mckibben.api.long_work import finished, prepared
 from mckibben.api.schemas.common import errors
 from mckibben.api.schemas.reports import ReportAnswer, ReportRequest
 from mckibben.api.store import MeasurementStore
@@ -29,10 +28,10 @@ router = APIRouter(prefix="/api/reports", tags=["reports"], route_class=StrictRo
 )
 async def write_report(body: ReportRequest, request: Request, studio: StudioDep, store: StoreDep) -> Response:
     """The comparison and the diagnosis of a model as one file to keep and to print."""
-    question = await run_in_threadpool(asked, body, studio, store)
-    told = await run_in_threadpool(_told, body, studio, store)
-    work = await run_in_threadpool(prepare, question, studio, told, diagnose=body.diagnose)
-    return HTMLResponse(str(await finished(request, work, time_limit=TIME_LIMIT)))
+    question = await prepared(request, asked, body, studio, store)
+    told = await prepared(request, _told, body, studio, store)
+    work = await prepared(request, prepare, question, studio, told, diagnose=body.diagnose)
+    return HTMLResponse(await finished(request, work, str.encode, time_limit=TIME_LIMIT))
 
 
 def _told(body: ReportRequest, studio: Studio, store: MeasurementStore) -> Told:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request, Response
 
-from mckibben.api.answer import JsonAnswer, StrictRoute
+from mckibben.api.answer import JsonAnswer, StrictRoute, to_json
 from mckibben.api.answers.simulations import prepare
 from mckibben.api.context import StudioDep
-from mckibben.api.long_work import events, finished, wants_events
+from mckibben.api.long_work import events, finished, prepared, wants_events
 from mckibben.api.schemas.common import errors
 from mckibben.api.schemas.simulations import SimulationAnswer, SimulationEvents, SimulationRequest
 
@@ -19,7 +19,7 @@ router = APIRouter(prefix="/api/simulations", tags=["simulations"], route_class=
 )
 async def simulate_drive(body: SimulationRequest, request: Request, studio: StudioDep) -> Response:
     """Position, speed, pressures, force, flows and the timing table of a drive; closing ends the run."""
-    work = prepare(body, studio)
+    work = await prepared(request, prepare, body, studio)
     if wants_events(request):
         return events(work)
-    return JsonAnswer(await finished(request, work))
+    return JsonAnswer(await finished(request, work, to_json))

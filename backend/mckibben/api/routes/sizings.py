@@ -5,14 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 from fastapi import APIRouter, Request, Response
-from fastapi.concurrency import run_in_threadpool
 from fastapi.responses import HTMLResponse
 
-from mckibben.api.answer import JsonAnswer, StrictRoute
+from mckibben.api.answer import JsonAnswer, StrictRoute, to_json
 from mckibben.api.answers.sizing_reports import prepare_report
 from mckibben.api.answers.sizings import prepare_sizing
 from mckibben.api.context import StudioDep
-from mckibben.api.long_work import events, finished, wants_events
+from mckibben.api.long_work import events, finished, prepared, wants_events
 from mckibben.api.schemas.common import errors
 from mckibben.api.schemas.reports import ReportAnswer
 from mckibben.api.schemas.simulations import SimulationEvents
@@ -27,10 +26,10 @@ _RESPONSES: dict[int | str, dict[str, Any]] = {**errors(400, 413, 415, 422), **S
 @router.post("", response_model=SizingAnswer, responses=_RESPONSES)
 async def size_drives(body: SizingTask, request: Request, studio: StudioDep) -> Response:
     """Ranked drives of the catalogue for a task, and why not the others; closing ends the search."""
-    work = prepare_sizing(body, studio)
+    work = await prepared(request, prepare_sizing, body, studio)
     if wants_events(request):
         return events(work)
-    return JsonAnswer(await finished(request, work))
+    return JsonAnswer(await finished(request, work, to_json))
 
 
 @router.post(
@@ -40,7 +39,7 @@ async def size_drives(body: SizingTask, request: Request, studio: StudioDep) -> 
 )
 async def write_sizing_report(body: SizingReportRequest, request: Request, studio: StudioDep) -> Response:
     """The search once more and one of its drives as one file to keep and to print; closing ends it."""
-    work = await run_in_threadpool(
-        prepare_report, body.task, studio, proposal=body.proposal, title=body.title
+    work = await prepared(
+        request, prepare_report, body.task, studio, proposal=body.proposal, title=body.title
     )
-    return HTMLResponse(str(await finished(request, work)))
+    return HTMLResponse(await finished(request, work, str.encode))

@@ -20,6 +20,7 @@ from mckibben.identification.read.table import first_rows, read_table, split_hea
 from mckibben.physics.errors import InputError
 
 _CONTROL = re.compile(rb"[\x00-\x08\x0b\x0e-\x1f\x7f]")
+_PIECE = 1_000_000  # bytes
 
 
 def read_csv(data: bytes, name: str, correction: Correction | None = None) -> Measurement:
@@ -61,7 +62,7 @@ def _decoded(data: bytes, name: str, messages: list[str]) -> str:
     """The text with ``\\n`` line ends; refuses what is not text."""
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         data = _from_utf16(data, name)
-    if control := _CONTROL.search(data):
+    if control := _first_control(data):
         what = "NUL bytes" if control.group() == b"\0" else "control characters"
         line = data.count(b"\n", 0, control.start()) + 1
         raise InputError(
@@ -77,7 +78,13 @@ def _decoded(data: bytes, name: str, messages: list[str]) -> str:
         raise InputError(
             f"{name}, row 1: the file is empty", field="row 1", hint="a header and one line per reading"
         )
-    return text.replace("\r\n", "\n").replace("\r", "\n")
+    return text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
+
+
+def _first_control(data: bytes) -> re.Match[bytes] | None:
+    """The first control character, looked for piece by piece: one search would hold the interpreter."""
+    pieces = (_CONTROL.search(data, begin, begin + _PIECE) for begin in range(0, len(data), _PIECE))
+    return next(filter(None, pieces), None)
 
 
 def _from_utf16(data: bytes, name: str) -> bytes:
