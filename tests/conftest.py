@@ -10,7 +10,7 @@ import hypothesis
 import hypothesis.configuration
 import pytest
 
-from tests.server import RunningServer
+from tests.running_server import RunningServer
 
 # Deadlines measure the machine, not the code; examples that failed before are kept by the person who fixes
 # them as an explicit @example, not in a database that only one checkout has.

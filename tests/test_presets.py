@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from mckibben import cli
-from mckibben.api.schemas.sizings import SizingTask
+from mckibben.documents.task import SizingTask
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.errors import InputError
 from mckibben.physics.parameter import GRADES, Parameter, Source

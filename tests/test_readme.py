@@ -10,7 +10,7 @@ import pytest
 
 from mckibben.physics.catalogue import Catalogue
 from mckibben.physics.muscle import Muscle
-from mckibben.simulation.static import StaticModel
+from mckibben.simulation.statics.model import StaticModel
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -49,8 +49,8 @@ def test_the_example_effect_takes_its_force_off_every_curve(example_folder):
 def test_the_example_effect_reaches_the_interface_with_no_other_edit(example_folder):
     from fastapi.testclient import TestClient
 
-    from mckibben.api.app import create_app
-    from mckibben.api.settings import Settings
+    from mckibben.server.app import create_app
+    from mckibben.server.settings import Settings
 
     client = TestClient(create_app(Settings(effects=(example_folder,))), base_url="http://127.0.0.1")
     effects = {effect["id"]: effect for effect in client.get("/api/effects").json()["effects"]}

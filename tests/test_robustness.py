@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from mckibben.api.answers.runs import grid_of
-from mckibben.api.answers.simulations import read_document, simulation_answer
-from mckibben.drive_input import drive_of
+from mckibben.application.runs import grid_of
+from mckibben.application.simulations import read_document, simulation_answer
+from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
 from mckibben.resources import presets_folder
-from mckibben.simulation.engine import kernel
-from mckibben.studio import Studio
+from mckibben.simulation.integrate.engine import kernel
 
 DRIVES = 200
 POINTS = 401

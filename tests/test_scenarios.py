@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from mckibben.documents.studio import Studio
 from mckibben.resources import presets_folder
-from mckibben.studio import Studio
 from tests.benchmarks.scenarios import SCENARIOS, Scenario, loop_width, rows_of, run_scenario, table
 
 CONTROLLED = ("paper-pid-triangle", "paper-pid-pulse", "paper-pid-random")

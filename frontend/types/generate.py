@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from mckibben.api.app import create_app
+from mckibben.server.app import create_app
 
 FOLDER = Path(__file__).resolve().parent
 COMMAND = "python frontend/types/generate.py"

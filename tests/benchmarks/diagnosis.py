@@ -58,7 +58,7 @@ class Line:
 
 def diagnosed(case: Case) -> Line:
     """Diagnose one case and open its answer."""
-    from mckibben.identification.diagnosis import diagnose
+    from mckibben.identification.diagnose.diagnosis import diagnose
 
     line = Line(case.name, case.seed, case.kind, len(case.hidden), case.unknown is not None)
     studio = _studio()
@@ -85,14 +85,14 @@ def diagnosed(case: Case) -> Line:
 
 def subject_and_start(case: Case, studio: Any) -> tuple[Any, Any]:
     """What a user would give of a case: measurement, muscle or drive, start model."""
-    from mckibben.api.answers.measured import Points, joined
-    from mckibben.api.answers.simulations import read_document
-    from mckibben.api.schemas.convert import given_muscle
-    from mckibben.api.schemas.muscle import MuscleInput
-    from mckibben.drive_input import drive_of
-    from mckibben.identification.read import read_measurement
-    from mckibben.identification.setting import Setting
-    from mckibben.identification.subjects import subject_of
+    from mckibben.application.simulations import read_document
+    from mckibben.documents.convert import given_muscle
+    from mckibben.documents.drive_reading import drive_of
+    from mckibben.documents.muscle import MuscleInput
+    from mckibben.identification.predict import subject_of
+    from mckibben.identification.predict.fit_model import Setting
+    from mckibben.measurement.points import Points, joined
+    from mckibben.measurement.read import read_measurement
 
     files = [Points(read_measurement(text.encode(), name)) for name, text in case.files.items()]
     measurement = joined(files).measurement
@@ -116,8 +116,8 @@ def true_floor(case: Case, subject: Any) -> float:
 
 
 def _taken(subject: Any, result: Any, floor: float) -> float:
-    from mckibben.identification.node import fitted_node
-    from mckibben.identification.setting import free_numbers
+    from mckibben.identification.fit.fitted_model import fitted_node
+    from mckibben.identification.predict.fit_model import free_numbers
     from mckibben.physics.custom import custom_effect
 
     effect = custom_effect(result.term.formula, result.term.coefficients)
@@ -129,9 +129,9 @@ def _taken(subject: Any, result: Any, floor: float) -> float:
 
 def _studio() -> Any:
     if not _STATE:
+        from mckibben.documents.studio import Studio
         from mckibben.resources import presets_folder
-        from mckibben.simulation.engine import kernel
-        from mckibben.studio import Studio
+        from mckibben.simulation.integrate.engine import kernel
 
         kernel.warm().join()
         _STATE["studio"] = Studio(presets=presets_folder())

@@ -32,12 +32,12 @@ from typing import Any
 import numpy as np
 from scipy.integrate import odeint, solve_ivp
 
-from mckibben.api.answers.simulations import read_document
-from mckibben.drive_input import drive_of
+from mckibben.application.simulations import read_document
+from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.studio import Studio
 from mckibben.resources import presets_folder
-from mckibben.simulation.engine import compiled_drive, integrate, kernel
-from mckibben.simulation.transient import simulate
-from mckibben.studio import Studio
+from mckibben.simulation.drive.transient import simulate
+from mckibben.simulation.integrate.engine import compiled_drive, integrate, kernel
 from tests.benchmarks.lift import DOCUMENT, ROWS, SETS, WITH_SPOOL, Lift, Positions, by_segments
 from tests.benchmarks.translated import translated
 

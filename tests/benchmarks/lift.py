@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from mckibben.api.answers.simulations import read_document
-from mckibben.drive_input import drive_of
-from mckibben.simulation.engine import compiled_drive
-from mckibben.simulation.transient import parameters_of, segments_of, start_of
-from mckibben.studio import Studio
+from mckibben.application.simulations import read_document
+from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.studio import Studio
+from mckibben.simulation.drive.transient import parameters_of, segments_of, start_of
+from mckibben.simulation.integrate.engine import compiled_drive
 
 ROWS, SETS = 4001, 5
 DOCUMENT: dict[str, Any] = {

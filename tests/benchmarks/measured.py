@@ -14,13 +14,13 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import least_squares
 
-from mckibben.identification.diagnosis import Diagnosis, diagnose
-from mckibben.identification.read import read_measurement
-from mckibben.identification.setting import Setting, free_geometry
-from mckibben.identification.subjects import subject_of
+from mckibben.documents.studio import Studio
+from mckibben.identification.diagnose.diagnosis import Diagnosis, diagnose
+from mckibben.identification.predict import subject_of
+from mckibben.identification.predict.fit_model import Setting, free_geometry
+from mckibben.measurement.read import read_measurement
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.resources import presets_folder
-from mckibben.studio import Studio
 
 DATA = Path(__file__).parents[3] / "shared" / "data"
 MAPS = (("DMSP-20-300", "DMSP-20", 0.3), ("DMSP-10-250", "DMSP-10", 0.25))

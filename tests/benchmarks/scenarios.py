@@ -12,14 +12,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mckibben.api.answers.runs import grid_of, trace_of
-from mckibben.api.answers.simulations import answer_of, preset_document, run_drive
-from mckibben.drive_input import GivenDrive, drive_of
+from mckibben.application.runs import grid_of, trace_of
+from mckibben.application.simulations import answer_of, preset_document, run_drive
+from mckibben.documents.drive_reading import GivenDrive, drive_of
+from mckibben.documents.studio import Studio
 from mckibben.presets import DrivePreset
 from mckibben.resources import presets_folder
-from mckibben.simulation.trace import Trace
-from mckibben.simulation.transient import Run, dead_times
-from mckibben.studio import Studio
+from mckibben.simulation.drive.transient import Run, dead_times
+from mckibben.simulation.timing.trace import Trace
 
 SCENARIOS = (
     "paper-ramp", "paper-step", "paper-step-mpye", "paper-hysteresis", "paper-pid-triangle",

@@ -21,17 +21,17 @@ from typing import Any
 import numpy as np
 from scipy.integrate import odeint
 
-from mckibben.api.answers.sizing_task import catalogue_of, task_of
-from mckibben.api.schemas.sizings import SizingTask
+from mckibben.application.sizing_task import catalogue_of, task_of
+from mckibben.documents.studio import Studio
+from mckibben.documents.task import SizingTask
 from mckibben.resources import presets_folder
-from mckibben.simulation.engine import kernel
+from mckibben.simulation.integrate.engine import kernel
 from mckibben.simulation.outcome import Watch
 from mckibben.sizing import Sizing, size
 from mckibben.sizing.bench import Bench
 from mckibben.sizing.catalogue import Design
 from mckibben.sizing.chance import chance
 from mckibben.sizing.prepared import Prepared
-from mckibben.studio import Studio
 from tests.benchmarks.engine import say
 from tests.benchmarks.translated import translated
 

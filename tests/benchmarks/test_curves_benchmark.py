@@ -20,7 +20,7 @@ from urllib.parse import urlsplit
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from tests.server import RunningServer
+from tests.running_server import RunningServer
 
 MEDIAN_LIMIT_MS = 1.0
 REQUESTS = {

@@ -13,11 +13,11 @@ from nptdms import ChannelObject, TdmsWriter
 from pytest_benchmark.fixture import BenchmarkFixture
 from scipy.io import savemat
 
-from mckibben.identification.measurement import Measurement
-from mckibben.identification.motion import motion_of
-from mckibben.identification.read import read_measurement
-from mckibben.identification.reduction import reduced
-from mckibben.identification.segments import segments_of
+from mckibben.measurement.measurement import Measurement
+from mckibben.measurement.motion import motion_of
+from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reduction import reduced
+from mckibben.measurement.sweeps import segments_of
 
 ROWS = 1_000_000
 

@@ -18,10 +18,10 @@ import pytest
 from mckibben import __version__, cli
 from mckibben.cli.options import start_model
 from mckibben.cli.serve import _bind, _link
+from mckibben.documents.studio import Studio
 from mckibben.resources import presets_folder
-from mckibben.studio import Studio
 from tests.cli.conftest import Run, write
-from tests.server import MAIN, RunningServer
+from tests.running_server import MAIN, RunningServer
 
 CSV = "# kind: static\npressure_bar;length_mm;force_N\n" + "".join(
     f"{p};{length};{100 * p + length / 10:.1f}\n" for p in (1, 2, 3) for length in (280, 290, 300)
@@ -435,7 +435,7 @@ def test_a_file_named_like_a_preset_does_not_hide_it(tmp_path: Path) -> None:
 
 def test_the_start_is_fast_because_nothing_heavy_is_imported() -> None:
     heavy = ("pandas", "scipy", "numba", "plotly", "rich", "pint")
-    code = f"import sys, mckibben.api.app; print([m for m in {heavy} if m in sys.modules])"
+    code = f"import sys, mckibben.server.app; print([m for m in {heavy} if m in sys.modules])"
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert result.stdout.strip() == "[]"
 

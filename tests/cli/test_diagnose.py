@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mckibben.api.schemas.diagnoses import DiagnosisAnswer
+from mckibben.server.schemas.diagnoses import DiagnosisAnswer
 from tests.cli.conftest import Run, write
 from tests.identification.synthetic import BRAID, CYCLE_HEADER, LIFT, cycle_rows, text
 

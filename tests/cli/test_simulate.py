@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from mckibben.identification.read import read_measurement
+from mckibben.measurement.read import read_measurement
 from mckibben.resources import presets_folder
 from tests.cli.conftest import Run, write
-from tests.test_drive_input import CONTROLLER, EXAMPLE
+from tests.documents.test_drive_reading import CONTROLLER, EXAMPLE
 
 
 def test_a_document_gives_one_json_object(run: Run) -> None:
@@ -26,10 +26,10 @@ def test_a_document_gives_one_json_object(run: Run) -> None:
 
 def test_it_agrees_with_the_kernel(run: Run) -> None:
     # One process per run answers by LSODA, the server by the kernel.
-    from mckibben.api.answers.runs import grid_of
-    from mckibben.api.answers.simulations import read_document, simulation_answer
-    from mckibben.drive_input import drive_of
-    from mckibben.studio import Studio
+    from mckibben.application.runs import grid_of
+    from mckibben.application.simulations import read_document, simulation_answer
+    from mckibben.documents.drive_reading import drive_of
+    from mckibben.documents.studio import Studio
 
     answer = json.loads(run("simulate", write("lift.json", EXAMPLE), "--json")[1])
     given = drive_of(read_document(EXAMPLE, "the drive"), Studio(presets=presets_folder()))

@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from mckibben.api.schemas.sizing_answer import SizingAnswer
-from tests.api.test_sizings import IMPOSSIBLE, TASK
+from mckibben.server.schemas.sizing_answer import SizingAnswer
 from tests.cli.conftest import Run, write
+from tests.server.test_sizings import IMPOSSIBLE, TASK
 
 
 def test_a_task_gives_one_json_object_and_its_drive_runs(run: Run) -> None:

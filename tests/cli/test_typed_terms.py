@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tests.cli.conftest import Run, write
-from tests.test_drive_input import EXAMPLE
+from tests.documents.test_drive_reading import EXAMPLE
 
 TERMS = {
     "c/t": "'c / t' has no finite value at t = 0",

@@ -19,7 +19,7 @@ from playwright.sync_api import Browser, BrowserContext, Page
 
 from tests.frontend.browser import ARGUMENTS, NoBrowserError, find_or_get
 from tests.frontend.guard import PageGuard
-from tests.server import RunningServer
+from tests.running_server import RunningServer
 
 _RESTING = '<title>resting</title><link rel="icon" href="data:,">'  # else the browser asks for /favicon.ico
 

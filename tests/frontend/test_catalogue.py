@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.frontend.views import enter, open_catalogue, open_design
-from tests.server import RunningServer
+from tests.running_server import RunningServer
 
 
 def parts(page: Page) -> list[str]:

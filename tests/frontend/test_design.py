@@ -25,7 +25,7 @@ from tests.frontend.views import (
     run,
     settled,
 )
-from tests.server import RunningServer
+from tests.running_server import RunningServer
 
 
 def download(page: Page, item: str) -> Download:

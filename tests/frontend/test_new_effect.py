@@ -10,7 +10,7 @@ import pytest
 from playwright.sync_api import Page
 
 from tests.frontend.views import marked, redrawn
-from tests.server import RunningServer
+from tests.running_server import RunningServer
 
 README = Path(__file__).parents[2] / "README.md"
 

@@ -12,7 +12,7 @@ from typing import Any, Literal
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from mckibben.api.schemas.sizings import SizingTask
+from mckibben.documents.task import SizingTask
 from tests.frontend.guard import PageGuard
 from tests.frontend.test_accessibility import violations
 from tests.frontend.test_layout import OVERLAPS, SIDEWAYS, TOO_SMALL

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from mckibben.identification.fit import Free
-from mckibben.identification.measurement import Measurement
-from mckibben.identification.node import Node
-from mckibben.identification.read import read_measurement
-from mckibben.identification.setting import Setting
-from mckibben.identification.subjects.subject import Channel, Subject
+from mckibben.identification.fit.fitted_model import Node
+from mckibben.identification.predict.fit_model import Setting
+from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.predictor import Channel, Subject
+from mckibben.measurement.measurement import Measurement
+from mckibben.measurement.read import read_measurement
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import Muscle

@@ -10,15 +10,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mckibben.api.schemas.convert import given_muscle
-from mckibben.api.schemas.drives import DriveDocument
-from mckibben.api.schemas.muscle import MuscleInput
-from mckibben.drive_input import drive_of
-from mckibben.identification.measurement import lengths
-from mckibben.identification.read import read_measurement
+from mckibben.documents.convert import given_muscle
+from mckibben.documents.drive import DriveDocument
+from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.muscle import MuscleInput
+from mckibben.documents.studio import Studio
+from mckibben.measurement.measurement import lengths
+from mckibben.measurement.read import read_measurement
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.resources import presets_folder
-from mckibben.studio import Studio
 from tests.truth.cases import BOOK, Case
 from tests.truth.generate import SEEDS, all_cases, answer_of, case, names, write
 

@@ -16,7 +16,7 @@ from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import ROOM_TEMPERATURE, Model, State
 from mckibben.physics.muscle import GEOMETRY, Muscle
-from mckibben.simulation.static import StaticModel
+from mckibben.simulation.statics.model import StaticModel
 
 MUSCLE = Muscle(0.3, 0.0218, math.radians(26.5), 0.0018, 0.020)
 LENGTHS = MUSCLE.nominal_length * (1.0 - np.linspace(-0.03, 0.25, 15))

@@ -13,15 +13,15 @@ import pytest
 import symengine as se
 from fastapi.testclient import TestClient
 
-from mckibben.api.app import create_app
-from mckibben.api.settings import Settings
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.custom import blamed_on_the_term, custom_effect, typed_effect
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.physics.muscle import Muscle
-from mckibben.simulation.driven import driven_force
-from mckibben.simulation.static import StaticModel
+from mckibben.server.app import create_app
+from mckibben.server.settings import Settings
+from mckibben.simulation.drive.driven import driven_force
+from mckibben.simulation.statics.model import StaticModel
 
 MUSCLE = Muscle(0.3, 0.0218, 0.4625, 0.0018, 0.02)
 PLACE = "effects.custom.term"

@@ -9,10 +9,10 @@ import pytest
 
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.effect import Effect
-from mckibben.simulation.parts import Drive, Load, Tube, Valve
-from mckibben.simulation.signals import signal_from
-from mckibben.simulation.static import StaticModel
-from mckibben.simulation.transient import simulate
+from mckibben.simulation.command.signals import signal_from
+from mckibben.simulation.drive.parts import Drive, Load, Tube, Valve
+from mckibben.simulation.drive.transient import simulate
+from mckibben.simulation.statics.model import StaticModel
 from tests.physics.contract_states import MUSCLE, WARM, companions
 
 CATALOGUE = default_catalogue()

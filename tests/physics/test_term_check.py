@@ -11,7 +11,7 @@ import pytest
 from mckibben.physics import term_check
 from mckibben.physics.custom import custom_effect
 from mckibben.physics.errors import InputError
-from mckibben.simulation.compile import compiled_state
+from mckibben.simulation.statics.compiled import compiled_state
 
 PLACE = "effects.custom.term"
 LETTERS = "abcdefghijkmnopqrsuwxyz"
@@ -75,8 +75,8 @@ from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.custom import custom_effect
 from mckibben.physics.drive_terms import Structure
 from mckibben.physics.errors import InputError
-from mckibben.simulation.compile import compiled_state
-from mckibben.simulation.system import compiled_drive, compiled_driven
+from mckibben.simulation.statics.compiled import compiled_state
+from mckibben.simulation.integrate.system import compiled_drive, compiled_driven
 
 series = [e for e in default_catalogue().values() if {"compliance", "heat"} & set(e.slots)]
 for name, term in json.load(sys.stdin).items():

@@ -11,8 +11,8 @@ import pytest
 from fastapi.testclient import TestClient
 from httpx2 import Response
 
-from mckibben.api.app import create_app
-from mckibben.api.settings import Settings
+from mckibben.server.app import create_app
+from mckibben.server.settings import Settings
 from tests.robustness.files import GOOD, KIND, ROWS, SI
 from tests.robustness.variants import Variant, variants
 

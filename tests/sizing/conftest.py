@@ -6,11 +6,11 @@ from typing import Any
 
 import pytest
 
-from mckibben.api.answers.sizing_task import catalogue_of, task_of
-from mckibben.api.schemas.sizings import SizingTask
+from mckibben.application.sizing_task import catalogue_of, task_of
+from mckibben.documents.studio import Studio
+from mckibben.documents.task import SizingTask
 from mckibben.resources import presets_folder
 from mckibben.sizing import Catalogue, Task
-from mckibben.studio import Studio
 
 LIFT: dict[str, Any] = {
     "load": {"mass": "20 kg"},

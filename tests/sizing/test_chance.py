@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
+from mckibben.documents.studio import Studio
 from mckibben.simulation.outcome import Watch
 from mckibben.sizing.bench import Bench
 from mckibben.sizing.catalogue import Design, Group
 from mckibben.sizing.chance import chance
 from mckibben.sizing.spread import spread_of
-from mckibben.studio import Studio
 from tests.sizing.conftest import LIFT, understood
 
 PRESSURE, LENGTH, STROKE, MASS = 5e5, 0.2, 0.02, 21.8

@@ -22,10 +22,10 @@ from typing import Any
 
 import pytest
 
-from mckibben.api.answers.sizings import sizing_answer
-from mckibben.api.schemas.sizings import SizingTask
+from mckibben.application.sizings import sizing_answer
+from mckibben.documents.studio import Studio
+from mckibben.documents.task import SizingTask
 from mckibben.resources import presets_folder
-from mckibben.studio import Studio
 
 SIZES = ["DMSP-10", "DMSP-20", "DMSP-40"]
 # 45 kg are 441 N, with the reserve 485 N: at 15 % size 10 pulls 105 N (never more than 473 N), size 20 584 N.

@@ -7,18 +7,18 @@ from typing import Any
 
 import pytest
 
-from mckibben.api.answers.runs import grid_of
-from mckibben.api.answers.simulations import read_document, simulation_answer
-from mckibben.api.answers.sizings import drive_document, sizing_answer
-from mckibben.api.schemas.sizing_answer import SizingAnswer
-from mckibben.api.schemas.sizings import SizingTask
-from mckibben.drive_input import drive_of
+from mckibben.application.runs import grid_of
+from mckibben.application.simulations import read_document, simulation_answer
+from mckibben.application.sizings import drive_document, sizing_answer
+from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.studio import Studio
+from mckibben.documents.task import SizingTask
 from mckibben.physics.errors import InputError
-from mckibben.simulation.engine import compiled_drive
+from mckibben.server.schemas.sizing_answer import SizingAnswer
+from mckibben.simulation.drive.transient import parameters_of
+from mckibben.simulation.integrate.engine import compiled_drive
 from mckibben.simulation.outcome import Outcome, Watch
-from mckibben.simulation.transient import parameters_of
 from mckibben.sizing import size
-from mckibben.studio import Studio
 from tests.sizing.conftest import LIFT, understood
 
 PAIR: dict[str, Any] = {

@@ -7,15 +7,15 @@ from math import cos, pi, radians, sin, tan
 import numpy as np
 import pytest
 
+from mckibben.documents.studio import Studio
 from mckibben.physics import gas
-from mckibben.simulation import inverse
-from mckibben.simulation.static import StaticModel
+from mckibben.simulation.statics import inverse
+from mckibben.simulation.statics.model import StaticModel
 from mckibben.sizing import Task
 from mckibben.sizing.sheet import sheet_of
 from mckibben.sizing.statics import AMPLE, at_rest, least_time, margins, outputs
 from mckibben.sizing.task import GRAVITY
 from mckibben.sizing.trial import Trial
-from mckibben.studio import Studio
 from tests.sizing.conftest import LIFT, understood
 
 LENGTHS = np.array([0.25, 0.4, 0.9])

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mckibben.api.answers.comparisons import comparison_answer
-from mckibben.api.answers.start import Json
+from mckibben.application.comparisons import comparison_answer
+from mckibben.application.start import Json
 from mckibben.cli.data import points_of
 from mckibben.cli.options import asked_of
 from mckibben.cli.output import figure, remark, rows_of, write_json, write_table
-from mckibben.studio import Studio
+from mckibben.documents.studio import Studio
 
 
 def run(

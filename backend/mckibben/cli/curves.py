@@ -6,14 +6,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mckibben.api.answers.curves import curves_of
-from mckibben.api.answers.start import Json
-from mckibben.api.schemas.curves import CurvesOptions
+from mckibben.application.curves import curves_of
+from mckibben.application.start import Json
 from mckibben.cli.options import start_model
 from mckibben.cli.output import figure, remark, write_json, write_table
+from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import si
-from mckibben.studio import Studio
+from mckibben.server.schemas.curves import CurvesOptions
 
 _MAX_PRESSURES = 12
 _TABLE_ROWS = 11

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from mckibben.api.answers.measured import Points, find_preset, joined
-from mckibben.identification.read import read_measurement
+from mckibben.documents.studio import Studio
+from mckibben.measurement.points import Points, find_preset, joined
+from mckibben.measurement.read import read_measurement
 from mckibben.physics.errors import InputError, did_you_mean
-from mckibben.studio import Studio
 
 _MAX_BYTES = 200_000_000
 

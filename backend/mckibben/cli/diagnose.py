@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from mckibben.api.answers.asked import Asked
-from mckibben.api.answers.diagnoses import prepare
-from mckibben.api.answers.start import Json
+from mckibben.application.asked import Asked
+from mckibben.application.diagnoses import prepare
+from mckibben.application.start import Json
 from mckibben.cli.data import points_of
 from mckibben.cli.options import asked_of
 from mckibben.cli.output import figure, progress, remark, rows_of, write_json, write_table
-from mckibben.studio import Studio
+from mckibben.documents.studio import Studio
 
 _SHOWN = 8  # candidates
 

@@ -12,11 +12,11 @@ import typer
 from mckibben.physics.errors import InputError, did_you_mean
 
 if TYPE_CHECKING:
-    from mckibben.api.answers.asked import Asked
-    from mckibben.api.answers.measured import Points
-    from mckibben.muscle_input import StartModel
-    from mckibben.simulation.parts import Drive
-    from mckibben.studio import Studio
+    from mckibben.application.asked import Asked
+    from mckibben.documents.start_model import StartModel
+    from mckibben.documents.studio import Studio
+    from mckibben.measurement.points import Points
+    from mckibben.simulation.drive.parts import Drive
 
 MuscleText = Annotated[
     str,
@@ -84,8 +84,8 @@ def folders(presets: Path | None, effects: Sequence[Path] | None, data: Path | N
 
 def open_studio(presets: Path | None, effects: Sequence[Path] | None, data: Path | None) -> Studio:
     """Presets and effects of a command that answers without a server."""
+    from mckibben.documents.studio import Studio
     from mckibben.resources import presets_folder
-    from mckibben.studio import Studio
 
     chosen = folders(presets, effects, data)
     studio = Studio(presets=presets_folder(), user_presets=chosen.user_presets, effects=chosen.effects)
@@ -154,7 +154,7 @@ def asked_of(
     Raises:
         InputError: names the file or option, what is wrong and what would be right.
     """
-    from mckibben.api.answers.asked import Asked
+    from mckibben.application.asked import Asked
     from mckibben.physics.muscle import GEOMETRY
 
     for name in free:
@@ -171,8 +171,8 @@ def _drive_of(studio: Studio, path: str, start: StartModel) -> Drive | None:
     """The drive of a document that has a valve, with the muscle and effects of the start model."""
     from dataclasses import replace
 
-    from mckibben.api.answers.simulations import read_document
-    from mckibben.drive_input import drive_of
+    from mckibben.application.simulations import read_document
+    from mckibben.documents.drive_reading import drive_of
 
     document = _drive_document(path)
     if "valve" not in document:
@@ -187,7 +187,7 @@ def _drive_of(studio: Studio, path: str, start: StartModel) -> Drive | None:
 
 def _drive_document(path: str) -> dict[str, object]:
     """The parts of a drive document; in that of a mere model stand ``effects`` (and ``muscle``) only."""
-    from mckibben.api.schemas.drives import DriveDocument
+    from mckibben.documents.drive import DriveDocument
     from mckibben.presets.reading import BadDocumentError, read_file
 
     try:
@@ -215,7 +215,7 @@ def _is_file(muscle: str, studio: Studio) -> bool:
 
 def _start_of_file(studio: Studio, path: Path, effects: Effects | None) -> StartModel:
     """A muscle by geometry, or a whole preset file."""
-    from mckibben.muscle_input import GivenMuscle, preset_facts, start_model
+    from mckibben.documents.start_model import GivenMuscle, preset_facts, start_model
     from mckibben.presets import MusclePreset
     from mckibben.presets.reading import BadDocumentError, parse, read_file
 
@@ -246,9 +246,9 @@ def _usable(studio: Studio, start: StartModel) -> StartModel:
 def _start_of_input(studio: Studio, document: object, effects: Effects | None, source: str) -> StartModel:
     from pydantic import ValidationError
 
-    from mckibben.api.schemas.convert import given_muscle
-    from mckibben.api.schemas.muscle import MuscleInput
-    from mckibben.api.sentences import first_problem
+    from mckibben.documents.convert import given_muscle
+    from mckibben.documents.muscle import MuscleInput
+    from mckibben.documents.problems import first_problem
 
     try:
         given = given_muscle(MuscleInput.model_validate(document))

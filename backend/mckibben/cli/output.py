@@ -11,8 +11,8 @@ from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
-from mckibben.api.answer import to_json
-from mckibben.api.answers.start import Json
+from mckibben.application.start import Json
+from mckibben.server.answer import to_json
 from mckibben.simulation.outcome import Watch
 
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from mckibben.api.answers.asked import Asked
-from mckibben.api.answers.reports import Told, report_of
-from mckibben.api.answers.start import Json
+from mckibben.application.asked import Asked
+from mckibben.application.reports import Told, report_of
+from mckibben.application.start import Json
 from mckibben.cli.output import remark
+from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
-from mckibben.studio import Studio
 
 
 def write(path: Path, studio: Studio, question: Asked, diagnosis: Json) -> None:

@@ -39,9 +39,9 @@ def run(
     # Imported after the port is known to be free: a mistake is told at once.
     import uvicorn
 
-    from mckibben.api.app import create_app
-    from mckibben.api.security import new_token
-    from mckibben.api.settings import Settings, is_every_interface, is_loopback
+    from mckibben.server.app import create_app
+    from mckibben.server.security import new_token
+    from mckibben.server.settings import Settings, is_every_interface, is_loopback
 
     actual_port = int(listening.getsockname()[1])
     token = None if is_loopback(host) else new_token()

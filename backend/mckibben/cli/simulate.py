@@ -8,18 +8,18 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from mckibben.api.answers.runs import grid_of
-from mckibben.api.answers.simulations import POINTS, preset_document, read_document, simulation_answer
-from mckibben.api.answers.start import Json
-from mckibben.api.schemas.drives import DriveDocument
+from mckibben.application.runs import grid_of
+from mckibben.application.simulations import POINTS, preset_document, read_document, simulation_answer
+from mckibben.application.start import Json
 from mckibben.cli.options import located
 from mckibben.cli.output import figure, remark, write_json, write_table
-from mckibben.drive_input import GivenDrive, drive_of
+from mckibben.documents.drive import DriveDocument
+from mckibben.documents.drive_reading import GivenDrive, drive_of
+from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.presets import DrivePreset
 from mckibben.presets.reading import BadDocumentError, parse, read_file
-from mckibben.simulation.transient import segments_of
-from mckibben.studio import Studio
+from mckibben.simulation.drive.transient import segments_of
 
 _FEW_SEGMENTS = 20
 # Figure of the timing table -> how it is shown: name, factor, unit.

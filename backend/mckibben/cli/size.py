@@ -7,16 +7,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mckibben.api.answers.sizings import Searched, searched
-from mckibben.api.answers.start import Json
-from mckibben.api.schemas.sizings import SizingTask
+from mckibben.application.sizings import Searched, searched
+from mckibben.application.start import Json
 from mckibben.cli.options import located
 from mckibben.cli.output import figure, remark, write_json, write_table
+from mckibben.documents.studio import Studio
+from mckibben.documents.task import SizingTask
 from mckibben.physics.errors import InputError
 from mckibben.presets import TaskPreset
 from mckibben.presets.reading import BadDocumentError, parse, read_file
 from mckibben.simulation.outcome import Watch
-from mckibben.studio import Studio
 
 _REJECTED_SHOWN = 12
 
@@ -59,7 +59,7 @@ def run(studio: Studio, *, task: str, as_json: bool, report: Wanted | None = Non
 
 
 def _write_report(search: Searched, studio: Studio, wanted: Wanted) -> None:
-    from mckibben.api.answers.sizing_reports import report_of
+    from mckibben.application.sizing_reports import report_of
     from mckibben.cli.report import save
 
     try:
@@ -96,7 +96,7 @@ def read_task(document: object) -> SizingTask:
     """
     from pydantic import ValidationError
 
-    from mckibben.api.sentences import first_problem
+    from mckibben.documents.problems import first_problem
 
     try:
         return SizingTask.model_validate(document)

@@ -77,7 +77,7 @@ class Model:
         """The state at a measured length [m] and measured gauge pressure [Pa].
 
         The length is taken at the muscle; a series compliance is only reported, because it needs the force
-        (`mckibben.simulation.static` solves for both). Direction is the sign of the velocity dL/dt: -1
+        (`mckibben.simulation.statics.model` solves for both). Direction is the sign of the velocity dL/dt: -1
         shortening (filling), +1 lengthening (venting), 0 at rest.
         """
         sensor = self.reading("force_sensor", muscle=muscle, values=values)

@@ -15,10 +15,10 @@ import numpy as np
 
 from mckibben.physics.drive_terms import INPUTS, Structure
 from mckibben.physics.errors import InputError
-from mckibben.simulation.engine import compiled_drive
+from mckibben.simulation.drive.parts import Drive
+from mckibben.simulation.drive.transient import constants_of, segments_of
+from mckibben.simulation.integrate.engine import compiled_drive
 from mckibben.simulation.outcome import Outcome, Watch
-from mckibben.simulation.parts import Drive
-from mckibben.simulation.transient import constants_of, segments_of
 from mckibben.sizing.catalogue import Design, Group, switch_on
 from mckibben.sizing.prepared import NOTHING, ROWS_DOWN, ROWS_UP, Figures, Prepared, Timeline
 from mckibben.sizing.task import Task

@@ -9,10 +9,10 @@ from functools import cached_property, lru_cache
 from mckibben.physics import gas
 from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import Muscle
-from mckibben.simulation.limits import Limits
-from mckibben.simulation.parts import Drive, Load, Tube, Valve
-from mckibben.simulation.signals import Signal, signal_from
-from mckibben.simulation.static import StaticModel
+from mckibben.simulation.command.signals import Signal, signal_from
+from mckibben.simulation.drive.parts import Drive, Load, Tube, Valve
+from mckibben.simulation.statics.limits import Limits
+from mckibben.simulation.statics.model import StaticModel
 from mckibben.sizing.task import Duty, Task
 
 Values = Mapping[str, Mapping[str, float]]

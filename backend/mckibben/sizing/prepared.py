@@ -9,9 +9,9 @@ import numpy as np
 from mckibben.physics.drive_terms import COUNTER, INPUTS, OUTPUTS
 from mckibben.physics.errors import InputError
 from mckibben.physics.gas import ANR_DENSITY
-from mckibben.simulation.engine import CompiledDrive, integrate
-from mckibben.simulation.parts import Drive
-from mckibben.simulation.rest import start_of
+from mckibben.simulation.drive.parts import Drive
+from mckibben.simulation.drive.rest import start_of
+from mckibben.simulation.integrate.engine import CompiledDrive, integrate
 from mckibben.sizing.catalogue import Design
 
 ROWS_UP, ROWS_DOWN = 160, 120

@@ -9,10 +9,10 @@ import numpy as np
 
 from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.gas import ANR_DENSITY
+from mckibben.simulation.drive.parts import Drive
+from mckibben.simulation.drive.transient import Run, simulate
 from mckibben.simulation.outcome import Outcome
-from mckibben.simulation.parts import Drive
-from mckibben.simulation.timing import Trace, timing
-from mckibben.simulation.transient import Run, simulate
+from mckibben.simulation.timing.table import Trace, timing
 from mckibben.sizing.bench import Bench
 from mckibben.sizing.catalogue import Design, switch_on
 from mckibben.sizing.chance import Chance

@@ -1,6 +1,6 @@
 """The closed form: what a muscle holds, needs and measures at rest, over whole arrays of designs.
 
-It is the static model with the muscle's own effects (`mckibben.simulation.static`), not the ideal force.
+It is the static model with the muscle's own effects (`mckibben.simulation.statics`), not the ideal force.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ import numpy as np
 
 from mckibben.physics import gas, ideal
 from mckibben.physics.muscle import GEOMETRY
-from mckibben.simulation.compile import compiled_state
-from mckibben.simulation.static import settle
+from mckibben.simulation.statics.compiled import compiled_state
+from mckibben.simulation.statics.model import settle
 from mckibben.sizing.catalogue import MusclePart
 from mckibben.sizing.task import STATIONS, Duty, Task
 

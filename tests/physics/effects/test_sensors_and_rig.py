@@ -12,7 +12,7 @@ from mckibben.physics import ideal
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import Muscle
-from mckibben.simulation.static import StaticModel
+from mckibben.simulation.statics.model import StaticModel
 
 CATALOGUE = default_catalogue()
 SIZE_20 = Muscle(0.3, 0.0218, radians(26.6), 0.0018, 0.02)

@@ -1,0 +1,111 @@
+"""Every field of a sizing task with what it means: what was asked for, and what was assumed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, get_args
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+from mckibben.documents.quantity import Quantity
+from mckibben.documents.task import ForceOverStroke, SizingTask
+from mckibben.report.figures import scale_of
+from mckibben.report.sizing import Entry
+
+_NOT_TOLD = frozenset({"schema_version", "title"})
+# What a task of one kind does not have.
+# What a field that is left out stands for, where that is not nothing.
+_FREE = {"uncertainty.hysteresis": "the muscle's own", "load.pair.pulley_radius": "free"}
+_OF_A_STROKE = frozenset({"stroke", "speed"})
+
+
+def entries_of(document: SizingTask, considered: Mapping[str, Sequence[str]]) -> list[Entry]:
+    """The fields that apply to a task.
+
+    Args:
+        document: the task.
+        considered: kind of part -> ids that the search tried.
+    """
+    pair = document.load.pair is not None
+    found = []
+    for entry in _entries(document, ""):
+        of_load = entry.path.startswith("load.")
+        if pair and (entry.path in _OF_A_STROKE or (of_load and not entry.path.startswith("load.pair"))):
+            continue
+        if not pair and entry.path == "load.pair":
+            continue
+        if entry.value is None and entry.path in _FREE:
+            entry = entry._replace(value=_FREE[entry.path])
+        kind = entry.path.removeprefix("catalogue.")
+        if kind in considered and entry.value is None:
+            entry = entry._replace(value=", ".join(considered[kind]) or "none")
+        found.append(entry)
+    return found
+
+
+def _entries(model: BaseModel, prefix: str, *, given: bool = True) -> Iterator[Entry]:
+    for name, field in type(model).model_fields.items():
+        value = getattr(model, name)
+        if name in _NOT_TOLD:
+            continue
+        path = f"{prefix}{name}"
+        stated = given and name in model.model_fields_set
+        if isinstance(value, BaseModel) and not isinstance(value, ForceOverStroke):
+            yield from _entries(value, f"{path}.", given=stated)
+        else:
+            yield Entry(path, _shown(value), _unit(field), stated, field.description or "")
+
+
+def _shown(value: object) -> float | str | None:
+    match value:
+        case None | str():
+            return value
+        case int() | float():
+            return float(value)
+        case ForceOverStroke():
+            points = zip(value.strokes, value.forces, strict=True)
+            return "; ".join(f"{force:.4g} N at {stroke * 1e3:.4g} mm" for stroke, force in points)
+        case _:
+            return ", ".join(map(str, value)) if isinstance(value, list) else str(value)
+
+
+def _unit(field: FieldInfo) -> str:
+    """SI unit of a quantity; "%" where people write a share in percent."""
+    found = [item for item in (*field.metadata, *_inside(field.annotation)) if isinstance(item, Quantity)]
+    if not found:
+        return ""
+    return "%" if "%" in found[0].example else found[0].unit
+
+
+def _inside(annotation: Any) -> Iterator[Any]:
+    """What an optional annotated type carries."""
+    for part in get_args(annotation):
+        yield from getattr(part, "__metadata__", ())
+
+
+def about_task(document: SizingTask) -> str:
+    """The task in one sentence."""
+    load, pair = document.load, document.load.pair
+    if pair is not None:
+        against = f" against {pair.torque:.4g} N·m" if pair.torque else ""
+        inertia = f" with {pair.inertia:.4g} kg·m²" if pair.inertia else ""
+        what = f"Turn a pulley{inertia} by {_words(pair.angle, 'rad')}{against} with an antagonist pair"
+    else:
+        moved = [f"{load.mass:.4g} kg"] if load.mass else []
+        moved += [f"a spring of {_words(load.spring, 'N/m')}"] if load.spring else []
+        moved += [f"{load.force:.4g} N"] if load.force else []
+        moved += ["a force over the stroke"] if load.force_over_stroke is not None else []
+        verb = "Lift" if load.mass and load.inclination > 1.57 else "Pull"
+        helped = f" with {load.counterweight:.4g} kg of counterweight" if load.counterweight else ""
+        what = f"{verb} {' and '.join(moved)}{helped} by {_words(document.stroke or 0.0, 'm')}"
+    time = "" if document.time is None else f" in {_words(document.time, 's')}"
+    if document.speed is not None:
+        time = f" at {_words(document.speed, 'm/s')}"
+    return f"{what}{time}, with {document.supply_pressure / 1e5:.4g} bar"
+
+
+def _words(value: float, unit: str) -> str:
+    scale = scale_of(unit)
+    gap = "" if scale.unit == "°" else " "
+    return f"{scale.of(value):.4g}{gap}{scale.unit}"

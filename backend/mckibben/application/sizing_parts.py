@@ -1,0 +1,103 @@
+"""The parts of a proposal: what is ordered, and where the numbers of their presets come from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from mckibben.documents.drive_parts import ENTERING
+from mckibben.documents.studio import Studio
+from mckibben.physics.effect import Effect
+from mckibben.presets import Preset
+from mckibben.presets.quantity import Quantity, quantities
+from mckibben.report.sizing import Figure, KnownFigure, Part
+from mckibben.sizing import Design
+
+# What a muscle's preset brings into a sizing; the nominal length is the search's own.
+_OF_MUSCLE = (
+    "geometry.",
+    "effects.",
+    "limits.",
+    "data.max_hysteresis",
+    "data.min_temperature",
+    "data.max_temperature",
+)
+_CHOSEN = "geometry.nominal_length"
+_OF_PART = ("effects.", "data.max_pressure", *(f"data.{name}" for name in ENTERING))
+
+
+def parts_of(design: Design, studio: Studio) -> list[Part]:
+    """The parts list of a design."""
+    group, library = design.group, studio.library
+    muscle = library.muscle(group.muscle.id)
+    valve = library.get("valves", group.valve.id)
+    length = f"nominal length {design.length * 1e3:.4g} mm"
+    found = [
+        _part("muscle", muscle, group.muscles, f"{muscle.title}, {length}", studio.catalogue),
+        _part("valve", valve, 2 if group.duty.pair else 1, valve.title, studio.catalogue),
+    ]
+    tube = group.tube.tube
+    if tube is not None:
+        preset = library.get("tubes", group.tube.id)
+        order = f"{preset.title}, {tube.length * 1e3:.4g} mm each"
+        found.append(_part("tube", preset, group.muscles, order, studio.catalogue))
+    return found
+
+
+def _part(kind: str, preset: Preset, number: int, order: str, catalogue: Mapping[str, Effect]) -> Part:
+    return Part(
+        kind=kind,
+        id=preset.id,
+        number=number,
+        order=order,
+        maker=preset.maker,
+        origin=preset.origin,
+        figures=[
+            KnownFigure(_named(path, catalogue), found.value, found.unit, _source(found), found.note or "")
+            for path, found in quantities(preset)
+            if _enters(path, kind)
+        ],
+        references=preset.references,
+    )
+
+
+def _enters(path: str, kind: str) -> bool:
+    if kind == "muscle":
+        return path != _CHOSEN and path.startswith(_OF_MUSCLE)
+    return path.startswith("effects.") or path in _OF_PART
+
+
+def _named(path: str, catalogue: Mapping[str, Effect]) -> str:
+    section, _, name = path.rpartition(".")
+    words = name.replace("_", " ")
+    if not section.startswith("effects."):
+        return words
+    return f"{catalogue[section.removeprefix('effects.')].title}: {words}"
+
+
+def _source(found: Quantity) -> Figure:
+    return Figure(found.source, found.grade)
+
+
+def effect_figures(
+    design: Design, studio: Studio, effects: Mapping[str, Mapping[str, float]]
+) -> Iterator[tuple[str, Figure]]:
+    """ "effect.parameter" -> where the value of a run comes from: a preset, or the catalogue's default."""
+    group, library = design.group, studio.library
+    known: dict[str, tuple[str, Quantity]] = {}
+    presets = [library.muscle(group.muscle.id), library.get("valves", group.valve.id)]
+    if group.tube.tube is not None:
+        presets.append(library.get("tubes", group.tube.id))
+    for preset in presets:  # a later part's effect takes the place of an earlier one's, as in the run
+        for path, found in quantities(preset):
+            if path.startswith("effects."):
+                known[path.removeprefix("effects.")] = preset.id, found
+    for effect, values in effects.items():
+        for parameter in studio.catalogue[effect].parameters:
+            name = f"{effect}.{parameter.name}"
+            if parameter.name not in values:
+                continue
+            if name in known:
+                preset_id, found = known[name]
+                yield name, Figure(f"{preset_id}: {found.source}", found.grade)
+            else:
+                yield name, Figure(f"default: {parameter.source.text}", parameter.source.grade)

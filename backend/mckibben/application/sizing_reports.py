@@ -1,0 +1,157 @@
+"""The report of a sizing: the search once more, the run of one proposal, what is known of its parts."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import shlex
+from collections.abc import Callable, Mapping
+from datetime import datetime
+from math import ceil
+
+from mckibben.application.programs import versions
+from mckibben.application.runs import answer_of as run_answer
+from mckibben.application.runs import grid_of
+from mckibben.application.simulations import inside, read_document, run_drive
+from mckibben.application.sizing_chosen import curves_of, margins_of, spread_of
+from mckibben.application.sizing_entries import about_task, entries_of
+from mckibben.application.sizing_parts import effect_figures, parts_of
+from mckibben.application.sizings import Searched, prepare_search
+from mckibben.application.start import Json
+from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.studio import Studio
+from mckibben.documents.task import SizingTask
+from mckibben.physics.errors import InputError
+from mckibben.report.sizing import Chosen, Command, Material, sizing_report
+from mckibben.server.answer import to_json
+from mckibben.simulation.outcome import Outcome, Watch
+from mckibben.sizing.catalogue import switch_on
+
+# Rows of the run: a stroke of some milliseconds is to be seen in a run of some seconds.
+_STEP, _FEWEST, _MOST = 2.5e-4, 2000, 20_000
+_TASK_FILE, _DRIVE_FILE = "task.json", "drive.json"
+
+
+def prepare_report(
+    document: SizingTask, studio: Studio, *, proposal: int = 1, title: str = ""
+) -> Callable[[Watch], str]:
+    """The report of a task, ready to be computed and written.
+
+    Args:
+        document: the task.
+        studio: presets and effects.
+        proposal: rank of the drive that is written down, 1 the best.
+        title: "" for that of the task, else what it is about.
+
+    Raises:
+        InputError: the task cannot be used; its field begins with ``task``.
+    """
+    with inside("task"):
+        search = prepare_search(document, studio)
+
+    def work(watch: Watch) -> str:
+        return report_of(search(watch), studio, proposal=proposal, title=title, watch=watch)
+
+    return work
+
+
+def report_of(
+    search: Searched, studio: Studio, *, proposal: int = 1, title: str = "", watch: Watch | None = None
+) -> str:
+    """The HTML of a search and one of its proposals.
+
+    Raises:
+        InputError: there are fewer proposals, or the search did not complete.
+    """
+    answer, document = search.answer, search.document
+    if search.found.outcome is not Outcome.COMPLETED:
+        raise InputError(f"there is nothing to report: {answer['message']}", field="task")
+    count = len(answer["proposals"])
+    if 0 < count < proposal:  # a task that nothing does has a report too
+        there = "is 1 proposal" if count == 1 else f"are {count} proposals"
+        most = "1" if count == 1 else f"1 to {count}"
+        raise InputError(f"there {there}", field="proposal", hint=most)
+    chosen = _chosen(search, studio, proposal, watch or Watch()) if count else None
+    about = about_task(document)
+    task = canonical(task_document(document))
+    files = {_TASK_FILE: task}
+    if chosen is not None:
+        files[_DRIVE_FILE] = canonical(chosen.proposal["drive"])
+    considered = {
+        "muscles": [part.id for part in search.catalogue.muscles],
+        "valves": [part.id for part in search.catalogue.valves],
+        "tubes": [part.id for part in search.catalogue.tubes if part.id],
+    }
+    return sizing_report(
+        Material(
+            title=title.strip() or document.title.strip() or about,
+            made=datetime.now().astimezone(),
+            versions=versions(),
+            about=about,
+            entries=entries_of(document, considered),
+            answer=answer,
+            pair=search.task.pair is not None,
+            profile=search.task.force_over_stroke,
+            considered=considered,
+            chosen=chosen,
+            catalogue=studio.catalogue,
+            hashes={name: hashlib.sha256(text.encode()).hexdigest() for name, text in files.items()},
+            command=_command(files, chosen, proposal),
+        )
+    )
+
+
+def _chosen(search: Searched, studio: Studio, rank: int, watch: Watch) -> Chosen:
+    proposal, answer = search.found.proposals[rank - 1], search.answer["proposals"][rank - 1]
+    task, group = search.task, proposal.design.group
+    given = drive_of(read_document(answer["drive"], "the drive of the proposal"), studio)
+    duration = given.drive.duration
+    points = min(max(ceil(duration / _STEP), _FEWEST), _MOST) + 1
+    grid = grid_of(duration=duration, begin=0.0, end=duration, points=points)
+    # By the kernel as in the search, so that both show the same digits.
+    run = run_answer(given, grid, run_drive(given, grid, watch, "rodas"))
+    on = switch_on(task, group.duty)
+    return Chosen(
+        rank=rank,
+        proposal=answer,
+        run=run,
+        fill=(on, on + task.fill_time),
+        count=group.parallel,
+        lever=group.duty.lever_ratio,
+        curves=curves_of(proposal, task),
+        margins=margins_of(proposal, task),
+        parts=parts_of(proposal.design, studio),
+        spread=spread_of(proposal, task),
+        effects=given.start.effects,
+        figures=dict(effect_figures(proposal.design, studio, given.start.effects)),
+        gas=given.drive.polytropic_exponent,
+    )
+
+
+def task_document(document: SizingTask) -> Json:
+    """The task with everything that was assumed, in SI; reading it again gives the same search."""
+    whole = document.model_dump(mode="json", by_alias=True, exclude_none=True)
+    if document.load.pair is not None:  # a pair takes no other field of the load
+        whole["load"] = {"pair": whole["load"]["pair"]}
+    return whole
+
+
+def canonical(content: object) -> str:
+    """JSON with sorted keys and no blanks: what the hashes are taken of."""
+    plain = json.loads(to_json(content))
+    return json.dumps(plain, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
+
+
+def _command(files: Mapping[str, str], chosen: Chosen | None, proposal: int) -> Command:
+    rank = f" --proposal {proposal}" if proposal > 1 else ""
+    lines = [f"mckibben size {_TASK_FILE}", f"mckibben size {_TASK_FILE} --report report.html{rank}"]
+    notes = []
+    if chosen is not None:
+        lines.append(f"mckibben simulate {_DRIVE_FILE}")
+        own = [part.id for part in chosen.parts if part.origin == "user"]
+        if own:
+            notes.append(
+                f"Presets of your own are needed too (--presets): {', '.join(map(shlex.quote, own))}."
+            )
+    shown = {name: json.dumps(json.loads(text), indent=2, ensure_ascii=False) for name, text in files.items()}
+    return Command(lines, shown, notes)

@@ -1,0 +1,218 @@
+"""A sizing task of a caller, made complete: quantities in SI, presets looked up."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+from mckibben.documents.drive import TubeInput, ValveInput
+from mckibben.documents.drive_parts import tube_of, unverified_of, valve_of
+from mckibben.documents.studio import Studio
+from mckibben.documents.task import SizingTask, TaskLoad
+from mckibben.physics.effect import Effect
+from mckibben.physics.errors import InputError
+from mckibben.presets import MusclePreset, Preset, TubePreset, ValvePreset
+from mckibben.sizing import Catalogue, Limits, MusclePart, Pair, Task, TubePart, Uncertainty, ValvePart
+from mckibben.sizing.catalogue import Part, Values
+
+Found = TypeVar("Found", bound=Part)
+
+_LEAST_TUBE = 0.05  # m
+# A muscle without any data on its length may be cut to these [m].
+_SHORTEST, _LONGEST = 0.02, 10.0
+# Catalogue data without which a muscle is only taken when it is named.
+_COMPLETE = ("min_temperature", "max_temperature")
+
+
+def task_of(document: SizingTask) -> Task:
+    """The task in SI.
+
+    Raises:
+        InputError: something is missing, or two things exclude each other; names the field.
+    """
+    load = document.load
+    pair = None if load.pair is None else _pair(load)
+    if pair is None and document.stroke is None:
+        raise InputError("the task has no stroke", field="stroke", hint='e.g. "stroke": "60 mm"')
+    if pair is not None and document.stroke is not None:
+        raise InputError("an antagonist pair has an angle, no stroke", field="stroke", hint="leave it out")
+    time = document.time
+    if document.speed is not None:
+        if time is not None:
+            raise InputError("give the time or the speed, not both", field="speed")
+        if document.stroke is None:
+            raise InputError("the speed of a pair is not known; give the time", field="speed")
+        time = document.stroke / document.speed
+        if not 1e-3 < time <= 60.0:
+            raise InputError(f"the stroke would take {time:.3g} s", field="speed", hint="1 ms to 60 s")
+    task = Task(
+        stroke=document.stroke or 0.0,
+        mass=load.mass,
+        inclination=load.inclination,
+        force=load.force,
+        force_over_stroke=_profile(load),
+        spring=load.spring,
+        counterweight=load.counterweight,
+        lever_ratio=load.lever_ratio,
+        pair=pair,
+        time=time,
+        time_down=document.time_down,
+        cycle_time=document.cycle_time,
+        supply_pressure=document.supply_pressure,
+        temperature=document.ambient_temperature,
+        limits=Limits(stiffness=document.stiffness, **document.limits.model_dump()),
+        uncertainty=Uncertainty(**document.uncertainty.model_dump()),
+        rank_by=document.rank_by,
+        max_proposals=document.max_proposals,
+    )
+    task.duties()
+    return task
+
+
+def _pair(load: TaskLoad) -> Pair:
+    assert load.pair is not None  # noqa: S101 - asked before
+    for name in load.model_fields_set - {"pair"}:
+        raise InputError(
+            f"an antagonist pair takes no {name.replace('_', ' ')}",
+            field=f"load.{name}",
+            hint="say its inertia and torque in load.pair",
+        )
+    given = load.pair
+    return Pair(given.angle, given.torque, given.inertia, given.pulley_radius)
+
+
+def _profile(load: TaskLoad) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    given = load.force_over_stroke
+    if given is None:
+        return (), ()
+    if len(given.strokes) != len(given.forces):
+        raise InputError(
+            f"{len(given.strokes)} strokes and {len(given.forces)} forces", field="load.force_over_stroke"
+        )
+    if any(b <= a for a, b in zip(given.strokes, given.strokes[1:], strict=False)):
+        raise InputError("the strokes do not ascend", field="load.force_over_stroke.strokes")
+    return tuple(given.strokes), tuple(given.forces)
+
+
+def catalogue_of(document: SizingTask, studio: Studio) -> Catalogue:
+    """What may be used, with everything its presets say.
+
+    Raises:
+        InputError: there is no such preset (with the nearest), it cannot be used here, or a list is empty.
+    """
+    given = document.catalogue
+    length = given.tube_length
+    if 0.0 < length < _LEAST_TUBE:
+        raise InputError(
+            f"a tube of {length * 1e3:.3g} mm is too short for its formulas",
+            field="catalogue.tube_length",
+            hint="0 for none, or at least 50 mm",
+        )
+    muscles = _parts(studio, "muscles", given.muscles, lambda preset: _muscle(preset, studio), _complete)
+    if given.muscles is None:
+        muscles = _different(muscles)
+    valves = _parts(studio, "valves", given.valves, lambda preset: _valve(preset, studio), _switches)
+    if not length:
+        return Catalogue(muscles, valves, (TubePart("", tube=None),))
+    tubes = _parts(studio, "tubes", given.tubes, lambda preset: _tube(preset, studio, length), lambda _: True)
+    return Catalogue(muscles, valves, tubes)
+
+
+def _parts(
+    studio: Studio,
+    kind: str,
+    names: Sequence[str] | None,
+    convert: Callable[[Preset], Found],
+    usual: Callable[[Preset], bool],
+) -> tuple[Found, ...]:
+    if names is None:
+        return tuple(convert(preset) for preset in studio.library.list(kind) if usual(preset))
+    if not names:
+        raise InputError(f"not one of the {kind} may be used", field=f"catalogue.{kind}", hint="name one")
+    found: dict[str, Found] = {}
+    for index, name in enumerate(names):
+        field = f"catalogue.{kind}.{index}"
+        try:
+            part = convert(studio.library.get(kind, name))
+        except InputError as error:
+            code = "unknown_preset" if error.code == "not_found" else error.code
+            raise InputError(error.message, field=field, hint=error.hint, code=code) from error
+        found[part.id] = part
+    return tuple(found.values())
+
+
+def _different(muscles: tuple[MusclePart, ...]) -> tuple[MusclePart, ...]:
+    """The first of those that are one model under several names."""
+    found: dict[str, MusclePart] = {}
+    for part in muscles:
+        geometry = part.muscle._replace(nominal_length=1.0)
+        found.setdefault(repr((geometry, part.values, part.limits, part.shortest, part.longest)), part)
+    return tuple(found.values())
+
+
+def _complete(preset: Preset) -> bool:
+    return isinstance(preset, MusclePreset) and all(name in preset.data for name in _COMPLETE)
+
+
+def _switches(preset: Preset) -> bool:
+    return isinstance(preset, ValvePreset) and preset.regulator is None and "sonic_conductance" in preset.data
+
+
+def _muscle(preset: Preset, studio: Studio) -> MusclePart:
+    assert isinstance(preset, MusclePreset)  # noqa: S101 - of its folder
+    facts = studio.facts(preset.id)
+    data = preset.data
+    ends = [data[name].si("K") if name in data else None for name in _COMPLETE]
+    return MusclePart(
+        id=preset.id,
+        effects=tuple(studio.catalogue[name] for name in facts.effects),
+        values=facts.effects,
+        unverified=facts.unverified,
+        muscle=facts.muscle,
+        limits=facts.limits,
+        shortest=facts.shortest or _SHORTEST,
+        longest=facts.longest or _LONGEST,
+        hysteresis=data["max_hysteresis"].si("1") if "max_hysteresis" in data else 0.0,
+        coldest=ends[0],
+        hottest=ends[1],
+    )
+
+
+def _valve(preset: Preset, studio: Studio) -> ValvePart:
+    assert isinstance(preset, ValvePreset)  # noqa: S101 - of its folder
+    if preset.regulator is not None:
+        raise InputError(
+            f"{preset.id} is a pressure regulator", hint="name a switching or proportional valve"
+        )
+    try:
+        flow = valve_of(ValveInput.model_validate({"preset": preset.id}), preset)
+    except InputError as error:
+        raise InputError(error.message, hint="take another valve") from error
+    most = preset.data.get("max_pressure")
+    effects, values = _effects(preset, studio)
+    return ValvePart(
+        id=preset.id,
+        unverified=unverified_of(preset, with_effects=True),
+        valve=flow,
+        max_pressure=None if most is None else most.si("Pa"),
+        effects=effects,
+        values=values,
+    )
+
+
+def _tube(preset: Preset, studio: Studio, length: float) -> TubePart:
+    assert isinstance(preset, TubePreset)  # noqa: S101 - of its folder
+    effects, values = _effects(preset, studio)
+    return TubePart(
+        id=preset.id,
+        effects=effects,
+        values=values,
+        unverified=unverified_of(preset, with_effects=True),
+        tube=tube_of(TubeInput(preset=preset.id, length=length), preset),
+    )
+
+
+def _effects(preset: ValvePreset | TubePreset, studio: Studio) -> tuple[tuple[Effect, ...], Values]:
+    own = preset.effect_values()
+    effects = tuple(studio.catalogue[name] for name in own)
+    return effects, {effect.id: effect.defaults | own[effect.id] for effect in effects}

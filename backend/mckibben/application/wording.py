@@ -1,0 +1,75 @@
+"""The verdict of a diagnosis in words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from mckibben.identification.diagnose.diagnosis import Diagnosis
+
+_AT_FLOOR = 1.15  # of the noise: the error has reached it
+_REFITTED = 0.98  # of the error before: the fit of the start model is worth telling
+_WORTH_TELLING = 0.15  # share of the residual that follows something
+_UNKNOWN_NOISE = "These data do not tell their noise: state it to know whether the error is more than that."
+
+
+def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
+    """What the verdict means, in one to three sentences."""
+    # A length is told in millimetres.
+    scaled = result.subject.unit == "1"
+    unit, scale = {"1": ("times the noise", 1.0), "m": ("mm", 1e3)}.get(
+        result.subject.unit, (result.subject.unit, 1.0)
+    )
+    before, after = scale * result.start.rmse, scale * result.best.rmse
+    names = _joined([titles.get(name, name) for name in result.added])
+    noise = None if result.noise is None else scale * result.noise
+    level = "" if noise is None or scaled else f"{noise:.3g} {unit}"
+    rest = _rest(result)
+    if not result.added:
+        error = f"the error of {after:.3g} {unit}"
+        if after < _REFITTED * before:
+            error += f" (with the numbers of the model refitted; before {before:.3g} {unit})"
+        if result.status == "unknown_effect":
+            unsure = "" if result.noise is not None else f" {_UNKNOWN_NOISE}"
+            return f"No catalogued effect explains {error}: {rest}.{unsure}"
+        if result.noise is None:
+            return f"No catalogued effect lowers {error}. {_UNKNOWN_NOISE}"
+        of_noise = f"is of the size of the noise ({level})" if level else "is noise"
+        return f"Nothing is missing: {error} {of_noise}."
+    at_floor = noise is not None and after <= _AT_FLOOR * noise
+    # Over the noise of each channel the error says it by itself.
+    floor = (
+        "" if not level else f", the noise of the data ({level})" if at_floor else f"; the noise is {level}"
+    )
+    these = "it" if len(result.added) == 1 else "them"
+    text = f"Missing: {names}. With {these} the error falls from {before:.3g} to {after:.3g} {unit}{floor}."
+    if result.status == "unknown_effect":
+        return f"{text} No catalogued effect explains the rest: {rest}."
+    if noise is not None and not at_floor and result.structure.share >= _WORTH_TELLING:
+        text += f" Of the rest, {_structured(result)}."
+    if result.status == "ambiguous":
+        pairs = []
+        for added in dict.fromkeys(other.of for other in result.alternatives):
+            others = [
+                titles.get(other.effect, other.effect) for other in result.alternatives if other.of == added
+            ]
+            pairs.append(f"{titles.get(added, added)} from {_joined(others, 'or')}")
+        text += f" These data cannot tell {'; nor '.join(pairs)}."
+    return text
+
+
+def _rest(result: Diagnosis) -> str:
+    """What the last residual follows."""
+    if result.structure.share < _WORTH_TELLING:
+        return "it follows nothing that was measured; repeat the run to see whether it comes again"
+    return _structured(result, " of it")
+
+
+def _structured(result: Diagnosis, of: str = "") -> str:
+    variables = [name for name, _ in result.structure.variables[:2]]
+    return f"{100.0 * result.structure.share:.0f} %{of} follows {_joined(variables) or 'a pattern'}"
+
+
+def _joined(names: list[str], word: str = "and") -> str:
+    if len(names) < 2:
+        return "".join(names)
+    return f"{', '.join(names[:-1])} {word} {names[-1]}"

@@ -1,0 +1,1 @@
+"""What callers write: muscle, drive, task, signals, quantities; read with errors that name the field."""

@@ -1,0 +1,23 @@
+"""From validated request models to the objects the answers work with."""
+
+from __future__ import annotations
+
+from mckibben.documents.muscle import MuscleInput
+from mckibben.documents.start_model import GivenMuscle
+from mckibben.physics.braid import Rhombus
+
+
+def given_muscle(muscle: MuscleInput) -> GivenMuscle:
+    """The muscle of a request without pydantic."""
+    lattice = muscle.rhombus
+    return GivenMuscle(
+        preset=muscle.preset,
+        nominal_length=muscle.nominal_length,
+        inside_diameter=muscle.inside_diameter,
+        braid_diameter=muscle.braid_diameter,
+        braid_angle=muscle.braid_angle,
+        wall_thickness=muscle.wall_thickness,
+        thread_length=muscle.thread_length,
+        turns=muscle.turns,
+        rhombus=None if lattice is None else Rhombus(lattice.side, lattice.along, lattice.around),
+    )

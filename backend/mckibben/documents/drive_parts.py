@@ -1,0 +1,174 @@
+"""Valve, regulator, tube and load of a drive document, with the figures of their presets."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import pi, radians
+
+from mckibben.documents.drive import LoadInput, RegulatorInput, TubeInput, ValveInput
+from mckibben.physics import gas
+from mckibben.physics.errors import InputError
+from mckibben.presets import FittingPreset, TubePreset, ValvePreset
+from mckibben.presets.quantity import quantities
+from mckibben.simulation.command.signals import signal_from
+from mckibben.simulation.drive.parts import Load, Regulator, Tube, Valve
+
+Part = ValvePreset | TubePreset | FittingPreset
+
+_DEFAULT_RATIO = 0.3
+
+
+#: Figures of parts that enter a run.
+ENTERING = frozenset(
+    {"sonic_conductance", "exhaust_conductance", "critical_pressure_ratio", "inside_diameter", "port_volume"}
+)
+
+
+def unverified_of(part: Part, *, with_effects: bool) -> tuple[str, ...]:
+    """Names of the figures that enter a run and that nobody verified."""
+    return tuple(
+        path.rpartition(".")[2].replace("_", " ")
+        for path, quantity in quantities(part)
+        if not quantity.verified
+        and (
+            (path.startswith("data.") and path.removeprefix("data.") in ENTERING)
+            or path.startswith("regulator.")
+            or (with_effects and path.startswith("effects."))
+        )
+    )
+
+
+def _figure(preset: Part | None, name: str, unit: str) -> float | None:
+    """A figure of a preset in SI; None when there is no preset or it does not have it."""
+    if preset is None or name not in preset.data:
+        return None
+    return preset.data[name].si(unit)
+
+
+def _first(*values: float | None) -> float | None:
+    return next((value for value in values if value is not None), None)
+
+
+def valve_of(given: ValveInput, preset: ValvePreset | None) -> Valve:
+    """Conductances and critical ratios both ways; what is given takes the place of the preset's figures."""
+    ratio = _first(
+        given.critical_pressure_ratio, _figure(preset, "critical_pressure_ratio", "1"), _DEFAULT_RATIO
+    )
+    assert ratio is not None  # noqa: S101 - the last one never is
+    fill = given.sonic_conductance
+    if given.nominal_flow is not None:
+        if fill is not None:
+            raise InputError(
+                "give the sonic conductance or the nominal flow, not both", field="valve.nominal_flow"
+            )
+        fill = float(gas.conductance_of_nominal_flow(nominal_flow=given.nominal_flow, critical_ratio=ratio))
+    by_value = fill is not None
+    fill = _first(fill, _figure(preset, "sonic_conductance", "m^3/(s*Pa)"))
+    if fill is None:
+        who = "the valve" if preset is None else preset.id
+        raise InputError(
+            f"the flow of {who} is not known",
+            field="valve.sonic_conductance",
+            hint='e.g. "sonic_conductance": "1.2 l/(s*bar)", or a preset that has it',
+        )
+    # A flow given by value means both ways; the preset's exhaust belongs to the preset's own flow.
+    of_preset = None if by_value else _figure(preset, "exhaust_conductance", "m^3/(s*Pa)")
+    exhaust = _first(given.exhaust_conductance, of_preset, fill)
+    exhaust_ratio = _first(given.exhaust_critical_pressure_ratio, ratio)
+    assert exhaust is not None  # noqa: S101 - fill is not
+    assert exhaust_ratio is not None  # noqa: S101 - ratio is not
+    return Valve(fill, exhaust, ratio, exhaust_ratio)
+
+
+def regulator_of(given: RegulatorInput | None, preset: ValvePreset | None) -> Regulator | None:
+    """The regulator's range and time constant; None for a plain valve."""
+    own = None if preset is None else preset.regulator
+    if given is None and own is None:
+        return None
+    values: dict[str, float] = {}
+    for name, unit, example in (("range", "Pa", "6 bar"), ("time", "s", "50 ms")):
+        of_preset = None if own is None else getattr(own, name).si(unit)
+        value = _first(None if given is None else getattr(given, name), of_preset)
+        if value is None:
+            raise InputError(
+                f"regulator.{name} is missing", field=f"regulator.{name}", hint=f"e.g. '{example}'"
+            )
+        values[name] = value
+    return Regulator(**values)
+
+
+#: A tube that nobody stated, where an effect of the model acts on one: 1 m of the size most valves come with.
+TYPICAL_TUBE = Tube(inside_diameter=4e-3, length=1.0)
+
+
+def tube_of(given: TubeInput | None, preset: TubePreset | None) -> Tube | None:
+    """Bore and length; None without a tube."""
+    if given is None:
+        return None
+    inside = _first(given.inside_diameter, _figure(preset, "inside_diameter", "m"))
+    length = _first(given.length, _figure(preset, "reference_length", "m"))
+    for name, value, example in (("inside_diameter", inside, "4 mm"), ("length", length, "1 m")):
+        if value is None:
+            raise InputError(f"tube.{name} is missing", field=f"tube.{name}", hint=f"e.g. '{example}'")
+    assert inside is not None  # noqa: S101 - checked
+    assert length is not None  # noqa: S101
+    if not inside < length:
+        raise InputError(
+            f"a tube of {length * 1e3:.4g} mm length is shorter than its bore of {inside * 1e3:.4g} mm",
+            field="tube.length",
+            hint="leave the tube out, or check the units",
+        )
+    return Tube(inside, length)
+
+
+def port_volume_of(fittings: Sequence[Part | None]) -> float:
+    """Dead volume of the fittings [m^3]."""
+    return sum(_figure(fitting, "port_volume", "m^3") or 0.0 for fitting in fittings)
+
+
+def load_of(given: LoadInput) -> Load:
+    """The load; its arrangement says the inclination, or asks for a lever."""
+    fixed = {"hanging": radians(90.0), "horizontal": 0.0}
+    if given.arrangement == "antagonist":
+        if given.pulley_radius is None:
+            raise InputError("load.pulley_radius is missing", field="load.pulley_radius", hint="e.g. '20 mm'")
+        # A pulley turns about its own centre: without an inclination no weight pulls either way.
+        given = given.model_copy(update={"inclination": given.inclination or 0.0})
+    elif given.pulley_radius is not None or given.precontraction is not None:
+        name = "pulley_radius" if given.pulley_radius is not None else "precontraction"
+        raise InputError(
+            f"only an antagonist pair has a {name.replace('_', ' ')}",
+            field=f"load.{name}",
+            hint='"arrangement": "antagonist"',
+        )
+    inclination, arrangement = given.inclination, given.arrangement
+    if arrangement in fixed:
+        if inclination is not None and abs(inclination - fixed[arrangement]) > 1e-3:
+            raise InputError(
+                f"a {arrangement} load has an inclination of {fixed[arrangement] * 180 / pi:.0f}°, "
+                f"not {inclination * 180 / pi:.4g}°",
+                field="load.inclination",
+                hint='leave one of both out, or say "arrangement": "inclined"',
+            )
+        inclination = fixed[arrangement]
+    elif arrangement == "inclined" and inclination is None:
+        raise InputError("load.inclination is missing", field="load.inclination", hint="e.g. '30 deg'")
+    if arrangement == "lever" and given.lever_ratio is None:
+        raise InputError("load.lever_ratio is missing", field="load.lever_ratio", hint="e.g. 0.5")
+    if arrangement not in ("lever", None) and given.lever_ratio not in (None, 1.0):
+        article = "an" if arrangement[0] in "aeiou" else "a"
+        raise InputError(
+            f"{article} {arrangement} load has no lever",
+            field="load.lever_ratio",
+            hint='"arrangement": "lever"',
+        )
+    force = given.force
+    if isinstance(force, Mapping):
+        force = signal_from(force, unit="N", field="load.force")
+    return Load(
+        mass=given.mass,
+        inclination=radians(90.0) if inclination is None else inclination,
+        force=force,
+        spring=given.spring,
+        lever_ratio=given.lever_ratio or 1.0,
+    )

@@ -1,0 +1,218 @@
+"""What a caller says about a drive, made complete: presets looked up, everything in SI, limits checked.
+
+The one place where the command line and the HTTP interface turn a drive document into
+`mckibben.simulation.drive.parts.Drive`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from mckibben.documents.convert import given_muscle
+from mckibben.documents.drive import ControllerInput, DriveDocument
+from mckibben.documents.drive_parts import (
+    TYPICAL_TUBE,
+    Part,
+    load_of,
+    port_volume_of,
+    regulator_of,
+    tube_of,
+    unverified_of,
+    valve_of,
+)
+from mckibben.documents.start_model import StartModel
+from mckibben.documents.studio import Studio
+from mckibben.physics.errors import InputError
+from mckibben.presets import FittingPreset, TubePreset, ValvePreset
+from mckibben.simulation.command.pid import PidController, controller_from
+from mckibben.simulation.command.shapes import Signal
+from mckibben.simulation.command.signals import signal_from
+from mckibben.simulation.drive.parts import Drive, Valve
+from mckibben.simulation.statics.model import StaticModel
+
+_DEFAULT_MAX_CONTRACTION = 0.25
+_SHORTEST = 0.1  # a muscle does not get shorter than this share of its length
+
+
+@dataclass(frozen=True)
+class GivenDrive:
+    """A drive ready to run, and what to know about it.
+
+    Attributes:
+        drive: in SI.
+        start: its muscle with all effects.
+        unverified: preset id -> names of its figures that enter and nobody verified; muscles left out.
+        notes: where in the document -> remark.
+    """
+
+    drive: Drive
+    start: StartModel
+    unverified: Mapping[str, tuple[str, ...]]
+    notes: Mapping[str, str]
+
+
+def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False) -> GivenDrive:
+    """The drive that a document means.
+
+    Args:
+        document: what the caller says.
+        studio: where presets and effects are looked up.
+        measured: it stands beside a measurement, which has its own command: the document may leave it out.
+
+    Raises:
+        InputError: an unknown preset, effect or shape (with the nearest match), or numbers that cannot be;
+            ``field`` is the path in the document.
+    """
+    valve_preset = _preset(studio, "valves", document.valve.preset, "valve.preset")
+    tube_preset = _preset(studio, "tubes", document.tube and document.tube.preset, "tube.preset")
+    fittings = [
+        _preset(studio, "fittings", name, f"fittings.{index}") for index, name in enumerate(document.fittings)
+    ]
+    assert valve_preset is None or isinstance(valve_preset, ValvePreset)  # noqa: S101 - of its folder
+    assert tube_preset is None or isinstance(tube_preset, TubePreset)  # noqa: S101
+    parts = [part for part in (valve_preset, tube_preset, *fittings) if part is not None]
+
+    start = studio.start_model(given_muscle(document.muscle), document.effects)
+    if document.effects is None:
+        own = {
+            name: studio.catalogue[name].defaults | values
+            for part in parts
+            for name, values in part.effect_values().items()
+        }
+        start = replace(start, effects={**start.effects, **own})
+    model = studio.static_model(start)
+    regulator = regulator_of(document.regulator, valve_preset)
+    valve = valve_of(document.valve, valve_preset)
+    command, controller, reference, notes = _command(document, regulator is not None, measured=measured)
+    _check_flow(valve, command, controller)
+    lowest, highest = _stops(document, model)
+    drive = Drive(
+        model=model,
+        valve=valve,
+        load=load_of(document.load),
+        command=command,
+        duration=document.duration,
+        supply_pressure=document.supply.pressure,
+        regulator=regulator,
+        tube=tube_of(document.tube, tube_preset),
+        assumed_tube=None if "tube" in document.model_fields_set else TYPICAL_TUBE,
+        min_contraction=lowest,
+        max_contraction=highest,
+        start_pressure=document.start_pressure,
+        fitting_volume=document.gas.dead_volume + port_volume_of(fittings),
+        polytropic_exponent=document.gas.polytropic_exponent,
+        **_pair(document, lowest, highest),
+        controller=controller,
+        reference=reference,
+        ambient_pressure=document.gas.ambient_pressure,
+        temperature=document.gas.temperature,
+    )
+    unverified = {
+        part.id: names
+        for part in parts
+        if (names := unverified_of(part, with_effects=document.effects is None))
+    }
+    return GivenDrive(drive, start, unverified, notes)
+
+
+def _preset(studio: Studio, kind: str, preset_id: str | None, field: str) -> Part | None:
+    if preset_id is None:
+        return None
+    try:
+        found = studio.library.get(kind, preset_id)
+    except InputError as error:
+        raise InputError(error.message, field=field, hint=error.hint, code="unknown_preset") from error
+    assert isinstance(found, (ValvePreset, TubePreset, FittingPreset))  # noqa: S101 - of its folder
+    return found
+
+
+def _command(
+    document: DriveDocument, regulated: bool, *, measured: bool
+) -> tuple[Signal, PidController | None, Signal | None, dict[str, str]]:
+    """Command, controller and its reference; at rest a valve exhausts and a regulator gives no pressure."""
+    rest = 0.0 if regulated else -1.0
+    notes: dict[str, str] = {}
+    closed = signal_from({"shape": "step", "level": 0.0, "initial": 0.0}, unit="1", field="command")
+    if document.controller is not None:
+        controller, reference = _controller(document.controller, rest)
+        if document.command is not None:
+            notes["command"] = "not used: the controller gives the command"
+        return closed, controller, reference, notes
+    if document.command is None:
+        if measured:
+            return closed, None, None, notes
+        raise InputError(
+            "command is missing", field="command", hint='e.g. {"shape": "pulse", "on": "0 s", "off": "2 s"}'
+        )
+    command = signal_from(document.command, unit="1", field="command", rest=rest, limits=(rest, 1.0))
+    return command, None, None, notes
+
+
+def _controller(given: ControllerInput, rest: float) -> tuple[PidController, Signal]:
+    values = given.model_dump(exclude_none=True)
+    reference = signal_from(values.pop("reference"), unit="m", field="controller.reference")
+    return controller_from(values, output_min=rest), reference
+
+
+def _check_flow(valve: Valve, command: Signal, controller: PidController | None) -> None:
+    lowest, highest = command.extent
+    if controller is not None:
+        lowest, highest = controller.output_min, controller.output_max
+    lowest = min(lowest, command.before)
+    for name, conductance, needed in (
+        ("sonic_conductance", valve.fill_conductance, highest > 0.0),
+        ("exhaust_conductance", valve.exhaust_conductance, lowest < 0.0),
+    ):
+        if needed and not conductance > 0.0:
+            raise InputError(
+                f"valve.{name} is 0, but the command asks for this way", field=f"valve.{name}",
+                hint="e.g. '1.2 l/(s*bar)'",
+            )  # fmt: skip
+
+
+_PRECONTRACTION = 0.1
+
+
+def _pair(document: DriveDocument, lowest: float, highest: float) -> dict[str, Any]:
+    """What makes an antagonist pair of a drive."""
+    load = document.load
+    if load.arrangement != "antagonist":
+        return {}
+    middle = _PRECONTRACTION if load.precontraction is None else load.precontraction
+    if not lowest < middle < highest:
+        raise InputError(
+            f"the middle at {middle * 100:.3g} % is not between the stops at {lowest * 100:.3g} % and "
+            f"{highest * 100:.3g} %",
+            field="load.precontraction",
+            hint="e.g. '10 %'",
+        )
+    return {"pair": True, "precontraction": middle, "pulley_radius": load.pulley_radius}
+
+
+def _stops(document: DriveDocument, model: StaticModel) -> tuple[float, float]:
+    """End stops as contractions, within what the muscle can be."""
+    given = document.stops
+    lowest, highest = given.min_contraction, given.max_contraction
+    rest, longest = model.muscle.nominal_length, model.longest
+    locked = 1.0 - longest / rest
+    if lowest < locked:
+        raise InputError(
+            f"a stretch of {-lowest * 100:.3g} % is beyond the braid lock at {-locked * 100:.3g} %",
+            field="stops.min_contraction",
+            hint=f"at least '{locked * 100:.3g} %'",
+        )
+    if highest is None:
+        highest = max(model.limits.max_contraction or _DEFAULT_MAX_CONTRACTION, lowest + 1e-3)
+    if highest > 1.0 - _SHORTEST:
+        raise InputError(
+            f"no muscle contracts by {highest * 100:.3g} %", field="stops.max_contraction", hint="e.g. '25 %'"
+        )
+    if not highest > lowest:
+        raise InputError(
+            f"the stops are in the wrong order: {highest * 100:.3g} % is not above {lowest * 100:.3g} %",
+            field="stops.max_contraction",
+            hint="e.g. '25 %'",
+        )
+    return lowest, highest

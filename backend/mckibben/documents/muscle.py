@@ -1,0 +1,55 @@
+"""A muscle in a request: a preset, or one of three forms of geometry, or a preset with some of it changed."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from mckibben.documents.quantity import Angle, Diameter, Length, Thickness, Turns
+from mckibben.documents.strict import Id, Name, Strict
+
+
+class RhombusInput(Strict):
+    """The lattice of the braid: rhombi of one side, so many along the muscle and around it."""
+
+    side: Length = Field(description="Side of one rhombus.")
+    along: Turns = Field(description="Rhombi along the muscle.", examples=[60])
+    around: Turns = Field(description="Rhombi around the muscle.", examples=[20])
+
+
+class MuscleInput(Strict):
+    """A preset id, or a length with exactly one of: diameter and angle, thread length and turns, rhombus.
+
+    With a preset the given fields take the place of the preset's own.
+    """
+
+    preset: Id | None = None
+    nominal_length: Length | None = Field(None, description="Length between the fittings at rest.")
+    inside_diameter: Diameter | None = Field(None, description="Bore at rest.")
+    braid_diameter: Diameter | None = Field(
+        None, description="Diameter of the braid at the braid angle; without it the inside diameter is taken."
+    )
+    braid_angle: Angle | None = Field(None, description="Angle between thread and muscle axis at rest.")
+    wall_thickness: Thickness | None = Field(None, description="Wall of the bladder at rest.")
+    thread_length: Length | None = Field(None, description="Length of one thread of the braid.")
+    turns: Turns | None = Field(None, description="Turns a thread makes around the muscle.")
+    rhombus: RhombusInput | None = None
+
+
+ParameterValue = Annotated[
+    float | Annotated[str, Field(min_length=1, max_length=500)],
+    Field(
+        description="A number in SI units or a text with a unit; the term of a custom effect.",
+        examples=["0.47 MPa"],
+    ),
+]
+EffectsInput = Annotated[
+    dict[Name, dict[Name, ParameterValue]],
+    Field(
+        max_length=64,
+        description="Effect id -> its parameters; parameters left out take their defaults. {} is the ideal "
+        "model; null takes the preset's own effects (and the ideal model for a muscle given by geometry).",
+        examples=[{}],
+    ),
+]

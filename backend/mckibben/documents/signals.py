@@ -1,0 +1,113 @@
+"""Signals of time in requests: described in OpenAPI here, read by `mckibben.simulation.command.signals`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import MISSING, dataclass, fields
+from typing import Annotated, Any
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, core_schema
+
+from mckibben.physics.errors import InputError
+from mckibben.physics.units import MAX_TEXT_LENGTH, si
+from mckibben.simulation.command.signals import MAX_SEGMENTS, SHAPES, SYNONYMS
+
+_UNITS = {"time": "s", "share": "1", "frequency": "Hz", "angle": "rad"}
+_STANDS_FOR = {"amplitude": "level", "period": "frequency"}  # a key that another one may replace
+_EXAMPLES = {"s": "0.5 s", "1": "50 %", "Hz": "2 Hz", "rad": "90 deg", "m": "20 mm", "N": "120 N"}
+
+
+@dataclass(frozen=True, slots=True)
+class SignalInput:
+    """A signal kept as the document gives it: its meaning depends on the rest of the document.
+
+    Attributes:
+        unit: SI unit of the levels.
+        plain: whether a constant quantity will do, too; it becomes a number in SI.
+    """
+
+    unit: str
+    plain: bool = False
+
+    def __call__(self, value: object) -> Any:
+        """The object with the shape, or the constant in SI.
+
+        Raises:
+            InputError: it is neither.
+        """
+        if self.plain and not isinstance(value, Mapping):
+            return si(value, self.unit)
+        if not isinstance(value, Mapping):
+            raise InputError("must be an object with a shape", hint='e.g. {"shape": "step"}')
+        return dict(value)
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """Validation by `__call__` alone."""
+        return core_schema.no_info_plain_validator_function(self)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """One object per shape, from the fields of the shapes themselves."""
+        shapes = [_shape_schema(name, self.unit) for name in SHAPES]
+        return {
+            "anyOf": [*_quantity(self.unit)["anyOf"], *shapes] if self.plain else shapes,
+            "unit": self.unit,
+        }
+
+
+def _quantity(unit: str) -> JsonSchemaValue:
+    text = {"type": "string", "minLength": 1, "maxLength": MAX_TEXT_LENGTH}
+    return {"anyOf": [{"type": "number"}, text], "unit": unit, "examples": [_EXAMPLES[unit]]}
+
+
+def _shape_schema(name: str, unit: str) -> JsonSchemaValue:
+    kind = SHAPES[name]
+    properties: dict[str, Any] = {"shape": {"const": name, "type": "string"}}
+    required = ["shape"]
+    for item in fields(kind):
+        if "kind" not in item.metadata:
+            continue
+        label, default = item.metadata["name"] or item.name, item.metadata["default"]
+        properties[label] = _key_schema(item.name, item.metadata["kind"], unit)
+        needed = default is MISSING or (default == "full" and unit != "1")
+        if needed and not any(_STANDS_FOR[synonym] == label for synonym in SYNONYMS.get(kind, ())):
+            required.append(label)
+    for label in SYNONYMS.get(kind, ()):
+        properties[label] = _quantity("s" if label == "period" else unit)
+    description = " ".join((kind.__doc__ or "").split("\n\n")[0].split()).replace("``", "")
+    return {
+        "type": "object",
+        "title": f"{name} signal",
+        "description": description,
+        "properties": properties,
+        "required": required,
+        "additionalProperties": False,
+    }
+
+
+def _key_schema(name: str, kind: str, unit: str) -> JsonSchemaValue:
+    if kind == "seed":
+        return {"type": "integer", "examples": [7]}
+    if kind == "word":
+        return {"type": "string", "enum": ["linear", "hold"]}
+    if kind == "column":
+        own = "s" if name == "times" else unit
+        entries = {"type": "array", "items": _quantity(own), "maxItems": MAX_SEGMENTS}
+        table = {
+            "type": "object",
+            "properties": {
+                "unit": {"type": "string"},
+                "values": {"type": "array", "items": {"type": "number"}},
+            },
+            "required": ["unit", "values"],
+        }
+        return {"anyOf": [entries, table], "unit": own}
+    return _quantity(_UNITS.get(kind, unit))
+
+
+Command = Annotated[dict[str, Any], SignalInput("1")]
+Reference = Annotated[dict[str, Any], SignalInput("m")]
+ForceOverTime = Annotated[Any, SignalInput("N", plain=True)]

@@ -1,0 +1,300 @@
+"""What a caller says about a muscle, made complete: preset, overrides, three forms of geometry, effects.
+
+The one place where the command line and the HTTP interface turn a muscle of `interfaces` form into the
+physics' own `Muscle` and a choice of effects.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from mckibben.physics.braid import Braid, Rhombus, braid_from_rhombus, rest_diameter_and_angle
+from mckibben.physics.catalogue import Catalogue
+from mckibben.physics.custom import CUSTOM, typed_effect
+from mckibben.physics.effect import Effect
+from mckibben.physics.errors import InputError, did_you_mean
+from mckibben.physics.muscle import GEOMETRY, Muscle
+from mckibben.physics.units import si
+from mckibben.presets import MusclePreset, Quantity
+from mckibben.presets.quantity import quantities
+from mckibben.simulation.statics.limits import Limits
+
+EffectValues = dict[str, dict[str, float]]
+
+# Where a preset holds figures that enter the curves or their limits.
+_MODEL_PARTS = (
+    "geometry.",
+    "effects.",
+    "limits.max_pressure",
+    "limits.max_force",
+    "limits.max_contraction",
+    "limits.max_pretension",
+)
+# What tells the three forms of geometry apart; a bore or a wall goes with any of them.
+_MARKS = {
+    "diameter and angle": ("braid_angle", "braid_diameter"),
+    "thread": ("thread_length", "turns"),
+    "rhombus": ("rhombus",),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class GivenMuscle:
+    """A muscle as the caller gives it; numbers in SI, None where not given."""
+
+    preset: str | None = None
+    nominal_length: float | None = None
+    inside_diameter: float | None = None
+    braid_diameter: float | None = None
+    braid_angle: float | None = None
+    wall_thickness: float | None = None
+    thread_length: float | None = None
+    turns: float | None = None
+    rhombus: Rhombus | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class PresetFacts:
+    """What the physics takes from a muscle preset, in SI.
+
+    Attributes:
+        id: id of the preset.
+        muscle: geometry at rest.
+        effects: the preset's own effects with all their parameters.
+        limits: what the maker allows.
+        tolerance: geometry field -> how far a fit may free it.
+        shortest, longest: nominal lengths the muscle is made in, None where not known [m].
+        unverified: names of the figures that enter the model and nobody verified.
+    """
+
+    id: str
+    muscle: Muscle
+    effects: EffectValues
+    limits: Limits
+    tolerance: dict[str, float]
+    shortest: float | None
+    longest: float | None
+    unverified: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class StartModel:
+    """A complete muscle with the effects its model has.
+
+    Attributes:
+        muscle: geometry at rest.
+        effects: effect id -> every parameter of it, SI.
+        preset: facts of the preset it is based on.
+        rhombus: the lattice, when the caller gave the geometry by it.
+        catalogue: where its effects are found: the known ones, and the typed term where there is one.
+        term: the typed term, as it was typed.
+        assumed: fields of the muscle that nobody stated and that an effect multiplies; they hold a typical
+            value.
+    """
+
+    muscle: Muscle
+    effects: Mapping[str, Mapping[str, float]]
+    preset: PresetFacts | None = None
+    rhombus: Rhombus | None = None
+    catalogue: Mapping[str, Effect] = field(default_factory=dict)
+    term: str | None = None
+    assumed: tuple[str, ...] = ()
+
+    @property
+    def limits(self) -> Limits:
+        """What the maker allows; nothing is known of a muscle given by geometry."""
+        return Limits() if self.preset is None else self.preset.limits
+
+
+def preset_facts(preset: MusclePreset, catalogue: Catalogue) -> PresetFacts:
+    """The preset in SI, with the defaults of its effects filled in."""
+    geometry, limits = preset.geometry, preset.limits
+    wall = geometry.wall_thickness
+    return PresetFacts(
+        id=preset.id,
+        muscle=Muscle(
+            nominal_length=geometry.nominal_length.si("m"),
+            braid_diameter=geometry.braid_diameter.si("m"),
+            braid_angle=geometry.braid_angle.si("rad"),
+            wall_thickness=0.0 if wall is None else wall.si("m"),
+            inside_diameter=geometry.inside_diameter.si("m"),
+        ),
+        effects={name: catalogue[name].defaults | own for name, own in preset.effect_values().items()},
+        limits=Limits(
+            max_pressure=_optional(limits.max_pressure, "Pa"),
+            max_force=_optional(limits.max_force, "N"),
+            max_contraction=_optional(limits.max_contraction, "1"),
+            max_pretension=_optional(limits.max_pretension, "1"),
+        ),
+        tolerance={
+            name: width.si("rad" if name == "braid_angle" else "m")
+            for name in GEOMETRY
+            if (width := getattr(preset.tolerance, name, None)) is not None
+        },
+        shortest=_optional(limits.min_nominal_length, "m"),
+        longest=_optional(limits.max_nominal_length, "m"),
+        unverified=tuple(
+            path.rpartition(".")[2].replace("_", " ")
+            for path, quantity in quantities(preset)
+            if path.startswith(_MODEL_PARTS) and not quantity.verified
+        ),
+    )
+
+
+def _optional(quantity: Quantity | None, unit: str) -> float | None:
+    return None if quantity is None else quantity.si(unit)
+
+
+def start_model(
+    given: GivenMuscle,
+    effects: Mapping[str, Mapping[str, float | str]] | None,
+    *,
+    preset: PresetFacts | None,
+    catalogue: Catalogue,
+) -> StartModel:
+    """The muscle and effects a request means.
+
+    Args:
+        given: the muscle; fields besides a preset take the place of the preset's own.
+        effects: effect id -> parameters (SI numbers or texts with units); {} is the ideal model, None the
+            preset's own effects, or the ideal model without a preset.
+        preset: facts of the preset that ``given`` names.
+        catalogue: the known effects.
+
+    Raises:
+        InputError: no or more than one form of geometry, something of it missing, an unknown effect or
+            parameter, a value with a wrong unit. Bounds are the model's to check.
+    """
+    muscle = _muscle(given, None if preset is None else preset.muscle)
+    if effects is None:
+        own = {} if preset is None else preset.effects
+        return _complete_model(StartModel(muscle, own, preset, given.rhombus, catalogue), given)
+    known: Mapping[str, Effect] = catalogue
+    term = None
+    if CUSTOM in effects and CUSTOM not in catalogue:
+        effect, term = typed_effect(effects[CUSTOM])
+        known = {**catalogue, CUSTOM: effect}
+        effects = {name: own if name != CUSTOM else effect.defaults for name, own in effects.items()}
+    chosen = {name: _effect_values(name, values, known) for name, values in effects.items()}
+    return _complete_model(StartModel(muscle, chosen, preset, given.rhombus, known, term), given)
+
+
+def _complete_model(start: StartModel, given: GivenMuscle) -> StartModel:
+    """The model with a typical value in the fields that its effects need and nobody stated.
+
+    A stated 0 stays: the model refuses it.
+    """
+    needed = dict.fromkeys(field for name in start.effects for field in start.catalogue[name].needs)
+    assumed = tuple(name for name in needed if getattr(start.muscle, name) == 0.0 and not _has(given, name))
+    if not assumed:
+        return start
+    return replace(start, muscle=start.muscle.assuming(assumed), assumed=assumed)
+
+
+def _muscle(given: GivenMuscle, base: Muscle | None) -> Muscle:
+    forms = [form for form, marks in _MARKS.items() if any(_has(given, mark) for mark in marks)]
+    if len(forms) > 1:
+        raise InputError(
+            f"the muscle is given in {len(forms)} forms at once: {' and '.join(forms)}",
+            field=f"muscle.{_first_given(given, _MARKS[forms[1]])}",
+            hint="give braid_angle with a diameter, or thread_length with turns, or rhombus",
+        )
+    form = forms[0] if forms else "diameter and angle"
+    length = given.nominal_length if given.nominal_length is not None else base and base.nominal_length
+    if length is None:
+        raise InputError(
+            "the muscle has no length", field="muscle.nominal_length", hint='e.g. "nominal_length": "300 mm"'
+        )
+    if form == "diameter and angle":
+        return _by_diameter(given, base, length)
+    return _by_thread(given, base, length)
+
+
+def _first_given(given: GivenMuscle, names: tuple[str, ...]) -> str:
+    return next(name for name in names if _has(given, name))
+
+
+def _has(given: GivenMuscle, name: str) -> bool:
+    return getattr(given, name) is not None
+
+
+def _by_diameter(given: GivenMuscle, base: Muscle | None, length: float) -> Muscle:
+    """D0 is the braid diameter at the braid angle; without it the bore is taken."""
+    if base is None:
+        wall = given.wall_thickness or 0.0
+        bore = given.inside_diameter
+        braid = given.braid_diameter if given.braid_diameter is not None else bore
+        if given.braid_angle is None:
+            raise InputError(
+                "the muscle has no geometry" if braid is None else "the muscle has no braid angle",
+                field="muscle" if braid is None else "muscle.braid_angle",
+                hint="give a preset, or braid_angle with a diameter, or thread_length with turns, or rhombus",
+            )
+        if braid is None:
+            raise InputError(
+                "the muscle has a braid angle but no diameter",
+                field="muscle.inside_diameter",
+                hint='e.g. "inside_diameter": "20 mm"',
+            )
+        return Muscle(length, braid, given.braid_angle, wall, bore if bore is not None else braid - wall)
+    wall = base.wall_thickness if given.wall_thickness is None else given.wall_thickness
+    bore = base.inside_diameter if given.inside_diameter is None else given.inside_diameter
+    # A wider bore or a thicker wall carries the braid outwards with it.
+    follows = base.braid_diameter + (bore - base.inside_diameter) + (wall - base.wall_thickness)
+    braid = follows if given.braid_diameter is None else given.braid_diameter
+    angle = base.braid_angle if given.braid_angle is None else given.braid_angle
+    return Muscle(length, braid, angle, wall, bore)
+
+
+def _by_thread(given: GivenMuscle, base: Muscle | None, length: float) -> Muscle:
+    if given.rhombus is not None:
+        braid = braid_from_rhombus(**given.rhombus._asdict())
+    else:
+        for name, other in (("thread_length", "turns"), ("turns", "thread_length")):
+            if getattr(given, name) is None:
+                raise InputError(
+                    f"{other} is given without {name}",
+                    field=f"muscle.{name}",
+                    hint="the thread form needs thread_length, turns and nominal_length",
+                )
+        braid = Braid(given.thread_length, given.turns)
+    try:
+        diameter, angle = rest_diameter_and_angle(braid=braid, length=length)
+    except InputError as error:
+        raise InputError(error.message, field=f"muscle.{error.field}", hint=error.hint) from error
+    wall = given.wall_thickness
+    if wall is None:
+        wall = base.wall_thickness if base is not None else 0.0
+    bore = given.inside_diameter if given.inside_diameter is not None else max(diameter - wall, 0.0)
+    return Muscle(length, diameter, angle, wall, bore)
+
+
+def _effect_values(
+    effect_id: str, given: Mapping[str, float | str], catalogue: Mapping[str, Effect]
+) -> dict[str, float]:
+    """Every parameter of an effect in SI: the given ones, defaults for the rest."""
+    path = f"effects.{effect_id}"
+    if effect_id not in catalogue:
+        raise InputError(
+            f"there is no effect '{effect_id}'",
+            field=path,
+            hint=did_you_mean(effect_id, catalogue),
+            code="unknown_effect",
+        )
+    effect = catalogue[effect_id]
+    units = {parameter.name: parameter.unit for parameter in effect.parameters}
+    values = dict(effect.defaults)
+    for name, value in given.items():
+        field = f"{path}.{name}"
+        if name not in units:
+            raise InputError(
+                f"the effect '{effect_id}' has no parameter '{name}'",
+                field=field,
+                hint=did_you_mean(name, units),
+            )
+        try:
+            values[name] = si(value, units[name])
+        except InputError as error:
+            raise InputError(error.message, field=field, hint=error.hint) from error
+    return values

@@ -1,0 +1,29 @@
+"""What all documents share: no unknown fields, ids, fields with units."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field, StringConstraints
+
+
+class Strict(BaseModel):
+    """A request or answer in which every field is known."""
+
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False, strict=True)
+
+
+def si_field(unit: str, description: str, **further: Any) -> Any:
+    """A field of an answer whose numbers are in this SI unit."""
+    return Field(description=description, json_schema_extra={"unit": unit}, **further)
+
+
+Id = Annotated[
+    str,
+    StringConstraints(max_length=64, pattern=r"^[A-Za-z0-9][A-Za-z0-9./-]{0,63}$"),
+    Field(description="Id of a preset.", examples=["DMSP-20"]),
+]
+
+Name = Annotated[str, StringConstraints(min_length=1, max_length=64, pattern=r"^[A-Za-z_][A-Za-z0-9_]*$")]
+
+Series = list[float | None]

@@ -1,0 +1,80 @@
+"""What every interface of the program works with: the presets and the effects, opened once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+from mckibben.documents.start_model import GivenMuscle, PresetFacts, StartModel, preset_facts, start_model
+from mckibben.physics.catalogue import Catalogue, default_catalogue
+from mckibben.physics.errors import InputError
+from mckibben.presets import MusclePreset, PresetLibrary
+from mckibben.simulation.statics.model import StaticModel
+
+
+class Studio:
+    """Presets and effects of one run of the program.
+
+    Args:
+        presets: folder of the built-in presets.
+        user_presets: folder of the user's own, where new ones are saved; None = saving is refused.
+        effects: folders with further effect files (their Python code is executed).
+
+    Raises:
+        InputError: an effects folder does not exist.
+        FileNotFoundError: the folder of the built-in presets does not exist.
+    """
+
+    def __init__(
+        self, *, presets: Path, user_presets: Path | None = None, effects: Sequence[Path] = ()
+    ) -> None:
+        self.catalogue = Catalogue(effects) if effects else default_catalogue()
+        #: Effect id -> parameter name -> parameter; what presets are checked against.
+        self.effect_table = {
+            name: {p.name: p for p in effect.parameters} for name, effect in self.catalogue.items()
+        }
+        self.library = PresetLibrary(presets, user_presets, self.effect_table)
+        self._facts: dict[str, tuple[MusclePreset, PresetFacts]] = {}
+
+    def start_model(
+        self, muscle: GivenMuscle, effects: Mapping[str, Mapping[str, float | str]] | None
+    ) -> StartModel:
+        """The complete muscle and effects a caller means; see `mckibben.documents.start_model.start_model`.
+
+        Raises:
+            InputError: as there, or there is no such preset.
+        """
+        preset = None if muscle.preset is None else self.facts(muscle.preset)
+        return start_model(muscle, effects, preset=preset, catalogue=self.catalogue)
+
+    def is_built_in(self, preset_id: str | None, effects: Iterable[str]) -> bool:
+        """Whether a muscle and effects come with the program: no file and no code of the user is needed."""
+        known = preset_id is None or self.library.is_built_in("muscles", preset_id)
+        return known and set(effects) <= set(default_catalogue())
+
+    def facts(self, preset_id: str) -> PresetFacts:
+        """A muscle preset in SI; converted once, and again when its file has changed.
+
+        Raises:
+            InputError: there is no such preset; names the nearest.
+        """
+        try:
+            preset = self.library.muscle(preset_id)
+        except InputError as error:
+            raise InputError(
+                error.message, field="muscle.preset", hint=error.hint, code="unknown_preset"
+            ) from error
+        known = self._facts.get(preset.id)
+        if known is None or known[0] is not preset:
+            known = self._facts[preset.id] = preset, preset_facts(preset, self.catalogue)
+        return known[1]
+
+    def static_model(self, start: StartModel) -> StaticModel:
+        """The compiled static model of a muscle with its effects.
+
+        Raises:
+            InputError: a geometry that cannot pull, or a parameter outside its bounds.
+        """
+        return StaticModel(
+            start.muscle, start.effects, catalogue=start.catalogue or self.catalogue, limits=start.limits
+        )

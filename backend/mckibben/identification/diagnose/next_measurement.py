@@ -1,0 +1,182 @@
+"""Which experiment would separate effects that look alike in the data there are.
+
+What the catalogue declares about a pair comes first. Beside it, candidate protocols are simulated with one
+model as the truth; the other is refitted to each, and the protocol where it still misses most is named with
+the expected separation in standard deviations of one reading.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mckibben.identification.fit.fitted_model import fitted_node
+from mckibben.identification.predict.comparable_rows import Task
+from mckibben.identification.predict.fit_model import Setting, free_numbers
+from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.quasistatic import Quasistatic
+from mckibben.physics.effect import Effect
+from mckibben.physics.model import ROOM_TEMPERATURE
+from mckibben.simulation.statics.inverse import contraction_at
+from mckibben.simulation.statics.model import StaticModel
+
+_FEWEST = 8  # rows in which the muscle pulls; a protocol with fewer is none
+
+
+@dataclass(frozen=True)
+class Protocol:
+    """An experiment that could be made: its name in words and its rows."""
+
+    words: str
+    task: Task
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """An experiment for a pair of effects.
+
+    Attributes:
+        first, second: ids of the effects.
+        declared: what the catalogue says separates them; empty when it does not say.
+        protocol: the simulated experiment where they differ most; empty when none can be simulated.
+        separation: by how many standard deviations of a reading, rms.
+    """
+
+    first: str
+    second: str
+    declared: str
+    protocol: str
+    separation: float
+
+    def sentence(self, titles: Mapping[str, str]) -> str:
+        """The proposal in words."""
+        pair = f"{titles.get(self.first, self.first)} or {titles.get(self.second, self.second)}"
+        parts = [f"{pair}: {self.declared}" if self.declared else f"{pair}:"]
+        if self.protocol and self.separation >= 1.0:
+            parts.append(f"simulated best: {self.protocol} ({self.separation:.1f} sigma apart)")
+        elif self.protocol and self.declared:
+            parts.append("a force measurement alone does not: no simulated one separates them")
+        elif self.protocol:
+            parts.append("no simulated force measurement separates them, and no other experiment is known")
+        return "; ".join(part.rstrip(":") for part in parts)
+
+
+def declared(first: Effect, second: Effect) -> str:
+    """What either effect declares to separate it from the other."""
+    for one, other in ((first, second), (second, first)):
+        for twin in one.confused_with:
+            if twin.effect == other.id:
+                return twin.separated_by
+    return ""
+
+
+def separation(
+    truth: Setting,
+    other: Setting,
+    protocols: list[Protocol],
+    *,
+    noise: float,
+    geometry: tuple[Free, ...] = (),
+) -> tuple[str, float]:
+    """The protocol where a refitted model misses another most, in words, and by how many sigma.
+
+    Rows where the muscle would be slack are not readings of its force and do not count.
+    """
+    best, most = "", 0.0
+    for protocol in protocols:
+        bare = Quasistatic(protocol.task)
+        force = bare.predict(truth, clipped=False)
+        slack = bare.predict(truth) != force
+        if np.count_nonzero(~slack) < _FEWEST:
+            continue
+        subject = Quasistatic(replace(protocol.task, measured=force, turning=slack))
+        node = fitted_node(subject, other, free_numbers(other, geometry))
+        left = subject.measured - subject.predict(node.setting, clipped=False)
+        apart = float(np.sqrt(np.mean(left**2))) / noise
+        if apart > most:
+            best, most = protocol.words, apart
+    return best, most
+
+
+def protocols(setting: Setting, *, largest_pressure: float) -> list[Protocol]:
+    """Experiments on a force rig, within the pressure that was measured and the muscle's range."""
+    muscle = setting.muscle
+    model = StaticModel(muscle)
+    ideal = float(contraction_at(model, load=0.0, pressures=np.array([largest_pressure]))[0])
+    most = 0.6 * ideal
+    rest = muscle.nominal_length
+    high = largest_pressure
+    speeds = [(share * high, speed) for share in (0.3, 0.6, 1.0) for speed in (0.002, 0.02, 0.2)]
+    loops = "isobaric loops at three pressures and three speeds two decades apart"
+    nested = "isobaric loops of three amplitudes within each other"
+    lengths = np.linspace(0.0, most, 5)
+    return [
+        _sweep(loops, speeds, 0.0, most, rest),
+        _sweep(nested, [(0.6 * high, 0.02)], 0.0, most, rest, nested=True),
+        _ramps("pressure ramps up and down at five lengths, from vented", high, lengths, rest),
+        _sweep("a pull beyond the nominal length without pressure", [(0.0, 0.01)], -0.02, 0.05, rest),
+        _hold("a hold of 60 s after a fast contraction", 0.6 * high, most, rest),
+    ]
+
+
+def _sweep(
+    words: str, runs: list[tuple[float, float]], low: float, high: float, rest: float, *, nested: bool = False
+) -> Protocol:
+    parts = []
+    for number, (pressure, speed) in enumerate(runs):
+        turns = [low, high, low]
+        if nested:
+            middle = 0.5 * (low + high)
+            turns = [low, high, middle, high, 0.25 * high, 0.75 * high, 0.25 * high, low]
+        corner = np.array(turns)
+        way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(corner)))]) * rest
+        time = np.linspace(0.0, way[-1] / speed, 60 * (len(turns) - 1))
+        contraction = np.interp(time * speed, way, corner)
+        parts.append((time, np.full(len(time), pressure), rest * (1.0 - contraction), number))
+    return Protocol(words, _task(parts))
+
+
+def _ramps(words: str, high: float, contractions: np.ndarray, rest: float) -> Protocol:
+    parts = []
+    for number, contraction in enumerate(contractions):
+        time = np.linspace(0.0, 10.0, 81)
+        pressure = high * np.interp(time, [0.0, 5.0, 10.0], [0.0, 1.0, 0.0])
+        parts.append((time, pressure, np.full(len(time), rest * (1.0 - contraction)), number))
+    return Protocol(words, _task(parts))
+
+
+def _hold(words: str, pressure: float, contraction: float, rest: float) -> Protocol:
+    time = np.concatenate([np.linspace(0.0, 0.5, 20), np.geomspace(0.55, 60.0, 60)])
+    stroke = np.interp(time, [0.0, 0.5, 60.0], [0.0, contraction, contraction])
+    return Protocol(words, _task([(time, np.full(len(time), pressure), rest * (1.0 - stroke), 0)]))
+
+
+def _task(parts: list[tuple[np.ndarray, np.ndarray, np.ndarray, int]]) -> Task:
+    time, pressure = [part[0] for part in parts], [part[1] for part in parts]
+    length, label = [part[2] for part in parts], [part[3] for part in parts]
+    velocity = np.concatenate([np.gradient(x, t) for t, x in zip(time, length, strict=True)])
+    labels = np.repeat(label, [len(t) for t in time])
+    count = len(labels)
+    return Task(
+        kind="isobaric",
+        channel="force",
+        unit="N",
+        measured=np.zeros(count),
+        state={
+            "length": np.concatenate(length),
+            "pressure": np.concatenate(pressure),
+            "velocity": velocity,
+            "direction": np.sign(np.where(np.abs(velocity) > 1e-9, velocity, 0.0)),
+            "temperature": np.full(count, ROOM_TEMPERATURE),
+        },
+        time=np.concatenate(time),
+        records=labels,
+        groups=labels,
+        turning=np.zeros(count, bool),
+        rows=np.arange(count),
+        excluded={},
+        unknown_load=False,
+        messages=(),
+    )

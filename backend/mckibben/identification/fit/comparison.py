@@ -1,0 +1,246 @@
+"""A measurement beside the model: the error in numbers, with or without fitting the model's parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from mckibben.identification.fit.fitted_model import Node
+from mckibben.identification.fit.least_squares import FitResult
+from mckibben.identification.fit.misfit import Misfit
+from mckibben.identification.predict import Quasistatic, Subject, subject_of
+from mckibben.identification.predict.fit_model import Setting, free_geometry, free_numbers
+from mckibben.identification.predict.free import Free
+from mckibben.identification.residual.noise import noise_of
+from mckibben.measurement.measurement import Measurement
+from mckibben.physics.custom import CUSTOM, TERM
+from mckibben.physics.effect import Effect
+from mckibben.physics.errors import InputError
+from mckibben.physics.muscle import GEOMETRY, Muscle
+from mckibben.simulation.drive.parts import Drive
+from mckibben.simulation.statics.model import EffectValues, checked_values
+
+_TIGHT = 1e-10  # tolerance of a fit with exact derivatives
+_STARTS = 4
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """A model beside a measurement, SI; arrays are stacked over the predicted channels of ``subject``.
+
+    Attributes:
+        subject: the rows used.
+        setting: the model compared, fitted numbers in place.
+        predicted: the model's values.
+        rmse: root mean square of the residual; over the noise of each channel when there are several.
+        holdout_rmse: the same over groups that the fit did not see; equals rmse without a fit, None when
+            there is only one group.
+        noise: standard deviation of the noise, None when it cannot be told; noise_how: from what.
+        fit: the fit, None when nothing was fitted.
+        rows: of the measurement.
+        excluded: why rows were left out -> how many.
+        messages: what has to be said.
+    """
+
+    subject: Subject
+    setting: Setting
+    predicted: np.ndarray
+    rmse: float
+    holdout_rmse: float | None
+    noise: float | None
+    noise_how: str
+    fit: FitResult | None
+    rows: int
+    excluded: Mapping[str, int]
+    messages: tuple[str, ...] = field(default_factory=tuple)
+
+    @property
+    def residual(self) -> np.ndarray:
+        """Measured minus predicted."""
+        return self.subject.measured - self.predicted
+
+    @property
+    def full_scale(self) -> float:
+        """Largest measured magnitude over the scale of the residual."""
+        return float(np.max(np.abs(self.subject.measured / self.subject.scale)))
+
+    @property
+    def nrmse_percent(self) -> float:
+        """rmse in percent of the largest measured magnitude."""
+        return 100.0 * self.rmse / self.full_scale if self.full_scale > 0.0 else float("nan")
+
+    def report(self) -> dict:
+        """The figures as `mckibben compare --json` prints them."""
+        subject = self.subject
+        several = len(subject.channels) > 1
+        mean = float(np.mean(self.residual / subject.scale))
+        return {
+            "kind": subject.kind,
+            "rows": self.rows,
+            "rows_used": subject.rows_used,
+            "excluded": dict(self.excluded),
+            "predicted": subject.predicted,
+            "unit": subject.unit,
+            "rmse": self.rmse,
+            "nrmse_percent": self.nrmse_percent,
+            "full_scale": self.full_scale,
+            "holdout_rmse": self.holdout_rmse,
+            "noise_floor": self.noise,
+            "residual_mean": mean,
+            "channels": self._channels() if several else {},
+            "parameters": parameter_table(self.setting, self.fit),
+            "correlations": [
+                {"a": a, "b": b, "value": value}
+                for a, b, value in (self.fit.correlations if self.fit else ())
+            ],
+            "geometry": {name: float(getattr(self.setting.muscle, name)) for name in GEOMETRY},
+            "messages": [*self.messages, *(self.fit.messages if self.fit else ())],
+        }
+
+    def _channels(self) -> dict[str, dict]:
+        return {
+            channel.name: {
+                "rmse": float(np.sqrt(np.mean(self.residual[channel.rows] ** 2))),
+                "unit": channel.unit,
+                "noise_floor": channel.noise,
+                "full_scale": channel.full_scale,
+            }
+            for channel in self.subject.channels
+        }
+
+
+def parameter_table(setting: Setting, fit: FitResult | None) -> dict[str, dict[str, dict]]:
+    """Effect -> parameter -> value, standard error, unit, whether it was fitted and ended at a bound."""
+    fitted = {parameter.name: parameter for parameter in fit.parameters} if fit else {}
+    table: dict[str, dict[str, dict]] = {}
+    for effect in setting.effects:
+        for p in effect.parameters:
+            own = fitted.get(f"{effect.id}.{p.name}")
+            table.setdefault(effect.id, {})[p.name] = {
+                "value": setting.values[effect.id][p.name],
+                "stderr": own.stderr if own else None,
+                "unit": p.unit,
+                "at_bound": own.at_bound if own else False,
+                "fitted": own is not None,
+            }
+    others = [parameter for parameter in fitted.values() if "." not in parameter.name]
+    if others:
+        table["geometry"] = {
+            p.name: {
+                "value": p.value,
+                "stderr": p.stderr,
+                "unit": p.unit,
+                "at_bound": p.at_bound,
+                "fitted": True,
+            }
+            for p in others
+        }
+    return table
+
+
+def compare(
+    measurement: Measurement,
+    muscle: Muscle,
+    effects: EffectValues,
+    *,
+    catalogue: Mapping[str, Effect],
+    drive: Drive | None = None,
+    fit: bool = False,
+    free: Sequence[str] = (),
+    freed: Sequence[str] = (),
+    tolerance: Mapping[str, float] | None = None,
+    noise: float | None = None,
+) -> Comparison:
+    """Compare a measurement with a muscle and its effects.
+
+    Args:
+        measurement: what was measured.
+        muscle: the muscle as given.
+        effects: effect id -> parameter values, SI; parameters left out take the effect's default.
+        catalogue: where effects are looked up.
+        drive: valve, tube and load of a transient measurement.
+        fit: fit the parameters that the effects declare as fitted.
+        free: geometry fields to fit as well, within their tolerance.
+        freed: further constants to fit, as "effect.parameter".
+        tolerance: geometry field -> how far it may go either way, SI.
+        noise: standard deviation of the predicted channel, when it is known.
+
+    Raises:
+        InputError: a row, kind, effect, parameter or geometry field that cannot be used.
+    """
+    values = checked_values(effects, catalogue)
+    setting = Setting(muscle.checked(), tuple(catalogue[name] for name in values), values)
+    subject = subject_of(measurement, muscle, drive)
+    check_finite(subject, setting)
+    geometry = free_geometry(muscle, free, tolerance or {})
+    messages = list(subject.messages)
+    choice = free_numbers(setting, geometry, freed, load=subject.unknown_load) if fit else ()
+    if free and not fit:
+        messages.append("a freed geometry only matters to a fit")
+    if fit and not choice:
+        messages.append("nothing to fit: the model has no effects and no geometry was freed")
+    result = None
+    if choice:
+        result = fit_of(subject, setting, choice)
+        setting = setting.with_numbers([p.name for p in choice], result.numbers)
+    predicted = subject.predict(setting)
+    rmse = subject.rmse(subject.measured - predicted)
+    holdout: float | None = rmse
+    if choice:
+        holdout = holdout_rmse(subject, setting, choice)
+        if holdout is None:
+            messages.append("one group only: no group can be left out")
+    floor, how = noise_of(subject, (subject.measured - predicted) / subject.scale, noise)
+    if floor is None:
+        messages.append("sweeps are too short to estimate the noise")
+    return Comparison(
+        subject,
+        setting,
+        predicted,
+        rmse,
+        holdout,
+        floor,
+        how,
+        result,
+        measurement.rows,
+        subject.excluded,
+        tuple(messages),
+    )
+
+
+def check_finite(subject: Subject, setting: Setting) -> None:
+    """Refuse a model without a finite value somewhere in the data, as a typed term may be.
+
+    Raises:
+        InputError: says at how many rows.
+    """
+    if not isinstance(subject, Quasistatic):
+        return  # a run that breaks off is far off
+    lost, rows = subject.lost(setting)
+    if lost:
+        raise InputError(
+            f"the model has no finite value at {lost} of {rows} rows",
+            field=f"effects.{CUSTOM}.{TERM}" if CUSTOM in setting.ids else "effects",
+            hint="look for a division by zero, a root or an exponential, or give other parameters",
+        )
+
+
+def fit_of(subject: Subject, setting: Setting, choice: Sequence[Free]) -> FitResult:
+    """Fit the numbers; several starts where a model is quick, tightly where its derivatives are exact."""
+    misfit = Misfit(subject, setting, choice)
+    if isinstance(subject, Quasistatic):
+        return misfit.fit(starts=_STARTS, tolerance=_TIGHT, evaluations=200)
+    return misfit.fit(starts=1, tolerance=1e-5, evaluations=40)
+
+
+def holdout_rmse(subject: Subject, setting: Setting, choice: Sequence[Free]) -> float | None:
+    """Error over whole groups left out of the fit; None when there is one group only."""
+    if len(np.unique(subject.folds[0])) < 2:
+        return None
+    predicted, jacobian = subject.linearised(setting, choice)
+    ended = tuple(replace(p, start=setting.number(p.name)) for p in choice)
+    misfit = (subject.measured - predicted) / subject.scale
+    node = Node(setting, ended, frozenset(), misfit, jacobian / subject.scale[:, None], subject.folds)
+    return node.holdout_rmse

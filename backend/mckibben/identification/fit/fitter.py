@@ -1,0 +1,209 @@
+"""Fits models of one subject and remembers them: what a search, its twins and its verdict are made of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mckibben.identification.fit.fitted_model import Node, fitted_node
+from mckibben.identification.predict.fit_model import Setting, free_numbers
+from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.predictor import Subject
+from mckibben.physics.effect import Effect
+
+_MOVED = 1e-3  # of its start: a number that moves less has not been looked for
+_USUAL = 0.01  # of the range: size of a number that is off by default
+_STUCK = 0.999  # of the error before: a fit that gains less starts once more
+_LEAST_PROMISE = 0.02  # of the mean square, near the floor
+_NEAR_FLOOR = 1.2  # of the noise: below, only an effect that shows by itself is tried
+
+
+class CancelledError(Exception):
+    """Nobody waits for the diagnosis any more."""
+
+
+@dataclass
+class Fits:
+    """Fits models of one subject and remembers them.
+
+    Attributes:
+        subject: the data.
+        geometry: geometry that every fit may change.
+        candidates: effects that may be added.
+        noise: of the residual over its scale, None when it cannot be told.
+        held: names of numbers that no fit changes, because something else has told them.
+        estimate: the noise as a model's residual shows it; what a model misses may look like noise, so the
+            search asks again as models become better.
+        tell: told now and then what is being done; may raise `CancelledError`.
+    """
+
+    subject: Subject
+    geometry: tuple[Free, ...]
+    candidates: tuple[Effect, ...]
+    noise: float | None
+    held: frozenset[str] = frozenset()
+    tell: Callable[[str], None] = lambda _: None
+    estimate: Callable[[Node], float | None] = lambda _: None
+    known: dict[tuple[frozenset[str], frozenset[str]], Node] = field(default_factory=dict)
+    acts: dict[str, dict[str, float]] = field(default_factory=dict)
+    twice: set[tuple[frozenset[str], frozenset[str]]] = field(default_factory=set)
+
+    def fit(self, setting: Setting, freed: frozenset[str] = frozenset(), *, again: bool = False) -> Node:
+        """The fitted model of a choice of effects and freed constants; found again when it was fitted.
+
+        ``again`` fits from another start, once, and keeps the better end.
+        """
+        key = frozenset(setting.ids), freed
+        if key not in self.known or (again and key not in self.twice):
+            self.tell(", ".join(setting.ids))
+            free = free_numbers(setting, self.geometry, freed, load=self.subject.unknown_load)
+            free = [parameter for parameter in free if parameter.name not in self.held]
+            node = fitted_node(self.subject, setting, free, freed=freed)
+            if again:
+                self.twice.add(key)
+            if key not in self.known or node.rmse < self.known[key].rmse:
+                self.known[key] = node
+        return self.known[key]
+
+    def adding(self, node: Node, effect: Effect) -> Node:
+        """The model with one more effect, its numbers refitted from where they are."""
+        off = self.acting(node, effect)
+        freed = node.freed | {f"{effect.id}.{n}" for n in off if not effect.parameter(n).fitted}
+        near = node.setting.adding(effect, _between(effect, off))
+        found = self.fit(near, freed)
+        started = near.values[effect.id]
+        still = all(
+            abs(found.setting.values[effect.id][name] - started[name]) < _MOVED * abs(started[name])
+            for name in off
+        )
+        if found.rmse > _STUCK * node.rmse or still:
+            found = self.fit(node.setting.adding(effect), freed, again=True)
+        return found
+
+    def acting(self, node: Node, effect: Effect) -> dict[str, float]:
+        """Numbers of an effect that do something in these data, with the value at which they do nothing.
+
+        Those that the effect declares as fitted; where the data do not see them, its further constants.
+        """
+        if effect.id not in self.acts:
+            own = [
+                {p.name: p.off for p in effect.parameters if p.off is not None and p.fitted is fitted}
+                for fitted in (True, False)
+            ]
+            seen = (off for off in own if np.any(self._sizes(self._columns(node, effect, off)) > self._least))
+            self.acts[effect.id] = next(seen, own[0])
+        return self.acts[effect.id]
+
+    def freeing(self, node: Node, effect: Effect) -> list[Node]:
+        """The model with further constants of an effect freed: together, or fewer where that is too much."""
+        names = {f"{effect.id}.{p.name}" for p in effect.parameters if not p.fitted} - node.freed
+        names -= self._blind(node, names)
+        if not names:
+            return []
+        whole = self.fit(node.setting, node.freed | names)
+        if len(names) == 1 or whole.implausible <= node.implausible:
+            return [whole]
+        stuck = {p.name for p, at in zip(whole.free, whole.at_bound, strict=True) if at}
+        fewer = [names - stuck] if 1 < len(names - stuck) < len(names) else []
+        return [self.fit(node.setting, node.freed | some) for some in (*fewer, *({n} for n in sorted(names)))]
+
+    def holding(self, node: Node, name: str, value: float) -> Node:
+        """The model with a freed constant held at a value again, refitted."""
+        return self.fit(node.setting.with_numbers([name], [value]), node.freed - {name})
+
+    def dropping(self, node: Node, effect_id: str) -> Node:
+        """The model without an effect, refitted."""
+        freed = frozenset(name for name in node.freed if not name.startswith(f"{effect_id}."))
+        return self.fit(node.setting.without(effect_id), freed)
+
+    def promising(self, node: Node, effects: Sequence[Effect]) -> list[Effect]:
+        """Effects in the order of the error they would take away to first order."""
+        inner = node.jacobian[:, node.inner]
+        basis = np.linalg.qr(inner)[0] if inner.shape[1] else np.empty((len(node.residual), 0))
+        left = node.residual - basis @ (basis.T @ node.residual)
+        gains = []
+        for effect in effects:
+            columns = self.changes(node, effect)
+            rest = columns - basis @ (basis.T @ columns)
+            size, whole = np.linalg.norm(rest, axis=0), np.linalg.norm(columns, axis=0)
+            seen = size > 1e-3 * whole
+            found = (
+                np.linalg.lstsq(rest[:, seen] / size[seen], left, rcond=1e-6)[0] if np.any(seen) else left[:0]
+            )
+            gains.append(float(np.sum((rest[:, seen] / size[seen] @ found) ** 2)))
+        order = np.argsort(gains)[::-1]
+        least = _LEAST_PROMISE * float(left @ left) if self.near_floor(node) else 0.0
+        return [effects[index] for index in order if gains[index] > least]
+
+    def guessed(self, node: Node, effect: Effect) -> Node:
+        """The model with one more effect of the size that is best to first order, nothing else refitted."""
+        free = tuple(
+            p
+            for p in free_numbers(node.setting.adding(effect, effect.off), (), node.freed)
+            if p.name.startswith(f"{effect.id}.")
+        )
+        off = self.acting(node, effect)
+        reach = np.array([_between(effect, off)[name] - value for name, value in off.items()])
+        columns = self.changes(node, effect)
+        size = np.linalg.lstsq(columns, node.residual, rcond=1e-6)[0] * reach
+        named = {f"{effect.id}.{name}": value + x for (name, value), x in zip(off.items(), size, strict=True)}
+        inside = {p.name: float(np.clip(named[p.name], p.lower, p.upper)) for p in free if p.name in named}
+        setting = node.setting.adding(effect, effect.off)
+        setting = setting.with_numbers(list(inside), list(inside.values()))
+        left = (self.subject.measured - self.subject.trial(setting)) / self.subject.scale
+        if float(np.mean(left**2)) > node.mean_square:
+            setting, left = node.setting.adding(effect, effect.off), node.residual
+        return Node(setting, node.free, node.freed, left, node.jacobian, node.folds)
+
+    def changes(self, node: Node, effect: Effect) -> np.ndarray:
+        """Change of the prediction by each number of an effect of moderate size, (values, numbers)."""
+        return self._columns(node, effect, self.acting(node, effect))
+
+    def _columns(self, node: Node, effect: Effect, off: dict[str, float]) -> np.ndarray:
+        before = self.subject.measured - node.residual * self.subject.scale
+        columns = [np.empty((len(before), 0))]
+        for name in off:
+            single = effect.off | {name: _between(effect, off)[name]}
+            trial = self.subject.trial(node.setting.adding(effect, single))
+            columns.append(((trial - before) / self.subject.scale)[:, None])
+        return np.hstack(columns)
+
+    def _blind(self, node: Node, names: set[str]) -> set[str]:
+        """Those of some constants that change nothing in these data."""
+        free = [p for p in free_numbers(node.setting, (), names) if p.name in names]
+        if not free:
+            return set()
+        columns = self.subject.linearised(node.setting, free)[1]
+        span = np.array([p.upper - p.lower for p in free])
+        reach = self._sizes(columns) * span
+        return {p.name for p, size in zip(free, reach, strict=True) if not size > self._least}
+
+    def listen(self, node: Node) -> None:
+        """Lower the noise where the residual of a better model shows less."""
+        found = self.estimate(node)
+        if found is not None:
+            self.noise = found if self.noise is None else min(self.noise, found)
+
+    def near_floor(self, node: Node) -> bool:
+        """Whether only an effect that shows by itself is worth a look."""
+        return self.noise is not None and node.rmse < _NEAR_FLOOR * self.noise
+
+    @property
+    def _least(self) -> float:
+        """Rms change that data of this noise can show."""
+        return 0.1 * (self.noise or 0.0)
+
+    @staticmethod
+    def _sizes(columns: np.ndarray) -> np.ndarray:
+        return np.sqrt(np.mean(columns**2, axis=0))
+
+
+def _between(effect: Effect, off: dict[str, float]) -> dict[str, float]:
+    """A third of the way from off to the default, or where that is off to a hundredth of the range."""
+    ways = {}
+    for name, value in off.items():
+        p = effect.parameter(name)
+        ways[name] = p.default - value if p.default != value else _USUAL * (p.upper - value)
+    return {name: value + ways[name] / 3.0 for name, value in off.items()}

@@ -1,0 +1,126 @@
+"""Bounded least squares with several starts, and an honest report of what could not be determined."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mckibben.identification.fit.levenberg import minimise
+from mckibben.identification.predict.free import Free
+
+_AT_BOUND = 1e-3  # of the range between the bounds
+_CORRELATED = 0.95
+_UNDETERMINED = 1e10  # condition number of the scaled normal matrix beyond which no errors are given
+
+
+@dataclass(frozen=True, slots=True)
+class Fitted:
+    """A fitted parameter; ``stderr`` is None when the data do not determine it."""
+
+    name: str
+    value: float
+    stderr: float | None
+    unit: str
+    at_bound: bool
+
+
+@dataclass(frozen=True, slots=True)
+class FitResult:
+    """The fitted parameters, correlations above 0.95 and what has to be said about them."""
+
+    parameters: tuple[Fitted, ...]
+    correlations: tuple[tuple[str, str, float], ...]
+    messages: tuple[str, ...]
+
+    @property
+    def numbers(self) -> list[float]:
+        """Values in the order of the free parameters."""
+        return [parameter.value for parameter in self.parameters]
+
+
+def least_squares_fit(
+    residual: Callable[[np.ndarray], np.ndarray],
+    jacobian: Callable[[np.ndarray], np.ndarray],
+    free: Sequence[Free],
+    *,
+    starts: int = 4,
+    seed: int = 0,
+    tolerance: float = 1e-12,
+    evaluations: int = 200,
+) -> FitResult:
+    """Minimise the sum of squared residuals over the free parameters within their bounds.
+
+    Args:
+        residual: numbers -> residuals.
+        jacobian: numbers -> derivatives, shape (residuals, free).
+        free: at least one free parameter.
+        starts: the given start and ``starts - 1`` random ones inside the bounds; the best end wins.
+        seed: of the random starts, so that a fit is repeatable.
+        tolerance: relative change of the sum of squares, of the numbers and of the gradient that ends it.
+        evaluations: most evaluations of each start.
+
+    Standard errors assume independent residuals of equal size; they come from the exact Jacobian at the end.
+    A parameter at a bound has none, nor has one that the data cannot tell from the others.
+    """
+    lower = np.array([parameter.lower for parameter in free])
+    upper = np.array([parameter.upper for parameter in free])
+    first = np.array([parameter.start for parameter in free])
+    random = np.random.default_rng(seed).uniform(0.02, 0.98, (starts - 1, len(free)))
+    best = None
+    for start in (first, *(lower + share * (upper - lower) for share in random)):
+        found = minimise(
+            residual, jacobian, start, lower, upper, tolerance=tolerance, evaluations=evaluations
+        )
+        if best is None or found.squares < best.squares * (1.0 - 1e-9):
+            best = found
+    assert best is not None  # noqa: S101 - there is always at least the first start
+    return _report(best.numbers, best.jacobian, best.residuals, free)
+
+
+def _report(
+    numbers: np.ndarray, jacobian: np.ndarray, residuals: np.ndarray, free: Sequence[Free]
+) -> FitResult:
+    span = np.array([parameter.upper - parameter.lower for parameter in free])
+    at_bound = [
+        bool(min(x - p.lower, p.upper - x) < _AT_BOUND * s)
+        for x, p, s in zip(numbers, free, span, strict=True)
+    ]
+    inner = np.flatnonzero(~np.array(at_bound))
+    errors: list[float | None] = [None] * len(free)
+    correlations: list[tuple[str, str, float]] = []
+    messages = [f"{p.name} ends at its bound" for p, bound in zip(free, at_bound, strict=True) if bound]
+    freedom = len(residuals) - len(free)
+    scale = np.linalg.norm(jacobian[:, inner], axis=0)
+    blind = scale <= 1e-12 * np.max(scale * span[inner], initial=0.0) / span[inner]
+    messages += [f"these data do not see {free[index].name}" for index in inner[blind]]
+    inner, scale = inner[~blind], scale[~blind]
+    if freedom <= 0:
+        messages.append(f"{len(residuals)} values cannot determine {len(free)} parameters")
+    elif len(inner):
+        unit = jacobian[:, inner] / scale
+        normal = unit.T @ unit
+        if np.linalg.cond(normal) > _UNDETERMINED:
+            names = ", ".join(free[index].name for index in inner)
+            messages.append(f"these data cannot tell apart: {names}; no standard errors are given")
+        else:
+            inverse = np.linalg.inv(normal)
+            variance = float(residuals @ residuals) / freedom
+            deviation = np.sqrt(np.diag(inverse))
+            for place, index in enumerate(inner):
+                errors[index] = float(np.sqrt(variance) * deviation[place] / scale[place])
+            correlation = inverse / np.outer(deviation, deviation)
+            for i, first in enumerate(inner):
+                for j, second in enumerate(inner[i + 1 :], i + 1):
+                    if abs(correlation[i, j]) > _CORRELATED:
+                        pair = (free[first].name, free[second].name, float(correlation[i, j]))
+                        correlations.append(pair)
+    return FitResult(
+        tuple(
+            Fitted(p.name, float(x), error, p.unit, bound)
+            for p, x, error, bound in zip(free, numbers, errors, at_bound, strict=True)
+        ),
+        tuple(correlations),
+        tuple(messages),
+    )

@@ -1,0 +1,79 @@
+"""What a fit makes small: a model's misfit as a function of its free numbers, with derivatives."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mckibben.identification.fit.least_squares import FitResult, least_squares_fit
+from mckibben.identification.predict.fit_model import Setting
+from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.predictor import Subject
+
+_LOST = 1e3  # times the largest value: misfit of a row where a guess of the fit has no finite value
+
+
+class Misfit:
+    """Predicted minus measured over the scale; the last evaluation serves both value and derivatives.
+
+    The unclipped force is followed: where the model is slack although the muscle pulls, a clipped one has no
+    gradient. A row without a finite value is far off and has no gradient.
+
+    Args:
+        subject: the data.
+        setting: the model around which numbers are changed.
+        free: what is changed.
+    """
+
+    def __init__(self, subject: Subject, setting: Setting, free: Sequence[Free]) -> None:
+        self._subject, self._setting, self._free = subject, setting, free
+        self._names = [parameter.name for parameter in free]
+        self._lost = _LOST * float(np.max(np.abs(subject.measured / subject.scale), initial=1.0))
+        self._at: bytes | None = None
+        self._misfit = np.empty(0)
+        self._predicted: np.ndarray | None = None
+        self._slopes: np.ndarray | None = None
+
+    def setting(self, numbers: np.ndarray) -> Setting:
+        """The model with these numbers."""
+        return self._setting.with_numbers(self._names, numbers)
+
+    def value(self, numbers: np.ndarray) -> np.ndarray:
+        """Misfit, shape (values,)."""
+        key = numbers.tobytes()
+        if key != self._at:
+            subject, setting = self._subject, self.setting(numbers)
+            self._predicted, self._slopes = None, None
+            with np.errstate(all="ignore"):
+                if subject.one_sided:  # derivatives are runs of their own: only where a step was good
+                    predicted = self._predicted = subject.predict(setting, clipped=False)
+                else:
+                    predicted, slopes = subject.linearised(setting, self._free)
+                    slopes = np.where(np.isfinite(predicted)[:, None], slopes, 0.0)
+                    self._slopes = self._finite(slopes / subject.scale[:, None])
+                misfit = (predicted - subject.measured) / subject.scale
+            self._at, self._misfit = key, np.where(np.isfinite(misfit), misfit, self._lost)
+        return self._misfit
+
+    def derivatives(self, numbers: np.ndarray) -> np.ndarray:
+        """Of the misfit, shape (values, free)."""
+        self.value(numbers)
+        if self._slopes is None:
+            slopes = self._subject.differences(self.setting(numbers), self._free, self._predicted)
+            self._slopes = self._finite(slopes / self._subject.scale[:, None])
+        return self._slopes
+
+    def _finite(self, slopes: np.ndarray) -> np.ndarray:
+        return np.where(np.all(np.isfinite(slopes), axis=1, keepdims=True), slopes, 0.0)
+
+    def fit(self, *, starts: int, tolerance: float, evaluations: int) -> FitResult:
+        """Least squares over the free numbers, see `least_squares_fit`."""
+        return least_squares_fit(
+            self.value,
+            self.derivatives,
+            self._free,
+            starts=starts,
+            tolerance=tolerance,
+            evaluations=evaluations,
+        )

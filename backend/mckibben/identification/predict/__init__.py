@@ -1,0 +1,77 @@
+"""What a measurement asks of a model: for each kind, which run of the model predicts which channel.
+
+| kind | given | predicted |
+|---|---|---|
+| isobaric, isometric, static | pressure, length (and time, where rates or memory matter) | force |
+| isotonic | pressure, load | length |
+| diameter | pressure or length | diameter |
+| transient | command, supply, load | pressure, displacement (force where measured) |
+| transient, no command channel | measured pressure, load | displacement |
+"""
+
+from __future__ import annotations
+
+from mckibben.identification.predict.comparable_rows import task_of
+from mckibben.identification.predict.moving import Moving
+from mckibben.identification.predict.predictor import Channel, Subject
+from mckibben.identification.predict.quasistatic import Quasistatic
+from mckibben.measurement.measurement import Measurement
+from mckibben.physics import ideal
+from mckibben.physics.errors import InputError
+from mckibben.physics.muscle import Muscle
+from mckibben.simulation.command.shapes import Step
+from mckibben.simulation.drive.parts import Drive, Load, Valve
+from mckibben.simulation.statics.model import StaticModel
+
+__all__ = ["Channel", "Moving", "Quasistatic", "Subject", "subject_of"]
+
+_PRESSURE = 6e5  # Pa; where no pressure was measured
+_ANY_VALVE = Valve(1e-8, 1e-8)  # the pressure is measured, so no air flows through it
+
+
+def subject_of(measurement: Measurement, muscle: Muscle, drive: Drive | None = None) -> Subject:
+    """The subject of a measurement.
+
+    Args:
+        measurement: of any kind.
+        muscle: whose lengths and lock count.
+        drive: of a transient measurement; without a command channel a stated load is enough.
+
+    Raises:
+        InputError: a channel, a condition or the drive is missing.
+    """
+    if measurement.kind != "transient":
+        task = task_of(measurement, muscle)
+        pressure = max(float(task.state["pressure"].max()), 1.0)
+        blocked = ideal.force(braid=muscle.braid, pressure=pressure, length=muscle.nominal_length)
+        return Quasistatic(task, largest_load=float(blocked))
+    return Moving(measurement, drive or _bare_drive(measurement, muscle))
+
+
+def _bare_drive(measurement: Measurement, muscle: Muscle) -> Drive:
+    if "command" in measurement.columns:
+        raise InputError(
+            f"{measurement.name}: a transient with a command channel needs the drive's valve and load",
+            field="drive",
+            hint="give a drive document (--drive DRIVE.json)",
+        )
+    conditions = measurement.conditions
+    if not {"load_mass", "load_force"} & set(conditions):
+        unused = ", ".join(f"'{header}'" for header in measurement.ignored)
+        also = f"; is one of the columns that are not used, {unused}, the force?" if unused else ""
+        raise InputError(
+            f"{measurement.name}: the load of a transient measurement is not given",
+            field="load_mass",
+            hint=f"add a line '# load_mass: 6 kg' before the header, or give a drive document{also}",
+        )
+    return Drive(
+        model=StaticModel(muscle),
+        valve=_ANY_VALVE,
+        load=Load(
+            mass=float(conditions.get("load_mass", 0.0)), force=float(conditions.get("load_force", 0.0))
+        ),
+        command=Step(level=1.0, initial=0.0),
+        duration=1.0,
+        supply_pressure=_PRESSURE,
+        max_contraction=0.4,
+    )

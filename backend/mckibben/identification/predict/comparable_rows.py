@@ -1,0 +1,273 @@
+"""The rows of a measurement that a model can predict, and what the model needs for them.
+
+| kind | given | predicted |
+|---|---|---|
+| isobaric, isometric, static | pressure, length (and time, where rates or memory matter) | force |
+| isotonic | pressure, load | length |
+| diameter | length, or pressure of a free muscle | diameter |
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mckibben.measurement.measurement import FORCE_KINDS, STROKES, Measurement, lengths
+from mckibben.measurement.motion import Motion, motion_of
+from mckibben.physics.errors import InputError
+from mckibben.physics.model import ROOM_TEMPERATURE
+from mckibben.physics.muscle import Muscle
+
+GRAVITY = 9.80665  # m/s2
+_LONGEST_SHARE = 0.9999  # of the thread: the braid locks there
+_UNSURE = 5.0  # times the usual uncertainty of the velocity ...
+_JUMP = 0.05  # ... and of the speed around: there it jumps
+_STILL = 0.25  # of the speed before and after: there it turns
+_SUDDEN = 4.0  # times the changes before and after
+_NEW_LEVEL = 0.05  # of the range of what is held, from one row to the next
+_FORGOTTEN = 0.15  # of the range of what is swept
+_PAUSE = 3.0  # times the usual time between rows
+_FEW = 0.1  # share of the rows up to which that is an exception
+
+
+@dataclass(frozen=True)
+class Task:
+    """The rows of a measurement that can be compared, and what the model needs for them.
+
+    Attributes:
+        kind: kind of the measurement.
+        channel: name of the predicted channel.
+        unit: its SI unit.
+        measured: its values, shape (rows used,).
+        state: inputs of the model (`mckibben.simulation.statics.compiled.INPUTS`), of the same shape, and
+            "load" where the length is predicted.
+        time: of each row [s]; None where the rows have no order in time.
+        records: label of the uninterrupted record that each row belongs to; rows of a record are in order.
+        groups: group label of each row.
+        turning: rows at which the motion turns or its speed jumps: their friction has no known size, so they
+            are not counted, but they belong to the way that memory follows; mask.
+        rows: index of each row in the measurement.
+        excluded: why rows were left out -> how many.
+        unknown_load: whether the load is not stated and has to be fitted.
+        messages: what was assumed.
+    """
+
+    kind: str
+    channel: str
+    unit: str
+    measured: np.ndarray
+    state: Mapping[str, np.ndarray]
+    time: np.ndarray | None
+    records: np.ndarray
+    groups: np.ndarray
+    turning: np.ndarray
+    rows: np.ndarray
+    excluded: Mapping[str, int]
+    unknown_load: bool
+    messages: tuple[str, ...]
+
+    def chosen(self, keep: np.ndarray) -> Task:
+        """The task with some of its rows (a mask or indices) only."""
+        return replace(
+            self,
+            measured=self.measured[keep],
+            state={name: values[keep] for name, values in self.state.items()},
+            time=None if self.time is None else self.time[keep],
+            records=self.records[keep],
+            groups=self.groups[keep],
+            turning=self.turning[keep],
+            rows=self.rows[keep],
+        )
+
+
+def task_of(measurement: Measurement, muscle: Muscle) -> Task:
+    """The comparison that a measurement of any kind but transient allows.
+
+    Rows without pulling force (slack), unusable rows and rows longer than the braid allows are excluded, with
+    a count.
+
+    Raises:
+        InputError: a condition is missing, or no row is left.
+    """
+    columns, kind, count = measurement.columns, measurement.kind, measurement.rows
+    messages = list(measurement.messages)
+    stroked = any(name in columns for name in STROKES)
+    length = lengths(measurement, muscle.nominal_length) if stroked else None
+    records = records_of(measurement)
+    velocity, direction, unsure = _motion(measurement, muscle.nominal_length, messages)
+    state: dict[str, np.ndarray] = {
+        "temperature": columns.get("temperature", np.full(count, ROOM_TEMPERATURE)),
+        "pressure": columns.get("pressure", np.zeros(count)),
+        "velocity": velocity,
+        "direction": direction,
+    }
+    unknown_load = False
+    if kind in FORCE_KINDS:
+        channel, unit, measured = "force", "N", columns["force"]
+    elif kind == "isotonic":
+        channel, unit, measured = "length", "m", length
+        state["load"], unknown_load = load_of(measurement)
+        if unknown_load:
+            messages.append("the load is not stated: it is fitted as an unknown constant")
+    else:
+        channel, unit, measured = "diameter", "m", columns["diameter"]
+    if measured is None:
+        raise InputError(f"{measurement.name}: no {channel} was measured", field=channel)
+    keep, excluded = measurement.usable.copy(), dict(measurement.exclusions)
+    if length is not None:
+        too_long = length >= _LONGEST_SHARE * float(muscle.braid.thread_length)
+        excluded["beyond the braid lock"] = int(np.count_nonzero(too_long & keep))
+        keep &= ~too_long
+        state["length"] = length
+    elif kind == "diameter":
+        state["load"] = np.zeros(count)
+    if not np.any(keep):
+        reasons = ", ".join(f"{number} {reason}" for reason, number in excluded.items() if number)
+        raise InputError(
+            f"{measurement.name}: no row can be compared ({count} rows, {reasons})", field="measurement"
+        )
+    ordered = "time" in columns
+    turning = _turning(state["direction"], records) | unsure
+    excluded["turning points"] = int(np.count_nonzero(turning & keep))
+    unseen = _unknown_history(measurement, length)
+    excluded["history unknown at the start or after a break"] = int(
+        np.count_nonzero(unseen & keep & ~turning)
+    )
+    turning |= unseen
+    return Task(
+        kind,
+        channel,
+        unit,
+        np.asarray(measured, dtype=float)[keep],
+        {name: np.asarray(values, dtype=float)[keep] for name, values in state.items()},
+        columns["time"][keep] if ordered else None,
+        records[keep],
+        columns["group"][keep],
+        turning[keep],
+        np.flatnonzero(keep),
+        {reason: number for reason, number in excluded.items() if number},
+        unknown_load,
+        tuple(messages),
+    )
+
+
+def _motion(
+    measurement: Measurement, nominal_length: float, messages: list[str]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Velocity and direction of each row, and where the velocity jumps.
+
+    A direction channel counts before what the velocity says.
+    """
+    columns = measurement.columns
+    velocity, direction = np.zeros(measurement.rows), columns.get("direction")
+    unsure = np.zeros(measurement.rows, bool)
+    known = direction is not None and bool(np.any(direction))
+    stroked = any(name in columns for name in STROKES)
+    if "time" in columns and (stroked or "velocity" in columns):
+        moved = motion_of(measurement, nominal_length)
+        velocity = moved.velocity
+        if stroked and not moved.measured:
+            unsure = _jumps(columns["time"], lengths(measurement, nominal_length), moved)
+            # After a pause it moves already, or is still at rest: the file does not tell.
+            unsure[1:] |= _pauses(columns["time"], columns["group"])
+        messages += moved.messages
+        if not known:
+            direction, known = moved.direction, True
+    elif "velocity" in columns:
+        velocity = columns["velocity"]
+        if not known:
+            direction, known = velocity, True
+    if direction is None or not known:
+        messages.append("direction of motion unknown: friction cannot show in these rows")
+        return velocity, np.zeros(measurement.rows), unsure
+    return velocity, np.sign(direction).astype(float), unsure
+
+
+def _pauses(time: np.ndarray, group: np.ndarray) -> np.ndarray:
+    """Whether the recording paused before each row but the first, and went on with another group."""
+    steps = np.diff(time)
+    if not len(steps):
+        return np.zeros(0, bool)
+    return (steps > _PAUSE * np.median(np.abs(steps))) & (np.diff(group) != 0)
+
+
+def _unknown_history(measurement: Measurement, length: np.ndarray | None) -> np.ndarray:
+    """Rows after a break in which what is held was set anew, until the muscle has forgotten the way there.
+
+    Such a break is a pause between groups, or a jump of the held quantity. What happened in it was not
+    recorded, and where friction was left by it is known only after some way. A record begins at rest, but
+    for a muscle that already carries its weight: it was filled before.
+    """
+    columns, rows = measurement.columns, np.zeros(measurement.rows, bool)
+    ways = {  # what is held and what is swept
+        "isobaric": (columns.get("pressure"), length),
+        "isometric": (length, columns.get("pressure")),
+        "isotonic": (columns.get("force"), columns.get("pressure")),
+    }
+    held, swept = ways.get(measurement.kind, (None, None))
+    if swept is None or "time" not in columns or measurement.rows < 3:
+        return rows
+    breaks = _pauses(columns["time"], columns["group"])
+    if held is not None:
+        jumps = np.abs(np.diff(held)) > _NEW_LEVEL * max(np.ptp(held), 0.2 * np.max(np.abs(held)))
+        breaks |= jumps & (np.diff(columns["group"]) != 0)
+    edges = [*(np.flatnonzero(breaks) + 1), measurement.rows]
+    if measurement.kind == "isotonic":
+        edges.insert(0, 0)
+    for first, last in itertools.pairwise(edges):
+        moved = np.abs(swept[first:last] - swept[first]) > _FORGOTTEN * np.ptp(swept[first:last])
+        until = int(np.argmax(moved)) if np.any(moved) else 0
+        rows[first : first + min(until, (last - first) // 4)] = True
+    return rows
+
+
+def _jumps(time: np.ndarray, length: np.ndarray, moved: Motion) -> np.ndarray:
+    """Rows at which the velocity jumps, so that they may belong to either side: few, or none is told.
+
+    Those far less sure than all the others; and of two rows between which it changes suddenly the one nearer
+    to where both lines meet.
+    """
+    velocity, sigma = moved.velocity, moved.velocity_sigma
+    speed = np.pad(np.abs(velocity), 1)
+    size = np.maximum(np.maximum(speed[:-2], speed[2:]), speed[1:-1])
+    found = np.isfinite(sigma) & (sigma > np.maximum(_UNSURE * float(np.median(sigma)), _JUMP * size))
+    found |= speed[1:-1] < _STILL * np.minimum(speed[:-2], speed[2:])
+    change = np.pad(np.abs(np.diff(velocity)), 1)
+    around = np.maximum(np.maximum(change[:-2], change[2:]), np.hypot(sigma[1:], sigma[:-1]))
+    sudden = np.flatnonzero(change[1:-1] > np.maximum(_SUDDEN * around, _JUMP * size[1:]))
+    step, risen = time[sudden + 1] - time[sudden], length[sudden + 1] - length[sudden]
+    before, after = velocity[sudden], velocity[sudden + 1]
+    meet = (risen - after * step) / (before - after)  # after the first of both rows [s]
+    found[sudden + (meet > 0.5 * step)] = True
+    return found if np.mean(found) < _FEW else np.zeros(len(found), bool)
+
+
+def _turning(direction: np.ndarray, records: np.ndarray) -> np.ndarray:
+    """Single rows without a direction between two opposite ones."""
+    found = np.zeros(len(direction), bool)
+    same = (records[2:] == records[:-2]) if len(records) > 2 else np.zeros(0, bool)
+    found[1:-1] = same & (direction[1:-1] == 0.0) & (direction[2:] * direction[:-2] < 0.0)
+    return found
+
+
+def records_of(measurement: Measurement) -> np.ndarray:
+    """Label of the uninterrupted record of each row: a new one begins where time does not go on."""
+    columns = measurement.columns
+    if "time" not in columns:
+        return np.zeros(measurement.rows, dtype=np.int64)
+    new = ~(np.diff(columns["time"]) > 0.0)
+    new[np.array(measurement.starts[1:], dtype=int) - 1] = True
+    return np.concatenate([[0], np.cumsum(new)]).astype(np.int64)
+
+
+def load_of(measurement: Measurement) -> tuple[np.ndarray, bool]:
+    """The load of each row [N], and whether it is unknown."""
+    if "force" in measurement.columns:
+        return measurement.columns["force"], False
+    conditions = measurement.conditions
+    force, mass = conditions.get("load_force"), conditions.get("load_mass")
+    total = float(force or 0.0) + float(mass or 0.0) * GRAVITY
+    return np.full(measurement.rows, total), force is None and mass is None

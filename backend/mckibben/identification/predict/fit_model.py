@@ -1,0 +1,166 @@
+"""A model with numbers, and which of them a fit may change."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from mckibben.identification.predict.free import Free
+from mckibben.physics.effect import Effect
+from mckibben.physics.errors import InputError, did_you_mean
+from mckibben.physics.muscle import GEOMETRY, NEUTRAL_ANGLE, Muscle
+from mckibben.physics.parameter import Parameter
+
+#: Name of the load of a measurement that does not say it [N].
+LOAD = "load_force"
+
+_UNITS = {name: "rad" if name == "braid_angle" else "m" for name in GEOMETRY} | {LOAD: "N"}
+# How far a fit may take a geometry field whose tolerance is not known: +- rad or share of the value.
+_DEFAULT_TOLERANCE = {"braid_angle": 0.06, "nominal_length": 0.02}
+_DEFAULT_SHARE = 0.10
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A muscle, its effects and their values.
+
+    Numbers are named "effect.parameter", by the field of the muscle, or `LOAD`.
+
+    Attributes:
+        muscle: geometry, SI.
+        effects: the effects, in the order in which they were added.
+        values: effect id -> parameter -> value, SI; complete.
+        load: the load where a measurement does not say it [N].
+        assumed: fields of the muscle that nobody stated and that an effect multiplies; they hold a typical
+            value.
+    """
+
+    muscle: Muscle
+    effects: tuple[Effect, ...] = ()
+    values: Mapping[str, Mapping[str, float]] = ()  # type: ignore[assignment]
+    load: float = 0.0
+    assumed: frozenset[str] = frozenset()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "values", {name: dict(own) for name, own in dict(self.values).items()})
+
+    def number(self, name: str) -> float:
+        """The value of a named number."""
+        if name == LOAD:
+            return self.load
+        if name in GEOMETRY:
+            return float(getattr(self.muscle, name))
+        effect, parameter = name.split(".")
+        return self.values[effect][parameter]
+
+    def with_numbers(self, names: Sequence[str], numbers: Sequence[float] | np.ndarray) -> Setting:
+        """The same model with some numbers replaced."""
+        values = {effect: dict(own) for effect, own in self.values.items()}
+        geometry: dict[str, Any] = {}
+        load = self.load
+        for name, number in zip(names, numbers, strict=True):
+            if name == LOAD:
+                load = float(number)
+            elif name in GEOMETRY:
+                geometry[name] = float(number)
+            else:
+                effect, parameter = name.split(".")
+                values[effect][parameter] = float(number)
+        muscle = self.muscle._replace(**geometry) if geometry else self.muscle
+        return replace(self, muscle=muscle, values=values, load=load)
+
+    def adding(self, effect: Effect, values: Mapping[str, float] | None = None) -> Setting:
+        """The model with one more effect, at its defaults unless values are given.
+
+        What the effect needs of the muscle and nobody stated is assumed.
+        """
+        own = {**effect.defaults, **(values or {})}
+        unknown = {name for name in effect.needs if getattr(self.muscle, name) == 0.0}
+        return replace(
+            self,
+            muscle=self.muscle.assuming(unknown),
+            effects=(*self.effects, effect),
+            values={**self.values, effect.id: own},
+            assumed=self.assumed | unknown,
+        )
+
+    def without(self, effect_id: str) -> Setting:
+        """The model without an effect, and without what was assumed for it alone."""
+        effects = tuple(effect for effect in self.effects if effect.id != effect_id)
+        idle = self.assumed - {name for effect in effects for name in effect.needs}
+        return replace(
+            self,
+            muscle=self.muscle._replace(**dict.fromkeys(idle, 0.0)),
+            effects=effects,
+            values={name: own for name, own in self.values.items() if name != effect_id},
+            assumed=self.assumed - idle,
+        )
+
+    @property
+    def ids(self) -> tuple[str, ...]:
+        """Ids of the effects."""
+        return tuple(effect.id for effect in self.effects)
+
+
+def free_numbers(
+    setting: Setting, geometry: Iterable[Free] = (), freed: Collection[str] = (), *, load: Free | None = None
+) -> tuple[Free, ...]:
+    """What a fit of the model may change.
+
+    Args:
+        setting: the model; starts are its values.
+        geometry: geometry fields with their bounds (`free_geometry`).
+        freed: names of further constants that are freed beyond those that effects declare as fitted.
+        load: the unknown load with its bounds.
+    """
+    own = [
+        _free(effect.id, p, setting.values[effect.id][p.name])
+        for effect in setting.effects
+        for p in effect.parameters
+        if p.fitted or f"{effect.id}.{p.name}" in freed
+    ]
+    others = [Free(f.name, setting.number(f.name), f.lower, f.upper, f.unit) for f in geometry]
+    if load is not None:
+        others.append(Free(LOAD, setting.load, load.lower, load.upper, load.unit))
+    return (*own, *others)
+
+
+def _free(effect: str, p: Parameter, value: float) -> Free:
+    usual = abs(p.default) if p.off is None else abs(p.default - p.off)
+    if not usual and p.natural:
+        usual = p.upper - p.lower  # a share that is 0 by default
+    return Free(f"{effect}.{p.name}", value, p.lower, p.upper, p.unit, p.off, usual or None, p.natural)
+
+
+def free_geometry(muscle: Muscle, names: Iterable[str], tolerance: Mapping[str, float]) -> tuple[Free, ...]:
+    """Geometry fields that a fit may change within their tolerance.
+
+    Args:
+        muscle: as given.
+        names: fields.
+        tolerance: field -> how far it may go either way, SI; others go +-0.06 rad (braid angle), +-2 %
+            (nominal length) or +-10 %.
+
+    Raises:
+        InputError: not a field of the geometry, or the muscle does not have it.
+    """
+    choice = []
+    for name in dict.fromkeys(names):
+        if name not in GEOMETRY:
+            raise InputError(
+                f"'{name}' is not a geometry field that can be freed",
+                field="free",
+                hint=did_you_mean(name, GEOMETRY),
+            )
+        value = float(getattr(muscle, name))
+        width = tolerance.get(name, _DEFAULT_TOLERANCE.get(name, _DEFAULT_SHARE * value))
+        if name == "nominal_length":
+            width = tolerance.get(name, _DEFAULT_TOLERANCE[name] * value)
+        if not width > 0.0:
+            raise InputError(f"the muscle's {name.replace('_', ' ')} is not known", field=f"muscle.{name}")
+        upper = min(value + width, 0.9999 * NEUTRAL_ANGLE) if name == "braid_angle" else value + width
+        choice.append(Free(name, value, max(value - width, 1e-6), upper, _UNITS[name]))
+    return tuple(choice)

@@ -1,0 +1,27 @@
+"""A number that a fit may change."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Free:
+    """A free parameter: name, start, bounds, SI unit, the value at which it does nothing, a usual change.
+
+    ``natural`` bounds are where its definition ends.
+    """
+
+    name: str
+    start: float
+    lower: float
+    upper: float
+    unit: str
+    off: float | None = None
+    usual: float | None = None
+    natural: bool = False
+
+    @property
+    def typical(self) -> float:
+        """A change that matters: the usual one, or a hundredth of the range between the bounds."""
+        return self.usual or 0.01 * (self.upper - self.lower)

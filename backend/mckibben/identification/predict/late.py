@@ -1,0 +1,111 @@
+r"""What a slow or late force channel shows of a signal: the effects' own equations as a linear filter.
+
+A lag obeys :math:`\dot y = (r - y)/\tau`, at rest before the first row of each record. For a signal in lines
+between rows the solution is
+
+.. math:: y_{k+1} = a\,y_k + r_{k+1} - a\,r_k - s\tau\,(1 - a), \quad a = e^{-\Delta t/\tau}
+
+with the slope s of the line. Stages in a row are a sum of such lags, by partial fractions:
+
+.. math:: \prod_i \frac{1}{1+\tau_i p} = \sum_i \frac{1}{1+\tau_i p}\prod_{j\ne i}\frac{\tau_i}{\tau_i-\tau_j}
+
+A skew shifts the signal in time. Both are linear, so derivatives by a model's
+numbers pass through the same filter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from mckibben.identification.predict.fit_model import Setting
+from mckibben.physics.effect import Effect
+
+_SLOTS = ("skew", "force_reading", "pressure_reading", "stroke_reading")
+_LAG = "drive_rates"
+_APART = 1e-6
+
+
+def late(effect: Effect) -> bool:
+    """Whether an effect delays what is read, so that rows depend on the rows before them."""
+    return any(slot in effect.slots for slot in _SLOTS)
+
+
+def as_read(
+    setting: Setting, *, time: np.ndarray, records: Sequence[np.ndarray], values: np.ndarray
+) -> np.ndarray:
+    """What the force channel shows of values, shape (rows,) or (rows, columns), record by record.
+
+    Args:
+        setting: the late effects of this model are applied.
+        time: of each row [s], ascending within a record.
+        records: rows of each record.
+        values: what an ideal channel would show.
+    """
+    read = values.astype(float).copy()
+    for effect in setting.effects:
+        if not late(effect):
+            continue
+        own = setting.values[effect.id]
+        constants = _constants(effect, own)
+        delay = float(effect.call("skew", {}, own)) if "skew" in effect.slots else 0.0
+        for rows in records:
+            clock = time[rows]
+            if constants:
+                read[rows] = _filtered(clock, read[rows], constants)
+            if delay:
+                read[rows] = _shifted(clock, read[rows], delay)
+    return read
+
+
+def _constants(effect: Effect, values: Mapping[str, float]) -> list[float]:
+    """Time constants of the stages that the force passes [s]: how fast each state follows what drives it."""
+    if _LAG not in effect.slots:
+        return []
+    signals = {f"instant_{name}_reading": 0.0 for name in ("force", "pressure", "stroke")}
+    names = [state.name for state in effect.states]
+
+    def rates(**raised: float) -> np.ndarray:
+        given = signals | dict.fromkeys(names, 0.0) | raised
+        return np.array(effect.call(_LAG, given, values), dtype=float)
+
+    reached = rates(instant_force_reading=1.0) > 0.0
+    constants = {}
+    while np.any(reached):
+        stage = int(np.argmax(reached))
+        answer = rates(**{names[stage]: 1.0})
+        constants[stage] = -1.0 / float(answer[stage])
+        reached = answer > 0.0
+    return list(constants.values())
+
+
+def _filtered(time: np.ndarray, signal: np.ndarray, constants: Sequence[float]) -> np.ndarray:
+    """Behind all stages. Equal ones are taken a millionth apart, which no reading shows."""
+    apart = [constant * (1.0 + _APART * number) for number, constant in enumerate(constants)]
+    weights = [np.prod([own / (own - other) for other in apart if other != own]) for own in apart]
+    shown = np.zeros_like(signal)
+    for weight, own in zip(weights, apart, strict=True):
+        shown += weight * _lagged(time, signal, own)
+    return shown
+
+
+def _lagged(time: np.ndarray, signal: np.ndarray, constant: float) -> np.ndarray:
+    from scipy.linalg import solve_banded
+
+    if len(time) < 2:
+        return signal
+    step = np.diff(time).reshape(-1, *([1] * (signal.ndim - 1)))
+    kept = np.exp(-step / constant)
+    slope = np.diff(signal, axis=0) / step
+    right = signal.copy()
+    right[1:] = signal[1:] - kept * signal[:-1] - slope * constant * (1.0 - kept)
+    bands = np.ones((2, len(time)))
+    bands[1, :-1] = -kept.ravel()
+    return solve_banded((1, 0), bands, right, check_finite=False)  # a guess may have no value
+
+
+def _shifted(time: np.ndarray, signal: np.ndarray, delay: float) -> np.ndarray:
+    if signal.ndim == 1:
+        return np.interp(time - delay, time, signal)
+    return np.column_stack([np.interp(time - delay, time, column) for column in signal.T])

@@ -1,0 +1,98 @@
+"""States of effects with memory along a measured record: where friction, creep and run-in have got to."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mckibben.identification.predict.comparable_rows import Task
+from mckibben.identification.predict.fit_model import Setting
+from mckibben.physics.effect import Effect
+from mckibben.physics.model import ROOM_TEMPERATURE
+from mckibben.simulation.drive.driven import driven_states
+from mckibben.simulation.statics.model import StaticModel
+
+_KEPT = 128
+_SENSORS = ("pressure_sensor", "length_sensor")
+_STEP = 2e-3  # of a parameter, for the derivative of a state by it
+
+
+def remembers(effect: Effect) -> bool:
+    """Whether an effect has memory of the muscle's motion."""
+    return bool(effect.states) and "rates" in effect.slots
+
+
+class Memory:
+    """Trajectories of the states of effects over the rows of a task, kept for models that share them.
+
+    They follow the measured length and pressure and start at rest with each record, so they depend on the
+    parameters in the effect's own rates and on the sensors only: each effect is integrated by itself, and a
+    fit of other parameters never integrates it again.
+    """
+
+    def __init__(self, task: Task) -> None:
+        self._task = task
+        self._kept: dict[tuple, dict[str, np.ndarray]] = {}
+        self._records = [
+            np.flatnonzero(task.records == label)
+            for label in np.unique(task.records)
+            if np.count_nonzero(task.records == label) >= 2
+        ]
+
+    def states(self, setting: Setting) -> dict[str, np.ndarray]:
+        """Value of each state ("effect.state") at each row."""
+        sensors = tuple(e for e in setting.effects if any(slot in e.slots for slot in _SENSORS))
+        found: dict[str, np.ndarray] = {}
+        for effect in filter(remembers, setting.effects):
+            effects = (effect, *(sensor for sensor in sensors if sensor is not effect))
+            values = {e.id: dict(setting.values[e.id]) for e in effects}
+            key = (setting.muscle, *(self._key(e, values[e.id]) for e in effects))
+            if key not in self._kept:
+                if len(self._kept) >= _KEPT:
+                    self._kept.pop(next(iter(self._kept)))
+                self._kept[key] = self._run(StaticModel.of(setting.muscle, effects, values), effect)
+            found |= self._kept[key]
+        return found
+
+    def by_parameters(self, setting: Setting, names: Sequence[str]) -> dict[str, dict[str, np.ndarray]]:
+        """Derivatives of the states by the named parameters that move them: name -> state -> rows."""
+        found: dict[str, dict[str, np.ndarray]] = {}
+        for name in names:
+            effect_id, _, parameter = name.partition(".")
+            effect = next((e for e in setting.effects if e.id == effect_id), None)
+            if effect is None or not remembers(effect) or parameter not in effect.wanted("rates"):
+                continue
+            declared = effect.parameter(parameter)
+            here = setting.number(name)
+            step = _STEP * max(abs(here), 0.01 * (declared.upper - declared.lower))
+            other = here + step if here + step <= declared.upper else here - step
+            first, last = self.states(setting), self.states(setting.with_numbers([name], [other]))
+            found[name] = {
+                state: (last[state] - first[state]) / (other - here)
+                for state in first
+                if state.startswith(f"{effect_id}.")
+            }
+        return found
+
+    @staticmethod
+    def _key(effect: Effect, values: dict[str, float]) -> tuple:
+        wanted = effect.wanted("rates") if remembers(effect) else tuple(values)
+        return (effect.id, *(values[name] for name in values if name in wanted))
+
+    def _run(self, model: StaticModel, effect: Effect) -> dict[str, np.ndarray]:
+        task = self._task
+        rest = {f"{effect.id}.{state.name}": state.initial for state in effect.states}
+        found = {name: np.full(len(task.measured), value) for name, value in rest.items()}
+        clock = task.time if task.time is not None else np.arange(len(task.measured), dtype=float)
+        for rows in self._records:
+            states = driven_states(
+                model,
+                time=clock[rows],
+                pressure=task.state["pressure"][rows],
+                length=task.state["length"][rows],
+                temperature=float(np.mean(task.state.get("temperature", ROOM_TEMPERATURE))),
+            )
+            for name in found:
+                found[name][rows] = states[name]
+        return found

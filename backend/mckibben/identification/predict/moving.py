@@ -1,0 +1,285 @@
+"""Transient measurements: the drive is simulated, or its motion under the measured pressure.
+
+With a command channel pressure and displacement (and force where measured) are predicted; without one the
+displacement that the measured pressure brings about. Several channels are scaled by their noise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mckibben.identification.predict.comparable_rows import records_of
+from mckibben.identification.predict.fit_model import Setting
+from mckibben.identification.predict.folds import FEWEST
+from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.predictor import Channel, Subject
+from mckibben.measurement.measurement import STROKES, Measurement, lengths
+from mckibben.measurement.noise import noise_floor
+from mckibben.physics.effect import Effect
+from mckibben.physics.errors import InputError
+from mckibben.physics.model import Model
+from mckibben.simulation.command.signals import Table
+from mckibben.simulation.drive.driven import driven_motion
+from mckibben.simulation.drive.parts import Drive
+from mckibben.simulation.drive.transient import simulate
+from mckibben.simulation.outcome import Outcome, Watch
+from mckibben.simulation.statics.model import StaticModel
+
+_MOST_ROWS = 1000  # per record; more are thinned evenly
+_FEW_LEVELS = 0.2  # share of rows with another command than the row before, up to which it is held
+_FIRST_ROWS = 50
+_NOT_VENTED = 30e3  # Pa from the documented start; less is a zero error of the gauge
+_LOST = 1e3  # noises by which a run that broke off is said to miss
+_TIME_LIMIT = 2.0  # s; a run that takes longer is a bad guess of a fit
+# What only acts on the way of the air, and is not there when the pressure is measured.
+_AIR = (
+    "extra_volume", "heat", "leakage", "command_delay", "opening", "fill_conductance", "exhaust_conductance",
+    "tube_conductance", "supply",
+)  # fmt: skip
+
+
+class Recorded(Table):
+    """A measured command; a record that begins with the valve open was switched on at its first row."""
+
+    shape = "recorded"
+
+    @property
+    def before(self) -> float:
+        """Closed where the first row fills: the muscle was at rest."""
+        return min(float(self.values[0]), 0.0)
+
+
+@dataclass(frozen=True)
+class Record:
+    """One uninterrupted run: the drive as documented, its times from 0, and the measured pressure."""
+
+    drive: Drive
+    time: np.ndarray
+    pressure: np.ndarray | None
+    stroke: float
+    rows: np.ndarray
+
+
+class Moving(Subject):
+    """Transient measurements of one drive.
+
+    Args:
+        measurement: of kind transient.
+        drive: the drive as documented; load and supply that the measurement states replace its own.
+
+    Raises:
+        InputError: nothing that the model predicts was measured.
+    """
+
+    step = 2e-2
+    one_sided = True
+    thorough = False
+    tolerance = 1e-4
+    evaluations = 20
+    tried = 12
+
+    def __init__(self, measurement: Measurement, drive: Drive) -> None:
+        columns = measurement.columns
+        self.kind = measurement.kind
+        self.commanded = "command" in columns
+        found = _channels(measurement, drive, commanded=self.commanded)
+        if not found:
+            raise InputError(
+                f"{measurement.name}: a transient without a command column needs a displacement",
+                field="displacement",
+                hint="add a displacement column, or a command column to simulate valve and pressure (the "
+                "command of a drive document does not stand in for it)",
+            )
+        labels = records_of(measurement)
+        self._records = [
+            _record(measurement, drive, np.flatnonzero((labels == label) & measurement.usable))
+            for label in np.unique(labels)
+        ]
+        if "pressure" not in columns and not self.commanded:
+            raise InputError(
+                f"{measurement.name}: neither command nor pressure was measured",
+                field="pressure",
+                hint="add a command column, or a pressure column (the command of a drive document does not "
+                "stand in for it)",
+            )
+        rows = np.concatenate([record.rows for record in self._records])
+        self.rows, count = rows, len(rows)
+        channels: list[Channel] = []
+        self.rows_used, self.messages = count, measurement.messages
+        self.excluded = dict(measurement.exclusions)
+        if between := int(np.count_nonzero(measurement.usable)) - count:
+            self.excluded[f"in between ({_MOST_ROWS} rows of each run are compared, evenly spread)"] = between
+        for number, (name, unit, values) in enumerate(found):
+            sweeps = [np.flatnonzero(labels == label) for label in np.unique(labels)]
+            full_scale = float(np.max(np.abs(values)))
+            noise = noise_floor(values, sweeps) or 1e-3 * full_scale
+            place = slice(number * count, (number + 1) * count)
+            channels.append(Channel(name, unit, place, max(noise, 1e-6 * full_scale), full_scale))
+        self.channels = tuple(channels)
+        self.measured = np.concatenate([values[rows] for _, _, values in found])
+        several = len(found) > 1
+        self.scale = np.concatenate(
+            [np.full(count, channel.noise if several else 1.0) for channel in self.channels]
+        )
+        per_record = [np.full(len(record.rows), n) for n, record in enumerate(self._records)]
+        self.records = np.tile(np.concatenate(per_record), len(found)) + np.repeat(
+            len(self._records) * np.arange(len(found)), count
+        )
+        self.groups = self.records
+        self.sweeps = [np.flatnonzero(self.records == label) for label in np.unique(self.records)]
+        self.folds = (_blocks(self._records, len(found)),)
+        time = np.concatenate([record.time for record in self._records])
+        others = {name: columns[name][rows] for name in ("pressure", "command") if name in columns}
+        stroke = _stroke(measurement, drive)
+        if stroke is not None:
+            others |= {"displacement": stroke[rows], "velocity": -np.gradient(stroke, columns["time"])[rows]}
+        self.inputs = {name: np.tile(v, len(found)) for name, v in {"time": time, **others}.items()}
+        self._wide: tuple[Effect, ...] = ()
+
+    def why_hidden(self, effect: Effect) -> str:
+        """By the kinds that the effect names; what acts on the flow of air shows under a command only."""
+        if self.kind not in effect.kinds:
+            return f"it does not show in {self.kind} data, only in {' or '.join(sorted(effect.kinds))}"
+        forced = any(channel.name == "force" for channel in self.channels)
+        if not forced and set(effect.slots) <= {"force_sensor", "skew"}:
+            return "it acts on the force reading, and no force was measured"
+        if not self.commanded and set(effect.slots) & set(_AIR):
+            return "it acts on the flow of air; here the measured pressure is the input"
+        drive = self._records[0].drive
+        if effect.of_tube and drive.tube is None and drive.assumed_tube is None:
+            return "it acts on the tube, and the drive states that there is none"
+        return ""
+
+    def prepare(self, setting: Setting, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
+        """One structure with every candidate that can be off, to look at their changes by."""
+        inside = {effect.id for effect in setting.effects}
+        # An energy balance in place of a polytrope is another structure even when no heat flows.
+        # So is a tube that the drive does not state.
+        tubeless = self._records[0].drive.tube is None
+        other = {"heat", "tube_conductance"} if tubeless else {"heat"}
+        further = [e for e in candidates if e.id not in inside and not other & set(e.slots) and not _fast(e)]
+        self._wide = Model((*setting.effects, *further)).effects
+
+    def trial(self, setting: Setting) -> np.ndarray:
+        """As `predict`, in the structure of all candidates when it holds the model."""
+        if not set(setting.effects) <= set(self._wide):
+            return self.predict(setting)
+        values = {effect.id: setting.values.get(effect.id, effect.off) for effect in self._wide}
+        return self.predict(replace(setting, effects=self._wide, values=values))
+
+    def predict(self, setting: Setting, *, clipped: bool = True) -> np.ndarray:
+        """The channels of all records, stacked; far off where a run breaks off."""
+        model = StaticModel.of(setting.muscle, Model(setting.effects).effects, setting.values)
+        parts: list[list[np.ndarray]] = [[] for _ in self.channels]
+        for record in self._records:
+            readings = self._run(replace(record.drive, model=model), record)
+            for part, channel in zip(parts, self.channels, strict=True):
+                values = readings.get(channel.name, np.empty(0))
+                lost = np.full(len(record.rows) - len(values), np.nan)
+                part.append(np.concatenate([values, lost]))
+        found = np.concatenate([np.concatenate(part) for part in parts])
+        return np.where(np.isfinite(found), found, self.measured + _LOST * self._noises())
+
+    def _noises(self) -> np.ndarray:
+        return np.repeat([channel.noise for channel in self.channels], len(self.rows))
+
+    def _run(self, drive: Drive, record: Record) -> dict[str, np.ndarray]:
+        names = {"pressure": "pressure_reading", "displacement": "stroke_reading", "force": "force_reading"}
+        try:
+            if self.commanded:
+                run = simulate(drive, grid=record.time, watch=Watch(time_limit=_TIME_LIMIT))
+                if run.outcome is Outcome.CANCELLED:
+                    return {}
+                found = run.outputs
+            else:
+                assert record.pressure is not None  # noqa: S101 - asked for at the start
+                found = driven_motion(drive, time=record.time, pressure=record.pressure, stroke=record.stroke)
+        except InputError:  # a guess of the fit that no drive follows
+            return {}
+        return {name: found[output] for name, output in names.items() if output in found}
+
+
+def _fast(effect: Effect) -> bool:
+    """Whether a state of the drive becomes infinitely fast when the effect is off."""
+    return "drive_rates" in effect.slots
+
+
+def _stroke(measurement: Measurement, drive: Drive) -> np.ndarray | None:
+    if not any(name in measurement.columns for name in STROKES):
+        return None
+    if "displacement" in measurement.columns:
+        return measurement.columns["displacement"]
+    return drive.muscle.nominal_length - lengths(measurement, drive.muscle.nominal_length)
+
+
+def _channels(
+    measurement: Measurement, drive: Drive, *, commanded: bool
+) -> list[tuple[str, str, np.ndarray]]:
+    columns = measurement.columns
+    found = []
+    if commanded and "pressure" in columns:
+        found.append(("pressure", "Pa", columns["pressure"]))
+    stroke = _stroke(measurement, drive)
+    if stroke is not None:
+        found.append(("displacement", "m", stroke))
+    if "force" in columns and (commanded or stroke is not None):
+        found.append(("force", "N", columns["force"]))
+    return found
+
+
+def _record(measurement: Measurement, drive: Drive, rows: np.ndarray) -> Record:
+    columns, conditions = measurement.columns, measurement.conditions
+    if len(rows) < 3:
+        raise InputError(f"{measurement.name}: a run of {len(rows)} rows is too short", field="time")
+    if len(rows) > _MOST_ROWS:
+        rows = rows[np.unique(np.linspace(0, len(rows) - 1, _MOST_ROWS).astype(int))]
+    time = columns["time"][rows] - columns["time"][rows[0]]
+    load = drive.load
+    if "load_mass" in conditions:
+        load = replace(load, mass=float(conditions["load_mass"]))
+    if "load_force" in conditions:
+        load = replace(load, force=float(conditions["load_force"]))
+    changed: dict = {"duration": float(time[-1]), "load": load, "controller": None, "reference": None}
+    if "supply_pressure" in conditions:
+        changed["supply_pressure"] = float(conditions["supply_pressure"])
+    if "command" in columns:
+        changed["command"] = _command(columns["time"], columns["command"], rows)
+    pressure = columns["pressure"][rows] if "pressure" in columns else None
+    if pressure is not None and "command" in columns:
+        changed["start_pressure"] = _start_pressure(drive, pressure, columns["command"][rows])
+    stroke = _stroke(measurement, drive)
+    return Record(
+        replace(drive, **changed), time, pressure, 0.0 if stroke is None else float(stroke[rows[0]]), rows
+    )
+
+
+def _start_pressure(drive: Drive, pressure: np.ndarray, command: np.ndarray) -> float:
+    """As documented, unless it is clearly another that was measured before the valve first moved [Pa]."""
+    closed = command[0] == 0.0
+    resting = int(np.argmax(command != 0.0)) or len(command) if closed else 1
+    measured = float(np.median(pressure[: min(resting, _FIRST_ROWS)]))
+    return measured if abs(measured - drive.start_pressure) > _NOT_VENTED else drive.start_pressure
+
+
+def _command(time: np.ndarray, command: np.ndarray, rows: np.ndarray) -> Recorded:
+    """The measured command, held between changes when it has few levels, else in lines."""
+    part = slice(rows[0], rows[-1] + 1)
+    t, u = time[part] - time[part.start], command[part]
+    changes = np.flatnonzero(np.diff(u) != 0.0) + 1
+    if len(changes) > _FEW_LEVELS * len(u):
+        return Recorded(times=t, values=u, interpolation="linear")
+    kept = np.concatenate([[0], changes])
+    return Recorded(times=t[kept], values=u[kept], interpolation="hold")
+
+
+def _blocks(records: Sequence[Record], channels: int) -> np.ndarray:
+    """Contiguous blocks of time as folds, at least six; the channels of one block are left out together."""
+    blocks = max(2, -(-FEWEST // len(records)))
+    labels = [
+        number * blocks + np.arange(len(record.rows)) * blocks // len(record.rows)
+        for number, record in enumerate(records)
+    ]
+    return np.tile(np.concatenate(labels), channels)

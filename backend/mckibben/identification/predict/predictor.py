@@ -1,0 +1,140 @@
+"""What fits, scores and diagnoses work on: measured values, and a model that predicts them."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mckibben.identification.predict.fit_model import Setting
+from mckibben.identification.predict.free import Free
+from mckibben.physics.effect import Effect
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One predicted channel.
+
+    Attributes:
+        name: as in `mckibben.measurement.measurement.CHANNEL_UNITS`.
+        unit: SI.
+        rows: where its values are in the stacked arrays of the subject.
+        noise: standard deviation of its noise; 1 as long as it is not known.
+        full_scale: largest measured magnitude.
+    """
+
+    name: str
+    unit: str
+    rows: slice
+    noise: float
+    full_scale: float
+
+
+class Subject(ABC):
+    """Measured values beside a model; arrays are stacked over the predicted channels.
+
+    Attributes:
+        kind: kind of the measurement.
+        channels: the predicted channels.
+        measured: shape (values,), SI.
+        scale: what residuals are divided by before they are squared and added: 1 for a single channel, each
+            channel's noise for several; shape (values,).
+        folds: ways of leaving out, each a label of what is left out together, shape (values,): whole groups
+            first, then ranges of what changes within a group.
+        groups: label of the curve that a value belongs to, shape (values,).
+        records: label of the uninterrupted record, shape (values,).
+        sweeps: indices of the values of each smooth sweep, in order.
+        inputs: what the residual may depend on, name -> shape (values,), SI.
+        step: of differences, over the size of a number or its usual change; one_sided: half the runs.
+        tried: how many candidates are fitted to one model, those that promise most.
+        thorough: in a search the further constants of the start model too are tried in every model.
+        tolerance, evaluations: of a fit in a search.
+        rows_used, excluded, messages: rows that count, why others do not, what was assumed.
+        unknown_load: bounds of the load where it has to be fitted.
+    """
+
+    kind: str
+    channels: tuple[Channel, ...]
+    measured: np.ndarray
+    scale: np.ndarray
+    folds: tuple[np.ndarray, ...]
+    groups: np.ndarray
+    records: np.ndarray
+    sweeps: Sequence[np.ndarray]
+    inputs: Mapping[str, np.ndarray]
+    rows_used: int
+    excluded: Mapping[str, int]
+    messages: tuple[str, ...]
+    step: float = 5e-3
+    one_sided: bool = False
+    tried: int = 40
+    thorough: bool = True
+    tolerance: float = 1e-6
+    evaluations: int = 60
+    unknown_load: Free | None = None
+
+    @abstractmethod
+    def predict(self, setting: Setting, *, clipped: bool = True) -> np.ndarray:
+        """Predicted values, shape (values,); ``clipped``: a slack muscle reads no force."""
+
+    def trial(self, setting: Setting) -> np.ndarray:
+        """Unclipped prediction by the quickest way, to look at what a candidate would change."""
+        return self.predict(setting, clipped=False)
+
+    @abstractmethod
+    def why_hidden(self, effect: Effect) -> str:
+        """Why an effect cannot show in these data; empty when it can."""
+
+    def reveals(self, effect: Effect) -> bool:
+        """Whether an effect can show in these data at all."""
+        return not self.why_hidden(effect)
+
+    @abstractmethod
+    def prepare(self, setting: Setting, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
+        """Told which models a search will try, so that they can be made ready together."""
+
+    def linearised(self, setting: Setting, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
+        """Predicted values and their derivatives by the free numbers, shape (values, free)."""
+        predicted = self.predict(setting, clipped=False)
+        return predicted, self.differences(setting, free, predicted if self.one_sided else None)
+
+    def differences(
+        self, setting: Setting, free: Sequence[Free], here: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Differences of `predict`, shape (values, free): central, or from what is predicted ``here``."""
+        columns = []
+        for parameter in free:
+            value = setting.number(parameter.name)
+            step = self.step * min(parameter.upper - parameter.lower, max(abs(value), parameter.typical))
+            low, high = max(value - step, parameter.lower), min(value + step, parameter.upper)
+            if here is not None:
+                other = high if high - value >= value - low else low
+                moved = self.predict(setting.with_numbers([parameter.name], [other]), clipped=False)
+                columns.append((moved - here) / (other - value))
+                continue
+            ends = [
+                self.predict(setting.with_numbers([parameter.name], [end]), clipped=False)
+                for end in (low, high)
+            ]
+            columns.append((ends[1] - ends[0]) / (high - low))
+        return np.column_stack(columns) if columns else np.empty((len(self.measured), 0))
+
+    def residual(self, setting: Setting) -> np.ndarray:
+        """Measured minus predicted."""
+        return self.measured - self.predict(setting)
+
+    def rmse(self, residual: np.ndarray) -> float:
+        """Root mean square of the residual over its scale."""
+        return float(np.sqrt(np.mean((residual / self.scale) ** 2)))
+
+    @property
+    def unit(self) -> str:
+        """Unit of the error: of the channel, or "1" when several are scaled by their noise."""
+        return self.channels[0].unit if len(self.channels) == 1 else "1"
+
+    @property
+    def predicted(self) -> str:
+        """Names of the predicted channels."""
+        return ", ".join(channel.name for channel in self.channels)

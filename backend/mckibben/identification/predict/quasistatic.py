@@ -1,0 +1,195 @@
+"""Measurements of force, length or diameter: the model is evaluated row by row, memory follows the record."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from mckibben.identification.predict.comparable_rows import Task
+from mckibben.identification.predict.evaluate import Evaluation, sorted_effects
+from mckibben.identification.predict.fit_model import LOAD, Setting
+from mckibben.identification.predict.folds import folds_of, ranges_of, sweeps_of
+from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.late import as_read, late
+from mckibben.identification.predict.lengths import predicted_lengths
+from mckibben.identification.predict.memory import remembers
+from mckibben.identification.predict.predictor import Channel, Subject
+from mckibben.physics.effect import Effect
+from mckibben.simulation.statics.model import clip_slack
+
+_LEAST = 0.01  # quantile of the forces: one row alone may be a slip
+_NEAR_ZERO = 0.05  # of the range of the force
+_SLACK_BAND = 0.02  # of the range of the force
+
+
+class Quasistatic(Subject):
+    """A task of any kind but transient.
+
+    Args:
+        task: the rows.
+        largest_load: up to where an unknown load is looked for [N].
+    """
+
+    def __init__(self, task: Task, *, largest_load: float = 0.0) -> None:
+        self.task = task
+        self.kind = task.kind
+        # Rows where the motion turns belong to the way, but are not held against the model.
+        self._counted = ~task.turning if np.any(~task.turning) else np.ones(len(task.turning), bool)
+        counted = task.chosen(self._counted)
+        self.measured = counted.measured
+        self.scale = np.ones(len(self.measured))
+        full_scale = float(np.max(np.abs(self.measured)))
+        self.channels = (Channel(task.channel, task.unit, slice(None), 1.0, full_scale),)
+        self.records, self.groups = counted.records, counted.groups
+        self.rows_used, self.excluded, self.messages = len(self.measured), task.excluded, task.messages
+        within = "pressure" if task.kind in ("isometric", "isotonic") else "length"
+        other = ranges_of(counted.state.get(within, counted.state["pressure"]))
+        ways = [folds_of(self.groups), other]
+        self.folds = tuple(ways if np.ptp(other) else ways[:1])
+        self.sweeps = sweeps_of(
+            self.groups,
+            self.records,
+            counted.state.get("length"),
+            counted.state["pressure"],
+            timed=task.time is not None,
+        )
+        time = {} if counted.time is None else {"time": counted.time}
+        self.inputs = {
+            name: values
+            for name, values in {**counted.state, **time}.items()
+            if name != "temperature" or np.ptp(values) > 0.0
+        }
+        if task.unknown_load:
+            self.unknown_load = Free(LOAD, 0.05 * largest_load, 0.0, largest_load, "N")
+        self._idle = (
+            _like_slack(task.measured) if task.channel == "force" else np.zeros(len(task.measured), bool)
+        )
+        self._evaluation = Evaluation(task)
+        self._wide: tuple[Effect, ...] = ()
+
+    def why_hidden(self, effect: Effect) -> str:
+        """By the kinds that the effect names; memory needs an order in time.
+
+        Rows in time with nothing held show what both kinds do in which one thing is held.
+        """
+        free = self.kind == "static" and self.task.time is not None
+        if not effect.kinds & ({"static", "isobaric", "isometric"} if free else {self.kind}):
+            return f"it does not show in {self.kind} data, only in {' or '.join(sorted(effect.kinds))}"
+        delays = late(effect)
+        if (remembers(effect) or delays) and self.task.time is None:
+            return "it depends on what happened before, and the rows have no time"
+        if delays and self.task.channel != "force":
+            return "it delays the force reading, and no force was predicted"
+        if "compliance" in effect.slots and self.task.channel == "diameter":
+            return "it does not change the diameter"
+        return ""
+
+    def prepare(self, setting: Setting, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
+        """One structure that holds every model of a search: absent effects are off in it."""
+        inside = {effect.id for effect in setting.effects}
+        further = [e for e in candidates if e.id not in inside and not late(e)]
+        self._wide = sorted_effects((*setting.effects, *further))
+
+    def trial(self, setting: Setting) -> np.ndarray:
+        """As `predict`, in the structure of all candidates where that holds the model."""
+        if not set(setting.effects) <= set(self._wide):
+            return self.predict(setting, clipped=False)
+        values = {effect.id: setting.values.get(effect.id, effect.off) for effect in self._wide}
+        return self.predict(replace(setting, effects=self._wide, values=values), clipped=False)
+
+    def predict(self, setting: Setting, *, clipped: bool = True) -> np.ndarray:
+        """Force, length or diameter of each row; a load that passes the braid lock is predicted there."""
+        return self._everywhere(setting, clipped=clipped)[self._counted]
+
+    def lost(self, setting: Setting) -> tuple[int, int]:
+        """At how many rows of the record a model has no finite value, counted or not, and of how many."""
+        with np.errstate(all="ignore"):
+            values = self._everywhere(setting, clipped=False)
+        return int(np.count_nonzero(~np.isfinite(values))), len(values)
+
+    def _everywhere(self, setting: Setting, *, clipped: bool) -> np.ndarray:
+        if self.task.channel == "length":
+            return predicted_lengths(self._evaluation, setting)[0]
+        if self.task.channel == "diameter":
+            return self._diameter(setting)
+        out = self._evaluation.at(_at_once(setting))[0]
+        force = clip_slack(out) if clipped else self._followed(out)
+        return self._as_read(setting, force) if any(map(late, setting.effects)) else force
+
+    def linearised(self, setting: Setting, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
+        """Predicted values and exact derivatives of force and length; differences for what has none."""
+        names = tuple(parameter.name for parameter in free)
+        if self.task.channel == "diameter":
+            return super().linearised(setting, free)
+        if any(map(late, setting.effects)):
+            return self._late_linearised(setting, free)
+        if self.task.channel == "force":
+            out, gradient = self._evaluation.at(setting, names)
+            gradient[self._slack(out)] = 0.0
+            return self._followed(out)[self._counted], gradient[self._counted]
+        length, gradient = predicted_lengths(self._evaluation, setting, names)
+        return length[self._counted], gradient[self._counted]
+
+    def _late_linearised(self, setting: Setting, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
+        """The filter of the late channel passes the exact derivatives too; differences by its own numbers."""
+        ids = {effect.id for effect in setting.effects if late(effect)}
+        inner = [p.name for p in free if p.name.partition(".")[0] not in ids]
+        out, slopes = self._evaluation.at(_at_once(setting), tuple(inner))
+        # A row without a slope must not take it from all rows after it.
+        slopes = np.where(np.isfinite(slopes), slopes, 0.0)
+        slopes[self._slack(out)] = 0.0
+        force = self._followed(out)
+        shown = self._as_read(setting, np.column_stack([force, slopes]))
+        gradient = np.empty((len(shown), len(free)))
+        for column, parameter in enumerate(free):
+            if parameter.name in inner:
+                gradient[:, column] = shown[:, 1 + inner.index(parameter.name)]
+                continue
+            here = setting.number(parameter.name)
+            step = self.step * min(parameter.upper - parameter.lower, max(abs(here), parameter.typical))
+            low, high = max(here - step, parameter.lower), min(here + step, parameter.upper)
+            first, last = (
+                self._as_read(setting.with_numbers([parameter.name], [end]), force) for end in (low, high)
+            )
+            gradient[:, column] = (last - first) / (high - low)
+        return shown[:, 0][self._counted], gradient[self._counted]
+
+    def _followed(self, out: Mapping[str, np.ndarray]) -> np.ndarray:
+        """The force that a fit follows: below zero too, but not where slack is what was measured."""
+        return np.where(self._slack(out), out["slack_force"], out["force"])
+
+    def _slack(self, out: Mapping[str, np.ndarray]) -> np.ndarray:
+        """Rows that a model has slack and that read like it."""
+        return self._idle & (out["tension"] <= 0.0)
+
+    def _as_read(self, setting: Setting, values: np.ndarray) -> np.ndarray:
+        """Values of every row behind the lags and the skew of a model."""
+        task = self.task
+        assert task.time is not None  # noqa: S101 - `reveals` asks for it
+        records = [np.flatnonzero(task.records == label) for label in np.unique(task.records)]
+        return as_read(setting, time=task.time, records=records, values=values)
+
+    def _diameter(self, setting: Setting) -> np.ndarray:
+        if "length" in self.task.state:
+            return self._evaluation.at(setting)[0]["diameter"]
+        length, _ = predicted_lengths(self._evaluation, setting)
+        state = {**self._evaluation.state(setting), "length": length}
+        return self._evaluation.at(setting, (), state)[0]["diameter"]
+
+
+def _like_slack(force: np.ndarray) -> np.ndarray:
+    """Whether a force may be what a slack muscle shows, shape (rows,): near the least, and that near zero.
+
+    The least of them tell how far the readings without any pull scatter.
+    """
+    least, span = float(np.quantile(force, _LEAST)), float(np.ptp(force))
+    if span == 0.0 or abs(least) > _NEAR_ZERO * span:
+        return np.zeros(len(force), bool)
+    return force <= max(least + _SLACK_BAND * span, -least)
+
+
+def _at_once(setting: Setting) -> Setting:
+    """The model without what is late."""
+    return replace(setting, effects=tuple(effect for effect in setting.effects if not late(effect)))

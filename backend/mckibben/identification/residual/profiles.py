@@ -1,0 +1,231 @@
+"""Where a model fails: the residual over pressure, contraction, velocity, time; its loops; is it noise."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mckibben.identification.predict.predictor import Subject
+
+_BINS = 10
+_MAP = (8, 8)
+_LAGS = 24
+_BAND = 1.959964  # standard deviations of a 95 % band
+#: Variable -> how its ranges are told: words, factor, unit, digits.
+SHOWN: Mapping[str, tuple[str, float, str, int]] = {
+    "pressure": ("pressure", 1e-5, "bar", 2),
+    "contraction": ("contraction", 100.0, "%", 1),
+    "velocity": ("velocity", 1e3, "mm/s", 1),
+    "direction": ("direction of motion", 1.0, "", 0),
+    "time": ("time", 1.0, "s", 2),
+    "load": ("load", 1.0, "N", 0),
+    "command": ("command", 1.0, "", 2),
+    "displacement": ("displacement", 1e3, "mm", 1),
+    "temperature": ("temperature", 1.0, "K", 1),
+    "group": ("group", 1.0, "", 0),
+}
+
+
+@dataclass(frozen=True)
+class Profile:
+    """The residual over one variable.
+
+    Attributes:
+        over: name of the variable.
+        share_explained: share of its mean square that bin means predict on folds they did not see.
+        worst: the range with the largest error, in words.
+        rmse: root mean square in that range.
+        edges, mean, rms, count: of each bin; bins of equal count, ``edges`` one longer, SI.
+    """
+
+    over: str
+    share_explained: float
+    worst: str
+    rmse: float
+    edges: np.ndarray
+    mean: np.ndarray
+    rms: np.ndarray
+    count: np.ndarray
+
+    def report(self) -> dict:
+        """As JSON."""
+        return {
+            "over": self.over,
+            "share_explained": self.share_explained,
+            "worst": self.worst,
+            "rmse": self.rmse,
+            "edges": self.edges,
+            "mean": self.mean,
+            "rms": self.rms,
+            "count": self.count,
+        }
+
+
+def variables_of(
+    subject: Subject, nominal_length: float, groups: np.ndarray | None = None
+) -> dict[str, np.ndarray]:
+    """What the residual may depend on, name of `SHOWN` -> values; only what changes."""
+    found = dict(subject.inputs)
+    if "length" in found:
+        found["contraction"] = 1.0 - found.pop("length") / nominal_length
+    if groups is not None:
+        found["group"] = groups.astype(float)
+    return {name: v for name, v in found.items() if name in SHOWN and np.ptp(v) > 1e-9 * np.max(np.abs(v))}
+
+
+def profiles(residual: np.ndarray, variables: Mapping[str, np.ndarray], folds: np.ndarray) -> list[Profile]:
+    """The residual over each variable, the most telling first."""
+    found = [_profile(name, residual, values, folds) for name, values in variables.items()]
+    return sorted(found, key=lambda profile: -profile.share_explained)
+
+
+def _profile(name: str, residual: np.ndarray, values: np.ndarray, folds: np.ndarray) -> Profile:
+    levels = np.unique(values)
+    if len(levels) <= 3:
+        edges = np.concatenate([levels, levels[-1:]])
+        place = np.searchsorted(levels, values)
+        bins = len(levels)
+    else:
+        edges = np.unique(np.quantile(values, np.linspace(0.0, 1.0, _BINS + 1)))
+        bins = max(len(edges) - 1, 1)
+        place = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, bins - 1)
+    count = np.bincount(place, minlength=bins)
+    sums = np.bincount(place, residual, minlength=bins)
+    squares = np.bincount(place, residual**2, minlength=bins)
+    rms = np.sqrt(squares / np.maximum(count, 1))
+    # Each fold is predicted by the bin means of the others.
+    left = np.zeros(len(residual))
+    for label in np.unique(folds):
+        rows = folds == label
+        rest = count - np.bincount(place[rows], minlength=bins)
+        total = sums - np.bincount(place[rows], residual[rows], minlength=bins)
+        left[rows] = residual[rows] - (total / np.maximum(rest, 1))[place[rows]]
+    whole = float(np.mean(residual**2))
+    share = 1.0 - float(np.mean(left**2)) / whole if whole > 0.0 else 0.0
+    worst = int(np.argmax(np.where(count >= 3, rms, 0.0)))
+    low, high = (edges[worst], edges[worst + 1]) if len(levels) > 3 else (edges[worst], edges[worst])
+    return Profile(
+        name, max(share, 0.0), _range(name, float(low), float(high)), float(rms[worst]), edges,
+        sums / np.maximum(count, 1), rms, count,
+    )  # fmt: skip
+
+
+def _range(name: str, low: float, high: float) -> str:
+    words, factor, unit, digits = SHOWN[name]
+    if name == "direction":
+        return {-1.0: "shortening", 0.0: "held", 1.0: "lengthening"}.get(low, "unknown")
+    first, last = f"{low * factor:.{digits}f}", f"{high * factor:.{digits}f}"
+    text = first if first == last else f"{first} to {last}"
+    return f"{words} {text} {unit}".strip()
+
+
+@dataclass(frozen=True)
+class HeatMap:
+    """Mean and rms of the residual over two variables, shape (y bins, x bins); NaN without rows."""
+
+    x: str
+    y: str
+    x_edges: np.ndarray
+    y_edges: np.ndarray
+    mean: np.ndarray
+    rms: np.ndarray
+    count: np.ndarray
+
+    def report(self) -> dict:
+        """As JSON."""
+        return {name: getattr(self, name) for name in self.__dataclass_fields__}
+
+
+def heat_map(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> HeatMap | None:
+    """The residual over pressure and contraction, or the first two variables; None with fewer than two."""
+    preferred = [name for name in ("contraction", "displacement", "time", "load") if name in variables]
+    others = [name for name in ("pressure", "velocity", "command") if name in variables]
+    if not preferred or not others:
+        return None
+    x, y = preferred[0], others[0]
+    edges = [
+        np.linspace(np.min(variables[name]), np.max(variables[name]), bins + 1)
+        for name, bins in ((x, _MAP[0]), (y, _MAP[1]))
+    ]
+    place = [
+        np.clip(np.searchsorted(e, variables[name], side="right") - 1, 0, len(e) - 2)
+        for name, e in zip((x, y), edges, strict=True)
+    ]
+    flat = place[1] * _MAP[0] + place[0]
+    size = _MAP[0] * _MAP[1]
+    count = np.bincount(flat, minlength=size)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        mean = np.bincount(flat, residual, minlength=size) / count
+        rms = np.sqrt(np.bincount(flat, residual**2, minlength=size) / count)
+    shape = (_MAP[1], _MAP[0])
+    return HeatMap(x, y, edges[0], edges[1], mean.reshape(shape), rms.reshape(shape), count.reshape(shape))
+
+
+@dataclass(frozen=True)
+class Whiteness:
+    """Whether a residual looks like noise.
+
+    Attributes:
+        autocorrelation: at the lags 1, 2, ... within sweeps.
+        band: half-width of the 95 % band of noise around 0.
+        outside: share of the lags outside the band; noise has 0.05.
+        runs: number of runs of one sign, over the number that noise would have.
+        white: at most 15 % of the lags are outside and the runs are within 3 standard deviations.
+    """
+
+    autocorrelation: np.ndarray
+    band: float
+    outside: float
+    runs: float
+    white: bool
+
+    def report(self) -> dict:
+        """As JSON."""
+        return {name: getattr(self, name) for name in self.__dataclass_fields__}
+
+
+def whiteness(residual: np.ndarray, sweeps: Sequence[np.ndarray]) -> Whiteness:
+    """Autocorrelation and runs of a residual within its sweeps."""
+    lines = [residual[rows] - np.mean(residual) for rows in sweeps if len(rows) > 2]
+    variance = float(np.mean(np.concatenate(lines) ** 2)) if lines else 0.0
+    count = sum(map(len, lines))
+    rho = []
+    for lag in range(1, _LAGS + 1):
+        products = [line[lag:] * line[:-lag] for line in lines if len(line) > lag]
+        pairs = sum(map(len, products))
+        if pairs < 8 or not variance > 0.0:
+            break
+        rho.append(sum(float(np.sum(p)) for p in products) / pairs / variance)
+    band = _BAND / np.sqrt(max(count, 1))
+    changes = sum(int(np.count_nonzero(np.diff(np.sign(line)) != 0.0)) for line in lines)
+    pairs = max(count - len(lines), 1)
+    runs = changes / (0.5 * pairs)
+    outside = float(np.mean(np.abs(rho) > band)) if rho else 0.0
+    steady = abs(changes - 0.5 * pairs) <= 3.0 * np.sqrt(0.25 * pairs)
+    return Whiteness(np.array(rho), float(band), outside, runs, bool(outside <= 0.15 and steady))
+
+
+def loops(force: np.ndarray, length: np.ndarray, groups: np.ndarray) -> list[dict]:
+    r"""Area :math:`\oint r\,dL` of the force residual over each group that returns to where it began [J].
+
+    Positive areas take energy out of the motion, as friction does; negative ones cannot come from friction.
+    What follows the last return is not part of the loop: the way there may not have been counted.
+    """
+    found = []
+    for label in np.unique(groups):
+        rows = np.flatnonzero(groups == label)
+        whole = float(np.ptp(length[rows]))
+        away = np.abs(length[rows] - length[rows[0]])
+        near = np.flatnonzero(away <= 0.1 * whole)
+        last = near[np.flatnonzero(np.diff(near, prepend=-2) > 1)[-1] :]  # the last time it comes by
+        rows = rows[: last[np.argmin(away[last])] + 1]
+        span = float(np.ptp(length[rows]))
+        if len(rows) < 8 or span < 0.5 * whole:
+            continue
+        middle = 0.5 * (force[rows][1:] + force[rows][:-1])
+        found.append(
+            {"group": int(label), "area": float(np.sum(middle * np.diff(length[rows]))), "span": span}
+        )
+    return found

@@ -1,0 +1,211 @@
+"""What kind of measurement a table is, and which of its rows belong together, from the numbers alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.measurement.derivative import noise_of, smoothed
+from mckibben.physics.errors import InputError
+
+Array = NDArray[np.float64]
+
+KINDS = ("isobaric", "isometric", "isotonic", "diameter", "transient", "static")
+FORCE_KINDS = ("isobaric", "isometric", "static")
+#: The channels that say how short the muscle is, most direct first.
+STROKES = ("length", "contraction", "displacement")
+
+_GRAIN = 0.01  # of the range: two readings nearer than this are the same level
+_MANY = 25  # levels from which the finer axis of a grid is a sweep rather than a map
+_JUMP = 0.02  # of the range: where one load gives way to the next
+_FEWEST_IN_RUN = 5  # rows with one load
+_MANY_EXTREMES = 200_000  # walked one by one
+
+
+def detect_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float | str]) -> str:
+    """The kind of a measurement that does not say it; see :func:`explain_kind`.
+
+    Raises:
+        InputError: no kind can be made of the columns.
+    """
+    return explain_kind(columns, conditions)[0]
+
+
+def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float | str]) -> tuple[str, str]:
+    """(kind, why) of a measurement that does not say it.
+
+    In this order, "stroke" being length, contraction or displacement:
+
+    1. time with a valve command: ``transient``.
+    2. force, pressure and stroke: ``transient`` with time and a stated load mass; ``isotonic`` when the force
+       is held, or held run by run, and both others vary; ``isobaric``/``isometric`` when pressure/stroke is
+       held throughout. Otherwise the occupied 1 % steps of both ranges are counted: a filled grid without
+       time and direction is ``static`` (unless one axis is fine, >= 25 levels and 4 times the other); an axis
+       with at most half the steps of the other is the held one; neither: ``static``.
+    3. diameter with pressure or stroke: ``diameter``.
+    4. pressure and stroke: ``transient`` with time, else ``isotonic``.
+    5. time with pressure or stroke: ``transient``.
+
+    Raises:
+        InputError: none of these.
+    """
+    stroke = next((columns[c] for c in STROKES if c in columns), None)
+    pressure, force = columns.get("pressure"), columns.get("force")
+    timed = "time" in columns
+    if timed and "command" in columns and (pressure is not None or stroke is not None):
+        return "transient", "a valve command over time"
+    if force is not None and pressure is not None and stroke is not None:
+        if timed and "load_mass" in conditions:
+            return "transient", "force, pressure and stroke over time with a load mass"
+        return _force_kind(pressure, stroke, force, swept=timed or "direction" in columns)
+    if "diameter" in columns and (pressure is not None or stroke is not None):
+        return "diameter", "a diameter beside pressure or stroke"
+    if pressure is not None and stroke is not None:
+        return (
+            ("transient", "pressure and stroke over time") if timed else ("isotonic", "strokes at pressures")
+        )
+    if timed and (pressure is not None or stroke is not None):
+        return "transient", f"{'pressure' if stroke is None else 'stroke'} over time"
+    raise InputError(
+        f"no kind of measurement can be made of the columns {', '.join(columns)}",
+        field="columns",
+        hint="force measurements need pressure, length and force; strokes need pressure and length, or time",
+    )
+
+
+def _force_kind(pressure: Array, stroke: Array, force: Array, *, swept: bool) -> tuple[str, str]:
+    if np.any(force) and not _held(pressure) and not _held_stroke(stroke):
+        if _held(force):
+            return "isotonic", "the force is held while pressure and stroke vary"
+        if runs := _held_runs(force, pressure, stroke):
+            return "isotonic", f"the force is held {runs} times while pressure and stroke vary"
+    if _held(pressure) != _held_stroke(stroke):
+        if _held(pressure):
+            return "isobaric", "the pressure is held throughout"
+        return "isometric", "the stroke is held throughout"
+    all_pressures, held_pressures = _steps(pressure)
+    all_strokes, held_strokes = _steps(stroke)
+    seen = f"{held_pressures} levels of pressure, {held_strokes} of stroke"
+    if not swept and all_pressures * all_strokes <= 1.5 * len(force):
+        few, many = sorted((all_pressures, all_strokes))
+        if many < max(_MANY, 4 * few):
+            return "static", f"a filled grid: {seen}"
+    if 2 * held_pressures <= held_strokes:
+        return "isobaric", f"few pressures are held: {seen}"
+    if 2 * held_strokes <= held_pressures:
+        return "isometric", f"few strokes are held: {seen}"
+    return "static", f"neither pressure nor stroke is held: {seen}"
+
+
+def _held(values: Array) -> bool:
+    """Whether a pressure or force stays the same: within 2 % of its magnitude."""
+    return bool(np.ptp(values) <= 0.02 * np.max(np.abs(values)))
+
+
+def _held_runs(force: Array, pressure: Array, stroke: Array) -> int:
+    """Number of runs of rows with a load each, while pressure and stroke vary; 0 where one is no such run."""
+    jumps = np.flatnonzero(np.abs(np.diff(force)) > _JUMP * np.ptp(force)) + 1
+    runs = np.split(np.arange(len(force)), jumps)
+    largest = np.max(np.abs(force))
+    for rows in runs:
+        if len(rows) < _FEWEST_IN_RUN or np.ptp(force[rows]) > _GRAIN * largest:
+            return 0
+        if any(np.ptp(values[rows]) < 0.2 * np.ptp(values) for values in (pressure, stroke)):
+            return 0
+    return len(runs)
+
+
+def _held_stroke(values: Array) -> bool:
+    """Whether the muscle stays as long as it is: 0.5 % of a length, 0.5 mm, 0.0005 of contraction."""
+    return bool(np.ptp(values) <= max(0.005 * np.median(values), 0.0005))
+
+
+def _steps(values: Array) -> tuple[int, int]:
+    """Occupied 1 % steps of the range: all of them, and those that hold 95 % of the rows."""
+    span = np.ptp(values)
+    if span == 0.0:
+        return 1, 1
+    counts = np.bincount(np.rint((values - np.min(values)) / span / _GRAIN).astype(np.intp))
+    counts = np.sort(counts[counts > 0])[::-1]
+    return len(counts), int(np.searchsorted(np.cumsum(counts), 0.95 * len(values)) + 1)
+
+
+def group_rows(columns: Mapping[str, NDArray], kind: str) -> tuple[NDArray[np.int64], str]:
+    """Group label of each row, shape (rows,), and the rule in words.
+
+    A group column of the file decides. Else ``static``, ``isobaric`` are grouped by pressure, ``isometric``
+    by stroke: sorted readings are one level until a gap of more than 1 % of the range; labels ascend with the
+    level. Else, and where that leaves one level or more levels than half the rows, every sweep is a group: a
+    change of the direction channel, or a turn by more than 10 % of its range of the quantity that is swept
+    (stroke of ``static``/``isobaric``; else pressure, stroke or command, the first there is).
+    """
+    if "group" in columns:
+        return np.array(columns["group"], dtype=np.int64), "by the group column"
+    stroke = next((columns[c] for c in STROKES if c in columns), None)
+    pressure = columns.get("pressure")
+    signal = next(v for v in (pressure, stroke, columns.get("command")) if v is not None)
+    if kind in FORCE_KINDS and pressure is not None and stroke is not None:
+        by_stroke = kind == "isometric"
+        held, signal = (stroke, pressure) if by_stroke else (pressure, stroke)
+        labels = _levels(held)
+        one_level = _held_stroke(stroke) if by_stroke else _held(pressure)
+        if not one_level and 0 < labels.max() < max(1, len(labels) // 2):
+            return labels, f"by {'stroke' if by_stroke else 'pressure'}"
+    direction = columns.get("direction")
+    turns = _turns(signal) if direction is None or np.ptp(direction) == 0.0 else np.diff(direction) != 0.0
+    return np.concatenate([[0], np.cumsum(turns)]).astype(np.int64), "by sweep (reversals)"
+
+
+def _levels(values: Array) -> NDArray[np.int64]:
+    order = np.argsort(values, kind="stable")
+    labels = np.empty(len(values), np.int64)
+    gaps = np.diff(values[order]) > _GRAIN * np.ptp(values)
+    labels[order] = np.concatenate([[0], np.cumsum(gaps)])
+    return labels
+
+
+def _turns(values: Array) -> NDArray[np.bool_]:
+    """Whether a new sweep begins after each row but the last: at an extreme left by 10 % of the range.
+
+    A signal so noisy that noise alone could do that is smoothed first.
+    """
+    calm, threshold = smoothed(values, noise=noise_of(values), swing=0.1 * float(np.ptp(values)))
+    return turning_points(calm, threshold=threshold)
+
+
+def turning_points(values: Array, *, threshold: float) -> NDArray[np.bool_]:
+    """Whether the signal turns after each row but the last: at an extreme that it leaves by the threshold.
+
+    A hysteresis filter: swings smaller than the threshold are no turns, whatever their number. Only local
+    extremes are walked; of a long signal only the lowest and highest rows of short blocks, which lets a
+    swing shorter than a block escape.
+    """
+    turns = np.zeros(len(values) - 1, bool)
+    extremes = np.flatnonzero(np.diff(np.sign(np.diff(values)))) + 1
+    if len(extremes) > _MANY_EXTREMES:
+        extremes = _block_extremes(values, -(-2 * len(values) // _MANY_EXTREMES))
+    low = high = (float(values[0]), 0)
+    rising: bool | None = None
+    for index in (*extremes.tolist(), len(values) - 1):
+        point = (float(values[index]), index)
+        low, high = min(low, point), max(high, point)
+        if rising is not False and high[0] - point[0] > threshold:
+            if rising:
+                turns[high[1]] = True
+            rising, low = False, point
+        elif rising is not True and point[0] - low[0] > threshold:
+            if rising is False:
+                turns[low[1]] = True
+            rising, high = True, point
+    return turns
+
+
+def _block_extremes(values: Array, size: int) -> NDArray[np.intp]:
+    """Rows of the lowest and the highest value of each block, ascending."""
+    whole = len(values) // size * size
+    blocks = values[:whole].reshape(-1, size)
+    first = np.arange(0, whole, size)
+    rest = np.arange(whole, len(values))
+    return np.unique(np.concatenate([first + blocks.argmin(1), first + blocks.argmax(1), rest]))

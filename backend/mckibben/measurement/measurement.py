@@ -1,0 +1,264 @@
+"""A measurement: channels in SI, its kind, its groups and the rows that hold no pulling force.
+
+Every reader ends in :func:`build`, so a file, a preset and a test give the same object.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from types import MappingProxyType
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.measurement.kind import (
+    FORCE_KINDS,
+    KINDS,
+    STROKES,
+    Array,
+    detect_kind,
+    explain_kind,
+    group_rows,
+)
+from mckibben.measurement.saturation import pushing_rows, unusable_rows
+from mckibben.measurement.spikes import spiked_rows
+from mckibben.measurement.sweeps import Segments, segments_of
+from mckibben.physics.errors import InputError, did_you_mean
+
+__all__ = [
+    "CHANNEL_UNITS", "FORCE_KINDS", "KINDS", "STROKES", "Channel", "Measurement", "build", "detect_kind",
+    "group_rows", "lengths",
+]  # fmt: skip
+
+#: Canonical channel name -> SI unit. Pressure is gauge; displacement is a contraction stroke (positive =
+#: shorter); command is the share of valve opening; direction is -1 shortening, +1 lengthening, 0 unknown.
+CHANNEL_UNITS: Mapping[str, str] = MappingProxyType({
+    "time": "s", "pressure": "Pa", "force": "N", "length": "m", "contraction": "1", "displacement": "m",
+    "diameter": "m", "velocity": "m/s", "command": "1", "temperature": "K", "direction": "1", "group": "1",
+})  # fmt: skip
+
+_HARDLY_A_PRESSURE = 2e3  # Pa: a muscle does not notice it
+
+
+class Channel(NamedTuple):
+    """Where a channel came from; ``unit``, ``minimum`` and ``maximum`` are SI, ``source_unit`` the file's."""
+
+    name: str
+    column: str
+    unit: str
+    minimum: float
+    maximum: float
+    source_unit: str
+
+
+@dataclass(frozen=True, eq=False)
+class Measurement:
+    """One measurement file, in SI.
+
+    Attributes:
+        name: file name.
+        id: sha256 of the file's bytes, hexadecimal.
+        kind: one of :data:`KINDS`.
+        kind_detected: True when the file did not say its kind.
+        columns: channel name -> read-only array, shape (rows,), keys of :data:`CHANNEL_UNITS`; ``group`` int.
+        channels: origin and range of each column.
+        ignored: column headers that are not used.
+        conditions: ``load_mass`` [kg], ``load_force`` [N], ``supply_pressure`` [Pa, gauge] and the like as
+            numbers, ``muscle``, ``sample`` and everything else as text.
+        slack: bool array, shape (rows,): rows of "no pulling force"; their force is not a measured 0 N.
+        messages: what was assumed while reading.
+        excluded_rows: reason -> bool array, shape (rows,), of rows whose values are not what was to be
+            measured (a saturated or stuck sensor); slack is not among them.
+        skipped: reason -> rows of the file that could not be read and are not among ``rows``.
+        starts: first row of each file of a joined measurement; nothing is continuous across it.
+        kind_reason: why this kind was detected, empty when the file said it.
+        segmented: segments known from the rows these were made of.
+    """
+
+    name: str
+    id: str
+    kind: str
+    kind_detected: bool
+    columns: Mapping[str, NDArray]
+    channels: tuple[Channel, ...]
+    ignored: tuple[str, ...]
+    conditions: Mapping[str, float | str]
+    slack: NDArray[np.bool_]
+    messages: tuple[str, ...]
+    excluded_rows: Mapping[str, NDArray[np.bool_]] = field(default_factory=dict)
+    skipped: Mapping[str, int] = field(default_factory=dict)
+    starts: tuple[int, ...] = (0,)
+    kind_reason: str = ""
+    segmented: Segments | None = None
+
+    @cached_property
+    def usable(self) -> NDArray[np.bool_]:
+        """Rows that hold what was to be measured, shape (rows,): neither slack nor excluded."""
+        result = ~self.slack
+        for rows in self.excluded_rows.values():
+            result &= ~rows
+        result.flags.writeable = False
+        return result
+
+    @cached_property
+    def exclusions(self) -> Mapping[str, int]:
+        """Reason -> how many rows are not usable; a row counts once, under the first reason that holds."""
+        counts, seen = {}, np.zeros(self.rows, bool)
+        for reason, rows in {"slack": self.slack, **self.excluded_rows}.items():
+            if count := int(np.count_nonzero(rows & ~seen)):
+                counts[reason] = count
+            seen |= rows
+        return MappingProxyType(counts)
+
+    @cached_property
+    def segments(self) -> Segments:
+        """Sweeps, cycles, directions and speeds, found when first asked for."""
+        return self.segmented or segments_of(self.columns, self.kind, starts=self.starts)
+
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+        return len(self.slack)
+
+    @property
+    def groups(self) -> int:
+        """Number of different group labels."""
+        return len(np.unique(self.columns["group"]))
+
+
+def build(
+    columns: Mapping[str, NDArray],
+    *,
+    name: str,
+    id: str,
+    kind: str | None = None,
+    origins: Mapping[str, tuple[str, str]] | None = None,
+    ignored: Iterable[str] = (),
+    conditions: Mapping[str, float | str] | None = None,
+    marked_slack: NDArray[np.bool_] | None = None,
+    messages: Iterable[str] = (),
+    excluded_rows: Mapping[str, NDArray[np.bool_]] | None = None,
+    skipped: Mapping[str, int] | None = None,
+    starts: tuple[int, ...] = (0,),
+) -> Measurement:
+    """A Measurement from SI columns of equal length: detects the kind, groups the rows, finds slack rows.
+
+    Args:
+        columns: channel name -> finite SI values.
+        name: file name.
+        id: sha256 of the source.
+        kind: as the source says; None = detect.
+        origins: channel -> (source column header, source unit).
+        ignored: headers that were not used.
+        conditions: see :class:`Measurement`.
+        marked_slack: rows the source marks as "no pulling force".
+        messages: what the reader assumed.
+        excluded_rows: rows known not to hold what was to be measured; None = find them.
+        skipped: rows of the source that could not be read.
+        starts: see :class:`Measurement`.
+
+    Raises:
+        InputError: unknown kind, a kind whose channels are missing, channels no kind can be made of.
+    """
+    conditions = dict(conditions or {})
+    notes = list(messages)
+    detected, why = kind is None, ""
+    if kind is None:
+        try:
+            kind, why = explain_kind(columns, conditions)
+        except InputError as error:
+            raise InputError(f"{name}: {error}", field=error.field, hint=error.hint) from error
+        notes.append(f"kind detected: {kind}")
+    elif kind not in KINDS:
+        raise InputError(f"{name}: kind '{kind}' is not known", field="kind", hint=did_you_mean(kind, KINDS))
+    _check_channels(columns, kind, name)
+    table = dict(columns)
+    rows = len(next(iter(table.values())))
+    slack = np.zeros(rows, bool) if marked_slack is None else np.array(marked_slack, bool)
+    if kind in FORCE_KINDS:
+        exact_zero = table["force"] == 0.0
+        if np.count_nonzero(exact_zero) >= 2:  # a sensor hardly shows exactly 0 twice, a clipped table does
+            slack |= exact_zero
+    highest = float(np.max(table["pressure"])) if "pressure" in table else 0.0
+    if 0.0 < highest < _HARDLY_A_PRESSURE:
+        notes.append(f"the pressure only reaches {highest:.3g} Pa: is its unit right?")
+    if slack.any():
+        notes.append(f"{np.count_nonzero(slack)} of {rows} rows hold no pulling force (slack)")
+    if excluded_rows is None:
+        excluded_rows = unusable_rows(table, kind, slack=slack)
+        if "time" in table:
+            excluded_rows |= spiked_rows(table)
+        if kind in FORCE_KINDS and ("time" in table or "direction" in table):
+            pushing = pushing_rows(table["force"])
+            if pushing.any():
+                excluded_rows |= {"the muscle pushes (force below zero)": pushing}
+    notes += [
+        f"{np.count_nonzero(bad)} of {rows} rows are excluded: {reason}"
+        for reason, bad in excluded_rows.items()
+    ]
+    channels = []
+    for channel, values in table.items():
+        unit = CHANNEL_UNITS[channel]
+        column, source_unit = (origins or {}).get(channel, (channel, unit))
+        channels.append(
+            Channel(channel, column, unit, float(np.min(values)), float(np.max(values)), source_unit)
+        )
+    labels, rule = group_rows(table, kind)
+    table["group"] = labels
+    notes.append(f"grouped {rule}")
+    table = {channel: values.view() for channel, values in table.items()}  # the caller's stay writable
+    for values in (*table.values(), slack, *excluded_rows.values()):
+        values.flags.writeable = False  # a cached measurement is shared between requests
+    return Measurement(
+        name, id, kind, detected, MappingProxyType(table), tuple(channels), tuple(ignored),
+        MappingProxyType(conditions), slack, tuple(notes), MappingProxyType(dict(excluded_rows)),
+        MappingProxyType(dict(skipped or {})), starts, why,
+    )  # fmt: skip
+
+
+def lengths(measurement: Measurement, nominal_length: float) -> Array:
+    """Muscle length [m] of each row, shape (rows,).
+
+    From ``length`` as measured, else ``contraction`` κ: L = L0 (1 - κ), else ``displacement`` s (contraction
+    stroke, positive = shorter): L = L0 - s.
+
+    Raises:
+        InputError: none of the three was measured, or ``nominal_length`` is shorter than the stroke.
+    """
+    columns = measurement.columns
+    if "length" in columns:
+        return columns["length"]
+    if "contraction" in columns:
+        result = nominal_length * (1.0 - columns["contraction"])
+    elif "displacement" in columns:
+        result = nominal_length - columns["displacement"]
+    else:
+        raise InputError(
+            f"{measurement.name}: the file has no length, contraction or displacement", field="length"
+        )
+    if not np.min(result) > 0.0:
+        raise InputError(
+            f"{measurement.name}: a nominal length of {nominal_length:g} m is shorter than the stroke",
+            field="nominal_length",
+        )
+    return result
+
+
+def _check_channels(columns: Mapping[str, NDArray], kind: str, name: str) -> None:
+    """Refuse a stated kind whose channels are missing."""
+    any_stroke, any_state = "/".join(STROKES), "/".join(("pressure", *STROKES))
+    needed = {
+        "isotonic": ("pressure", any_stroke),
+        "diameter": ("diameter", any_state),
+        "transient": ("time", any_state),
+    }.get(kind, ("pressure", any_stroke, "force"))
+    for options in needed:
+        if not any(option in columns for option in options.split("/")):
+            raise InputError(
+                f"{name}: a measurement of kind '{kind}' needs a column {options.replace('/', ' or ')}",
+                field=options.split("/")[0],
+                hint=f"known columns of this file: {', '.join(columns)}",
+            )

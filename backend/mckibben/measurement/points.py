@@ -1,0 +1,187 @@
+"""Measured or published points as a Measurement: uploaded files, presets, several files joined."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.measurement.measurement import Measurement, build
+from mckibben.measurement.store import MeasurementStore
+from mckibben.physics.errors import InputError, did_you_mean
+from mckibben.presets import CurvePreset, MeasurementPreset, MysteryPreset, Preset, PresetLibrary
+
+_SHA256_LENGTH = 64
+_KINDS = ("measurements", "curves", "mysteries")
+
+
+@dataclass(frozen=True, slots=True)
+class Points:
+    """A measurement, and the rows of its source that were left out before.
+
+    Attributes:
+        measurement: the rows that may be compared.
+        left_out: why rows were left out -> how many.
+        nominal_length: of the sample that was measured, when the source says it [m].
+        source: who measured it, of a preset.
+        parts: the measurements that were joined to this one; empty for a single one.
+    """
+
+    measurement: Measurement
+    left_out: dict[str, int] = field(default_factory=dict)
+    nominal_length: float | None = None
+    source: str = ""
+    parts: tuple[Points, ...] = ()
+
+    def __post_init__(self) -> None:
+        # Rows that could not be read are left out like those a source excludes itself.
+        object.__setattr__(self, "left_out", dict(self.measurement.skipped) | self.left_out)
+
+
+def find_points(identity: str, *, library: PresetLibrary, store: MeasurementStore) -> Points:
+    """The points of an uploaded file (SHA-256) or of a measurement or curve preset.
+
+    Raises:
+        InputError: code ``not_found``, with the nearest preset id.
+    """
+    if len(identity) == _SHA256_LENGTH and set(identity) <= set("0123456789abcdef"):
+        return Points(store.get(identity))
+    points = find_preset(identity, library)
+    if points is not None:
+        return points
+    known = [preset.id for kind in _KINDS for preset in library.list(kind)]
+    raise InputError(
+        f"there is no measurement '{identity[:80]}'",
+        field="measurement",
+        hint=did_you_mean(identity, known),
+        code="not_found",
+    )
+
+
+def find_preset(identity: str, library: PresetLibrary) -> Points | None:
+    """The points of a measurement, curve or mystery preset, None when there is none of this id."""
+    for kind in _KINDS:
+        for preset in library.list(kind):
+            if preset.id.lower() != identity.lower():
+                continue
+            if isinstance(preset, MysteryPreset):
+                return mystery_points(preset)
+            if isinstance(preset, MeasurementPreset | CurvePreset):
+                return preset_points(preset)
+    return None
+
+
+def preset_points(preset: MeasurementPreset | CurvePreset) -> Points:
+    """The points of a preset that are not excluded there.
+
+    Where a maker's curve goes to zero or below, the muscle is slack: it cannot push.
+    """
+    used = preset.used
+    columns = {name: values[used] for name, values in preset.si_columns().items()}
+    if isinstance(preset, MeasurementPreset):
+        kind, rest = preset.measurement_kind, preset.nominal_length.si("m")
+        slack = np.array(preset.slack, bool)[used] if preset.slack else None
+    else:
+        kind, rest, slack = "static", None, columns["force"] <= 0.0
+    reasons = [f"row {row.index + 1} is not used: {row.why}" for row in preset.excluded]
+    measurement = build(
+        columns,
+        name=preset.id,
+        id=_preset_hash(preset),
+        kind=kind,
+        marked_slack=slack,
+        messages=reasons,
+    )
+    source = f"{preset.source} (grade {preset.grade})"
+    return Points(measurement, {"by its source": len(reasons)} if reasons else {}, rest, source)
+
+
+def mystery_points(preset: MysteryPreset) -> Points:
+    """The points of a mystery."""
+    measurement = build(
+        preset.si_columns(),
+        name=preset.id,
+        id=_preset_hash(preset),
+        kind=preset.measurement_kind,
+        conditions=preset.si_conditions(),
+    )
+    return Points(measurement, nominal_length=preset.nominal_length.si("m"), source=preset.maker)
+
+
+def _preset_hash(preset: Preset) -> str:
+    return hashlib.sha256(f"{preset.kind}:{preset.id}".encode()).hexdigest()
+
+
+def joined(all_points: Sequence[Points]) -> Points:
+    """Several measurements of one muscle as one; each keeps its groups.
+
+    Raises:
+        InputError: they are of different kinds or loads, or share no channels.
+    """
+    if len(all_points) == 1:
+        return all_points[0]
+    parts = [points.measurement for points in all_points]
+    first = parts[0]
+    for part in parts[1:]:
+        if part.kind != first.kind:
+            raise InputError(
+                f"{part.name} is of kind {part.kind}, {first.name} of kind {first.kind}",
+                field="kind",
+                hint="compare them one after the other",
+            )
+        for condition in ("load_force", "load_mass"):
+            if part.conditions.get(condition) != first.conditions.get(condition):
+                raise InputError(
+                    f"{part.name} and {first.name} have different {condition}",
+                    field=condition,
+                    hint="give the load as a column, or compare them one after the other",
+                )
+    shared = [name for name in first.columns if all(name in part.columns for part in parts)]
+    columns = {name: np.concatenate([part.columns[name] for part in parts]) for name in shared}
+    offset, labels = 0, []
+    for part in parts:
+        own = np.unique(part.columns["group"], return_inverse=True)[1]
+        labels.append(own + offset)
+        offset += int(own.max()) + 1
+    columns["group"] = np.concatenate(labels)
+    together = build(
+        columns,
+        name=", ".join(part.name for part in parts),
+        id=hashlib.sha256("".join(part.id for part in parts).encode()).hexdigest(),
+        kind=first.kind,
+        conditions=first.conditions,
+        marked_slack=np.concatenate([part.slack for part in parts]),
+        excluded_rows=_excluded(parts),
+        starts=_starts(parts),
+    )
+    messages = [f"{part.name}: {message}" for part in parts for message in part.messages]
+    left_out: dict[str, int] = {}
+    for points in all_points:
+        for reason, count in points.left_out.items():
+            left_out[reason] = left_out.get(reason, 0) + count
+    rest = {points.nominal_length for points in all_points}
+    return Points(
+        replace(together, messages=tuple(messages)), left_out, rest.pop() if len(rest) == 1 else None,
+        parts=tuple(all_points),
+    )  # fmt: skip
+
+
+def _excluded(parts: Sequence[Measurement]) -> dict[str, NDArray[np.bool_]]:
+    """The excluded rows of all parts, one below the other."""
+    reasons = dict.fromkeys(reason for part in parts for reason in part.excluded_rows)
+    return {
+        reason: np.concatenate([part.excluded_rows.get(reason, np.zeros(part.rows, bool)) for part in parts])
+        for reason in reasons
+    }
+
+
+def _starts(parts: Sequence[Measurement]) -> tuple[int, ...]:
+    """First row of each file."""
+    offset, result = 0, []
+    for part in parts:
+        result += [offset + start for start in part.starts]
+        offset += part.rows
+    return tuple(result)

@@ -1,0 +1,232 @@
+"""Columns of a table to channels in SI, and the rows whose values cannot be."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
+from mckibben.measurement.read.cells import Labels, Table, no_rows
+from mckibben.measurement.read.conditions import ATMOSPHERE
+from mckibben.measurement.read.correction import SAMPLE, SLACK
+from mckibben.measurement.read.header import TEXT_COLUMNS, Column
+from mckibben.physics.errors import InputError
+from mckibben.physics.units import convert
+
+LARGEST = 1e100  # no physical value is; keeps sums and ranges of a column finite
+_ZERO_CELSIUS = 150.0  # a temperature without unit below it is in °C
+
+_SHORTENING = {"up", "u", "p", "positive", "fill", "filling", "inflation", "inflating", "shortening"}
+_LENGTHENING = {"down", "d", "n", "negative", "vent", "venting", "deflation", "deflating", "lengthening"}
+_UNKNOWN = {"", "-", "unknown", "none", "nan"}
+_LOADING = {"load": 1.0, "loading": 1.0, "unload": -1.0, "unloading": -1.0}
+
+
+@dataclass
+class Reading:
+    """What the conversion of columns reads and adds to."""
+
+    place: str
+    noun: str
+    table: Table
+    conditions: dict[str, float | str]
+    messages: list[str]
+    ignored: list[str]
+    skip: bool = False
+
+    def drop(self, column: Column, why: str) -> None:
+        """Do not use a column."""
+        self.ignored.append(column.header)
+        self.messages.append(f"{self.noun} '{column.header}' is not used: {why}")
+
+
+class _Values(NamedTuple):
+    """A column in SI; ``bad`` rows cannot be, because ``what``; ``hint`` says what would be right."""
+
+    si: NDArray[np.float64]
+    bad: NDArray[np.bool_]
+    what: str
+    hint: str
+
+
+def read_channels(
+    columns: list[Column], reading: Reading
+) -> tuple[dict[str, NDArray], dict[str, Column], NDArray[np.bool_] | None]:
+    """(channel -> values in SI, channel -> its column, rows marked as slack).
+
+    Raises:
+        InputError: a value that no physical quantity has, naming its row and column (unless such rows are
+            skipped).
+    """
+    units: dict[str, Column] = {}
+    for column in [c for c in columns if c.use not in TEXT_COLUMNS]:
+        known = _with_known_unit(column, reading)
+        if known is None:
+            continue
+        values = _values(known, reading)
+        if values.bad.any():
+            if not reading.skip:
+                raise _value_error(reading, known, values)
+            first = f"row {int(reading.table.lines[int(np.argmax(values.bad))])}"
+            where = f"{first}, {reading.noun} '{column.header}'"
+            reading.table = reading.table.only(~values.bad, values.what, where)
+            if not len(reading.table.lines):
+                raise no_rows(reading.place, reading.table.skipped)
+        units[column.use] = known
+    channels: dict[str, NDArray] = {}
+    for use, column in units.items():  # once no further row goes
+        channels[use] = _values(column, reading).si
+    for use, column in units.items():
+        if use == "pressure":
+            _say_reference(column, reading)
+    by_use = {column.use: column for column in columns}
+    slack = _read_labels(by_use, channels, reading)
+    return channels, by_use | units, slack
+
+
+def _with_known_unit(column: Column, reading: Reading) -> Column | None:
+    """The column with a unit, guessed from its numbers where none is given; None = no such channel."""
+    raw = reading.table.numbers[column.index]
+    use, unit = column.use, column.unit
+    if unit is None:
+        unit = CHANNEL_UNITS[use]
+        largest = float(np.max(np.abs(raw)))
+        if use == "contraction" and largest > 1.5:
+            unit = "%"
+        elif use == "temperature" and largest < _ZERO_CELSIUS:
+            unit = "degC"
+        if use != "command":
+            reading.messages.append(f"{reading.noun} '{column.header}' has no unit: read as {unit}")
+    label = f"{reading.place}, {reading.noun} '{column.header}'"
+    values = convert(raw, unit, CHANNEL_UNITS[use], field=label)
+    if use == "command" and np.max(np.abs(values)) > 1.001:
+        reading.drop(column, "a command is the share of valve opening, -1 to 1")
+        return None
+    if use == "pressure":
+        column = column._replace(absolute=_absolute(column, reading.conditions))
+    return column._replace(unit=unit)
+
+
+def _absolute(column: Column, conditions: Mapping[str, float | str]) -> bool | None:
+    if column.absolute is not None:
+        return column.absolute
+    said = str(conditions.get("pressure", "")).lower()
+    return True if said.startswith("abs") else False if said.startswith(("gauge", "rel")) else None
+
+
+def _values(column: Column, reading: Reading) -> _Values:
+    """One numeric column in SI, and which of its rows cannot be."""
+    raw = reading.table.numbers[column.index]
+    use = column.use
+    unit = column.unit or CHANNEL_UNITS[use]
+    values = convert(raw, unit, CHANNEL_UNITS[use])
+    huge = ~(np.abs(values) < LARGEST)
+    if huge.any():
+        return _Values(values, huge, "is too large", "a number of physical size")
+    if use == "pressure":
+        if column.absolute:
+            values -= ATMOSPHERE
+        hint = "say 'pressure_abs_bar' or '# pressure: absolute' where it is absolute, gauge is assumed"
+        return _Values(values, values < -ATMOSPHERE, "is a negative absolute pressure", hint)
+    if use in ("length", "diameter", "temperature"):
+        return _Values(values, values <= 0.0, f"is not a {use}", f"a {use} above 0")
+    if use == "contraction":
+        hint = "contraction is (L0 - L)/L0 < 1; percent is 'contraction_pct'"
+        return _Values(values, values >= 1.0, "leaves no length", hint)
+    return _Values(values, np.zeros(len(values), bool), "", "")
+
+
+def _say_reference(column: Column, reading: Reading) -> None:
+    label = f"{reading.noun} '{column.header}'"
+    if column.absolute:
+        reading.messages.append(f"{label} is absolute pressure: {ATMOSPHERE:.0f} Pa subtracted")
+    elif column.absolute is None:
+        reading.messages.append(f"{label} read as gauge pressure")
+
+
+def _value_error(reading: Reading, column: Column, values: _Values) -> InputError:
+    first, count = int(np.argmax(values.bad)), int(np.count_nonzero(values.bad))
+    line, value = int(reading.table.lines[first]), reading.table.numbers[column.index][first]
+    more = f" (and {count - 1} more such rows)" if count > 1 else ""
+    unit = f" {column.unit}" if column.unit else ""
+    return InputError(
+        f"{reading.place}, row {line}, {reading.noun} '{column.header}': {value:g}{unit} {values.what}{more}",
+        field=f"row {line}, {reading.noun} {column.header}", hint=values.hint,
+    )  # fmt: skip
+
+
+def _read_labels(
+    by_use: Mapping[str, Column], columns: dict[str, NDArray], reading: Reading
+) -> NDArray[np.bool_] | None:
+    """Add direction, group and sample; returns the rows marked as slack."""
+    labels = {use: reading.table.labels[c.index] for use, c in by_use.items() if use in TEXT_COLUMNS}
+    if "group" in labels:
+        columns["group"] = _group(labels["group"])
+    if "direction" in labels:
+        direction = _direction(labels["direction"], columns, reading.messages)
+        if direction is None:
+            reading.drop(by_use["direction"], "its words are not known, e.g. 'filling' and 'venting'")
+        else:
+            columns["direction"] = direction
+    if SAMPLE in labels:
+        words = labels[SAMPLE].words
+        if len(words) == 1 and words[0]:
+            reading.conditions.setdefault("sample", words[0][:200])
+        else:
+            reading.drop(by_use[SAMPLE], "it names more than one muscle")
+    if SLACK not in labels:
+        return None
+    marks = {"0": False, "0.0": False, "false": False, "1": True, "1.0": True, "true": True}
+    words = [word.lower() for word in labels[SLACK].words]
+    if "force" not in columns or any(word not in marks for word in words):
+        reading.drop(by_use[SLACK], "slack is marked by 0 and 1 beside a force")
+        return None
+    return np.array([marks[word] for word in words])[labels[SLACK].codes]
+
+
+def _group(labels: Labels) -> NDArray[np.int64]:
+    """Integer labels as they are, other words numbered from 0 in order of appearance."""
+    whole = [int(word) if re.fullmatch(r"[+-]?[0-9]{1,9}", word) else None for word in labels.words]
+    numbers = [n for n in whole if n is not None]
+    chosen = numbers if len(set(numbers)) == len(labels.words) else range(len(labels.words))
+    return np.array(chosen, dtype=np.int64)[labels.codes]
+
+
+def _direction(
+    labels: Labels, columns: Mapping[str, NDArray], messages: list[str]
+) -> NDArray[np.float64] | None:
+    """-1 shortening, +1 lengthening, 0 unknown; None when a word is not understood.
+
+    "load" alone says too little (a weight lengthens, air shortens): there the stroke, else the pressure, of
+    neighbouring rows decides.
+    """
+    values = []
+    for word in (w.lower() for w in labels.words):
+        if word in _SHORTENING or word in _LENGTHENING:
+            values.append(-1.0 if word in _SHORTENING else 1.0)
+        elif word in _LOADING:
+            values.append(_LOADING[word] * _loading_sign(labels, columns))
+        elif re.fullmatch(r"[+-]?[01](\.0*)?", word) or word in _UNKNOWN:
+            values.append(float(word) if word not in _UNKNOWN else 0.0)
+        else:
+            return None
+    meaning = {-1.0: "shortening", 1.0: "lengthening", 0.0: "unknown"}
+    read = ", ".join(f"'{w}' as {meaning[v]}" for w, v in zip(labels.words, values, strict=True))
+    messages.append(f"direction read: {read}")
+    return np.array(values)[labels.codes]
+
+
+def _loading_sign(labels: Labels, columns: Mapping[str, NDArray]) -> float:
+    """Direction of rows called "load": the sign of the summed change of length along them."""
+    side = np.array([_LOADING.get(word.lower(), 0.0) for word in labels.words])[labels.codes]
+    same = (side[1:] == side[:-1]) * side[1:]
+    for channel in (*STROKES, "pressure"):
+        if channel in columns and np.ptp(columns[channel]) > 0.0:
+            change = float(np.sum(np.diff(columns[channel]) * same))
+            return float(np.sign(change)) * (1.0 if channel == "length" else -1.0)
+    return 0.0

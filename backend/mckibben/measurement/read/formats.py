@@ -1,0 +1,65 @@
+"""Which format a file has, by its first bytes; the name only helps to say what is wrong."""
+
+from __future__ import annotations
+
+import re
+from pathlib import PurePath
+
+from mckibben.measurement.read.csv import open_csv
+from mckibben.measurement.read.source import Source
+from mckibben.physics.errors import InputError
+
+MAX_BYTES = 512_000_000  # of a file once it is unpacked
+_HDF5 = b"\x89HDF\r\n\x1a\n"
+_BINARY = {".xlsx": "an Excel workbook", ".mat": "a MATLAB file", ".tdms": "a TDMS file"}
+_CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1f]")
+
+#: First bytes -> (what the file is, what to do instead).
+_REFUSED = {
+    b"\xd0\xcf\x11\xe0": ("an old Excel workbook (.xls)", "save it as .xlsx or CSV"),
+    b"TDSh": ("a TDMS index, without the data", "send the .tdms file beside it"),
+    b"%PDF": ("a PDF document", "send the table itself, as CSV or .xlsx"),
+    b"\x1f\x8b": ("gzip-compressed", "unpack it first"),
+    b"7z\xbc\xaf": ("a 7z archive", "unpack it first"),
+    b"MATLAB 4": ("a MATLAB 4 file", "save it with -v7"),
+}
+
+
+def open_source(data: bytes, name: str) -> Source:
+    """The table of a file.
+
+    Raises:
+        InputError: a format that is not read, or a damaged file.
+    """
+    for first, (what, remedy) in _REFUSED.items():
+        if data.startswith(first):
+            raise InputError(f"{name}: no column can be read: the file is {what}", field="file", hint=remedy)
+    # Each reader is imported when its format comes: together they take half a second.
+    if data.startswith(b"PK"):
+        from mckibben.measurement.read.xlsx import open_xlsx
+
+        return open_xlsx(data, name)
+    if data.startswith(b"TDSm"):
+        from mckibben.measurement.read.tdms import open_tdms
+
+        return open_tdms(data, name)
+    if any(data[offset : offset + 8] == _HDF5 for offset in (0, 512, 1024, 2048)):
+        from mckibben.measurement.read.mat73 import open_mat73
+
+        return open_mat73(data, name)
+    if data[:6] == b"MATLAB" or data[124:128] in (b"\x00\x01IM", b"\x01\x00MI"):
+        from mckibben.measurement.read.mat import open_mat
+
+        return open_mat(data, name)
+    expected = _BINARY.get(PurePath(name).suffix.lower())
+    if expected is not None and (control := _CONTROL.search(data[:4096])):
+        raise InputError(
+            f"{name}: no column can be read: the file does not begin as {expected} does "
+            f"(byte {control.start() + 1} is neither text nor a known mark)",
+            field="file",
+            hint="export it again, or save it as CSV",
+        )
+    source = open_csv(data, name)
+    if expected is not None:
+        source.messages.append(f"the file is text, not {expected}: read as CSV")
+    return source

@@ -1,0 +1,279 @@
+"""Column headers to channels: ``name_unit``, ``name [unit]``, ``name (unit)`` or a bare name in SI."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+from mckibben.measurement.measurement import CHANNEL_UNITS
+from mckibben.measurement.read.correction import SAMPLE, SLACK, Choice
+from mckibben.measurement.read.marks import MARK_WORDS, split_mark
+from mckibben.physics.errors import InputError, did_you_mean
+from mckibben.physics.units import factor, is_unit, meaning
+
+#: Words of a header -> channel; the case of a single letter counts only between t (time) and T (temperature).
+SYNONYMS = {
+    word: channel
+    for channel, words in {
+        "time": "time t",
+        "pressure": "pressure p",
+        "force": "force load weight f",
+        "length": "length l",
+        "contraction": "contraction kappa strain κ ε",
+        "displacement": "displacement position stroke x",
+        "diameter": "diameter d",
+        "velocity": "velocity v",
+        "command": "command u valve",
+        "temperature": "temperature",
+        "direction": "direction",
+        "group": "group run cycle sweep",
+    }.items()
+    for word in words.split()
+}
+
+# Words that leave a column what it is, and how much less it is wanted than the same column without them.
+_QUALIFIERS = dict.fromkeys(
+    ("measured", "meas", "actual", "mean", "avg", "average", "raw", "unclipped", "as", "given", "sensor",
+     "muscle", "actuator", "pam", "pulling", "total", "number", "no", "nr", "id", "index"),
+    1,
+) | {"filtered": 2, "smoothed": 2, "clipped": 100}  # fmt: skip
+_BRACKETED = re.compile(r"([^\[(]*)[\[(](.*)[\])]\s*")
+_NUMBERED = re.compile(r"[0-9]+(\.[0-9]+)?[A-Za-z]")
+_MAX_HEADER = 120
+
+HEADER_EXAMPLE = "e.g. a header 'pressure_bar,length_mm,force_N'"
+
+#: Uses of a column that are words rather than numbers.
+TEXT_COLUMNS = ("direction", "group", SLACK, SAMPLE)
+
+
+class Column(NamedTuple):
+    """A column that is used: ``use`` is a channel, ``slack`` or ``sample``; ``unit`` None = not given."""
+
+    index: int
+    header: str
+    use: str
+    unit: str | None = None
+    absolute: bool | None = None
+    penalty: int = 0
+
+
+class Meaning(NamedTuple):
+    """What a header row means; ``ignored`` in the order of the file.
+
+    ``problems``: index of a column -> why its header cannot be used, only where they are collected.
+    """
+
+    columns: list[Column]
+    ignored: list[str]
+    messages: list[str]
+    problems: dict[int, InputError]
+
+
+def map_headers(
+    headers: Sequence[str], *, place: str, row: int | None = None, noun: str = "column",
+    chosen: Mapping[str, Choice | None] | None = None, collect: bool = False,
+) -> Meaning:  # fmt: skip
+    """Which column is which channel.
+
+    Of two columns for one channel the one the user chose wins, then the plainer one (no "clipped", fewer
+    extra words, the channel's own name rather than a synonym, the first); the other is ignored, with a
+    message.
+
+    Args:
+        headers: names of the columns.
+        place: the file (and sheet), for messages.
+        row: 1-based row of the header, None where a format has none.
+        noun: what the format calls a column.
+        chosen: header (or "column 3") -> what the user says it is; None = not used.
+        collect: keep what is wrong with a header in ``problems`` instead of raising it.
+
+    Raises:
+        InputError: no or duplicate names, no known channel, a unit that is unknown or of another dimension, a
+            choice for a column that is not there.
+    """
+    names = [header.strip() for header in headers]
+    where = place if row is None else f"{place}, row {row}"
+    field = f"{noun}s" if row is None else f"row {row}"
+    if not any(names):
+        raise InputError(f"{where}: the header names no column", field=field, hint=HEADER_EXAMPLE)
+    choices = _positions(chosen or {}, names)
+    messages: list[str] = []
+    problems: dict[int, InputError] = {}
+    seen: set[str] = set()
+    found: list[Column] = []
+    for index, header in enumerate(names):
+        try:
+            if index in choices:
+                column = _chosen(index, header, choices[index])
+            elif header and header.casefold() in seen:
+                raise InputError(
+                    f"{where}, {noun} '{header[:_MAX_HEADER]}': the name occurs twice",
+                    field=field, hint=f"give every {noun} its own name",
+                )  # fmt: skip
+            else:
+                column = _column(index, header, f"{where}, {noun} '{header}'", noun, messages)
+        except InputError as error:
+            if not collect:
+                raise
+            problems[index] = error
+            column = None
+        seen.add(header.casefold())
+        if column is not None:
+            found.append(column)
+    found.sort(
+        key=lambda c: (c.index not in choices, c.penalty, not c.header.lower().startswith(c.use), c.index)
+    )
+    used: dict[str, Column] = {}
+    for column in found:
+        winner = used.setdefault(column.use, column)
+        if winner is not column:
+            better = f"{column.use} is read from '{winner.header}'"
+            messages.append(f"{noun} '{column.header}' is not used: {better}")
+    if not collect and not any(use in CHANNEL_UNITS and use not in ("direction", "group") for use in used):
+        raise _no_channel(names, where, field, noun, messages)
+    taken = {column.index for column in used.values()}
+    ignored = [header or f"column {i + 1}" for i, header in enumerate(names) if i not in taken]
+    return Meaning(sorted(used.values()), ignored, messages, problems)
+
+
+def _positions(chosen: Mapping[str, Choice | None], names: Sequence[str]) -> dict[int, Choice | None]:
+    """Column index of each choice; a column is named by its header, or by its place ("column 3")."""
+    result = {}
+    for key, choice in chosen.items():
+        numbered = re.fullmatch(r"column ([1-9][0-9]{0,4})", key)
+        if key in names:
+            index = names.index(key)
+        elif numbered and int(numbered[1]) <= len(names):
+            index = int(numbered[1]) - 1
+        else:
+            raise InputError(
+                f"mapping.columns: the file has no column '{key[:_MAX_HEADER]}'",
+                field=f"mapping.columns.{key[:_MAX_HEADER]}",
+                hint=did_you_mean(key, [name for name in names if name]),
+            )
+        result[index] = choice
+    return result
+
+
+def _chosen(index: int, header: str, choice: Choice | None) -> Column | None:
+    """A column as the user wants it; a unit that is not said is the header's, where it fits."""
+    if choice is None:
+        return None
+    unit, absolute = choice.unit, choice.absolute
+    if unit is None and choice.channel in CHANNEL_UNITS:
+        try:
+            guess = _column(index, header, header, "column", [])
+        except InputError:
+            guess = None
+        if guess is not None and guess.unit is not None and _fits(guess.unit, CHANNEL_UNITS[choice.channel]):
+            unit, absolute = guess.unit, guess.absolute if absolute is None else absolute
+    return Column(index, header or f"column {index + 1}", choice.channel, unit, absolute)
+
+
+def _no_channel(
+    names: Sequence[str], where: str, field: str, noun: str, messages: Iterable[str]
+) -> InputError:
+    shown = ", ".join(f"'{n[:40]}'" for n in names[:8])
+    if all(re.fullmatch(r"[-+.,0-9eE\s]*", n) for n in names):
+        problem = "numbers where the header should be"
+        return InputError(f"{where}: {problem}", field=field, hint=HEADER_EXAMPLE)
+    near = [did_you_mean(re.split(r"[\s_\[(]", n)[0][:40] or "?", SYNONYMS) for n in names[:8]]
+    hint = next((n for n in near if n and n.startswith("Did")), HEADER_EXAMPLE)
+    why = "".join(f"; {message}" for message in messages)
+    problem = f"no known channel among the {noun}s {shown}{why}"
+    return InputError(f"{where}: {problem}", field=field, hint=hint)
+
+
+def _column(index: int, header: str, where: str, noun: str, messages: list[str]) -> Column | None:
+    """The column of one header; None = not one of ours."""
+    if not header or len(header) > _MAX_HEADER:
+        return None
+    if header.lower() in ("muscle", "sample"):
+        return Column(index, header, SAMPLE)
+    text, absolute = split_mark(header)
+    bracketed = _BRACKETED.fullmatch(text)
+    unit = None
+    if bracketed is not None:
+        text, inside = bracketed.groups()
+        words = inside.lower().split()
+        if words and all(word in _QUALIFIERS or word in MARK_WORDS for word in words):
+            text = f"{text} {inside}"
+        elif inside.strip():
+            unit = inside.strip()
+    tokens = [token for token in re.split(r"[\s_]+", text) if token]
+    channel, penalty, letter = "", 0, ""
+    for position, token in enumerate(tokens):
+        low = token.lower()
+        last = position == len(tokens) - 1
+        if low in SYNONYMS and not (channel and len(low) == 1 and last and unit is None and is_unit(token)):
+            if channel not in ("", SYNONYMS[low]):
+                return None  # "supply_time", "valve_position": a name of its own
+            channel, letter = SYNONYMS[low], letter or (token if len(token) == 1 else "")
+        elif low in MARK_WORDS:
+            absolute = MARK_WORDS[low]
+        elif low in _QUALIFIERS or low.startswith("slack") or (low == "zero" and penalty >= 100):
+            penalty += _QUALIFIERS.get(low, 100)
+        elif _NUMBERED.match(token):
+            penalty += 1
+        elif channel and unit is None and is_unit(token):
+            unit = token
+        else:
+            return None
+    if penalty >= 100 and unit is None and channel in ("", "force"):
+        return Column(index, header, SLACK)
+    if not channel:
+        return None
+    column = Column(index, header, channel, unit, absolute if channel == "pressure" else None, penalty)
+    return _with_unit(column, letter, where, noun, messages)
+
+
+def _with_unit(column: Column, letter: str, where: str, noun: str, messages: list[str]) -> Column | None:
+    """The column after its unit had a word: contraction in mm is a displacement, volts are no pressure."""
+    use, unit = column.use, column.unit
+    if letter in ("t", "T"):
+        use = "time" if letter == "t" else "temperature"
+        if unit is not None and _fits(unit, "s"):
+            use = "time"
+        elif unit is not None and (_fits(unit, "K") or unit in ("C", "F")):
+            use = "temperature"
+    if unit is None:
+        return column._replace(use=use)
+    if use == "temperature" and unit in ("C", "F"):
+        unit = f"deg{unit}"
+    if use == "force" and unit in _WEIGHTS:
+        messages.append(f"{noun} '{column.header}' is a mass: its weight is the force")
+        unit = _WEIGHTS[unit]
+    if use == "contraction" and _fits(unit, "m"):
+        use = "displacement"
+    elif use == "displacement" and _fits(unit, "1"):
+        use = "contraction"
+    if _fits(unit, CHANNEL_UNITS[use]):
+        return column._replace(use=use, unit=unit)
+    measured = meaning(unit)
+    if measured in ("a voltage", "a current") or letter or use in ("direction", "group"):
+        what = f"{measured}, not a {use}" if measured else f"no unit of a {use}"
+        messages.append(f"{noun} '{column.header}' is not used: '{unit}' is {what}")
+        return None
+    problem = f"the unit '{unit}' is {measured}" if measured else f"the unit '{unit}' is not known"
+    raise InputError(
+        f"{where}: {problem}, a unit of {use} is needed",
+        field=f"{noun} {column.header}",
+        hint=f"e.g. '{use}_{_UNIT_EXAMPLES.get(use, CHANNEL_UNITS[use])}'",
+    )
+
+
+_WEIGHTS = {"kg": "kgf", "g": "gf", "lb": "lbf"}
+_UNIT_EXAMPLES = {
+    "pressure": "bar", "length": "mm", "displacement": "mm", "diameter": "mm", "contraction": "pct",
+    "command": "pct", "temperature": "degC",
+}  # fmt: skip
+
+
+def _fits(unit: str, si_unit: str) -> bool:
+    try:
+        factor(unit, si_unit)
+    except ValueError:
+        return False
+    return True

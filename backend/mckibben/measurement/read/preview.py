@@ -1,0 +1,178 @@
+"""What a file would be read as: columns, units, rows, kind and conditions, before anything is kept."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mckibben.measurement.measurement import CHANNEL_UNITS, Measurement
+from mckibben.measurement.read.assemble import Read, assemble, conditions_of, meaning_of, rows_of
+from mckibben.measurement.read.cells import Skip
+from mckibben.measurement.read.correction import Correction
+from mckibben.measurement.read.formats import open_source
+from mckibben.measurement.read.header import Column, Meaning
+from mckibben.measurement.read.source import Source
+from mckibben.physics.errors import InputError
+
+
+@dataclass(frozen=True)
+class PreviewColumn:
+    """One column of the file; ``channel`` None = not used, ``unit`` None = SI; ``why``: what is wrong."""
+
+    header: str
+    channel: str | None
+    unit: str | None
+    unit_given: bool
+    absolute: bool | None
+    minimum: float | None
+    maximum: float | None
+    why: str | None
+
+
+@dataclass(frozen=True)
+class MissingCondition:
+    """A condition that the kind needs and the file does not say; one of ``alternatives`` does as well."""
+
+    key: str
+    unit: str
+    why: str
+    example: str
+    alternatives: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Preview:
+    """What a file would be read as.
+
+    Attributes:
+        format: ``csv``, ``xlsx``, ``mat`` or ``tdms``.
+        columns: all columns of the file, in its order.
+        sample: the first rows as texts, one per column.
+        rows, valid: rows of the file below the header, and those that can be read.
+        skipped: reason -> rows that cannot, and where the first is.
+        measurement: as it would be kept; None while ``problem`` stands in the way.
+        conditions: found in the file or given, SI.
+        missing: what to ask for.
+        problem: why the file cannot be used as it is.
+        refused: it cannot only because of bad rows, which the user may leave out.
+        messages: what was assumed.
+    """
+
+    name: str
+    format: str
+    columns: tuple[PreviewColumn, ...]
+    sample: tuple[tuple[str, ...], ...]
+    rows: int
+    valid: int
+    skipped: Mapping[str, Skip]
+    measurement: Measurement | None
+    conditions: Mapping[str, float | str]
+    missing: tuple[MissingCondition, ...]
+    problem: InputError | None
+    refused: bool
+    messages: tuple[str, ...]
+
+
+def preview(data: bytes, name: str, correction: Correction | None = None) -> Preview:
+    """What a file would be read as; bad rows are counted, not refused.
+
+    Raises:
+        InputError: no table can be found in the file at all, or the correction names what is not there.
+    """
+    correction = correction or Correction()
+    source = open_source(data, name)
+    meaning = meaning_of(source, correction, collect=True)
+    problem: InputError | None = next(iter(meaning.problems.values()), None)
+    conditions: dict[str, float | str] = {}
+    messages = list(source.messages)
+    try:
+        conditions = conditions_of(source, correction, messages)
+    except InputError as error:
+        problem = problem or error
+    tolerant = replace(correction, skip_bad_rows=True)
+    identity = correction.identity(data)
+    read: Read | None = None
+    skipped: Mapping[str, Skip] = {}
+    valid = 0
+    try:
+        if not meaning.columns:
+            meaning_of(source, correction)  # says why no column is known
+        read = assemble(source, name=name, id=identity, correction=tolerant, meaning=meaning)
+        skipped, valid = read.skipped, read.measurement.rows
+        conditions = dict(read.measurement.conditions)
+        messages = list(read.measurement.messages)
+    except InputError as error:
+        problem = problem or error
+        skipped, valid = _counted(source, meaning)
+        messages += meaning.messages
+    refused = False
+    if problem is None and skipped:
+        try:
+            assemble(source, name=name, id=identity, correction=correction, meaning=meaning)
+        except InputError as error:
+            problem, refused = error, True
+    measurement = None if read is None or (problem is not None and not refused) else read.measurement
+    kind = None if measurement is None else measurement.kind
+    return Preview(
+        name, source.format, _columns(source, meaning, read), tuple(tuple(row) for row in source.sample),
+        valid + sum(skip.rows for skip in skipped.values()), valid, skipped, measurement, conditions,
+        missing_conditions(kind, {} if measurement is None else measurement.columns, conditions),
+        problem, refused, tuple(messages),
+    )  # fmt: skip
+
+
+def missing_conditions(
+    kind: str | None, columns: Mapping[str, np.ndarray], conditions: Mapping[str, float | str]
+) -> tuple[MissingCondition, ...]:
+    """The conditions a comparison of this kind needs and does not have."""
+    missing = []
+    loaded = "load_mass" in conditions or "load_force" in conditions
+    if kind in ("isotonic", "transient") and not loaded and not (kind == "isotonic" and "force" in columns):
+        why = "the load decides how far the muscle shortens"
+        missing.append(MissingCondition("load_mass", "kg", why, "6 kg", ("load_force",)))
+    if kind == "transient" and "command" in columns and "supply_pressure" not in conditions:
+        why = "the valve fills the muscle from the supply"
+        missing.append(MissingCondition("supply_pressure", "Pa", why, "6 bar"))
+    return tuple(missing)
+
+
+def _counted(source: Source, meaning: Meaning) -> tuple[Mapping[str, Skip], int]:
+    """(rows that cannot be read, number of those that can) where the rest of the file says too little."""
+    try:
+        table = rows_of(source, meaning.columns, skip=True)
+    except InputError:
+        return {}, 0
+    return table.skipped, len(table.lines)
+
+
+def _columns(source: Source, meaning: Meaning, read: Read | None) -> tuple[PreviewColumn, ...]:
+    guessed = {column.index: column for column in meaning.columns}
+    used = {column.index: column for column in (read.columns if read else ())}
+    ranges = {} if read is None else {c.name: c for c in read.measurement.channels}
+    result = []
+    for index, header in enumerate(source.headers):
+        column: Column | None = used.get(index, guessed.get(index))
+        problem = meaning.problems.get(index)
+        if (
+            read is not None
+            and column is not None
+            and column.use in CHANNEL_UNITS
+            and column.use not in ranges
+        ):
+            column = None  # its numbers show that it is not what its name says
+        span = ranges.get(column.use) if column else None
+        result.append(
+            PreviewColumn(
+                header.strip() or f"column {index + 1}",
+                column.use if column else None,
+                column.unit if column else None,
+                index in guessed and guessed[index].unit is not None,
+                column.absolute if column else None,
+                span.minimum if span else None,
+                span.maximum if span else None,
+                problem.message if problem else None,
+            )
+        )
+    return tuple(result)

@@ -1,0 +1,120 @@
+"""One table of a file before its columns have a meaning: what every reader of a format gives."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.measurement.read.cells import Labels, Table, added, no_rows
+from mckibben.measurement.read.conditions import Note
+from mckibben.physics.errors import InputError
+
+SAMPLE_ROWS = 8
+#: (indices of numeric columns, of text columns, leave bad rows out) -> the table.
+ReadRows = Callable[[Sequence[int], Sequence[int], bool], Table]
+Column = NDArray[np.float64] | list[str]
+
+
+@dataclass(frozen=True)
+class Source:
+    """A table of a file.
+
+    Attributes:
+        place: file (and sheet), for messages.
+        format: ``csv``, ``xlsx``, ``mat`` or ``tdms``.
+        headers: names of the columns, units in them where the format keeps them apart.
+        read: reads the rows of the wanted columns.
+        sample: the first rows as texts.
+        notes: conditions as the file says them.
+        messages: what was assumed.
+        header_row: 1-based row of the header, None where the format has none.
+        noun: what the format calls a column.
+    """
+
+    place: str
+    format: str
+    headers: list[str]
+    read: ReadRows
+    sample: list[list[str]]
+    notes: list[Note] = field(default_factory=list)
+    messages: list[str] = field(default_factory=list)
+    header_row: int | None = None
+    noun: str = "column"
+
+
+def array_source(
+    columns: Mapping[str, Column],
+    *,
+    place: str,
+    format: str,
+    noun: str,
+    notes: list[Note],
+    messages: list[str],
+) -> Source:
+    """The source of a format that keeps whole columns: numbers as arrays, words as lists, all equally long.
+
+    A value that is not finite is such a format's way to say "missing": its rows are left out, with a count.
+    """
+    headers = list(columns)
+    values = list(columns.values())
+
+    def read(numeric: Sequence[int], text: Sequence[int], skip: bool) -> Table:
+        numbers = {}
+        for index in numeric:
+            column = values[index]
+            if isinstance(column, list):
+                raise InputError(
+                    f"{place}, {noun} '{headers[index]}', row 1: {column[0][:30] if column else ''!r} "
+                    "is not a number",
+                    field=f"{noun} {headers[index]}",
+                    hint="a vector of numbers",
+                )
+            numbers[index] = column
+        labels = {index: _labels(values[index]) for index in text}
+        rows = len(values[0]) if values else 0
+        lines = np.arange(1, rows + 1)
+        if rows == 0:
+            raise no_rows(place)
+        bad, first, skipped = np.zeros(rows, bool), "", {}
+        for index, column in numbers.items():
+            missing = ~np.isfinite(column) & ~bad
+            if missing.any():
+                first = f"row {int(np.argmax(missing)) + 1}, {noun} '{headers[index]}'"
+                count = int(np.count_nonzero(missing))
+                skipped = added(skipped, "not a finite number", count, first)
+                bad |= missing
+        if bad.all():
+            raise no_rows(place, skipped)
+        keep = ~bad
+        return Table(
+            {index: np.array(column[keep], dtype=np.float64) for index, column in numbers.items()},
+            {index: Labels(label.codes[keep], label.words) for index, label in labels.items()},
+            lines[keep],
+            skipped,
+        )
+
+    sample = [[_shown(column[row]) for column in values] for row in range(min(SAMPLE_ROWS, _length(values)))]
+    return Source(place, format, headers, read, sample, notes, messages, None, noun)
+
+
+def _length(values: Sequence[Column]) -> int:
+    return len(values[0]) if values else 0
+
+
+def _shown(value: float | str) -> str:
+    return value if isinstance(value, str) else f"{value:.10g}"
+
+
+def _labels(column: Column) -> Labels:
+    words: dict[str, int] = {}
+    if isinstance(column, list):
+        codes = [words.setdefault(word.strip(), len(words)) for word in column]
+        return Labels(np.array(codes, dtype=np.intp), list(words))
+    unique, first, inverse = np.unique(column, return_index=True, return_inverse=True)
+    order = np.argsort(first)  # in order of first appearance
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    return Labels(rank[inverse], [f"{value:.10g}" for value in unique[order]])

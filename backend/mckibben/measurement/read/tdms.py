@@ -1,0 +1,171 @@
+"""Measurements from TDMS files (LabVIEW): channels with a unit, of one group or of several alike.
+
+The unit is the property ``unit_string``; without a time channel the waveform's ``wf_increment`` gives the
+time. Several groups with the same channels are runs of one measurement. Properties are conditions.
+"""
+
+from __future__ import annotations
+
+import io
+import logging
+import struct
+from typing import Any
+
+import numpy as np
+
+from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, Note, key_of
+from mckibben.measurement.read.header import map_headers
+from mckibben.measurement.read.source import Column, Source, array_source
+from mckibben.measurement.read.vectors import known_columns, sorted_out, time_axis
+from mckibben.physics.errors import InputError
+
+_NOUN = "channel"
+_MAX_GROUPS = 1000
+_LEAD_IN = 28  # bytes before each segment: mark, flags, version, length, length of its directory
+_TIME = "time [s]"
+_RUN = "group"
+_KEYS = (*CONDITION_UNITS, *TEXT_CONDITIONS, "kind", "bad_rows")
+
+
+def open_tdms(data: bytes, name: str) -> Source:
+    """The table of a TDMS file.
+
+    Raises:
+        InputError: damaged, or without channels that are named like ours.
+    """
+    groups, properties = _loaded(data, name)
+    notes = _notes(properties, name)
+    tables: dict[str, tuple[dict[str, Column], list[Note], list[str]]] = {}
+    problem: InputError | None = None
+    for title, (values, own) in groups.items():
+        place = f"{name}, group '{title}'"
+        try:
+            columns, _, messages = sorted_out(values, place=place, noun=_NOUN)
+        except InputError as error:
+            problem = problem or error
+            continue
+        if columns:
+            tables[title] = columns, _notes(own, place), messages
+    if not tables:
+        raise problem or InputError(
+            f"{name}: no channel holds numbers",
+            field="channels",
+            hint="e.g. channels 'pressure' and 'length'",
+        )
+    known = {title: known_columns(table[0], place=name, noun=_NOUN) for title, table in tables.items()}
+    first = max(known, key=lambda title: known[title])
+    if problem is not None and not known[first]:
+        raise problem
+    columns, own, messages = tables[first]
+    alike = [title for title in tables if list(tables[title][0]) == list(columns)]
+    place = f"{name}, group '{first}'"
+    if len(alike) > 1:
+        columns = _stacked([tables[title][0] for title in alike])
+        messages = [*messages, f"{len(alike)} groups with the same channels are read as runs"]
+        place = name
+    others = [title for title in groups if title not in alike]
+    messages += [f"group '{title}' is not used" for title in others]
+    return array_source(columns, place=place, format="tdms", noun=_NOUN, notes=notes + own, messages=messages)
+
+
+def _loaded(data: bytes, name: str) -> tuple[dict[str, tuple[dict[str, Any], dict]], dict]:
+    """(group -> (channel with unit -> values, properties), properties of the file)."""
+    _check_segments(data, name)
+    from nptdms import TdmsFile
+    from nptdms.log import log_manager
+
+    log_manager.set_level(logging.ERROR)  # what matters is said in the refusal
+    try:
+        with TdmsFile.open(io.BytesIO(data)) as file:
+            channels = [channel for group in file.groups() for channel in group.channels()]
+            # Every value takes at least a byte of the file: more of them are a lie of its directory.
+            if sum(len(channel) for channel in channels) > len(data):
+                raise ValueError("it promises more values than it holds")
+            groups = {}
+            for group in file.groups()[:_MAX_GROUPS]:
+                values = {_header(channel): _values(channel) for channel in group.channels()}
+                _add_time(values, group.channels(), f"{name}, group '{group.name}'")
+                groups[str(group.name)] = values, dict(group.properties)
+            return groups, dict(file.properties)
+    except InputError:
+        raise
+    except Exception as error:  # npTDMS raises whatever a damaged segment leads to
+        raise InputError(
+            f"{name}: no channel can be read: the TDMS file is damaged "
+            f"({type(error).__name__}: {str(error)[:100]})",
+            field="file", hint="export it again, or save it as CSV",
+        ) from error  # fmt: skip
+
+
+def _check_segments(data: bytes, name: str) -> None:
+    """Refuse a file that ends within a segment; npTDMS would read as far as it comes and say nothing."""
+    position, number = 0, 0
+    while position < len(data):
+        number += 1
+        lead = data[position : position + _LEAD_IN]
+        after = (
+            struct.unpack_from("<Q", lead, 12)[0] if len(lead) == _LEAD_IN and lead[:4] == b"TDSm" else None
+        )
+        if after is None or position + _LEAD_IN + after > len(data):
+            raise InputError(
+                f"{name}: not every channel can be read: the TDMS file ends within segment {number}",
+                field="file", hint="export it again, or save it as CSV",
+            )  # fmt: skip
+        position += _LEAD_IN + after
+
+
+def _header(channel: Any) -> str:
+    """The channel's name, with its unit unless the name has one already."""
+    name, unit = str(channel.name), str(channel.properties.get("unit_string") or "").strip()
+    if not unit:
+        return name
+    meaning = map_headers([name or "?"], place="", collect=True)
+    given = meaning.problems or (meaning.columns and meaning.columns[0].unit)
+    return name if given else f"{name} [{unit}]"
+
+
+def _values(channel: Any) -> Any:
+    values = channel[:]
+    if not isinstance(values, np.ndarray):
+        return [str(value) for value in values]
+    if values.dtype.kind == "M":  # time stamps count from the first
+        return (values - values[0]) / np.timedelta64(1, "s") if len(values) else None
+    if values.dtype == object:
+        return [str(value) for value in values]
+    return values
+
+
+def _add_time(values: dict[str, Any], channels: list[Any], place: str) -> None:
+    """A time axis from the waveform properties, where no channel is one."""
+    if any(column.use == "time" for column in map_headers([*values, "?"], place=place, collect=True).columns):
+        return
+    for channel in channels:
+        step, start = channel.properties.get("wf_increment"), channel.properties.get("wf_start_offset", 0.0)
+        if isinstance(step, (int, float)) and np.isfinite(step) and step > 0.0 and len(channel) > 1:
+            offset = float(start) if isinstance(start, (int, float)) and np.isfinite(start) else 0.0
+            values[_TIME] = time_axis(offset, float(step), len(channel))
+            return
+
+
+def _stacked(parts: list[dict[str, Column]]) -> dict[str, Column]:
+    """The columns of several groups one below the other, with a column that numbers the groups."""
+    result: dict[str, Column] = {}
+    for header in parts[0]:
+        pieces = [part[header] for part in parts]
+        if any(isinstance(piece, list) for piece in pieces):
+            result[header] = [str(word) for piece in pieces for word in piece]
+        else:
+            result[header] = np.concatenate([np.asarray(piece) for piece in pieces])
+    rows = [len(next(iter(part.values()))) for part in parts]
+    if not any(column.use == "group" for column in map_headers(list(result), place="", collect=True).columns):
+        result[_RUN] = np.repeat(np.arange(len(parts), dtype=float), rows)
+    return result
+
+
+def _notes(properties: dict, place: str) -> list[Note]:
+    """The properties that are conditions; LabVIEW adds many others."""
+    return [
+        Note(f"{place}, property '{key}'", str(key), value if isinstance(value, (int, float)) else str(value))
+        for key, value in properties.items()
+        if key_of(str(key))[0] in _KEYS and not isinstance(value, bool)
+    ]

@@ -1,0 +1,54 @@
+"""Readings that leap away and back: a bad contact, a lost bit, a knock against the rig.
+
+Least squares would follow them: one row a hundred times the noise away weighs as much as ten thousand others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.measurement.derivative import noise_of
+from mckibben.measurement.kind import STROKES
+
+_SENSORS = ("pressure", "force", *STROKES, "diameter")
+_LONGEST = 2  # rows
+_NOISE = 12.0  # times the noise
+_STEPS = 6.0  # times nearly the largest step from row to row
+_USUAL = 0.95  # quantile of the steps
+_BACK = 0.3  # of the leap: how near to where it left from it has to come back
+_MOST = 0.01  # share of the rows: what leaps more often is no exception
+_FEWEST = 20  # rows
+
+
+def spiked_rows(columns: Mapping[str, NDArray]) -> dict[str, NDArray[np.bool_]]:
+    """Reason -> bool array, shape (rows,), for channels whose rows follow each other; empty without spikes.
+
+    A spike is one row or two, away from both neighbours to the same side by far more than noise and than the
+    signal ever moves between two rows, with the neighbours at nearly the same value.
+    """
+    found = {}
+    for name in _SENSORS:
+        if name in columns and len(columns[name]) >= _FEWEST:
+            spiked = _spikes(np.asarray(columns[name], dtype=float))
+            if 0 < np.count_nonzero(spiked) <= max(3, _MOST * len(spiked)):
+                found[f"spikes of the {name}"] = spiked
+    return found
+
+
+def _spikes(values: NDArray[np.float64]) -> NDArray[np.bool_]:
+    spiked = np.zeros(len(values), bool)
+    steps = np.abs(np.diff(values))
+    least = max(_NOISE * noise_of(values), _STEPS * float(np.quantile(steps, _USUAL)))
+    for rows in range(1, _LONGEST + 1):
+        before, after = values[: -rows - 1], values[rows + 1 :]
+        inside = np.stack([values[k : len(values) - rows - 1 + k] for k in range(1, rows + 1)])
+        away = np.minimum(inside - before, inside - after).min(axis=0)
+        below = np.minimum(before - inside, after - inside).min(axis=0)
+        leap = np.maximum(away, below)
+        at = np.flatnonzero((leap > least) & (leap > 0.0) & (np.abs(after - before) < _BACK * leap))
+        for k in range(1, rows + 1):
+            spiked[at + k] = True
+    return spiked

@@ -1,0 +1,126 @@
+"""Assembly of the server: settings in, application out."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+
+from fastapi import FastAPI
+from fastapi.routing import APIRoute
+from starlette.middleware.gzip import GZipMiddleware
+
+from mckibben import __version__
+from mckibben.documents.studio import Studio
+from mckibben.measurement.store import MeasurementStore
+from mckibben.server import errors, static
+from mckibben.server.routes import (
+    comparisons,
+    curves,
+    description,
+    diagnoses,
+    effects,
+    health,
+    inverse,
+    measurements,
+    mysteries,
+    presets,
+    reports,
+    simulations,
+    sizings,
+)
+from mckibben.server.security import BodyLimitMiddleware, SecurityMiddleware
+from mckibben.server.settings import Settings
+from mckibben.server.timing import TimingMiddleware
+from mckibben.simulation.integrate.engine import kernel
+
+# The answer to the usual curves request stays below: compressing it takes longer than computing it.
+_GZIP_FROM = 256 * 1024
+_WARM_AFTER = 1.0  # s
+
+_TAGS = [
+    {"name": "health", "description": "Is the server up?"},
+    {"name": "effects", "description": "The catalogue of physical effects."},
+    {"name": "presets", "description": "Real parts, reference curves, measurements and example designs."},
+    {"name": "curves", "description": "Static characteristics of a muscle."},
+    {"name": "inverse", "description": "Which pressure, which contraction, which range?"},
+    {"name": "simulations", "description": "Drives through time."},
+    {"name": "sizings", "description": "From a task to drives."},
+    {"name": "measurements", "description": "Measurement files."},
+    {"name": "comparisons", "description": "A model beside a measurement."},
+    {"name": "diagnoses", "description": "Which physical effect a model is missing."},
+    {"name": "reports", "description": "Comparison and diagnosis as a file to keep."},
+    {"name": "mysteries", "description": "Measurements with hidden effects, to practise on."},
+]
+
+
+def create_app(settings: Settings | None = None) -> FastAPI:
+    """The application with everything it serves.
+
+    Raises:
+        InputError: an effects folder does not exist.
+    """
+    settings = settings or Settings()
+
+    @asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        # Ready when the first page asks for it, without delaying the start.
+        threading.Thread(target=app.state.plotly.compressed, daemon=True).start()
+        # Importing numba takes the interpreter for half a second, which the first page needs more.
+        warming = asyncio.get_running_loop().call_later(_WARM_AFTER, kernel.warm)
+        yield
+        warming.cancel()
+
+    app = FastAPI(
+        title="mckibben",
+        version=__version__,
+        description="Design studio for pneumatic-muscle drives. Physical values of requests are numbers in "
+        "SI units or texts with a unit; answers are in SI.",
+        # Their pages load scripts from elsewhere, which the content security policy forbids.
+        docs_url=None,
+        redoc_url=None,
+        openapi_url=None,  # FastAPI's own route writes the description on the event loop; see `description`
+        openapi_tags=_TAGS,
+        generate_unique_id_function=_operation_name,
+        lifespan=lifespan,
+    )
+    app.state.settings = settings
+    app.state.studio = Studio(
+        presets=settings.presets, user_presets=settings.user_presets, effects=settings.effects
+    )
+    app.state.store = MeasurementStore(settings.data)
+    app.state.effects = effects.EffectsDocument(app.state.studio.catalogue)
+    app.state.plotly = static.PlotlyBundle()
+    # Routes are tried in this order: the one asked at every movement of a slider first.
+    for noun in (
+        curves,
+        simulations,
+        inverse,
+        sizings,
+        comparisons,
+        diagnoses,
+        health,
+        effects,
+        presets,
+        measurements,
+        reports,
+        mysteries,
+        description,
+        static,
+    ):
+        app.include_router(noun.router)
+    app.router.redirect_slashes = False
+    app.router.default = static.frontend(settings.frontend)
+    errors.install(app)
+    # Added last = outermost.
+    app.add_middleware(GZipMiddleware, minimum_size=_GZIP_FROM, compresslevel=1)
+    app.add_middleware(BodyLimitMiddleware)
+    app.add_middleware(SecurityMiddleware, settings=settings)
+    app.add_middleware(TimingMiddleware)
+    return app
+
+
+def _operation_name(route: APIRoute) -> str:
+    """``list_presets`` and the like: the function's own name, unique within the application."""
+    return route.name

@@ -1,0 +1,120 @@
+"""One JSON error shape for everything that can go wrong.
+
+``{"error": {"code": …, "message": …, "field": …, "hint": …}}`` with a 4xx status when the caller can change
+something, and 500 with an id (and the traceback in the log only) when not.
+"""
+
+from __future__ import annotations
+
+import logging
+import secrets
+from difflib import get_close_matches
+from typing import Any
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from starlette.exceptions import HTTPException
+
+from mckibben.documents.problems import first_problem
+from mckibben.physics.errors import InputError
+from mckibben.server.answer import BodyError, JsonAnswer
+
+log = logging.getLogger("mckibben.server")
+
+_STATUS_OF_CODE = {"not_found": 404, "conflict": 409}
+_CODE_OF_STATUS = {
+    400: "bad_json",
+    403: "forbidden",
+    404: "not_found",
+    405: "method_not_allowed",
+    409: "conflict",
+    413: "too_large",
+    415: "unsupported_media_type",
+    422: "bad_input",
+}
+_HINTS = {
+    400: 'Send one JSON object, e.g. {"muscle": {"preset": "DMSP-20"}}.',
+    413: "Measurement files may have up to 64 MB, other requests up to 1 MB.",
+    415: "Send 'Content-Type: application/json'; measurement files as 'text/csv'.",
+}
+
+
+def error_body(
+    code: str, message: str, *, field: str | None = None, hint: str | None = None
+) -> dict[str, dict[str, str | None]]:
+    """The one shape of an error."""
+    return {"error": {"code": code, "message": message, "field": field, "hint": hint}}
+
+
+def error_answer(
+    status: int, message: str, *, code: str | None = None, field: str | None = None, hint: str | None = None
+) -> JsonAnswer:
+    """An answer in the one error shape; the code follows from the status unless given."""
+    code = code or _CODE_OF_STATUS.get(status, "error")
+    hint = hint or _HINTS.get(status)
+    body = error_body(code, _printable(message), field=_printable(field), hint=_printable(hint))
+    return JsonAnswer(body, status)
+
+
+def _printable(text: str | None) -> Any:
+    """Text that has a UTF-8 form (a path may hold lone surrogates)."""
+    return text if text is None else text.encode("utf-8", "replace").decode("utf-8")
+
+
+def input_error_answer(error: InputError) -> JsonAnswer:
+    """422 for input that cannot be used, 404 for something unknown, 409 for a conflict."""
+    status = _STATUS_OF_CODE.get(error.code, 422)
+    return error_answer(status, error.message, code=error.code, field=error.field, hint=error.hint)
+
+
+def unexpected_answer(error: Exception) -> JsonAnswer:
+    """500 with an id that finds the traceback in the log; nothing of the traceback leaves the server."""
+    reference = secrets.token_hex(4)
+    log.error("unexpected error %s", reference, exc_info=error)
+    return error_answer(
+        500,
+        f"The server met an unexpected error ({reference}).",
+        code="internal_error",
+        hint=f"Please report it with the lines of the server's log that follow '{reference}'.",
+    )
+
+
+def _nearest_path(path: str, app: FastAPI) -> str:
+    # The document takes a moment to write; what browsers ask for by themselves must not pay for that.
+    known = list(app.openapi()["paths"]) if path.startswith("/api") else []
+    near = get_close_matches(path[:200], known, n=1, cutoff=0.6)
+    return f"Did you mean '{near[0]}'?" if near else "The list of paths is at /openapi.json."
+
+
+def install(app: FastAPI) -> None:
+    """Make every error of the application answer in the one shape."""
+
+    @app.exception_handler(InputError)
+    async def _input_error(request: Request, error: InputError) -> JsonAnswer:
+        return input_error_answer(error)
+
+    @app.exception_handler(RequestValidationError)
+    async def _invalid_request(request: Request, error: RequestValidationError) -> JsonAnswer:
+        body = getattr(request.scope.get("route"), "body_field", None)
+        model = None if body is None else body.field_info.annotation
+        problem = first_problem(error.errors(), model, error.body)
+        if problem.place == "path":
+            # A path that does not fit its pattern names nothing.
+            return error_answer(404, problem.message, field=problem.field, hint=problem.hint)
+        return error_answer(422, problem.message, code=problem.code, field=problem.field, hint=problem.hint)
+
+    # In a worker thread: writing the list of paths takes half a second the first time.
+    @app.exception_handler(HTTPException)
+    def _http_error(request: Request, error: HTTPException) -> JsonAnswer:
+        path, hint, field = request.url.path, None, None
+        message = str(error.detail)
+        if isinstance(error, BodyError):
+            field, hint = error.field, error.hint
+        elif error.status_code == 404:
+            message, hint = f"There is nothing at {path[:200]}.", _nearest_path(path, app)
+        elif error.status_code == 405:
+            allowed = (error.headers or {}).get("Allow", "GET")
+            message, hint = f"{path[:200]} does not take {request.method}.", f"It takes {allowed}."
+        answer = error_answer(error.status_code, message, field=field, hint=hint)
+        answer.headers.update(error.headers or {})
+        return answer

@@ -1,0 +1,21 @@
+"""A model beside a measurement."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter
+
+from mckibben.application.asked import asked
+from mckibben.application.comparisons import comparison_answer
+from mckibben.server.answer import JsonAnswer, StrictRoute
+from mckibben.server.context import StoreDep, StudioDep
+from mckibben.server.schemas.common import errors
+from mckibben.server.schemas.comparisons import ComparisonAnswer, ComparisonRequest
+
+router = APIRouter(prefix="/api/comparisons", tags=["comparisons"], route_class=StrictRoute)
+
+
+# In a worker thread: a fit takes longer than other requests should wait.
+@router.post("", response_model=ComparisonAnswer, responses=errors(400, 404, 413, 415, 422))
+def compare_with_measurement(body: ComparisonRequest, studio: StudioDep, store: StoreDep) -> JsonAnswer:
+    """The model's error on measurements, with or without a fit: numbers, where it fails, the points."""
+    return JsonAnswer(comparison_answer(asked(body, studio, store), fit=body.fit))

@@ -1,0 +1,23 @@
+"""The static characteristics of one muscle."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter
+from fastapi.concurrency import run_in_threadpool
+
+from mckibben.application.curves import curves_answer
+from mckibben.server.answer import JsonAnswer, StrictRoute
+from mckibben.server.context import StudioDep
+from mckibben.server.schemas.common import errors
+from mckibben.server.schemas.curves import CurvesAnswer, CurvesRequest
+
+router = APIRouter(prefix="/api/curves", tags=["curves"], route_class=StrictRoute)
+
+
+@router.post("", response_model=CurvesAnswer, responses=errors(400, 413, 415, 422))
+async def compute_curves(body: CurvesRequest, studio: StudioDep) -> JsonAnswer:
+    """Force, stiffness, volume and diameter over the length for each pressure, and what bounds them."""
+    if studio.is_built_in(body.muscle.preset, body.effects or ()):
+        # On the event loop: such an answer takes about as long as the change of thread would.
+        return JsonAnswer(curves_answer(body, studio))
+    return await run_in_threadpool(lambda: JsonAnswer(curves_answer(body, studio)))

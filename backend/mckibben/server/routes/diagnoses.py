@@ -1,0 +1,29 @@
+"""Which physical effect a model is missing."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Request, Response
+
+from mckibben.application.asked import asked
+from mckibben.application.diagnoses import TIME_LIMIT, prepare
+from mckibben.server.answer import JsonAnswer, StrictRoute, to_json
+from mckibben.server.context import StoreDep, StudioDep
+from mckibben.server.long_work import events, finished, prepared, wants_events
+from mckibben.server.schemas.common import errors
+from mckibben.server.schemas.diagnoses import DiagnosisAnswer, DiagnosisEvents, DiagnosisRequest
+
+router = APIRouter(prefix="/api/diagnoses", tags=["diagnoses"], route_class=StrictRoute)
+
+
+@router.post(
+    "", response_model=DiagnosisAnswer, responses={**errors(400, 404, 413, 415, 422), **DiagnosisEvents}
+)
+async def diagnose_model(
+    body: DiagnosisRequest, request: Request, studio: StudioDep, store: StoreDep
+) -> Response:
+    """The missing effects with reasons, twins, path and verdict; closing the connection ends the search."""
+    question = await prepared(request, asked, body, studio, store)
+    work = await prepared(request, prepare, question, studio)
+    if wants_events(request):
+        return events(work, time_limit=TIME_LIMIT)
+    return JsonAnswer(await finished(request, work, to_json, time_limit=TIME_LIMIT))

@@ -1,0 +1,110 @@
+"""Measurement files: look at one, send one, read one back."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, Path, Query, Request
+from fastapi.concurrency import run_in_threadpool
+from starlette.exceptions import HTTPException
+
+from mckibben.application.measurements import measurement_answer, preview_answer
+from mckibben.measurement.read import Correction, preview, read_correction
+from mckibben.measurement.read.correction import MAX_LENGTH
+from mckibben.measurement.store import MAX_NAME, clean_name
+from mckibben.server.answer import JsonAnswer, StrictRoute
+from mckibben.server.context import StoreDep
+from mckibben.server.schemas.common import errors
+from mckibben.server.schemas.measurements import MeasurementAnswer, MeasurementDetail, PreviewAnswer
+
+router = APIRouter(prefix="/api/measurements", tags=["measurements"], route_class=StrictRoute)
+
+# What browsers say of such files; Windows with Excel installed says vnd.ms-excel of a CSV.
+_CONTENT_TYPES = (
+    "text/csv",
+    "text/plain",
+    "text/tab-separated-values",
+    "application/csv",
+    "application/vnd.ms-excel",
+    "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
+    "application/x-matlab-data",
+    "application/octet-stream",
+)
+_BODY = {
+    "requestBody": {
+        "required": True,
+        "description": "The file as it is, up to 64 MB: CSV, .xlsx, .mat (v5 to v7.3) or .tdms.",
+        "content": {kind: {"schema": {"type": "string", "format": "binary"}} for kind in _CONTENT_TYPES},
+    }
+}
+_Name = Annotated[
+    str,
+    Query(
+        min_length=1, max_length=MAX_NAME, description="Name of the file, for people.", examples=["run1.csv"]
+    ),
+]
+
+
+_Mapping = Annotated[
+    str | None,
+    Query(
+        max_length=MAX_LENGTH,
+        description="What the user says beyond the file, as JSON: 'columns' (header -> channel and unit, "
+        "null = not used), 'kind', 'conditions', 'bad_rows' ('refuse' or 'skip'); each may be left out.",
+        examples=[
+            '{"columns": {"p1": {"channel": "pressure", "unit": "bar"}, "x9": null}, "kind": "isobaric"}'
+        ],
+    ),
+]
+
+
+@router.put(
+    "",
+    response_model=MeasurementAnswer,
+    responses=errors(400, 409, 413, 415, 422),
+    openapi_extra=_BODY,
+)
+async def upload_measurement(
+    request: Request, name: _Name, store: StoreDep, mapping: _Mapping = None
+) -> JsonAnswer:
+    """Send a measurement file; the answer says how it was understood. Sent twice it is kept once.
+
+    With a mapping the measurement has an id of its own: both readings of a file can be compared.
+    """
+    content, correction = await _file(request, mapping)
+    return await run_in_threadpool(
+        lambda: JsonAnswer(measurement_answer(store.put(content, name, correction)))
+    )
+
+
+@router.post(
+    "/preview",
+    response_model=PreviewAnswer,
+    responses=errors(400, 413, 415, 422),
+    openapi_extra=_BODY,
+)
+async def preview_measurement(request: Request, name: _Name, mapping: _Mapping = None) -> JsonAnswer:
+    """How a file would be understood: columns, units, rows, kind, conditions. Nothing is kept."""
+    content, correction = await _file(request, mapping)
+    return await run_in_threadpool(
+        lambda: JsonAnswer(preview_answer(preview(content, clean_name(name), correction)))
+    )
+
+
+async def _file(request: Request, mapping: str | None) -> tuple[bytes, Correction]:
+    """The file of a request, and what the user says of it."""
+    # The body is the file whatever a client calls it (curl says urlencoded); only a form wraps it.
+    declared = request.headers.get("content-type", "")
+    if declared.partition(";")[0].strip().lower() == "multipart/form-data":
+        raise HTTPException(415, "Send the file itself as the body, not a form with the file in it.")
+    correction = Correction() if mapping is None else read_correction(mapping)
+    return await request.body(), correction
+
+
+@router.get("/{measurement_id}", response_model=MeasurementDetail, responses=errors(404, 422))
+def read_measurement(
+    measurement_id: Annotated[str, Path(pattern=r"^[0-9a-f]{64}$", description="SHA-256 of the file.")],
+    store: StoreDep,
+) -> JsonAnswer:
+    """A measurement with its columns in SI."""
+    return JsonAnswer(measurement_answer(store.get(measurement_id), columns=True))

@@ -1,0 +1,32 @@
+"""Measurements with hidden effects, to practise on."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, Path
+
+from mckibben.application.mysteries import mysteries_answer, reveal_answer
+from mckibben.server.answer import JsonAnswer, StrictRoute
+from mckibben.server.context import StudioDep
+from mckibben.server.schemas.common import errors
+from mckibben.server.schemas.mysteries import Mystery, RevealAnswer, RevealRequest
+
+router = APIRouter(prefix="/api/mysteries", tags=["mysteries"], route_class=StrictRoute)
+
+
+# Worker threads: the library looks at the user's folder.
+@router.get("", response_model=list[Mystery], responses=errors())
+def list_mysteries(studio: StudioDep) -> JsonAnswer:
+    """Every mystery with its story and the start model; comparisons take its measurement by the id."""
+    return JsonAnswer(mysteries_answer(studio.library))
+
+
+@router.post("/{mystery_id}/reveal", response_model=RevealAnswer, responses=errors(400, 404, 413, 415, 422))
+def reveal_mystery(
+    mystery_id: Annotated[str, Path(max_length=64, description="Its id.", examples=["the-dip"])],
+    body: RevealRequest,
+    studio: StudioDep,
+) -> JsonAnswer:
+    """What is hidden in a mystery, held against one's own diagnosis."""
+    return JsonAnswer(reveal_answer(studio.library, mystery_id, body.effects))

@@ -1,0 +1,49 @@
+"""Presets: muscles, valves, tubes, fittings, measurements, curves, designs, drives, tasks."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, Path
+
+from mckibben.presets import MusclePreset
+from mckibben.server.answer import JsonAnswer, StrictRoute
+from mckibben.server.context import StudioDep
+from mckibben.server.schemas.common import errors
+from mckibben.server.schemas.presets import MuscleAnswer, PresetAnswer, PresetKind, PresetsAnswer
+
+router = APIRouter(prefix="/api/presets", tags=["presets"], route_class=StrictRoute)
+
+Kind = Annotated[PresetKind, Path(description="Which presets.")]
+
+
+# Worker threads: the library looks at the user's folder.
+@router.get("/{kind}", response_model=PresetsAnswer, responses=errors(404, 422))
+def list_presets(kind: Kind, studio: StudioDep) -> JsonAnswer:
+    """All presets of a kind with unit, source and grade of each figure, and the files that were refused."""
+    return JsonAnswer(
+        {
+            "kind": kind,
+            "presets": [preset.public() for preset in studio.library.list(kind)],
+            "problems": [problem._asdict() for problem in studio.library.problems(kind)],
+        }
+    )
+
+
+@router.get("/{kind}/{preset_id:path}", response_model=PresetAnswer, responses=errors(404, 422))
+def read_preset(
+    kind: Kind,
+    preset_id: Annotated[str, Path(max_length=64, description="Its id.", examples=["DMSP-20"])],
+    studio: StudioDep,
+) -> JsonAnswer:
+    """One preset."""
+    return JsonAnswer(studio.library.get(kind, preset_id).public())
+
+
+@router.post(
+    "/muscles", status_code=201, response_model=MuscleAnswer, responses=errors(400, 409, 413, 415, 422)
+)
+def save_muscle(body: MusclePreset, studio: StudioDep) -> JsonAnswer:
+    """Keep a muscle among the user's presets; one of the same id is replaced, a built-in one never."""
+    saved = studio.library.save_muscle(body.to_document())
+    return JsonAnswer(saved.public(), status_code=201)

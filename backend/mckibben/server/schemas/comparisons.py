@@ -1,0 +1,202 @@
+"""Request and answer of ``/api/comparisons``: a model beside a measurement."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, StringConstraints
+
+from mckibben.documents.drive import DriveDocument
+from mckibben.documents.muscle import EffectsInput, MuscleInput
+from mckibben.documents.strict import Series, Strict, si_field
+from mckibben.server.schemas.common import Flag
+from mckibben.server.schemas.curves import MuscleGeometry
+
+MeasurementId = Annotated[
+    str,
+    StringConstraints(pattern=r"^[A-Za-z0-9][A-Za-z0-9./-]{0,63}$"),
+    Field(description="SHA-256 id of an uploaded file, or id of a preset measurement or reference curve."),
+]
+ParameterPath = Annotated[
+    str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_]*\.[A-Za-z_][A-Za-z0-9_]*$", max_length=128)
+]
+FreeGeometry = Literal["nominal_length", "braid_diameter", "braid_angle", "wall_thickness", "inside_diameter"]
+
+
+class UsedMeasurement(Strict):
+    """A measurement, and what for."""
+
+    id: MeasurementId
+    use: Literal["fit", "validation"] = Field("fit", description="Fitted to, or only judged by.")
+
+
+class ModelRequest(Strict):
+    """A model and the measurements it is held against."""
+
+    muscle: MuscleInput | None = Field(None, description="Null: the drive's.")
+    effects: EffectsInput | None = None
+    drive: DriveDocument | None = Field(
+        None,
+        description="Valve, tube, supply and load of transient measurements with a command channel, whose "
+        "command takes the place of one given here.",
+    )
+    measurement: MeasurementId | None = Field(None, description="One measurement to fit to.")
+    measurements: list[UsedMeasurement] = Field(default=[], max_length=16)
+    free: list[FreeGeometry] = Field(
+        default=[], max_length=5, description="Geometry that is fitted too, within its tolerance."
+    )
+    freed: list[ParameterPath] = Field(
+        default=[], max_length=64, description="Further constants that are fitted, as effect.parameter."
+    )
+    noise: float | None = Field(
+        None,
+        gt=0.0,
+        allow_inf_nan=False,
+        description="Standard deviation of the predicted channel in SI, when it is known.",
+    )
+
+    def chosen(self) -> list[UsedMeasurement]:
+        """All measurements, whichever way they were named."""
+        single = [] if self.measurement is None else [UsedMeasurement(id=self.measurement, use="fit")]
+        return [*single, *self.measurements]
+
+
+class ComparisonRequest(ModelRequest):
+    """Which model beside which measurements, and whether to fit it."""
+
+    fit: bool = Field(False, description="Fit the effects' parameters to the data.")
+
+
+EffectsJson = dict[str, dict[str, float | str]]
+
+
+class FittedParameter(Strict):
+    """One parameter as used or fitted."""
+
+    value: float = Field(description="Value in SI.")
+    stderr: float | None = Field(description="Standard error; null when not fitted or not determined.")
+    unit: str = Field(description="SI unit.")
+    at_bound: bool = Field(description="The fit stopped at a bound.")
+    fitted: bool = Field(description="The fit was free to change it.")
+
+
+class Correlation(Strict):
+    """How far two fitted parameters can stand in for each other."""
+
+    a: str
+    b: str
+    value: float = Field(ge=-1.0000001, le=1.0000001)
+
+
+class ComparisonSeries(Strict):
+    """One curve of the comparison, e.g. all points of one pressure."""
+
+    label: str = Field(examples=["3 bar"])
+    channel: str = Field(description="The predicted channel.", examples=["force"])
+    unit: str = Field(description="SI unit of measured, predicted and residual.")
+    use: Literal["fit", "validation"]
+    pressure: float | None = si_field("Pa", "Pressure of the series, when it has one.")
+    time: Series | None = si_field("s", "Time of each point.")
+    contraction: Series = si_field("1", "Contraction of each point.")
+    length: Series = si_field("m", "Length of each point.")
+    x_pressure: Series = si_field("Pa", "Pressure of each point.")
+    velocity: Series = si_field("m/s", "dL/dt of each point.")
+    direction: Series = Field(description="-1 shortening, 1 lengthening, 0 held or unknown.")
+    measured: Series = Field(description="Measured.")
+    predicted: Series = Field(description="Predicted.")
+    residual: Series = Field(description="Measured minus predicted.")
+
+
+class ChannelError(Strict):
+    """Error of one of several predicted channels, SI."""
+
+    rmse: float
+    unit: str
+    noise_floor: float
+    full_scale: float
+
+
+class ResidualProfile(Strict):
+    """The residual over one variable."""
+
+    over: str = Field(examples=["pressure"])
+    share_explained: float = Field(description="Share of its mean square that this variable predicts.")
+    worst: str = Field(description="The range with the largest error.", examples=["pressure 5.5 to 6 bar"])
+    rmse: float = Field(description="Error in that range.")
+    edges: Series = Field(description="Limits of the ranges, SI; one more than ranges.")
+    mean: Series
+    rms: Series
+    count: list[int]
+
+
+class HeatMap(Strict):
+    """The residual over two variables; rows are y, null where there is no point."""
+
+    x: str
+    y: str
+    x_edges: Series
+    y_edges: Series
+    mean: list[Series]
+    rms: list[Series]
+    count: list[list[int]]
+
+
+class WhitenessAnswer(Strict):
+    """Whether the residual looks like noise."""
+
+    autocorrelation: Series
+    band: float = Field(description="Half-width of the 95 % band of noise.")
+    outside: float = Field(description="Share of the lags outside of it.")
+    runs: float = Field(description="Runs of one sign over what noise would have.")
+    white: bool
+
+
+class Loop(Strict):
+    """Area of the force residual over a closed way: energy that the model lacks or has too much."""
+
+    group: int
+    area: float = si_field("J", "Positive: friction takes it out of the motion.")
+    span: float = si_field("m", "Way between the turns.")
+
+
+class ValidationAnswer(Strict):
+    """The model on measurements it was not fitted to."""
+
+    rmse: float | None
+    nrmse_percent: float | None
+    rows_used: int
+    series: list[ComparisonSeries]
+
+
+class ComparisonAnswer(Strict):
+    """The model's error in numbers, and the points."""
+
+    kind: str = Field(description="Measurement kind.")
+    rows: int
+    rows_used: int
+    predicted: str = Field(description="The predicted channel, or several.", examples=["force"])
+    unit: str = Field(
+        description='SI unit of the error; "1": over the noise of each channel.', examples=["N"]
+    )
+    rmse: float | None = Field(description="Root mean square of the residual.")
+    nrmse_percent: float | None = Field(description="RMSE over the largest measured magnitude.")
+    full_scale: float | None = Field(description="The largest measured magnitude.")
+    holdout_rmse: float | None = Field(description="RMSE with whole groups left out of the fit.")
+    noise_floor: float | None = Field(description="Noise of the data, when it can be told.")
+    noise_how: str = Field(description="From what the noise was told.")
+    residual_mean: float | None
+    channels: dict[str, ChannelError] = Field(description="Each channel when there are several.")
+    parameters: dict[str, dict[str, FittedParameter]] = Field(description="Effect -> parameter -> value.")
+    correlations: list[Correlation]
+    excluded: dict[str, int] = Field(description="Why rows were left out -> how many.")
+    where: list[ResidualProfile]
+    heat_map: HeatMap | None
+    whiteness: WhitenessAnswer
+    loops: list[Loop]
+    sentences: list[str] = Field(description="Where the model fails, in words.")
+    validation: ValidationAnswer | None
+    messages: list[str]
+    geometry: MuscleGeometry
+    series: list[ComparisonSeries]
+    model: dict[str, EffectsJson] = Field(description="Effects and values as a request takes them.")
+    flags: list[Flag]

@@ -1,0 +1,162 @@
+"""Request and answer of ``/api/diagnoses``: which physical effect a model is missing."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from pydantic import Field
+
+from mckibben.documents.strict import Series, Strict
+from mckibben.server.schemas.comparisons import (
+    ChannelError,
+    Correlation,
+    EffectsJson,
+    FittedParameter,
+    ModelRequest,
+    ResidualProfile,
+)
+from mckibben.server.schemas.curves import MuscleGeometry
+
+
+class DiagnosisRequest(ModelRequest):
+    """The start model and the measurements that it should explain."""
+
+
+class Baseline(Strict):
+    """The start model as given."""
+
+    rmse: float
+    nrmse_percent: float | None
+    holdout_rmse: float
+
+
+class NoiseFloor(Strict):
+    """Below this error there is nothing to learn."""
+
+    rmse: float | None
+    how: str
+
+
+class ModelJson(Strict):
+    """A model as a request takes it."""
+
+    effects: EffectsJson
+
+
+class Candidate(Strict):
+    """The start model with one more effect, all numbers refitted."""
+
+    effect: str
+    title: str
+    rmse: float
+    holdout_rmse: float
+    gain_percent: float
+    delta_bic: float = Field(description="Change of the Bayes-type score; negative is better.")
+    parameters: dict[str, FittedParameter]
+    twins: list[str] = Field(description="Candidates that these data cannot tell from it.")
+    why: str
+    equation: str = Field(description="LaTeX.")
+    freed: list[str]
+    next_measurement: str | None = Field(description="What would tell it from its first twin.")
+    model: ModelJson
+
+
+class PathStep(Strict):
+    """The error after each addition; the first is the start model as given."""
+
+    added: str | None
+    rmse: float
+    holdout_rmse: float
+    model: ModelJson
+    freed: list[str]
+
+
+class TermCurve(Strict):
+    """The proposed term and the residual it is for, over one variable."""
+
+    x: str
+    values: Series
+    term: Series
+    residual: Series
+
+
+class ProposedTerm(Strict):
+    """A formula for what no catalogued effect explains."""
+
+    formula: str
+    coefficients: dict[str, float]
+    share: float = Field(description="Share of the residual's mean square that it takes away.")
+    model: ModelJson
+    curve: TermCurve
+
+
+class Experiment(Strict):
+    """What would separate two effects that look alike."""
+
+    pair: list[str]
+    declared: str
+    protocol: str
+    separation: float = Field(description="Standard deviations of one reading.")
+
+
+class Verdict(Strict):
+    """The answer."""
+
+    status: Literal["adequate", "missing_effects", "ambiguous", "unknown_effect"]
+    effects: list[str]
+    indistinguishable: list[list[str]]
+    unexplained_share: float
+    unexplained_in: list[str]
+    proposed_term: ProposedTerm | None
+    next_measurement: str | None
+    experiments: list[Experiment]
+    sentence: str
+
+
+class NotTried(Strict):
+    """An effect that these data cannot show, or that the question excludes."""
+
+    effect: str
+    why: str
+
+
+class DiagnosisAnswer(Strict):
+    """What the model is missing, and how sure that is."""
+
+    kind: str
+    rows: int
+    rows_used: int
+    excluded: dict[str, int] = Field(description="Why rows were left out -> how many.")
+    predicted: str
+    unit: str
+    baseline: Baseline
+    noise_floor: NoiseFloor
+    channels: dict[str, ChannelError]
+    where: list[ResidualProfile]
+    candidates: list[Candidate]
+    path: list[PathStep]
+    verdict: Verdict
+    parameters: dict[str, dict[str, FittedParameter]]
+    correlations: list[Correlation]
+    geometry: MuscleGeometry
+    model: dict[str, Any] = Field(description="Muscle and effects; can be given to a comparison as a drive.")
+    freed: list[str]
+    not_tried: list[NotTried] = Field(
+        description="Effects of the catalogue that were no candidates, and why."
+    )
+    messages: list[str]
+
+
+DiagnosisEvents: dict[int | str, dict[str, Any]] = {
+    200: {
+        "content": {
+            "text/event-stream": {
+                "schema": {
+                    "type": "string",
+                    "description": "Asked for with `Accept: text/event-stream`: events `progress` "
+                    '({"share": 0 to 1, "found": a candidate or null}), then `done` (the answer) or `error`.',
+                }
+            }
+        }
+    }
+}

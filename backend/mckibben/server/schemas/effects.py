@@ -1,0 +1,73 @@
+"""Answer of ``/api/effects``: the catalogue of physical effects."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from mckibben.documents.strict import Strict
+from mckibben.server.schemas.common import SourceText
+
+
+class EffectParameter(Strict):
+    """One number of an effect, in SI."""
+
+    name: str = Field(examples=["shear_modulus"])
+    symbol: str = Field(description="LaTeX.", examples=["C_{10}"])
+    symbol_mathml: str = Field(description="The symbol as MathML.")
+    unit: str = Field(description="SI unit of all figures here.", examples=["Pa"])
+    default: float = Field(description="A typical value.")
+    lower: float = Field(description="Lower bound of what is plausible.")
+    upper: float = Field(description="Upper bound of what is plausible.")
+    off: float | None = Field(description="The value at which the effect vanishes.")
+    fitted: bool = Field(description="Whether a fit frees it by default.")
+    description: str
+    source: SourceText
+
+
+class Signature(Strict):
+    """How the effect shows in the residual."""
+
+    text: str = Field(description="In words.")
+    direction: str | None = Field(description="Parity when the motion reverses: even, odd or null.")
+    pressure_power: float | None = Field(description="n when it grows with the n-th power of pressure.")
+    zero_at: list[str] = Field(description="States at which it contributes nothing.")
+    energy: str = Field(description="conservative, dissipative, lumped or reading.")
+
+
+class Twin(Strict):
+    """Another effect that looks alike."""
+
+    effect: str = Field(description="Its id.")
+    separated_by: str = Field(description="The experiment that tells the two apart.")
+
+
+class EffectAnswer(Strict):
+    """One physical effect, as its file declares it."""
+
+    id: str = Field(description="The name of the file that declares it.")
+    title: str
+    family: str = Field(examples=["elastomer"])
+    type: str = Field(description="static, rate, hysteretic, dynamic or measurement.")
+    cause: str = Field(description="Why it exists.")
+    equation: str = Field(description="LaTeX.")
+    equation_mathml: str
+    parameters: list[EffectParameter]
+    kinds: list[str] = Field(description="Measurement kinds that reveal it.")
+    signature: Signature
+    confused_with: list[Twin]
+    references: list[SourceText]
+    slots: list[str] = Field(description="The places of the model it fills.")
+
+
+class FileProblem(Strict):
+    """A file that was not loaded, and why."""
+
+    file: str
+    message: str
+
+
+class EffectsAnswer(Strict):
+    """All known effects, and the effect files that could not be loaded."""
+
+    effects: list[EffectAnswer]
+    problems: list[FileProblem]

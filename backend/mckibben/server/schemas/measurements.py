@@ -1,0 +1,133 @@
+"""Answers of ``/api/measurements``."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from mckibben.documents.strict import Strict
+from mckibben.server.schemas.common import ErrorDetail
+
+
+class Channel(Strict):
+    """One column of a measurement that is used."""
+
+    name: str = Field(description="Name of the channel.", examples=["pressure"])
+    column: str = Field(description="Header of the file.", examples=["p_bar"])
+    unit: str = Field(description="Unit in the file.", examples=["bar"])
+    si_unit: str = Field(description="SI unit of minimum, maximum and the columns.", examples=["Pa"])
+    minimum: float | None = Field(description="Smallest value, SI.")
+    maximum: float | None = Field(description="Largest value, SI.")
+
+
+class Segmentation(Strict):
+    """How the rows fall into sweeps."""
+
+    signal: str = Field(description="The channel that decides.", examples=["length"])
+    sweeps: int = Field(description="Number of sweeps.")
+    cycles: int = Field(description="Number of cycles.")
+    held_rows: int = Field(description="Rows in which nothing moves.")
+    speeds: list[float | None] = Field(
+        description="Mean speed of each level, ascending [SI unit of the signal per s]; empty without time."
+    )
+
+
+class MissingCondition(Strict):
+    """A condition that a comparison of this kind needs and the file does not say."""
+
+    key: str = Field(description="Name of the condition.", examples=["load_mass"])
+    unit: str = Field(description="Its SI unit.", examples=["kg"])
+    why: str = Field(description="What it is needed for.")
+    example: str = Field(description="A right value.", examples=["6 kg"])
+    alternatives: list[str] = Field(description="Conditions that do as well.", examples=[["load_force"]])
+
+
+class MeasurementAnswer(Strict):
+    """A measurement as it was understood."""
+
+    id: str = Field(
+        description="SHA-256 of the file's content (and of the mapping, if one was given).",
+        pattern=r"^[0-9a-f]{64}$",
+    )
+    name: str = Field(description="Name of the file.")
+    kind: str = Field(description="isobaric, isometric, isotonic, diameter, transient or static.")
+    kind_detected: bool = Field(description="Detected from the data, not given in the file.")
+    kind_reason: str = Field(description="Why this kind was detected; empty when it was given.")
+    rows: int
+    usable_rows: int = Field(description="Rows that hold what was to be measured.")
+    excluded: dict[str, int] = Field(
+        description="Why rows of the measurement are not usable -> how many.", examples=[{"slack": 66}]
+    )
+    skipped: dict[str, int] = Field(description="Why rows of the file could not be read -> how many.")
+    channels: list[Channel]
+    ignored: list[str] = Field(description="Columns that are not used.")
+    conditions: dict[str, str | float | None] = Field(description="Conditions of the test, SI.")
+    missing: list[MissingCondition] = Field(description="Conditions to ask for.")
+    groups: int = Field(description="How many sweeps or cycles the rows belong to.")
+    segments: Segmentation
+    messages: list[str] = Field(description="What to know about the file.")
+
+
+class MeasurementDetail(MeasurementAnswer):
+    """A measurement with its data."""
+
+    columns: dict[str, list[float | bool | None]] = Field(
+        description="Channel -> values in SI; 'slack' marks rows without pulling force, 'usable' those that "
+        "hold what was to be measured, 'sweep' and 'cycle' number them, 'motion' is -1 shortening, "
+        "+1 lengthening, 0 held."
+    )
+
+
+class PreviewColumn(Strict):
+    """One column of the file, used or not."""
+
+    header: str = Field(description="Header of the file; the key of a mapping.", examples=["p_bar"])
+    channel: str | None = Field(description="The guessed or chosen channel; null = not used.")
+    unit: str | None = Field(description="The guessed, given or chosen unit; null = not used.")
+    unit_given: bool = Field(description="The unit stands in the header (or was chosen), it is no guess.")
+    absolute: bool | None = Field(description="A pressure above vacuum; null = not said, gauge is assumed.")
+    minimum: float | None = Field(description="Smallest value of the channel, SI.")
+    maximum: float | None = Field(description="Largest value of the channel, SI.")
+    why: str | None = Field(description="Why the column cannot be used as its header says.")
+
+
+class SkippedRows(Strict):
+    """Rows of the file that cannot be read, for one reason."""
+
+    reason: str = Field(examples=["not a number"])
+    rows: int
+    first: str = Field(description="Where the first of them is.", examples=["row 7, column 'force_N'"])
+
+
+class ChannelChoice(Strict):
+    """What a column can be mapped to."""
+
+    name: str = Field(examples=["pressure"])
+    si_unit: str = Field(examples=["Pa"])
+    units: list[str] = Field(description="Usual units; others are accepted too.", examples=[["bar", "kPa"]])
+
+
+class PreviewAnswer(Strict):
+    """What a file would be read as; nothing is kept."""
+
+    name: str
+    format: str = Field(description="csv, xlsx, mat or tdms.")
+    columns: list[PreviewColumn] = Field(description="All columns of the file, in its order.")
+    sample: list[list[str]] = Field(description="The first rows as they are written, up to 8.")
+    rows: int = Field(description="Rows below the header.")
+    valid_rows: int = Field(description="Rows that can be read.")
+    skipped: list[SkippedRows]
+    kind: str | None = Field(description="The kind; null while the file cannot be used.")
+    kind_detected: bool
+    kind_reason: str
+    conditions: dict[str, str | float | None] = Field(description="Conditions found or given, SI.")
+    missing: list[MissingCondition] = Field(description="Conditions to ask for.")
+    measurement: MeasurementAnswer | None = Field(
+        description="As it would be kept, without the skipped rows; null while the file cannot be used."
+    )
+    problem: ErrorDetail | None = Field(description="What PUT would refuse it for.")
+    only_bad_rows: bool = Field(
+        description="Only bad rows stand in the way: the mapping {'bad_rows': 'skip'} leaves them out."
+    )
+    messages: list[str] = Field(description="What was assumed.")
+    channel_choices: list[ChannelChoice]
+    kind_choices: list[str]

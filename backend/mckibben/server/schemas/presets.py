@@ -1,0 +1,73 @@
+"""Answers of ``/api/presets``: each kind of preset as its file is written, with where it came from."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, Union
+
+from pydantic import BaseModel, Field, create_model
+
+from mckibben.documents.strict import Strict
+from mckibben.presets import (
+    CurvePreset,
+    DesignPreset,
+    DrivePreset,
+    FittingPreset,
+    MeasurementPreset,
+    MusclePreset,
+    Preset,
+    TaskPreset,
+    TubePreset,
+    ValvePreset,
+)
+
+PresetKind = Literal[
+    "muscles", "valves", "tubes", "fittings", "measurements", "curves", "designs", "drives", "tasks"
+]  # fmt: skip
+
+
+def _answer(preset: type[Preset], name: str) -> type[BaseModel]:
+    """The fields of a preset file with ``verified`` and ``origin`` added.
+
+    A new model rather than a subclass: the presets have properties of these names.
+    """
+    fields: dict[str, Any] = {key: (field.annotation, field) for key, field in preset.model_fields.items()}
+    return create_model(
+        name,
+        __base__=Strict,
+        __doc__=preset.__doc__,
+        **fields,
+        verified=(bool, Field(description="No figure is general knowledge (M) or an estimate (E).")),
+        origin=(Literal["built-in", "user"], Field(description="With the program, or the user's own.")),
+    )
+
+
+MuscleAnswer = _answer(MusclePreset, "MuscleAnswer")
+_ANSWERS = (
+    MuscleAnswer,
+    _answer(ValvePreset, "ValveAnswer"),
+    _answer(TubePreset, "TubeAnswer"),
+    _answer(FittingPreset, "FittingAnswer"),
+    _answer(MeasurementPreset, "MeasurementPresetAnswer"),
+    _answer(CurvePreset, "CurvePresetAnswer"),
+    _answer(DesignPreset, "DesignAnswer"),
+    _answer(DrivePreset, "DriveAnswer"),
+    _answer(TaskPreset, "TaskAnswer"),
+)
+PresetAnswer = Annotated[Union[_ANSWERS], Field(discriminator="kind")]  # noqa: UP007 - built from a tuple
+
+
+class PresetProblem(Strict):
+    """A preset file that was not loaded, and why."""
+
+    file: str
+    field: str | None = Field(description="Where in the file.")
+    message: str
+    hint: str | None = Field(description="What would be right.")
+
+
+class PresetsAnswer(Strict):
+    """All presets of one kind, and the files that could not be loaded."""
+
+    kind: PresetKind
+    presets: list[PresetAnswer]  # type: ignore[valid-type]
+    problems: list[PresetProblem]

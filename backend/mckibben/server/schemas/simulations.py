@@ -1,0 +1,160 @@
+"""Request and answer of ``/api/simulations``: a drive through time."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from mckibben.documents.drive import LONGEST, DriveOrId
+from mckibben.documents.quantity import Quantity
+from mckibben.documents.strict import Series, Strict, si_field
+from mckibben.server.schemas.common import Flag
+from mckibben.server.schemas.curves import ModelAnswer, MuscleGeometry
+from mckibben.simulation.timing.table import FIGURES
+
+Instant = Annotated[float, Quantity("s", "0.5 s", at_least=0.0, at_most=LONGEST)]
+
+
+class SimulationRequest(Strict):
+    """A drive, and which part of its run to answer."""
+
+    drive: DriveOrId = Field(description="A drive document, or the id of a drive preset.")
+    points: Annotated[int, Field(ge=2, le=20_001)] = Field(2001, description="Rows of the answer.")
+    begin: Instant | None = Field(None, alias="from", description="First row; 0 when left out.")
+    end: Instant | None = Field(None, alias="to", description="Last row; the end of the run when left out.")
+
+
+_UNITS = {
+    "average_speed": "m/s", "max_speed": "m/s", "end_speed": "m/s", "max_acceleration": "m/s^2",
+    "min_acceleration": "m/s^2", "impact_energy": "J", "air_mass": "kg", "air_volume_anr": "m^3",
+    "choked_share": "1", "overshoot": "1",
+}  # fmt: skip
+PhaseFigures = Annotated[
+    dict[str, float | None],
+    Field(
+        description="Figures of one phase in SI: "
+        + ", ".join(f"{name} [{_UNITS.get(name, 's')}]" for name in FIGURES)
+        + ". Null where it does not exist; notes say why."
+    ),
+]
+
+
+class Timing(Strict):
+    """The timing table of the first fill and the exhaust after it."""
+
+    extend: PhaseFigures
+    retract: PhaseFigures
+    notes: dict[str, str] = Field(description='"extend.rise_time" -> why it is null, or what to know of it.')
+
+
+class Overshoot(Strict):
+    """A step of the reference and how far the position went beyond it."""
+
+    time: float = si_field("s", "When.")
+    size: float = si_field("m", "Signed height of the step.")
+    overshoot: float = si_field("1", "Share of the height.")
+
+
+class TrackingAnswer(Strict):
+    """How well the position follows the reference."""
+
+    rms: float = si_field("m", "Root mean square of the error over time.")
+    max: float = si_field("m", "Largest error.")
+    lag: float | None = si_field("s", "Delay that describes the position best; null when none does.")
+    overshoot: list[Overshoot]
+    notes: dict[str, str]
+
+
+class Choked(Strict):
+    """A time in which the flow of the valve does not depend on the pressure behind it."""
+
+    begin: float = Field(alias="from", description="Start.", json_schema_extra={"unit": "s"})
+    end: float = Field(alias="to", description="End.", json_schema_extra={"unit": "s"})
+    side: Literal["fill", "exhaust"]
+
+
+class DriveLimits(Strict):
+    """What the maker allows (null = not known), and the end stops."""
+
+    max_pressure: float | None = si_field("Pa", "Gauge pressure.")
+    max_force: float | None = si_field("N", "Force.")
+    max_contraction: float | None = si_field("1", "Contraction.")
+    max_pretension: float | None = si_field("1", "Stretch beyond the nominal length.")
+    position_min: float = si_field("m", "Lower stop as a position of the load.")
+    position_max: float = si_field("m", "Upper stop as a position of the load.")
+
+
+class Readings(Strict):
+    """What the sensors say."""
+
+    pressure: Series = si_field("Pa", "Gauge pressure.")
+    force: Series = si_field("N", "Force.")
+    position: Series = si_field("m", "Position of the load.")
+
+
+class Joint(Strict):
+    """The pulley of an antagonist pair, and the muscle that pulls the other way."""
+
+    angle: Series = si_field("rad", "Of the pulley, from the middle; positive as the first muscle pulls.")
+    torque: Series = si_field("N*m", "Of both muscles on the pulley.")
+    stiffness: Series = si_field("N*m/rad", "Of the joint at constant pressures.")
+    counter_force: Series = si_field("N", "Tension of the second muscle.")
+    counter_pressure: Series = si_field("Pa", "In the second muscle.")
+
+
+class SimulationAnswer(Strict):
+    """Columns over time, in SI; pressures gauge, positions positive = muscle shorter."""
+
+    time: list[float] = si_field("s", "Instants of the rows; fewer than asked for when the run ended early.")
+    position: Series = si_field("m", "Stroke of the load.")
+    velocity: Series = si_field("m/s", "Of the load.")
+    acceleration: Series = si_field("m/s^2", "Of the load.")
+    pressure: Series = si_field("Pa", "In the muscle.")
+    force: Series = si_field("N", "Tension of the muscle.")
+    mass_flow: Series = si_field("kg/s", "Into the muscle.")
+    command: Series = si_field("1", "Command as given, before dead times.")
+    opening: Series = si_field("1", "Opening of the valve after all effects.")
+    reference: Series | None = si_field("m", "Set point of the controller.")
+    supply_flow: Series = si_field("kg/s", "From the supply.")
+    exhaust_flow: Series = si_field("kg/s", "To the surroundings.")
+    tube_pressure: Series | None = si_field("Pa", "In the tube, when there is one.")
+    regulator_pressure: Series | None = si_field("Pa", "After the regulator, when there is one.")
+    volume: Series = si_field("m^3", "Gas volume of the muscle with all dead volumes.")
+    diameter: Series = si_field("m", "Braid diameter at mid-span.")
+    length: Series = si_field("m", "Of the muscle.")
+    contraction: Series = si_field("1", "Of the muscle.")
+    load_force: Series = si_field("N", "External force on the load.")
+    temperature: Series = si_field("K", "Of the gas in the muscle.")
+    contact: list[bool] = Field(description="Whether an end stop is touched.")
+    readings: Readings | None = Field(description="Null when no effect changes what the sensors say.")
+    joint: Joint | None = Field(description="Of an antagonist pair.")
+    choked: list[Choked] = Field(description="Within the whole run, whatever rows are asked for.")
+    timing: Timing
+    tracking: TrackingAnswer | None = Field(description="Of a controlled run.")
+    outcome: Literal["completed", "stuck", "diverged", "timed_out", "cancelled"]
+    message: str | None = Field(description="What to do when the run did not complete.")
+    wall_ms: float = Field(description="Time of the integration in ms.")
+    engine: Literal["rodas", "lsoda"]
+    steps: int = Field(description="Steps of the integrator.")
+    flags: list[Flag]
+    notes: dict[str, str] = Field(description="Where -> remark; with those of timing and tracking.")
+    limits: DriveLimits
+    geometry: MuscleGeometry
+    model: ModelAnswer
+    duration: float = si_field("s", "Of the whole run.")
+
+
+SimulationEvents: dict[int | str, dict[str, Any]] = {
+    200: {
+        "content": {
+            "text/event-stream": {
+                "schema": {
+                    "type": "string",
+                    "description": "Asked for with `Accept: text/event-stream`: events `progress` "
+                    '({"share": 0 to 1}), then `done` (the answer) or `error` (the error body).',
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,203 @@
+"""Who may talk to the server, as pure ASGI middleware.
+
+Four things are checked before a request reaches a route: the Host header (against DNS rebinding), the origin
+of requests that change or compute something (against other pages in the same browser), the token when the
+server is reachable from outside, and the size of the body. Every answer carries the security headers.
+"""
+
+from __future__ import annotations
+
+import ipaddress
+import secrets
+import socket
+from http.cookies import CookieError, SimpleCookie
+from urllib.parse import parse_qsl, quote, urlencode, urlsplit
+
+from starlette.datastructures import Headers
+from starlette.exceptions import HTTPException
+from starlette.responses import RedirectResponse, Response
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from mckibben.server.errors import error_answer
+from mckibben.server.settings import LOOPBACK_NAMES, Settings, is_every_interface
+
+JSON_LIMIT = 1_000_000
+UPLOAD_LIMIT = 64_000_000
+UPLOADS = frozenset({("PUT", "/api/measurements"), ("POST", "/api/measurements/preview")})
+
+CONTENT_SECURITY_POLICY = (
+    "default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; object-src 'none'; "
+    "base-uri 'none'; frame-ancestors 'none'; form-action 'none'"
+)
+SECURITY_HEADERS = {
+    "content-security-policy": CONTENT_SECURITY_POLICY,
+    "x-content-type-options": "nosniff",
+    "x-frame-options": "DENY",
+    "referrer-policy": "no-referrer",
+    "cross-origin-opener-policy": "same-origin",
+    "cross-origin-resource-policy": "same-origin",
+    "permissions-policy": "camera=(), microphone=(), geolocation=()",
+}
+_RAW_HEADERS = [(name.encode(), value.encode()) for name, value in SECURITY_HEADERS.items()]
+_READING = frozenset({"GET", "HEAD"})
+
+
+def new_token() -> str:
+    """A fresh secret of 32 random bytes for the link."""
+    return secrets.token_urlsafe(32)
+
+
+def _host_name(host: str) -> str | None:
+    """Name part of a Host header, lower case; None when it is malformed."""
+    try:
+        parts = urlsplit(f"//{host}")
+        _ = parts.port  # raises when it is not a port number
+    except ValueError:
+        return None
+    if parts.username is not None or parts.path or parts.query or parts.fragment:
+        return None
+    return parts.hostname
+
+
+class SecurityMiddleware:
+    """Host, origin and token checks, and the security headers on every answer."""
+
+    def __init__(self, app: ASGIApp, *, settings: Settings) -> None:
+        self.app = app
+        self._token = settings.token
+        # Cookies are not kept apart by port: two servers on one machine need two names.
+        self._cookie = f"mckibben-{settings.port}"
+        self._hosts = {*LOOPBACK_NAMES, settings.host.strip("[]").lower()}
+        self._any_address = is_every_interface(settings.host)
+        if self._any_address:
+            self._hosts.add(socket.gethostname().lower())
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Check one request, then pass it on or refuse it."""
+        if scope["type"] == "lifespan":
+            await self.app(scope, receive, send)
+            return
+        if scope["type"] != "http":
+            # There is no WebSocket here; closing before accepting answers 403.
+            await send({"type": "websocket.close", "code": 1008})
+            return
+
+        async def send_with_headers(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                message["headers"] = [*message["headers"], *_RAW_HEADERS]
+            await send(message)
+
+        headers = Headers(scope=scope)
+        refusal = self._refuse_host(headers) or self._refuse_origin(scope, headers)
+        if refusal is None and self._token is not None:
+            refusal = self._refuse_stranger(scope, headers, self._token)
+        await (refusal or self.app)(scope, receive, send_with_headers)
+
+    def _refuse_host(self, headers: Headers) -> Response | None:
+        """A page elsewhere can point its own name at 127.0.0.1, but it cannot change the Host header."""
+        hosts = headers.getlist("host")
+        name = _host_name(hosts[0]) if len(hosts) == 1 else None
+        if name is not None and (name in self._hosts or (self._any_address and _is_address(name))):
+            return None
+        return error_answer(
+            403,
+            f"This server does not answer to the host name '{', '.join(hosts)[:80]}'.",
+            code="host_refused",
+            hint="Open it as http://127.0.0.1 with its port, or start it with --host and that name.",
+        )
+
+    def _refuse_origin(self, scope: Scope, headers: Headers) -> Response | None:
+        """Only pages of this server may send anything but GET."""
+        if scope["method"] in _READING:
+            return None
+        site, origin = headers.get("sec-fetch-site"), headers.get("origin")
+        own_site = site is None or site in ("same-origin", "none")
+        own_origin = origin is None or urlsplit(origin).netloc.lower() == headers.get("host", "").lower()
+        if own_site and own_origin:
+            return None
+        return error_answer(
+            403,
+            "This request comes from another site.",
+            code="origin_refused",
+            hint="Send it from a page of this server, or without an Origin header.",
+        )
+
+    def _refuse_stranger(self, scope: Scope, headers: Headers, token: str) -> Response | None:
+        """The token comes in the link (then it moves into a cookie), in the cookie, or in Authorization."""
+        query = parse_qsl(scope["query_string"].decode("latin-1"), keep_blank_values=True)
+        shown = [value for name, value in query if name == "token"]
+        if shown and scope["method"] == "GET" and _same(shown[0], token):
+            rest = urlencode([pair for pair in query if pair[0] != "token"])
+            # One leading slash only: '//name' would be the address of another server.
+            clean = "/" + quote(scope["path"].lstrip("/\\"), safe="/") + (f"?{rest}" if rest else "")
+            answer = RedirectResponse(clean, status_code=303)
+            answer.set_cookie(self._cookie, token, httponly=True, samesite="strict", path="/")
+            answer.headers["cache-control"] = "no-store"
+            return answer
+        scheme, _, secret = headers.get("authorization", "").partition(" ")
+        if scheme.lower() in ("bearer", "token") and _same(secret.strip(), token):
+            return None
+        if _same(_cookie_value(headers.get("cookie", ""), self._cookie), token):
+            return None
+        return error_answer(
+            403,
+            "This server needs the token it printed when it started.",
+            code="token_required",
+            hint="Open the printed link (…/?token=…), or send 'Authorization: Bearer <token>'.",
+        )
+
+
+def _is_address(name: str) -> bool:
+    """A literal address cannot be rebound by a name server."""
+    try:
+        ipaddress.ip_address(name)
+    except ValueError:
+        return False
+    return True
+
+
+def _same(given: str, token: str) -> bool:
+    return secrets.compare_digest(given.encode("utf-8", "surrogateescape"), token.encode())
+
+
+def _cookie_value(header: str, name: str) -> str:
+    try:
+        morsel = SimpleCookie(header).get(name)
+    except CookieError:
+        return ""
+    return morsel.value if morsel else ""
+
+
+class BodyLimitMiddleware:
+    """Refuse a body that is too large: by its declared length, or while it streams in."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self.app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass one request on with its body counted."""
+        if scope["type"] != "http":
+            await self.app(scope, receive, send)
+            return
+        limit = UPLOAD_LIMIT if (scope["method"], scope["path"]) in UPLOADS else JSON_LIMIT
+        message = f"The body is larger than {limit // 1_000_000} MB."
+        declared = Headers(scope=scope).get("content-length", "0")
+        if not (declared.isascii() and declared.isdigit()):
+            refusal = error_answer(400, "Content-Length is not a number.", code="bad_header")
+            await refusal(scope, receive, send)
+            return
+        # Compared by digits first: int() refuses more than 4300 of them.
+        if len(declared.lstrip("0")) > 12 or int(declared) > limit:
+            await error_answer(413, message)(scope, receive, send)
+            return
+        received = 0
+
+        async def counted() -> Message:
+            nonlocal received
+            part = await receive()
+            received += len(part.get("body", b""))
+            if received > limit:
+                raise HTTPException(413, message)
+            return part
+
+        await self.app(scope, counted, send)

@@ -1,0 +1,1 @@
+"""What commands a drive: signals of time as linear segments, and the sampled position controller."""

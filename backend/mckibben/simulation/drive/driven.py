@@ -1,0 +1,152 @@
+"""Driven runs: measured pressure and length in, force out; or measured pressure in, motion out."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mckibben.physics.errors import InputError
+from mckibben.physics.model import ROOM_TEMPERATURE
+from mckibben.physics.muscle import GEOMETRY
+from mckibben.simulation.drive.parts import Drive
+from mckibben.simulation.drive.rest import settle
+from mckibben.simulation.drive.transient import constants_of, external_force, skewed
+from mckibben.simulation.integrate.engine import CompiledDrive, Outcome, compiled_driven, integrate
+from mckibben.simulation.statics.model import StaticModel
+
+TOLERANCE = 1e-6
+
+
+def driven_force(
+    model: StaticModel,
+    *,
+    time: np.ndarray,
+    pressure: np.ndarray,
+    length: np.ndarray,
+    temperature: float = ROOM_TEMPERATURE,
+    tolerance: float = TOLERANCE,
+) -> np.ndarray:
+    """The force reading [N] at each time of a record of gauge pressure [Pa] and length [m].
+
+    Rates and memory of the effects are integrated along the record, which is taken as lines between samples;
+    before it everything is at rest at the first sample.
+
+    Args:
+        model: the muscle with its effects.
+        time: ascending [s], shape (rows,), at least two rows.
+        pressure, length: as measured, same shape.
+
+    Raises:
+        InputError: times that do not ascend, or an effect whose memory diverges on this record.
+    """
+    found = driven_states(
+        model, time=time, pressure=pressure, length=length, temperature=temperature, tolerance=tolerance
+    )
+    return skewed(model, time, found["force_reading"])
+
+
+def driven_states(
+    model: StaticModel,
+    *,
+    time: np.ndarray,
+    pressure: np.ndarray,
+    length: np.ndarray,
+    temperature: float = ROOM_TEMPERATURE,
+    tolerance: float = TOLERANCE,
+) -> dict[str, np.ndarray]:
+    """What `driven_force` integrates: each state ("effect.state") and reading at each time of the record.
+
+    Raises:
+        InputError: as there.
+    """
+    compiled = compiled_driven(model.effects, motion=False)
+    table = {"temperature": temperature, **_geometry(model), **_named(model)}
+    steps = _steps(time)
+    inputs = {
+        "pressure": pressure[:-1],
+        "pressure_slope": np.diff(pressure) / steps,
+        "length": length[:-1],
+        "length_slope": np.diff(length) / steps,
+        "begin": time[:-1],
+    }
+    start = np.array([state.initial or 0.0 for state in compiled.model.states])
+    start[0] = time[0]
+    return _run(compiled, table, inputs, start, time, tolerance)
+
+
+def driven_motion(
+    drive: Drive, *, time: np.ndarray, pressure: np.ndarray, stroke: float, tolerance: float = TOLERANCE
+) -> dict[str, np.ndarray]:
+    """Stroke and force readings of a load under a measured gauge pressure [Pa].
+
+    Args:
+        drive: muscle, load and stops; its valve, tube and command are not used.
+        time, pressure: the record, see `driven_force`.
+        stroke: of the muscle at the first row [m], at rest there.
+
+    Returns:
+        ``stroke_reading`` [m], ``force_reading`` [N] and ``stroke``, ``speed`` at each time.
+    """
+    compiled = compiled_driven(drive.model.effects, motion=True)
+    table = constants_of(drive) | {"temperature": drive.temperature}
+    steps = _steps(time)
+    external = external_force(drive).value(time - time[0])
+    inputs = {
+        "pressure": pressure[:-1],
+        "pressure_slope": np.diff(pressure) / steps,
+        "external_force": external[:-1],
+        "external_force_slope": np.diff(external) / steps,
+        "begin": time[:-1],
+    }
+    names = [state.name for state in compiled.model.states]
+    start = np.array([state.initial or 0.0 for state in compiled.model.states])
+    start[names.index("clock")], start[names.index("stroke")] = time[0], stroke
+    found = _run(compiled, table, inputs, start, time, tolerance)
+    found["force_reading"] = skewed(drive.model, time, found["force_reading"])
+    return {name: found[name] for name in ("stroke_reading", "force_reading", "stroke", "speed")}
+
+
+def _run(
+    compiled: CompiledDrive,
+    table: dict[str, float],
+    inputs: dict[str, np.ndarray],
+    start: np.ndarray,
+    time: np.ndarray,
+    tolerance: float,
+) -> dict[str, np.ndarray]:
+    model = compiled.model
+    parameters = np.array([table[name] for name in model.parameters])
+    given = np.column_stack([inputs[name] for name in model.inputs])
+    at_rest = given[0] * ~np.array([name.endswith("_slope") for name in model.inputs])
+    settle(compiled, start, parameters, at_rest)
+    solution = integrate(
+        compiled,
+        parameters=parameters,
+        start=start,
+        times=np.ascontiguousarray(time, dtype=float),
+        inputs=given,
+        grid=np.ascontiguousarray(time, dtype=float),
+        tolerance=tolerance,
+    )
+    if solution.outcome is not Outcome.COMPLETED:
+        raise InputError(
+            f"the model does not follow this record beyond {time[len(solution.rows) - 1]:.4g} s",
+            field="effects",
+            hint=solution.outcome.value,
+        )
+    columns = (*(state.name for state in model.states), *model.output_names)
+    return dict(zip(columns, solution.rows.T, strict=True))
+
+
+def _steps(time: np.ndarray) -> np.ndarray:
+    steps = np.diff(time)
+    if len(time) < 2 or not np.all(steps > 0.0):
+        raise InputError("the times of a record must ascend", field="time")
+    return steps
+
+
+def _geometry(model: StaticModel) -> dict[str, float]:
+    return {name: float(getattr(model.muscle, name)) for name in GEOMETRY}
+
+
+def _named(model: StaticModel) -> dict[str, float]:
+    return {f"{effect}.{name}": value for effect, own in model.values.items() for name, value in own.items()}

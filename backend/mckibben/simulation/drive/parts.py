@@ -1,0 +1,148 @@
+"""The parts of a drive, in SI: valve, regulator, tube, load, and the drive they make with a muscle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import radians
+
+from mckibben.physics import ideal
+from mckibben.physics.drive_terms import Structure
+from mckibben.physics.muscle import Muscle
+from mckibben.simulation.command.pid import PidController
+from mckibben.simulation.command.signals import Signal
+from mckibben.simulation.statics.model import StaticModel
+
+
+@dataclass(frozen=True, slots=True)
+class Valve:
+    """Sonic conductances [m^3/(s Pa)] and critical pressure ratios both ways."""
+
+    fill_conductance: float
+    exhaust_conductance: float
+    fill_ratio: float = 0.3
+    exhaust_ratio: float = 0.3
+
+
+@dataclass(frozen=True, slots=True)
+class Regulator:
+    """A pressure regulator: full-scale gauge pressure [Pa] and time constant [s] besides its conductances."""
+
+    range: float
+    time: float
+
+
+@dataclass(frozen=True, slots=True)
+class Tube:
+    """Inside diameter and length [m]."""
+
+    inside_diameter: float
+    length: float
+
+
+@dataclass(frozen=True, slots=True)
+class Load:
+    """What the muscle pulls.
+
+    Attributes:
+        mass: [kg].
+        inclination: of the way it is pulled against the horizontal [rad]; 90 degrees hangs or lifts.
+        force: external force against the pull [N], a number or a signal of time.
+        spring: stiffness against the contraction [N/m].
+        lever_ratio: stroke of the muscle per stroke of the load [-].
+    """
+
+    mass: float = 0.0
+    inclination: float = radians(90.0)
+    force: float | Signal = 0.0
+    spring: float = 0.0
+    lever_ratio: float = 1.0
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A complete drive, SI; pressures gauge.
+
+    Attributes:
+        model: the muscle with its effects.
+        valve, regulator, tube: the way of the air; a regulator takes the valve's conductances.
+        assumed_tube: stands in where no tube is stated and an effect of the model acts on one; None where the
+            drive states that there is none.
+        load: what is pulled.
+        command: opening of the valve, 1 fill, 0 closed, -1 exhaust; of a regulator the share of its range.
+        supply_pressure: [Pa].
+        min_contraction, max_contraction: end stops as contraction ratios of the (first) muscle.
+        start_pressure: of the muscle at t = 0 [Pa].
+        own_mass: mass of muscle and fittings that moves [kg].
+        fitting_volume: dead volume of fittings [m^3].
+        pair: whether a second muscle pulls against the first; its command mirrors the first's (`counter`).
+        precontraction: contraction ratio of both muscles of a pair at the middle, from where strokes count.
+        pulley_radius: of a pair, from stroke to angle [m].
+        controller, reference: a position controller that gives the command instead, and its set point [m].
+    """
+
+    model: StaticModel
+    valve: Valve
+    load: Load
+    command: Signal
+    duration: float
+    supply_pressure: float
+    regulator: Regulator | None = None
+    tube: Tube | None = None
+    assumed_tube: Tube | None = None
+    min_contraction: float = 0.0
+    max_contraction: float = 0.25
+    start_pressure: float = 0.0
+    own_mass: float = 0.0
+    fitting_volume: float = 0.0
+    polytropic_exponent: float = 1.2
+    pair: bool = False
+    precontraction: float = 0.0
+    pulley_radius: float | None = None
+    controller: PidController | None = None
+    reference: Signal | None = None
+    ambient_pressure: float = ideal.ATMOSPHERE
+    temperature: float = 293.15
+
+    @property
+    def muscle(self) -> Muscle:
+        """Geometry of the muscle."""
+        return self.model.muscle
+
+    @property
+    def tube_in_use(self) -> Tube | None:
+        """The tube that resists the flow: the stated one, or the assumed one where an effect acts on it.
+
+        None: the valve sits on the muscle.
+        """
+        if self.tube is None and any("tube_conductance" in effect.slots for effect in self.model.effects):
+            return self.assumed_tube
+        return self.tube
+
+    @property
+    def tube_assumption(self) -> str | None:
+        """What to say where the assumed tube is in use."""
+        tube = self.assumed_tube
+        if tube is None or self.tube is not None or not any(e.of_tube for e in self.model.effects):
+            return None
+        return (
+            f"the tube is not stated: {tube.inside_diameter * 1e3:.3g} mm bore and {tube.length:.3g} m "
+            "length are assumed, because an effect acts on it; state the tube, or null if there is none"
+        )
+
+    @property
+    def structure(self) -> Structure:
+        """What decides the equations."""
+        return Structure(
+            self.model.effects, self.tube_in_use is not None, self.regulator is not None, self.pair
+        )
+
+    @property
+    def stops(self) -> tuple[float, float]:
+        """End stops as strokes of the muscle [m]; of a pair counted from the middle."""
+        rest = self.muscle.nominal_length
+        low, high = (c - self.precontraction for c in (self.min_contraction, self.max_contraction))
+        return low * rest, high * rest
+
+    def counter(self, command: float) -> float:
+        """Command of the second muscle of a pair: the valve the other way, the regulator's other share."""
+        return 1.0 - command if self.regulator is not None else -command

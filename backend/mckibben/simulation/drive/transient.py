@@ -1,0 +1,230 @@
+"""A drive through time: from its parts to states, outputs and phases on a time grid."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+from math import sin, sqrt
+
+import numpy as np
+
+from mckibben.physics import gas, ideal
+from mckibben.physics.drive_terms import CONSTANTS, INPUTS
+from mckibben.physics.model import Model
+from mckibben.physics.muscle import GEOMETRY
+from mckibben.simulation.command.segments import Segments, delayed, merged
+from mckibben.simulation.command.signals import Signal
+from mckibben.simulation.drive.parts import Drive, Regulator
+from mckibben.simulation.drive.rest import start_of
+from mckibben.simulation.integrate.engine import CompiledDrive, Outcome, Solution, compiled_drive, integrate
+from mckibben.simulation.outcome import Watch
+from mckibben.simulation.statics.model import StaticModel
+
+GRAVITY = 9.80665  # m/s2
+# End stops: natural frequency of the load on them [rad/s]; critically damped, so an impact does not bounce.
+_STOP_FREQUENCY = 2000.0
+_STOP_GIVE = 5e-5  # m; a light load must not let the blocked force press further into the stop
+_LIGHTEST = 1e-3  # kg; a drive without any mass has no equation of motion
+# At 1e-5 a step may jump over the moment at which a load leaves its stop (0.4 mm in paper-ramp).
+TOLERANCE = 1e-6
+
+
+@dataclass(frozen=True)
+class Run:
+    """A simulated drive: arrays over ``time``, SI, pressures gauge; stroke positive = shorter.
+
+    Attributes:
+        states: state name -> values.
+        outputs: name of `OUTPUTS` -> values.
+        outcome: how it ended; rows stop where a run did.
+        command: the command after all dead times.
+        wall_seconds: time of the integration.
+    """
+
+    time: np.ndarray
+    states: dict[str, np.ndarray]
+    outputs: dict[str, np.ndarray]
+    outcome: Outcome
+    command: Segments
+    drive: Drive
+    steps: int
+    engine: str
+    wall_seconds: float
+    notes: list[str] = field(default_factory=list)
+
+    @property
+    def pressure(self) -> np.ndarray:
+        """Gauge pressure in the muscle [Pa]."""
+        return self.states["pressure"] - self.drive.ambient_pressure
+
+
+def constants_of(drive: Drive) -> dict[str, float]:
+    """The numbers of a run by the names of the model's parameters."""
+    load, tube, rest = drive.load, drive.tube_in_use, drive.muscle.nominal_length
+    mass = max(load.mass + drive.own_mass, _LIGHTEST)
+    blocked = ideal.force(braid=drive.muscle.braid, pressure=drive.supply_pressure, length=rest)
+    stop = max(mass * _STOP_FREQUENCY**2, float(blocked) / _STOP_GIVE)
+    conductance, ratio, tube_volume = 1.0, 0.5, 1.0
+    if tube is not None:
+        conductance = float(gas.tube_conductance(diameter=tube.inside_diameter, length=tube.length))
+        ratio = float(gas.tube_critical_ratio(diameter=tube.inside_diameter, length=tube.length))
+        tube_volume = np.pi / 4.0 * tube.inside_diameter**2 * tube.length
+    regulator = drive.regulator or Regulator(1.0, 1.0)
+    table = {
+        "supply_pressure": drive.supply_pressure + drive.ambient_pressure,
+        "ambient_pressure": drive.ambient_pressure,
+        "ambient_temperature": drive.temperature,
+        "fill_conductance": drive.valve.fill_conductance,
+        "fill_ratio": drive.valve.fill_ratio,
+        "exhaust_conductance": drive.valve.exhaust_conductance,
+        "exhaust_ratio": drive.valve.exhaust_ratio,
+        "regulator_range": regulator.range,
+        "regulator_time": regulator.time,
+        "tube_volume": tube_volume,
+        "tube_conductance": conductance,
+        "tube_ratio": ratio,
+        "fitting_volume": drive.fitting_volume,
+        "polytropic_exponent": drive.polytropic_exponent,
+        "mass": load.mass,
+        "own_mass": max(drive.own_mass, _LIGHTEST - load.mass),
+        "gravity": GRAVITY * sin(load.inclination),
+        "spring": load.spring,
+        "lever_ratio": load.lever_ratio,
+        "precontraction": drive.precontraction * rest,
+        "stop_low": drive.stops[0],
+        "stop_high": drive.stops[1],
+        "stop_stiffness": stop,
+        "stop_damping": 2.0 * sqrt(mass * stop),
+    }
+    assert set(table) == set(CONSTANTS)  # noqa: S101 - a constant without a value is our own mistake
+    table |= {name: float(getattr(drive.muscle, name)) for name in GEOMETRY}
+    for effect, own in drive.model.values.items():
+        table |= {f"{effect}.{name}": value for name, value in own.items()}
+    return table
+
+
+def parameters_of(drive: Drive, compiled: CompiledDrive) -> np.ndarray:
+    """The numbers of a run in the order of the compiled model's parameters."""
+    table = constants_of(drive)
+    return np.array([table[name] for name in compiled.model.parameters])
+
+
+def dead_times(drive: Drive) -> tuple[float, float]:
+    """Dead time of opening and of closing that the effects make [s]."""
+    tube = drive.tube or drive.assumed_tube
+    tube_length = 0.0 if tube is None else tube.length
+    on, off = 0.0, 0.0
+    for effect in Model(drive.model.effects).effects:
+        if "command_delay" in effect.slots:
+            own = effect.call("command_delay", {"tube_length": tube_length}, drive.model.values[effect.id])
+            on, off = on + float(own[0]), off + float(own[1])
+    return on, off
+
+
+def external_force(drive: Drive) -> Segments:
+    """The external force as linear segments."""
+    force = drive.load.force
+    if isinstance(force, Signal):
+        return force.segments(drive.duration)
+    return Segments(np.array([0.0, drive.duration]), np.array([float(force)]), np.zeros(1))
+
+
+def segments_of(drive: Drive) -> tuple[np.ndarray, np.ndarray, Segments]:
+    """Segment limits, inputs of each segment, and the command after the dead times of the effects."""
+    on, off = dead_times(drive)
+    command = delayed(drive.command.segments(drive.duration), on, off, before=drive.command.before)
+    command, external = merged(command, external_force(drive))
+    counter = command  # of a single muscle nothing follows it
+    if drive.pair:
+        given = drive.command.segments(drive.duration)
+        opposite = np.array([drive.counter(value) for value in given.start_values])
+        mirrored = Segments(given.times, opposite, -given.slopes)
+        counter, _ = merged(delayed(mirrored, on, off, before=drive.counter(drive.command.before)), command)
+        command, external = merged(command, counter)[0], merged(external, counter)[0]
+    columns = {
+        "opening": command.start_values,
+        "opening_slope": command.slopes,
+        "counter_opening": counter.start_values,
+        "counter_opening_slope": counter.slopes,
+        "external_force": external.start_values,
+        "external_force_slope": external.slopes,
+        "begin": command.times[:-1],
+    }
+    return command.times, np.column_stack([columns[name] for name in INPUTS]), command
+
+
+def simulate(
+    drive: Drive,
+    *,
+    points: int = 2001,
+    grid: np.ndarray | None = None,
+    tolerance: float = TOLERANCE,
+    engine: str = "auto",
+    watch: Watch | None = None,
+) -> Run:
+    """Run a drive from rest.
+
+    Args:
+        drive: what to run.
+        points: rows of the evenly spaced time grid.
+        grid: ascending times of the rows instead, within the duration.
+        tolerance: relative error per step.
+        watch: may end the run early.
+        engine: see `mckibben.simulation.integrate.engine.integrate`.
+    """
+    compiled = compiled_drive(drive.structure)
+    parameters = parameters_of(drive, compiled)
+    times, inputs, command = segments_of(drive)
+    # Until t = 0 the valve was where the command starts from, not where its first segment is.
+    before = inputs[0].copy()
+    held = drive.command.before
+    for name, value in (("opening", held), ("counter_opening", drive.counter(held))):
+        before[INPUTS.index(name)], before[INPUTS.index(f"{name}_slope")] = value, 0.0
+    start = start_of(drive, compiled, parameters, before)
+    grid = np.linspace(0.0, drive.duration, points) if grid is None else grid
+    began = time.perf_counter()
+    solution = integrate(
+        compiled,
+        parameters=parameters,
+        start=start,
+        times=times,
+        inputs=inputs,
+        grid=grid,
+        tolerance=tolerance,
+        engine=engine,
+        watch=watch,
+    )
+    return run_of(drive, compiled, grid, solution, command, time.perf_counter() - began)
+
+
+def run_of(
+    drive: Drive,
+    compiled: CompiledDrive,
+    grid: np.ndarray,
+    solution: Solution,
+    command: Segments,
+    wall_seconds: float,
+) -> Run:
+    """The rows of a solution by name."""
+    size = compiled.size
+    time_axis = grid[: len(solution.rows)]
+    names = compiled.model.output_names
+    outputs = {name: solution.rows[:, size + index] for index, name in enumerate(names)}
+    outputs["force_reading"] = skewed(drive.model, time_axis, outputs["force_reading"])
+    return Run(
+        time_axis,
+        {state.name: solution.rows[:, index] for index, state in enumerate(compiled.model.states)},
+        outputs,
+        solution.outcome,
+        command,
+        drive,
+        solution.steps,
+        solution.engine,
+        wall_seconds,
+    )
+
+
+def skewed(model: StaticModel, time: np.ndarray, reading: np.ndarray) -> np.ndarray:
+    """The force reading as it arrives: later than the other channels by the skew of the effects."""
+    delay = float(Model(model.effects).sum("skew", model.values, {}))
+    return np.interp(time - delay, time, reading) if delay and len(time) else reading

@@ -1,0 +1,233 @@
+"""The step of the kernel: Rodas4, a stiff Rosenbrock method, over two compiled functions.
+
+It holds no physics, so numba compiles it once per installation, whatever is simulated. A model comes in as
+the addresses of two functions of states, constants and inputs: ``rates`` (-> rates and outputs) and
+``jacobian`` (-> rates, the entries of the Jacobian that are not zero, derivatives by time), and as the plan
+of its linear systems (`mckibben.simulation.integrate.elimination`). Inputs are constant within a segment;
+switching instants are segment ends, so no step crosses a jump. One state is the clock: it is known and takes
+no part in the linear systems.
+
+Method: Rodas4 of Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.7: six stages, order
+4 with an embedded order 3, L-stable, dense output of order 3.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from llvmlite import ir
+from numba import njit, types
+from numba.extending import intrinsic
+
+
+def _call_at(_typing: Any, _address: Any, _out: Any, _inputs: Any) -> Any:
+    """Call ``void f(double* out, double* inputs, void*)`` at an address."""
+
+    def generate(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+        double = ir.DoubleType().as_pointer()
+        function = ir.FunctionType(ir.VoidType(), [double] * 3)
+        out, inputs = (builder.inttoptr(argument, double) for argument in args[1:])
+        builder.call(builder.inttoptr(args[0], function.as_pointer()), [out, inputs, inputs])
+        return _context.get_dummy_value()
+
+    return types.void(types.int64, types.uintp, types.uintp), generate
+
+
+call: Any = intrinsic(_call_at)
+
+# Coefficients of Rodas4, in the transformed variables of the book's (7.25): gamma = 0.25.
+_GAMMA = 0.25
+_A = np.array([
+    [0.0, 0.0, 0.0, 0.0, 0.0],
+    [1.544, 0.0, 0.0, 0.0, 0.0],
+    [0.9466785280815826, 0.2557011698983284, 0.0, 0.0, 0.0],
+    [3.314825187068521, 2.896124015972201, 0.9986419139977817, 0.0, 0.0],
+    [1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950, 0.0],
+    [1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950, 1.0],
+])  # fmt: skip
+_C = np.array([
+    [0.0, 0.0, 0.0, 0.0, 0.0],
+    [-5.6688, 0.0, 0.0, 0.0, 0.0],
+    [-2.430093356833875, -0.2063599157091915, 0.0, 0.0, 0.0],
+    [-0.1073529058151375, -9.594562251023355, -20.47028614809616, 0.0, 0.0],
+    [7.496443313967647, -10.24680431464352, -33.99990352819905, 11.70890893206160, 0.0],
+    [8.083246795921522, -7.981132988064893, -31.52159432874371, 16.31930543123136, -6.058818238834054],
+])  # fmt: skip
+# When each stage looks at time, and its share of the derivative by time.
+_ALPHA = np.array([0.0, 0.386, 0.21, 0.63, 1.0, 1.0])
+_DELTA = np.array([0.25, -0.1043, 0.1035, -0.0362, 0.0, 0.0])
+_D2 = np.array(
+    [10.12623508344586, -7.487995877610167, -34.80091861555747, -7.992771707568823, 1.025137723295662]
+)
+_D3 = np.array(
+    [-0.6762803392801253, 6.087714651680015, 16.43084320892478, 24.76722511418386, -6.594389125716872]
+)
+
+
+@njit(inline="always", error_model="numpy", fastmath={"contract"})
+def _factorise(a: np.ndarray, least: float, plan: Any) -> bool:
+    """Factors in place, pivots as reciprocals. False when a pivot is all but zero."""
+    _, _, _, pivots, lower, updates, _, _ = plan
+    for k in range(pivots.shape[0]):
+        if not abs(a[pivots[k, 0]]) > least:
+            return False
+        reciprocal = 1.0 / a[pivots[k, 0]]
+        a[pivots[k, 0]] = reciprocal
+        for i in range(pivots[k, 1], pivots[k, 2]):
+            a[lower[i]] *= reciprocal
+        for i in range(pivots[k, 3], pivots[k, 4]):
+            a[updates[i, 0]] -= a[updates[i, 1]] * a[updates[i, 2]]
+    return True
+
+
+@njit(inline="always", error_model="numpy", fastmath={"contract"})
+def _solve(a: np.ndarray, plan: Any, vector: np.ndarray) -> None:
+    """Solve in place with the factors of `_factorise`."""
+    _, _, _, _, _, _, rows, terms = plan
+    for k in range(rows.shape[0]):
+        total = vector[rows[k, 0]]
+        for i in range(rows[k, 1], rows[k, 2]):
+            total -= a[terms[i, 0]] * vector[terms[i, 1]]
+        vector[rows[k, 0]] = total * a[rows[k, 3]]
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def advance(
+    pointers: tuple[int, int],
+    plan: Any,
+    positions: int,
+    clock: int,
+    packed: np.ndarray,
+    state: np.ndarray,
+    span: np.ndarray,
+    grid: np.ndarray,
+    last_row: int,
+    rtol: float,
+    atol: np.ndarray,
+    out: np.ndarray,
+    counts: np.ndarray,
+    max_steps: int,
+    buffers: Any,
+) -> int:
+    """Integrate over ``span`` = (begin, end, first step to try; becomes the next one) with constant inputs.
+
+    Arrays are copied in loops: numba takes 2 s to compile the message for shapes that do not fit.
+
+    Writes the rows of the grid in between, from row ``counts[2]`` to before ``last_row``; see
+    `mckibben.simulation.integrate.kernels.rodas4`.
+    """
+    rates, jacobian = pointers
+    places, timed, diagonal, _, _, _, _, _ = plan
+    u, trial, residual, matrix, values, both, dense = buffers
+    n, width, entries = state.shape[0], out.shape[1], places.shape[0]
+    at_packed, at_values, at_both = packed.ctypes.data, values.ctypes.data, both.ctypes.data
+    at_out = out.ctypes.data
+    t, end, h = span
+    row, fresh, last_failed = counts[2], True, False
+    while t < end:
+        if counts[0] + counts[1] >= max_steps:
+            return 2
+        wanted = h
+        last = t + 1.0000001 * h >= end
+        if last:
+            h = end - t
+        if fresh:
+            for i in range(n):
+                packed[i] = state[i]
+            call(jacobian, at_both, at_packed)
+            fresh = False
+        inverse = 1.0 / h
+        matrix[:] = 0.0
+        for i in range(entries):
+            matrix[places[i]] = -both[n + i]
+        for i in range(diagonal.shape[0]):
+            matrix[diagonal[i]] += inverse / _GAMMA
+        matrix[positions - 1] = 1.0
+        solvable = _factorise(matrix, 1e-10 * inverse, plan)
+        for k in range(6):
+            if k == 0:
+                for i in range(n):
+                    residual[i] = both[i]
+            else:
+                for i in range(n):
+                    total = state[i]
+                    for j in range(k):
+                        total += _A[k, j] * u[i, j]
+                    packed[i] = trial[i] = total
+                packed[clock] = t + _ALPHA[k] * h
+                call(rates, at_values, at_packed)
+                for i in range(n):
+                    total = 0.0
+                    for j in range(k):
+                        total += _C[k, j] * u[i, j]
+                    residual[i] = values[i] + total * inverse
+            for i in range(timed.shape[0]):
+                residual[timed[i]] += _DELTA[k] * h * both[n + entries + i]
+            residual[clock] = 0.0
+            _solve(matrix, plan, residual)
+            for i in range(n):
+                u[i, k] = residual[i]
+        error = 0.0
+        for i in range(n):
+            trial[i] += u[i, 5]
+            scale = atol[i] + rtol * max(abs(state[i]), abs(trial[i]))
+            error += (u[i, 5] / scale) ** 2
+        error = np.sqrt(error / n)
+        if not (solvable and error < 1e10):
+            error = 1e10
+        factor = min(6.0, max(0.2, 0.9 * error**-0.25)) if error > 0.0 else 6.0
+        if error > 1.0:
+            counts[1] += 1
+            last_failed = True
+            h *= factor
+            if h < 1e-13 * max(1.0, abs(t)):
+                return 3 if error >= 1e10 else 1
+            continue
+        counts[0] += 1
+        reached = end if last else t + h
+        if row < last_row and grid[row] <= reached:
+            for i in range(n):
+                dense[0, i] = dense[1, i] = 0.0
+                for j in range(5):
+                    dense[0, i] += _D2[j] * u[i, j]
+                    dense[1, i] += _D3[j] * u[i, j]
+            while row < last_row and grid[row] <= reached:
+                s = (grid[row] - t) / h
+                for i in range(n):
+                    bent = dense[0, i] + s * dense[1, i]
+                    packed[i] = state[i] * (1.0 - s) + s * (trial[i] + (1.0 - s) * bent)
+                packed[clock] = grid[row]
+                # Rates and outputs go where the row is; the states then take the place of the rates.
+                call(rates, at_out + 8 * width * row, at_packed)
+                for i in range(n):
+                    out[row, i] = packed[i]
+                row += 1
+            counts[2] = row
+        t = reached
+        for i in range(n):
+            state[i] = trial[i]
+        state[clock] = t
+        h *= min(factor, 1.0) if last_failed else factor
+        if last and not last_failed:
+            h = max(h, wanted)
+        last_failed, fresh = False, True
+    span[2] = h
+    return 0
+
+
+@njit(error_model="numpy")
+def buffers_of(n: int, width: int, positions: int, plan: Any) -> Any:
+    """Room for the stages, trial, right side, matrix, rates and outputs, Jacobian, dense output."""
+    both = np.zeros(n + plan[0].shape[0] + plan[1].shape[0])
+    stages, dense = np.zeros((n, 6)), np.zeros((2, n))
+    return stages, np.zeros(n), np.zeros(n), np.zeros(positions), np.zeros(width), both, dense
+
+
+@njit(error_model="numpy")
+def packed_for(n: int, constants: np.ndarray, inputs: int) -> np.ndarray:
+    """Arguments of the functions, with the constants in their place."""
+    packed = np.zeros(n + constants.shape[0] + inputs)
+    for i in range(constants.shape[0]):
+        packed[n + i] = constants[i]
+    return packed

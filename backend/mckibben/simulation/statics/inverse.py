@@ -1,0 +1,189 @@
+"""Inverse questions of the static model: the pressure for a force, the contraction under a load, the range.
+
+Every answer carries flags instead of being clipped: a value is None only when no state of the muscle answers
+the question, and the flag says why.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mckibben.physics.model import ROOM_TEMPERATURE
+from mckibben.simulation.statics.limits import Flag, FlagCode
+from mckibben.simulation.statics.model import StaticModel
+
+SEARCH_PRESSURE = 4e6  # Pa; no fluidic muscle works beyond, so no answer is looked for there
+_SHORTEST = 0.35  # share of the nominal length down to which a contraction is looked for
+_STEPS = 60
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """The answer to an inverse question in SI, with the details that led to it and the crossed limits."""
+
+    value: float | None
+    unit: str
+    details: dict[str, float | None] = field(default_factory=dict)
+    flags: list[Flag] = field(default_factory=list)
+
+
+def contraction_at(
+    model: StaticModel,
+    *,
+    load: float | np.ndarray,
+    pressures: np.ndarray,
+    direction: float | np.ndarray = 0.0,
+    temperature: float | np.ndarray = ROOM_TEMPERATURE,
+) -> np.ndarray:
+    """Contraction ratio at which the muscle carries the load [N] at each gauge pressure [Pa].
+
+    Shape of ``pressures``; negative where the load stretches the muscle, NaN where it cannot be carried at
+    any length short of the braid lock. Newton's method kept inside a shrinking bracket.
+    """
+    rest = model.muscle.nominal_length
+    low = np.full(len(pressures), _SHORTEST * rest)
+    high = np.full(len(pressures), model.longest)
+
+    def excess(length: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        out = model.outputs(length=length, pressure=pressures, direction=direction, temperature=temperature)
+        return out["force"] - load, out["force_by_length"]
+
+    reachable = excess(high)[0] >= 0.0
+    length = np.full(len(pressures), rest)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for _ in range(_STEPS):
+            value, slope = excess(length)
+            above = value >= 0.0
+            high = np.where(above, length, high)
+            low = np.where(above, low, length)
+            newton = length - value / slope
+            inside = (newton >= low) & (newton <= high)
+            following = np.where(inside, newton, 0.5 * (low + high))
+            # Newton's next error is the square of this step's share of the length.
+            done = ~reachable | (inside & (np.abs(following - length) < 1e-6 * rest))
+            length = following
+            if done.all():
+                break
+    return np.where(reachable, 1.0 - length / rest, np.nan)
+
+
+def pressure_for_force(
+    model: StaticModel,
+    *,
+    force: float,
+    length: float,
+    direction: float = 0.0,
+    temperature: float = ROOM_TEMPERATURE,
+) -> Answer:
+    """The gauge pressure at which the muscle pulls with ``force`` [N] at ``length`` [m].
+
+    None with `OUT_OF_REACH` when no pressure up to 40 bar does, or when the muscle pulls more than that
+    without any pressure (it is stretched).
+    """
+    contraction = 1.0 - length / model.muscle.nominal_length
+
+    def excess(pressure: float) -> float:
+        reading = model.force(
+            length=length, pressure=pressure, direction=direction, temperature=temperature, clipped=False
+        )
+        return float(reading[0]) - force
+
+    flags = model.limits.flags(force=force, contraction=contraction)
+    details: dict[str, float | None] = {"length": length, "contraction": contraction, "force": force}
+    if length >= model.longest or excess(SEARCH_PRESSURE) < 0.0:
+        most = None if length >= model.longest else excess(SEARCH_PRESSURE) + force
+        why = (
+            "the braid locks before this length"
+            if most is None
+            else f"at {contraction * 100:.3g} % contraction even {SEARCH_PRESSURE / 1e5:.0f} bar "
+            + (f"give only {most:.4g} N" if most > 0.0 else "leave the muscle slack")
+        )
+        return Answer(None, "Pa", details, [*flags, Flag(FlagCode.OUT_OF_REACH, why, "force")])
+    without = excess(0.0)
+    if without > 0.0:
+        why = f"stretched to this length the muscle pulls {without + force:.4g} N without any pressure"
+        return Answer(None, "Pa", details, [*flags, Flag(FlagCode.OUT_OF_REACH, why, "force")])
+
+    from scipy.optimize import root_scalar  # 0.2 s import, not paid at start
+
+    pressure = 0.0
+    if without < 0.0:
+        pressure = float(root_scalar(excess, bracket=(0.0, SEARCH_PRESSURE), xtol=1e-6).root)
+    return Answer(pressure, "Pa", details, [*flags, *model.limits.flags(pressure=pressure)])
+
+
+def contraction_for_force(
+    model: StaticModel,
+    *,
+    force: float,
+    pressure: float,
+    direction: float = 0.0,
+    temperature: float = ROOM_TEMPERATURE,
+) -> Answer:
+    """The contraction ratio at which the muscle pulls with ``force`` [N] at a gauge pressure [Pa]."""
+    contraction = float(
+        contraction_at(
+            model, load=force, pressures=np.array([pressure]), direction=direction, temperature=temperature
+        )[0]
+    )
+    details: dict[str, float | None] = {"force": force, "pressure": pressure}
+    flags = model.limits.flags(pressure=pressure, force=force)
+    if np.isnan(contraction):
+        why = f"{force:.4g} N stretch the muscle to the braid lock at {pressure / 1e5:.3g} bar"
+        return Answer(None, "1", details, [*flags, Flag(FlagCode.OUT_OF_REACH, why, "force")])
+    details["length"] = model.muscle.nominal_length * (1.0 - contraction)
+    return Answer(contraction, "1", details, [*flags, *model.limits.flags(contraction=contraction)])
+
+
+def stroke_pressure(
+    model: StaticModel,
+    *,
+    load: float,
+    stroke: float,
+    direction: float = -1.0,
+    temperature: float = ROOM_TEMPERATURE,
+) -> Answer:
+    """The gauge pressure at which the muscle has lifted ``load`` [N] by ``stroke`` [m] from L0."""
+    length = model.muscle.nominal_length - stroke
+    return pressure_for_force(model, force=load, length=length, direction=direction, temperature=temperature)
+
+
+def working_range(
+    model: StaticModel,
+    *,
+    load: float,
+    pressure: float,
+    preload: float = 0.0,
+    temperature: float = ROOM_TEMPERATURE,
+) -> Answer:
+    """The usable stroke [m]: from the length under ``preload`` [N] without pressure to that under ``load``.
+
+    The start is the nominal length without preload; a preload stretches the muscle as far as its elastic
+    effects allow. The end is the contraction under the load while filling, or the contraction limit of the
+    maker if that comes first (flagged). Details hold both ends as contraction ratios.
+    """
+    rest = model.muscle.nominal_length
+    flags = model.limits.flags(pressure=pressure, force=max(load, preload))
+    start = 0.0
+    if preload > 0.0:
+        stretched = contraction_at(
+            model, load=preload, pressures=np.zeros(1), direction=1.0, temperature=temperature
+        )[0]
+        if np.isnan(stretched):
+            why = f"nothing in the model carries {preload:.4g} N without pressure short of the braid lock"
+            flags.append(Flag(FlagCode.OUT_OF_REACH, why, "preload"))
+            return Answer(None, "m", {"start": None, "end": None}, flags)
+        start = min(float(stretched), 0.0)
+        flags += model.limits.flags(contraction=start)
+    end = contraction_for_force(model, force=load, pressure=pressure, direction=-1.0, temperature=temperature)
+    details: dict[str, float | None] = {"start": start, "end": end.value}
+    if end.value is None:
+        return Answer(None, "m", details, [*flags, *(f for f in end.flags if f not in flags)])
+    reached = end.value
+    limit = model.limits.max_contraction
+    if limit is not None and reached > limit:
+        flags += model.limits.flags(contraction=reached)
+        details["end"] = reached = limit
+    return Answer((reached - start) * rest, "m", details, flags)

@@ -1,0 +1,288 @@
+"""The timing table of a drive: what an engineer reads off one fill and one exhaust, SI throughout.
+
+All times count from the switching instant of their phase (ProPneu prints those of the exhaust in run
+time). With s the travel since that instant, positive in the direction of the phase (fill: shorter), and S
+the stroke of the phase: to the stop it ends on, else to where it ends, or the demanded stroke.
+
+- positioning_time: arrival. The impact on the stop that ends the stroke; without one, first s >= (1 -
+  band) S.
+- rise_time: from first s = 0.1 S to first s = 0.9 S; no dead time in it. delay_time: first s = 0.5 S.
+- settling_time: from here to the end of the phase |s - S| <= band S. The band is 5 % by default: after the
+  impact a load hangs from the gas and swings by a few per cent with next to no damping, long after every user
+  would call it arrived; a narrower band tells when that swing has died away.
+- average_speed: S / positioning_time. end_speed: ds/dt at the impact, without one at positioning_time.
+- max_speed, max_speed_at: largest ds/dt, the instant before the impact included.
+- max_acceleration, min_acceleration: largest and smallest second derivative of the position, positive =
+  towards shorter in both phases. Impacts are excluded: samples in contact with a stop and the neighbours
+  of those do not count.
+- impact_energy: m v^2/2 of the first impact; 0 without one.
+- pressure_rise_time, pressure_delay_time: 10-90 % and 50 % of the pressure step of the phase (its end
+  minus its start); pressure_settling_time: from here on within 1 % of that step around the end (99 %
+  filled, 1 % left).
+- air_mass: air taken from the supply (fill), let out to the atmosphere (exhaust); air_volume_anr: that at
+  ANR.
+- choked_share: share of the phase in which the flow of the valve is choked.
+- overshoot: largest s beyond S, as a share of S.
+
+A figure that does not exist is None; ``notes`` says why under "extend.<figure>".
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.physics.gas import ANR_DENSITY
+from mckibben.simulation.command.segments import Interval, phases
+from mckibben.simulation.timing.trace import Trace
+from mckibben.simulation.timing.tracking import tracking
+
+__all__ = ["FIGURES", "Trace", "phases", "timing", "tracking"]
+
+MOTION_FIGURES = (
+    "positioning_time", "rise_time", "delay_time", "settling_time", "average_speed", "max_speed",
+    "max_speed_at", "max_acceleration", "max_acceleration_at", "min_acceleration", "min_acceleration_at",
+    "end_speed", "impact_energy", "overshoot",
+)  # fmt: skip
+PRESSURE_FIGURES = ("pressure_rise_time", "pressure_delay_time", "pressure_settling_time")
+AIR_FIGURES = ("air_mass", "air_volume_anr", "choked_share")
+FIGURES = (*MOTION_FIGURES, *PRESSURE_FIGURES, *AIR_FIGURES)
+
+#: Less travel [m] or pressure change [Pa] than this is none.
+SMALLEST_STROKE, SMALLEST_STEP = 1e-5, 100.0
+PRESSURE_BAND = 0.01
+#: What settles only in this last share of a phase is still under way.
+_STILL_MOVING = 0.1
+
+Array = NDArray[np.float64]
+
+
+def timing(
+    trace: Trace,
+    *,
+    fill: Interval | None,
+    exhaust: Interval | None,
+    mass: float | None = None,
+    stops: Interval | None = None,
+    stroke: float | None = None,
+    band: float = 0.05,
+) -> dict[str, dict[str, Any]]:
+    """Figures of both phases: ``{"extend": {...}, "retract": {...}, "notes": {"extend.rise_time": why}}``.
+
+    Args:
+        trace: the run.
+        fill, exhaust: start and end of the phases by the command [s], see `phases`; None when there is none.
+        mass: moving mass, for the impact energy [kg].
+        stops: lower and upper stop as positions [m]; with them the impact is found between two samples.
+        stroke: demanded stroke of the fill [m]; figures beyond what was reached are None.
+        band: settling band as a share of the stroke.
+    """
+    notes: dict[str, str] = {}
+    table: dict[str, dict[str, Any]] = {}
+    for name, interval, sign in (("extend", fill, 1.0), ("retract", exhaust, -1.0)):
+        window = trace.window(*interval) if interval is not None else None
+        if window is None:
+            why = "the command has no such phase" if interval is None else "the run ended before this phase"
+            figures: dict[str, float | None] = dict.fromkeys(FIGURES)
+            reasons = dict.fromkeys(FIGURES, why)
+        else:
+            phase = _Phase(window, sign, stops, stroke if sign > 0.0 else None, band)
+            figures, reasons = phase.motion(mass)
+            for part, why in (phase.step(), phase.air()):
+                figures |= part
+                reasons |= why
+        table[name] = {figure: figures[figure] for figure in FIGURES}
+        notes |= {f"{name}.{figure}": reason for figure, reason in reasons.items()}
+    return {**table, "notes": notes}
+
+
+Figures = tuple[dict[str, float | None], dict[str, str]]
+
+
+class _Phase:
+    """One phase: time from its switching instant, travel in its direction."""
+
+    def __init__(
+        self, window: Trace, sign: float, stops: Interval | None, demanded: float | None, band: float
+    ) -> None:
+        self.window, self.sign, self.band = window, sign, band
+        self.time = window.time - window.time[0]
+        self.contact, position = window.contact, window.position
+        start, end = float(position[0]), float(position[-1])
+        if stops is not None:  # a loaded stop gives way a little: the stop itself is the end of the stroke
+            start = min(stops, key=lambda stop: abs(stop - start)) if self.contact[0] else start
+            end = min(stops, key=lambda stop: abs(stop - end)) if self.contact[-1] else end
+        self.travel = sign * (position - start)
+        self.speed, self.acceleration = sign * window.velocity, sign * window.acceleration
+        self.reached = sign * (end - start)
+        self.demanded = demanded is not None
+        self.stroke = self.reached if demanded is None else demanded
+        self.last = float(self.time[-1])
+        self.hit = -1  # the sample before the impact
+        self.wall: float | None = None  # travel to the stop ahead, where it is known
+        if stops is not None:
+            self.wall = (max(stops) if sign > 0.0 else -min(stops)) - sign * start
+        elif self.contact[-1] and self.reached > 0.5 * self.travel.max():
+            self.wall = self.reached
+
+    def motion(self, mass: float | None) -> Figures:
+        """Figures of position, speed and acceleration."""
+        figures: dict[str, float | None] = dict.fromkeys(MOTION_FIGURES)
+        if self.contact.all():
+            return figures, dict.fromkeys(MOTION_FIGURES, "the muscle stays on its stop")
+        if np.ptp(self.travel) < SMALLEST_STROKE:
+            return figures, dict.fromkeys(MOTION_FIGURES, "the muscle does not move")
+        notes: dict[str, str] = {}
+        impact = self._impact()
+        self._extremes(figures, notes, impact)
+        stroke, timed = self.stroke, MOTION_FIGURES[:5]
+        if not stroke >= SMALLEST_STROKE:
+            why = (
+                f"the phase ends {-1e3 * stroke:.3g} mm behind its start"
+                if stroke < 0.0
+                else "no stroke is left"
+            )
+            notes |= dict.fromkeys((*timed, "end_speed", "overshoot"), why)
+        else:
+            for name, share in (("delay_time", 0.5), ("rise_time", 0.9)):
+                figures[name] = self._first(share * stroke)
+            if (late := figures["rise_time"]) is not None:
+                figures["rise_time"] = late - (self._first(0.1 * stroke) or 0.0)
+            settled = self._settled(self.travel, stroke, self.band * stroke)
+            arrival = self._first((1.0 - self.band) * stroke)
+            if impact is not None and (not self.demanded or abs(self.reached - stroke) < 1e-3 * stroke):
+                arrival = impact[0]
+            elif not self.demanded and settled is None:
+                arrival = None
+            figures |= {"settling_time": settled, "positioning_time": arrival}
+            if arrival:
+                figures["average_speed"] = stroke / arrival
+            if arrival is not None:
+                figures["end_speed"] = float(np.interp(arrival, self.time, self.speed))
+            figures["overshoot"] = max(0.0, float(self.travel[~self.contact].max()) / stroke - 1.0)
+            why = "still moving at the end of the phase"
+            if self.demanded:
+                best = 1e3 * float(self.travel.max())
+                why = f"{best:.3g} mm of the {1e3 * stroke:.3g} mm are reached, or not kept"
+            notes |= {name: why for name in (*timed, "end_speed") if figures[name] is None}
+        if impact is None:
+            figures["impact_energy"] = 0.0
+            notes["impact_energy"] = "no stop is reached"
+        else:
+            figures["end_speed"] = impact[1]
+            notes.pop("end_speed", None)
+            if mass is None:
+                notes["impact_energy"] = "the moving mass is not known"
+            else:
+                figures["impact_energy"] = 0.5 * mass * impact[1] ** 2
+        return figures, notes
+
+    def step(self) -> Figures:
+        """Figures of the pressure."""
+        pressure = self.window.pressure - self.window.pressure[0]
+        figures: dict[str, float | None] = dict.fromkeys(PRESSURE_FIGURES)
+        change = float(pressure[-1])
+        if abs(change) < SMALLEST_STEP:
+            return figures, dict.fromkeys(PRESSURE_FIGURES, "the pressure does not change")
+        pressure = pressure * np.sign(change)
+        change = abs(change)
+        low, half, high = (self._linear_first(pressure, share * change) for share in (0.1, 0.5, 0.9))
+        settled = self._settled(pressure, change, PRESSURE_BAND * change, linear=True)
+        figures = dict(zip(PRESSURE_FIGURES, (high - low, half, settled), strict=True))
+        why = {"pressure_settling_time": "the pressure still changes at the end of the phase"}
+        return figures, why if settled is None else {}
+
+    def air(self) -> Figures:
+        """Figures of the air."""
+        flow = self.window.supply_mass_flow if self.sign > 0.0 else self.window.exhaust_mass_flow
+        mass = float(np.trapezoid(flow, self.time))
+        choked = float(np.trapezoid((self.window.choked != 0) * 1.0, self.time)) / self.last
+        return dict(zip(AIR_FIGURES, (mass, mass / ANR_DENSITY, choked), strict=True)), {}
+
+    def _extremes(
+        self, figures: dict[str, float | None], notes: dict[str, str], impact: tuple[float, float] | None
+    ) -> None:
+        """Largest speed and accelerations, without the samples that belong to a stop."""
+        free = np.flatnonzero(~self.contact)
+        best = free[np.argmax(self.speed[free])]
+        at, speed = float(self.time[best]), float(self.speed[best])
+        if impact is not None and impact[1] > speed:
+            at, speed = impact
+        figures |= {"max_speed": max(speed, 0.0), "max_speed_at": at}
+        near = self.contact.copy()
+        near[1:] |= self.contact[:-1]
+        near[:-1] |= self.contact[1:]
+        away, values = np.flatnonzero(~near), self.window.acceleration
+        for name, pick in (("max_acceleration", np.argmax), ("min_acceleration", np.argmin)):
+            if len(away):
+                index = away[pick(values[away])]
+                figures |= {name: float(values[index]), f"{name}_at": float(self.time[index])}
+                if impact is not None:
+                    notes[name] = "without the impact: samples on a stop and next to it do not count"
+            else:
+                notes |= dict.fromkeys((name, f"{name}_at"), "no sample is away from the stops")
+
+    def _impact(self) -> tuple[float, float] | None:
+        """Instant and speed of the first impact on the stop ahead."""
+        far = self.travel[1:] > 0.5 * self.travel.max()
+        found = ~self.contact[:-1] & self.contact[1:] & far
+        width = np.diff(self.time)
+        if self.wall is not None:  # a bounce between two samples: flying on would have passed the stop
+            flown = self.travel[:-1] + width * (self.speed[:-1] + 0.5 * width * self.acceleration[:-1])
+            through = (self.travel[:-1] < self.wall) & (flown >= self.wall)
+            found |= far & through & (self.speed[:-1] > 0.0) & (self.speed[1:] <= 0.0)
+        if not found.any():
+            return None
+        self.hit = before = int(np.argmax(found))
+        at = self._between(before, float(self.travel[before + 1]) if self.wall is None else self.wall)
+        speed = self.speed[before] + self.acceleration[before] * (at - self.time[before])
+        return at, max(float(speed), 0.0)
+
+    def _first(self, level: float) -> float | None:
+        """First instant at which the travel reaches the level."""
+        reached = np.flatnonzero(self.travel >= level)
+        if not len(reached):
+            return None
+        return 0.0 if reached[0] == 0 else self._between(int(reached[0]) - 1, level)
+
+    def _between(self, index: int, level: float) -> float:
+        """Instant between two samples at which the travel is at the level: cubic, before a stop ballistic."""
+        pairs = (self.time, self.travel, self.speed)
+        (t0, t1), (s0, s1), (v0, v1) = (column[index : index + 2].tolist() for column in pairs)
+        width, bend = t1 - t0, float(self.acceleration[index])
+        # Into a stop the speed jumps: use the state before it only.
+        flying = index == self.hit or bool(not self.contact[index] and self.contact[index + 1])
+        rising = flying or s1 >= s0
+        low, high = 0.0, 1.0
+        for _ in range(50):
+            u = 0.5 * (low + high)
+            w = 1.0 - u
+            if flying:
+                here = s0 + u * width * (v0 + 0.5 * u * width * bend)
+            else:
+                here = w * w * (s0 * (1.0 + 2.0 * u) + u * width * v0)
+                here += u * u * (s1 * (1.0 + 2.0 * w) - w * width * v1)
+            if (here < level) == rising:
+                low = u
+            else:
+                high = u
+        return t0 + high * width
+
+    def _linear_first(self, values: Array, level: float) -> float:
+        """First instant at which values that start at 0 and end above the level reach it."""
+        index = int(np.argmax(values >= level))
+        return float(np.interp(level, values[index - 1 : index + 1], self.time[index - 1 : index + 1]))
+
+    def _settled(self, values: Array, end: float, width: float, *, linear: bool = False) -> float | None:
+        """Instant after which the values stay within the width around the end; None when still under way."""
+        outside = np.flatnonzero(np.abs(values - end) > width)
+        index = int(outside[-1]) if len(outside) else 0
+        if index + 1 >= len(values):
+            return None
+        level = end + width if values[index] > end else end - width
+        pair = np.array([index, index + 1] if values[index + 1] >= values[index] else [index + 1, index])
+        at = float(np.interp(level, values[pair], self.time[pair])) if linear else self._between(index, level)
+        under_way = at > (1.0 - _STILL_MOVING) * self.last
+        return None if under_way and not self.contact[-1] else at

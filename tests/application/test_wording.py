@@ -1,0 +1,65 @@
+"""The verdict in words: error before and after, the noise, what is left."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from mckibben.application.wording import sentence_of
+from mckibben.identification.residual.structure import Structure
+
+TITLES = {"creep": "Creep", "leak": "Leak"}
+
+
+def result(
+    status: str, before: float, after: float, *added: str, unit: str = "N", noise: float | None = 2.0,
+    share: float = 0.05, alternatives: tuple[Any, ...] = (),
+) -> Any:  # fmt: skip
+    return SimpleNamespace(
+        status=status,
+        subject=SimpleNamespace(unit=unit),
+        start=SimpleNamespace(rmse=before),
+        best=SimpleNamespace(rmse=after),
+        added=added,
+        noise=noise,
+        alternatives=alternatives,
+        structure=Structure(share, (("pressure", 0.5), ("time", 0.2), ("velocity", 0.1))),
+    )
+
+
+SENTENCES = {
+    "Nothing is missing: the error of 2 N is of the size of the noise (2 N).": result("adequate", 2.0, 2.0),
+    "Nothing is missing: the error of 2 N (with the numbers of the model refitted; before 50 N) is of the "
+    "size of the noise (2 N).": result("adequate", 50.0, 2.0),
+    "Nothing is missing: the error of 1 times the noise is noise.": result(
+        "adequate", 1.0, 1.0, unit="1", noise=1.0
+    ),
+    "No catalogued effect lowers the error of 5 N. These data do not tell their noise: state it to know "
+    "whether the error is more than that.": result("adequate", 5.0, 5.0, noise=None),
+    "Missing: Creep. With it the error falls from 40 to 2.1 N, the noise of the data (2 N).": result(
+        "missing_effects", 40.0, 2.1, "creep"
+    ),
+    "Missing: Creep and Leak. With them the error falls from 4 to 1.02 times the noise.": result(
+        "missing_effects", 4.0, 1.02, "creep", "leak", unit="1", noise=1.0
+    ),
+    "Missing: Creep. With it the error falls from 40 to 3 mm; the noise is 2 mm. Of the rest, 40 % follows "
+    "pressure and time.": result("missing_effects", 0.040, 0.003, "creep", unit="m", noise=2e-3, share=0.4),
+    "Missing: Creep. With it the error falls from 40 to 9 N; the noise is 2 N. No catalogued effect explains "
+    "the rest: it follows nothing that was measured; repeat the run to see whether it comes again.": result(
+        "unknown_effect", 40.0, 9.0, "creep"
+    ),
+    "No catalogued effect explains the error of 40 N: 90 % of it follows pressure and time.": result(
+        "unknown_effect", 40.0, 40.0, share=0.9
+    ),
+    "Missing: Creep. With it the error falls from 40 to 2.1 N, the noise of the data (2 N). These data "
+    "cannot tell Creep from Leak.": result(
+        "ambiguous", 40.0, 2.1, "creep", alternatives=(SimpleNamespace(of="creep", effect="leak"),)
+    ),
+}
+
+
+@pytest.mark.parametrize("sentence", SENTENCES)
+def test_a_verdict_in_words(sentence: str) -> None:
+    assert sentence_of(SENTENCES[sentence], TITLES) == sentence

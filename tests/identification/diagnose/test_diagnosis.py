@@ -1,0 +1,385 @@
+"""Diagnoses of measurements whose hidden part was written here: what is found, what not, when to stop."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from math import radians, sin
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mckibben.application.wording import sentence_of
+from mckibben.documents.studio import Studio
+from mckibben.identification.diagnose.diagnosis import Diagnosis, diagnose
+from mckibben.identification.fit.fitter import CancelledError
+from mckibben.identification.predict import subject_of
+from mckibben.identification.predict.fit_model import Setting, free_geometry
+from mckibben.identification.predict.free import Free
+from mckibben.measurement.measurement import Measurement
+from mckibben.measurement.read import read_measurement
+from mckibben.physics.custom import custom_effect
+from mckibben.resources import presets_folder
+from mckibben.simulation.outcome import Watch
+from tests.identification.synthetic import CATALOGUE, MUSCLE, csv, cycles, force_map
+from tests.identification.synthetic import truth as hidden_force
+
+DATA = Path(__file__).parents[4] / "shared" / "data"
+FRICTION = 15.0
+
+
+def coulomb(*, direction: float, **_: float) -> float:
+    return FRICTION * direction
+
+
+def ripple(*, kappa: float, **_: float) -> float:
+    return 12.0 * sin(150.0 * kappa)
+
+
+def setting(**effects: dict[str, float]) -> Setting:
+    chosen = tuple(CATALOGUE[name] for name in effects)
+    return Setting(MUSCLE, chosen, {e.id: e.defaults | effects[e.id] for e in chosen})
+
+
+def diagnosis(
+    measurement: Measurement, start: Setting | None = None, *, geometry: Sequence[Free] = (), **options
+) -> Diagnosis:
+    subject = subject_of(measurement, MUSCLE)
+    return diagnose(subject, start or setting(), catalogue=CATALOGUE, geometry=geometry, **options)
+
+
+@lru_cache
+def of_friction(noise: float) -> Diagnosis:
+    """Cycles at two speeds with Coulomb friction, from the ideal muscle."""
+    return diagnosis(cycles(coulomb, noise=noise, each=30, second=3.0))
+
+
+# --- made-up data without noise
+
+
+def test_data_without_noise_end_at_their_digits():
+    found = diagnosis(force_map(prestress=-30.0))
+    assert (found.status, found.added) == ("ambiguous", ("prestress",))
+    assert found.best.setting.values["prestress"]["force"] == pytest.approx(-30.0, rel=1e-6)
+    assert {other.effect for other in found.alternatives} == {"force_offset"}
+
+
+def test_what_changes_nothing_has_no_twins():
+    """Without motion or a change of temperature several candidates do nothing, and are not alike for that."""
+    found = diagnosis(force_map(noise=2.0, prestress=-30.0))
+    idle = [candidate for candidate in found.candidates if abs(candidate.gain) < 1e-3]
+    assert len(idle) > 3
+    assert all(candidate.twins == () for candidate in idle)
+
+
+# --- nothing is missing
+
+
+@pytest.mark.parametrize(
+    "measurement", [cycles(noise=2.0, each=30), force_map(noise=2.0)], ids=["cycles", "map"]
+)
+def test_noise_alone_is_adequate(measurement):
+    found = diagnosis(measurement)
+    assert found.status == "adequate"
+    assert found.added == ()
+    assert found.term is None
+    assert found.noise == pytest.approx(2.0, rel=0.35)
+    assert found.best.rmse == pytest.approx(2.0, rel=0.2)
+    assert [step.added for step in found.path] == [None]
+    assert found.structure.share < 0.3
+
+
+def test_a_right_model_with_effects_is_adequate():
+    measurement = cycles(coulomb, noise=1.0, each=30, c10=0.4e6)
+    start = setting(bladder_elasticity={"shear_modulus": 0.6e6}, coulomb_friction={"force": 4.0})
+    found = diagnosis(measurement, start)
+    assert found.status == "adequate"
+    assert found.added == ()
+    # The start model as given is far off; its numbers are refitted.
+    assert found.start.rmse > 5.0 * found.best.rmse
+    assert found.best.setting.values["bladder_elasticity"]["shear_modulus"] == pytest.approx(0.4e6, rel=0.01)
+    assert found.best.setting.values["coulomb_friction"]["force"] == pytest.approx(FRICTION, rel=0.02)
+    assert found.path[0].node.rmse == found.start.rmse
+    assert found.path[-1].node.rmse == found.best.rmse
+
+
+def test_without_noise_nothing_is_missing_either():
+    assert diagnosis(cycles(each=30)).status == "adequate"
+
+
+def test_rounding_errors_are_no_effect():
+    found = diagnosis(force_map())
+    assert found.status == "adequate"
+
+
+# --- one effect
+
+
+@pytest.mark.parametrize("noise", [0.0, 1.0])
+def test_one_missing_friction_is_found(noise):
+    found = of_friction(noise)
+    assert found.status == "missing_effects"
+    assert found.added == ("coulomb_friction",)
+    value = found.best.setting.values["coulomb_friction"]["force"]
+    assert value == pytest.approx(FRICTION, abs=0.2 * noise + 1e-4)
+    assert found.alternatives == ()
+    assert found.start.rmse == pytest.approx(np.hypot(FRICTION, noise), rel=0.02)
+    first = found.candidates[0]
+    assert first.effect.id == "coulomb_friction"
+    assert first.gain > 0.9
+    assert "changes sign with the direction of motion" in first.why
+    assert found.seen.odd == pytest.approx(1.0, abs=0.02)
+    assert found.where[0].over in ("direction", "velocity")  # here the speed tells the direction
+    assert found.where[0].share_explained > 0.95
+
+
+def test_a_bladder_is_found_on_a_map():
+    found = diagnosis(force_map(noise=1.0, c10=0.5e6))
+    assert found.status == "missing_effects"
+    assert found.added == ("bladder_elasticity",)
+    table = {p.name: p for p in found.fit.parameters} if found.fit else {}
+    shear = table["bladder_elasticity.shear_modulus"]
+    assert shear.stderr is not None
+    assert abs(shear.value - 0.5e6) < 4.0 * shear.stderr
+
+
+def test_one_speed_cannot_tell_friction_from_damping():
+    found = diagnosis(cycles(coulomb, noise=1.0, each=30))
+    assert found.status == "ambiguous"
+    assert found.added == ("coulomb_friction",)  # the simpler of both
+    assert "viscous_damping" in {other.effect for other in found.alternatives}
+    assert any("speed" in proposal.declared for proposal in found.proposals)
+
+
+def test_two_effects_are_found_in_the_order_of_their_size():
+    found = diagnosis(cycles(coulomb, noise=1.0, each=30, c10=0.4e6, second=3.0))
+    assert found.status == "missing_effects"
+    assert set(found.added) == {"bladder_elasticity", "coulomb_friction"}
+    assert [step.added for step in found.path] == [None, "bladder_elasticity", "coulomb_friction"]
+    errors = [step.node.rmse for step in found.path]
+    assert errors == sorted(errors, reverse=True)
+    assert errors[-1] == pytest.approx(1.0, rel=0.15)
+    assert found.path[-1].node.setting.ids == found.best.setting.ids
+
+
+def test_every_effect_that_can_show_is_a_candidate_with_its_reason():
+    found = of_friction(1.0)
+    expected = {name for name, effect in CATALOGUE.items() if found.subject.reveals(effect)}
+    assert {candidate.effect.id for candidate in found.candidates} == expected
+    scores = [candidate.score for candidate in found.candidates]
+    assert scores == sorted(scores)
+    for candidate in found.candidates:
+        assert candidate.why.startswith(candidate.effect.title)
+        # An effect that cannot be switched off by what is fitted may do harm.
+        if all(p.fitted or p.off is None for p in candidate.effect.parameters):
+            assert candidate.gain > -1e-3
+        assert candidate.node.setting.ids[-1] == candidate.effect.id
+
+
+def test_a_bladder_is_found_without_a_stated_wall_by_its_product_with_the_modulus():
+    bare = MUSCLE._replace(wall_thickness=0.0)
+    subject = subject_of(force_map(noise=1.0, c10=0.3e6), bare)
+    found = diagnose(subject, Setting(bare), catalogue=CATALOGUE)
+    assert found.added == ("bladder_elasticity",)
+    best = found.best.setting
+    assert found.best.rmse == pytest.approx(1.0, rel=0.2)
+    assert best.assumed == {"wall_thickness"}
+    # The hidden wall of 1.8 mm at 0.3 MPa; what was assumed instead of it only shifts the modulus.
+    product = best.values["bladder_elasticity"]["shear_modulus"] * best.muscle.wall_thickness
+    assert product == pytest.approx(0.3e6 * 0.0018, rel=0.02)
+    said = next(message for message in found.messages if "wall thickness" in message)
+    assert "1.5 mm is assumed" in said
+    assert f"shear modulus x wall thickness = {product:.4g} N/m" in said
+    assert "state wall_thickness" in said
+    # Without the effect nothing of the muscle was assumed.
+    assert found.start.setting.muscle == bare
+    assert best.without("bladder_elasticity").muscle == bare
+
+
+def test_every_effect_is_a_candidate_or_told_with_the_reason():
+    found = diagnosis(force_map(noise=1.0), setting(prestress={"force": 0.0}))
+    tried = {candidate.effect.id for candidate in found.candidates}
+    reasons = {item.effect: item.why for item in found.not_tried}
+    assert tried | set(reasons) | {"prestress"} == set(CATALOGUE)
+    assert not tried & set(reasons)
+    assert reasons["dahl"].startswith("it does not show in static data, only in isobaric")
+    assert "only in transient" in reasons["leak"]
+
+
+# --- what cannot be told apart
+
+
+def test_an_offset_of_the_sensor_and_a_prestress_are_one_group():
+    """Both are one constant force: no muscle test can tell them apart."""
+    found = diagnosis(cycles(noise=1.0, each=30, prestress=40.0))
+    assert found.status == "ambiguous"
+    assert len(found.added) == 1
+    names = {found.added[0], *(other.effect for other in found.alternatives)}
+    assert names == {"prestress", "force_offset"}
+    other = found.alternatives[0]
+    assert abs(other.cosine) == pytest.approx(1.0, abs=1e-6)
+    assert other.difference < 1e-3
+    twins = {c.effect.id: c.twins for c in found.candidates if c.effect.id in names}
+    assert "prestress" in twins["force_offset"]
+    assert "force_offset" in twins["prestress"]
+    assert len(found.proposals) == 1
+    assert "with the muscle removed" in found.proposals[0].declared
+    assert found.proposals[0].separation < 1.0  # nor can any force measurement
+
+
+def test_slack_rows_with_noise_do_not_bend_the_fit():
+    """A load cell shows the slack muscle as 0 N with its noise, not as the model's force below zero."""
+    rng = np.random.default_rng(5)
+    pressure, length = rng.uniform(1.5e5, 6e5, 200), rng.uniform(0.22, 0.3, 200)
+    force = np.maximum(hidden_force(pressure, length, c10=0.5e6), 0.0) + rng.normal(0.0, 2.0, 200)
+    assert np.count_nonzero(force < 6.0) > 40
+    rows = [f"{p / 1e5},{1e3 * x},{f}" for p, x, f in zip(pressure, length, force, strict=True)]
+    found = diagnosis(csv(rows, "pressure_bar,length_mm,force_N", "kind: static"))
+    assert found.added == ("bladder_elasticity",)
+    assert found.best.rmse < 1.1 * 2.0
+    assert found.best.setting.number("bladder_elasticity.shear_modulus") == pytest.approx(0.5e6, rel=0.02)
+
+
+def test_another_braid_angle_is_told_beside_the_effects():
+    """A muscle of 27 degrees taken for one of 26.5: effects can do that, the angle does it better."""
+    found = diagnosis(force_map(noise=1.0, angle=27.0))
+    assert found.added
+    assert any("braid angle of 27.0" in said and "instead of 26.50°" in said for said in found.messages)
+    freed = diagnosis(force_map(noise=1.0, angle=27.0), geometry=free_geometry(MUSCLE, ["braid_angle"], {}))
+    assert freed.added == ()
+    assert freed.status == "adequate"
+    assert sentence_of(freed, {}).startswith("Nothing is missing: the error of ")
+    assert "with the numbers of the model refitted; before" in sentence_of(freed, {})
+
+
+def test_an_error_is_not_called_noise_where_the_noise_is_not_known():
+    """Bar under a heading in pascal, twelve rows: 500 N off, and nothing tells the noise."""
+    rows = [f"{p},{x},{hidden_force(1e5 * p, 1e-3 * x)}" for p in (2, 4, 6) for x in (300, 290, 280, 270)]
+    found = diagnosis(csv(rows, "pressure_Pa,length_mm,force_N", "kind: static"))
+    assert found.noise is None
+    assert found.status == "unknown_effect"
+    assert "do not tell their noise" in sentence_of(found, {})
+
+
+# --- what nobody knows
+
+
+def test_a_ripple_is_an_unknown_effect_with_a_term():
+    found = diagnosis(cycles(ripple, noise=1.0, each=40))
+    assert found.status == "unknown_effect"
+    assert found.added == ()
+    assert found.structure.share > 0.8
+    assert found.structure.variables[0][0] == "contraction"
+    assert found.term is not None
+    assert found.term.share > 0.9
+    contraction = 1.0 - found.subject.inputs["length"] / 0.3
+    hidden = 12.0 * np.sin(150.0 * contraction)
+    assert np.sqrt(np.mean((found.term.values - hidden) ** 2)) < 2.5
+    # The term can be typed; with it nothing is left.
+    effect = custom_effect(found.term.formula, found.term.coefficients)
+    start = Setting(MUSCLE, (effect,), {"custom": effect.defaults})
+    assert found.subject.rmse(found.subject.residual(start)) < 3.0
+
+
+def test_a_catalogued_part_is_found_beside_an_unknown_one():
+    def both(**state: float) -> float:
+        return coulomb(**state) + ripple(**state)  # type: ignore[arg-type]
+
+    found = diagnosis(cycles(both, noise=1.0, each=40, second=3.0))
+    assert found.status == "unknown_effect"
+    # Beside a ripple of this size the first rows after a reversal do not tell Dahl's law from Coulomb's.
+    assert "coulomb_friction" in {*found.added, *(other.effect for other in found.alternatives)}
+    assert found.term is not None
+    assert "kappa" in found.term.formula
+
+
+# --- noise, geometry, the end
+
+
+def test_a_stated_noise_counts():
+    measurement = cycles(noise=2.0, each=20)
+    found = diagnosis(measurement, noise=2.5)
+    assert (found.noise, found.noise_how) == (2.5, "given")
+    assert found.status == "adequate"
+    assert diagnosis(measurement).noise_how == "third differences of the residual within sweeps"
+
+
+def test_freed_geometry_explains_what_geometry_can():
+    measurement = force_map(noise=1.0, angle=25.5)
+    angle = free_geometry(MUSCLE, ["braid_angle"], {"braid_angle": radians(2.0)})
+    found = diagnosis(measurement, geometry=angle)
+    assert found.status == "adequate"
+    assert np.degrees(found.best.setting.muscle.braid_angle) == pytest.approx(25.5, abs=0.05)
+
+
+def test_geometry_that_a_fit_moved_is_told():
+    angle = free_geometry(MUSCLE, ["braid_angle"], {"braid_angle": radians(2.0)})
+    found = diagnosis(force_map(noise=1.0, angle=25.5), geometry=angle)
+    assert any("braid angle by -3.8 %" in message for message in found.messages)
+
+
+def test_a_diagnosis_is_repeatable():
+    first, second = of_friction(1.0), of_friction.__wrapped__(1.0)
+    assert first.added == second.added
+    assert first.best.rmse == second.best.rmse
+    assert first.structure == second.structure
+
+
+def test_progress_and_candidates_are_told():
+    shares: list[float] = []
+    told = []
+
+    class Told(Watch):
+        def ended(self, share: float):
+            shares.append(share)
+            return super().ended(share)
+
+    found = diagnosis(cycles(coulomb, noise=1.0, each=20), watch=Told(time_limit=1e3), found=told.append)
+    assert shares == sorted(shares)
+    assert shares[0] >= 0.0
+    assert shares[-1] <= 1.0
+    assert {c.effect.id for c in told} == {c.effect.id for c in found.candidates}
+
+
+@pytest.mark.parametrize("fits", [1, 10, 60])
+def test_whoever_goes_away_ends_it(fits):
+    asked = []
+
+    def gone() -> bool:
+        asked.append(1)
+        return len(asked) >= fits
+
+    with pytest.raises(CancelledError):
+        diagnosis(cycles(coulomb, noise=1.0, each=20, c10=0.4e6), watch=Watch(cancelled=gone, time_limit=1e3))
+    assert len(asked) == fits
+
+
+def test_a_time_limit_ends_it():
+    with pytest.raises(CancelledError):
+        diagnosis(cycles(coulomb, noise=1.0, each=20), watch=Watch(time_limit=0.0))
+
+
+# --- measured
+
+
+@pytest.mark.parametrize("free", [(), ("braid_angle",)], ids=["given geometry", "free braid angle"])
+@pytest.mark.parametrize(
+    ("sample", "preset", "nominal_length"),
+    [("DMSP-20-300", "DMSP-20", 0.3), ("DMSP-10-250", "DMSP-10", 0.25)],
+)
+def test_the_maps_of_martens_and_boblan_from_the_ideal_muscle(sample, preset, nominal_length, free):
+    path = DATA / f"{sample}_force_map.csv"
+    if not path.exists():
+        pytest.skip(f"{path.name} is not beside the project")
+    facts = Studio(presets=presets_folder()).facts(preset)
+    muscle = facts.muscle._replace(nominal_length=nominal_length)
+    subject = subject_of(read_measurement(path.read_bytes(), path.name), muscle)
+    geometry = free_geometry(muscle, free, facts.tolerance)
+    found = diagnose(subject, Setting(muscle), catalogue=CATALOGUE, geometry=geometry)
+    full_scale = float(np.max(subject.measured))
+    assert len(found.best.free) <= 5
+    assert found.best.rmse <= 0.010 * full_scale
+    assert found.best.holdout_rmse <= 0.013 * full_scale
+    # Hyperelastic walls and a constant force fit these maps best of all published structures.
+    assert {"bladder_elasticity", "linear_elasticity"} & set(found.added)

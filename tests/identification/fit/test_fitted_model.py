@@ -1,0 +1,161 @@
+"""A fitted model: errors on what was left out against refits, bounds, standard errors of textbooks."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mckibben.identification.fit.fitted_model import Node, counts, fitted_node
+from mckibben.identification.predict import subject_of
+from mckibben.identification.predict.fit_model import Setting, free_geometry, free_numbers
+from mckibben.identification.predict.free import Free
+from tests.identification.synthetic import CATALOGUE, MUSCLE, force_map, linear_node
+
+ROWS = 90
+RANDOM = np.random.default_rng(11)
+X = RANDOM.uniform(0.0, 1.0, ROWS)
+DESIGN = np.column_stack([np.ones(ROWS), X, X**2])
+MEASURED = DESIGN @ [2.0, -1.0, 3.0] + RANDOM.normal(0.0, 0.2, ROWS)
+#: Folds of unequal size, and another way of folding.
+FOLDS = (np.repeat([0, 1, 2, 3], [10, 20, 30, 30]), np.minimum((X * 5).astype(int), 4))
+
+
+def left_out(design: np.ndarray, measured: np.ndarray, labels: np.ndarray) -> np.ndarray:
+    """Mean square of each fold under a fit of the others."""
+    found = []
+    for label in np.unique(labels):
+        out = labels == label
+        numbers = np.linalg.lstsq(design[~out], measured[~out], rcond=None)[0]
+        found.append(float(np.mean((measured[out] - design[out] @ numbers) ** 2)))
+    return np.array(found)
+
+
+def test_left_out_folds_are_those_of_refits_for_a_linear_model():
+    node = linear_node(MEASURED, DESIGN, FOLDS)
+    for labels, squares in zip(FOLDS, node.fold_squares, strict=True):
+        assert squares == pytest.approx(left_out(DESIGN, MEASURED, labels), rel=1e-8)
+    first = FOLDS[0]
+    whole = np.average(left_out(DESIGN, MEASURED, first), weights=np.unique(first, return_counts=True)[1])
+    assert node.holdout_rmse == pytest.approx(np.sqrt(whole), rel=1e-8)
+    assert node.holdout_rmse > node.rmse
+
+
+def test_units_of_the_numbers_do_not_matter():
+    small = linear_node(MEASURED, DESIGN, FOLDS)
+    factors = np.array([1e-7, 1.0, 1e6])
+    large = linear_node(MEASURED, DESIGN * factors, FOLDS, [(-1e3 / f, 1e3 / f) for f in factors])
+    assert large.fold_squares[0] == pytest.approx(small.fold_squares[0], rel=1e-8)
+
+
+def test_leave_one_out_is_the_press_statistic():
+    """Allen's PRESS: the residual over one minus its leverage."""
+    node = linear_node(MEASURED, DESIGN, [np.arange(ROWS)])
+    hat = DESIGN @ np.linalg.inv(DESIGN.T @ DESIGN) @ DESIGN.T
+    press = node.residual / (1.0 - np.diag(hat))
+    assert node.fold_squares[0] == pytest.approx(press**2, rel=1e-8)
+
+
+def test_without_numbers_what_is_left_out_is_the_residual():
+    node = linear_node(MEASURED, np.empty((ROWS, 0)), FOLDS)
+    expected = [np.mean(MEASURED[FOLDS[0] == label] ** 2) for label in range(4)]
+    assert node.fold_squares[0] == pytest.approx(expected)
+    assert node.holdout_rmse == pytest.approx(np.sqrt(np.mean(MEASURED**2)))
+    assert node.implausible == 0
+    assert node.standard_errors == []
+
+
+def test_numbers_stay_within_their_bounds_when_a_fold_is_left_out():
+    """An outlier pulls the mean; without it the mean could go no lower than its bound."""
+    measured = np.array([1.0, 1.0, 1.0, 1.0, 9.0, 9.0])
+    labels = np.array([0, 0, 1, 1, 2, 2])
+    node = linear_node(measured, np.ones((6, 1)), [labels], [(3.0, 20.0)])
+    assert node.free[0].start == pytest.approx(11.0 / 3.0)
+    assert node.fold_squares[0][2] == pytest.approx((9.0 - 3.0) ** 2)  # not (9 - 1)^2
+    assert node.fold_squares[0][0] == pytest.approx((1.0 - 5.0) ** 2)
+
+
+def test_a_number_that_one_fold_alone_knows_is_off_without_it():
+    """Only fold 2 sees the second number: nobody would know of it, so the fold is predicted without."""
+    labels = np.repeat([0, 1, 2], 20)
+    seen = np.where(labels == 2, 1.0, 0.0)
+    measured = 1.0 + 4.0 * seen + RANDOM.normal(0.0, 0.01, 60)
+    node = linear_node(measured, np.column_stack([np.ones(60), seen]), [labels], [(-10, 10)] * 2)
+    free = (node.free[0], replace(node.free[1], lower=0.0, upper=100.0, off=0.0))
+    node = replace(node, free=free)
+    assert np.sqrt(node.fold_squares[0][2]) == pytest.approx(4.0, rel=1e-2)
+    assert np.sqrt(node.fold_squares[0][0]) < 0.02
+
+
+def test_standard_errors_are_those_of_the_textbook():
+    node = linear_node(MEASURED, DESIGN, FOLDS)
+    variance = node.residual @ node.residual / (ROWS - 3)
+    expected = np.sqrt(variance * np.diag(np.linalg.inv(DESIGN.T @ DESIGN)))
+    assert node.standard_errors == pytest.approx(expected.tolist(), rel=1e-6)
+
+
+def with_free(node: Node, *changes: dict) -> Node:
+    return replace(node, free=tuple(replace(p, **c) for p, c in zip(node.free, changes, strict=True)))
+
+
+def test_numbers_at_bounds_and_numbers_that_do_nothing():
+    node = linear_node(MEASURED, DESIGN, FOLDS)
+    starts = [p.start for p in node.free]
+    plain: list[dict] = [{}, {}, {}]
+    assert not node.at_bound.any()
+    assert node.implausible == 0
+    bounded = with_free(node, {"lower": starts[0]}, *plain[1:])
+    assert bounded.at_bound.tolist() == [True, False, False]
+    assert bounded.inner.tolist() == [1, 2]
+    assert bounded.implausible == 1
+    # Where it does nothing is no bound of what is plausible.
+    off = with_free(node, {"lower": starts[0], "off": starts[0]}, *plain[1:])
+    assert off.idle.tolist() == [True, False, False]
+    assert not off.at_bound.any()
+    assert off.implausible == 0
+
+
+def test_numbers_that_stand_in_for_each_other_are_implausible():
+    twin = np.column_stack([DESIGN, DESIGN[:, 1] * (1.0 + 1e-4 * RANDOM.normal(size=ROWS))])
+    node = linear_node(MEASURED, twin, FOLDS)
+    assert node.implausible == 1
+    assert node.standard_errors == [None] * 4
+
+
+def test_numbers_that_the_data_do_not_see_take_no_part():
+    blind = np.column_stack([DESIGN, np.zeros(ROWS)])
+    node = linear_node(MEASURED, blind, FOLDS)
+    assert node.inner.tolist() == [0, 1, 2]
+    assert node.fold_squares[0] == pytest.approx(left_out(DESIGN, MEASURED, FOLDS[0]), rel=1e-8)
+
+
+def test_counts_are_in_the_order_of_the_labels():
+    assert counts(np.array([3, 1, 3, 7, 3, 1])).tolist() == [2, 3, 1]
+
+
+def test_a_fit_of_a_subject_finds_what_was_hidden():
+    subject = subject_of(force_map(c10=0.5e6, prestress=40.0, angle=26.0), MUSCLE)
+    chosen = tuple(CATALOGUE[name] for name in ("bladder_elasticity", "prestress"))
+    start = Setting(MUSCLE, chosen, {e.id: e.defaults for e in chosen})
+    geometry = free_geometry(MUSCLE, ["braid_angle"], {})
+    node = fitted_node(subject, start, free_numbers(start, geometry), freed=["prestress.force"])
+    assert node.rmse < 1e-3
+    assert node.setting.values["bladder_elasticity"]["shear_modulus"] == pytest.approx(0.5e6, rel=1e-4)
+    assert node.setting.values["prestress"]["force"] == pytest.approx(40.0, rel=1e-4)
+    assert np.degrees(node.setting.muscle.braid_angle) == pytest.approx(26.0, abs=1e-4)
+    assert [p.start for p in node.free] == [node.setting.number(p.name) for p in node.free]
+    assert node.key == (frozenset({"bladder_elasticity", "prestress"}), frozenset({"prestress.force"}))
+    assert start.values["prestress"]["force"] == 110.0  # the start model is as it was
+
+
+def test_nothing_free_is_the_model_as_it_is():
+    subject = subject_of(force_map(prestress=40.0), MUSCLE)
+    node = fitted_node(subject, Setting(MUSCLE), ())
+    assert node.residual == pytest.approx(np.full(60, -40.0), abs=1e-7)
+    assert node.rmse == pytest.approx(40.0)
+    assert node.free == ()
+
+
+def test_a_magnitude_that_matters_is_a_hundredth_of_the_range():
+    assert Free("x.b", 1.0, -50.0, 50.0, "N").typical == 1.0

@@ -1,0 +1,103 @@
+"""The fit against NIST's certified nonlinear regressions, and its honesty about what it cannot tell."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mckibben.identification.fit.least_squares import least_squares_fit
+from mckibben.identification.predict.free import Free
+
+# NIST StRD Misra1a: y = b1 (1 - exp(-b2 x)), certified values and standard deviations.
+MISRA_Y = [10.07, 14.73, 17.94, 23.93, 29.61, 35.18, 40.02, 44.82, 50.76, 55.05, 61.01, 66.40, 75.47, 81.78]
+MISRA_X = [77.6, 114.9, 141.1, 190.8, 239.9, 289.0, 332.8, 378.4, 434.8, 477.3, 536.8, 593.1, 689.1, 760.0]
+MISRA = {
+    "b1": (2.3894212918e02, 2.7070075241e00),
+    "b2": (5.5015643181e-04, 7.2668688436e-06),
+}
+
+
+def slopes(residual):
+    """Central differences of a residual."""
+
+    def jacobian(b):
+        steps = 1e-6 * np.maximum(np.abs(b), 1e-6)
+        return np.column_stack([
+            (residual(b + step) - residual(b - step)) / (2.0 * step.sum()) for step in np.diag(steps)
+        ])  # fmt: skip
+
+    return jacobian
+
+
+def fitted(residual, choice, **options):
+    """A fit whose derivatives are differences."""
+    return least_squares_fit(residual, slopes(residual), choice, **options)
+
+
+def free(name: str, start: float, lower: float, upper: float) -> Free:
+    return Free(name, start, lower, upper, "1")
+
+
+@pytest.mark.parametrize("start", [(500.0, 1e-4), (250.0, 5e-4)])
+@pytest.mark.parametrize("exact", [True, False])
+def test_certified_values_and_standard_errors(start, exact):
+    x, y = np.array(MISRA_X), np.array(MISRA_Y)
+
+    def residual(b):
+        return b[0] * (1 - np.exp(-b[1] * x)) - y
+
+    def jacobian(b):
+        return np.column_stack([1 - np.exp(-b[1] * x), b[0] * x * np.exp(-b[1] * x)])
+
+    choice = [free("b1", start[0], 1.0, 1000.0), free("b2", start[1], 1e-6, 1e-2)]
+    result = least_squares_fit(residual, jacobian if exact else slopes(residual), choice)
+    for parameter in result.parameters:
+        value, stderr = MISRA[parameter.name]
+        assert parameter.value == pytest.approx(value, rel=1e-6)
+        assert parameter.stderr == pytest.approx(stderr, rel=1e-4)
+    assert result.correlations[0][:2] == ("b1", "b2")
+    assert abs(result.correlations[0][2]) > 0.99
+
+
+def test_parameter_at_its_bound_has_no_error_and_is_named():
+    x = np.linspace(0, 1, 20)
+    result = fitted(
+        lambda b: b[0] * x + b[1] - (3 * x + 1), [free("slope", 1, 0, 2), free("offset", 0, -5, 5)]
+    )
+    slope = result.parameters[0]
+    assert slope.at_bound
+    assert slope.stderr is None
+    assert any("slope" in message for message in result.messages)
+
+
+def test_twins_are_said_not_to_be_told_apart():
+    x = np.linspace(0, 1, 20)
+    noise = np.random.default_rng(1).normal(0, 0.01, 20)
+    result = fitted(lambda b: (b[0] + b[1]) * x - (1.3 * x + noise), [free("a", 1, 0, 5), free("b", 1, 0, 5)])
+    assert all(parameter.stderr is None for parameter in result.parameters)
+    assert any("cannot tell apart: a, b" in message for message in result.messages)
+
+
+def test_parameter_that_does_nothing_is_named():
+    x = np.linspace(0, 1, 20)
+    noise = np.random.default_rng(1).normal(0, 0.01, 20)
+    result = fitted(
+        lambda b: b[0] * x + 0 * b[1] - (1.3 * x + noise), [free("a", 1, 0, 5), free("idle", 1, 0, 5)]
+    )
+    assert result.parameters[0].stderr is not None
+    assert result.parameters[1].stderr is None
+    assert "these data do not see idle" in result.messages
+
+
+def test_more_parameters_than_values_is_said():
+    result = fitted(lambda b: np.array([b[0] + b[1] - 3.0]), [free("a", 1, 0, 5), free("b", 1, 0, 5)])
+    assert any("cannot determine 2 parameters" in message for message in result.messages)
+
+
+def test_random_starts_find_the_deeper_of_two_minima_and_repeat():
+    def residual(b):
+        return np.array([(b[0] - 8.0) * (b[0] - 1.0), 0.3 * (b[0] - 8.0)])
+
+    runs = [fitted(residual, [free("b", 0.5, 0.0, 10.0)], starts=6) for _ in range(2)]
+    assert runs[0].numbers == runs[1].numbers
+    assert runs[0].numbers[0] == pytest.approx(8.0, abs=1e-6)

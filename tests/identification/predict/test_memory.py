@@ -1,0 +1,131 @@
+"""States of effects along a record: equal to the driven run, reset with each record, integrated once."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mckibben.identification.predict.comparable_rows import Task, task_of
+from mckibben.identification.predict.fit_model import Setting
+from mckibben.identification.predict.memory import Memory, remembers
+from mckibben.identification.predict.quasistatic import Quasistatic
+from mckibben.simulation.drive.driven import driven_force
+from mckibben.simulation.statics.model import StaticModel
+from tests.identification.synthetic import (
+    CATALOGUE,
+    CYCLE_HEADER,
+    MUSCLE,
+    csv,
+    cycle_rows,
+    cycles,
+    force_map,
+    truth,
+)
+
+SLIP = {"force": 30.0, "break_strain": 0.02, "ratio": 2.0}
+
+
+def setting(**values: dict[str, float]) -> Setting:
+    chosen = tuple(CATALOGUE[name] for name in values)
+    return Setting(MUSCLE, chosen, {e.id: e.defaults | values[e.id] for e in chosen})
+
+
+def record(task: Task) -> dict[str, np.ndarray]:
+    assert task.time is not None
+    return {"time": task.time, "pressure": task.state["pressure"], "length": task.state["length"]}
+
+
+@pytest.mark.parametrize("effect", sorted(name for name, e in CATALOGUE.items() if remembers(e)))
+def test_states_along_a_record_give_the_driven_force(effect):
+    task = task_of(cycles(each=40), MUSCLE)
+    model = setting(**{effect: {}})
+    states = Memory(task).states(model)
+    assert set(states) == {f"{effect}.{state.name}" for state in CATALOGUE[effect].states}
+    compiled = StaticModel.of(MUSCLE, model.effects, model.values)
+    expected = driven_force(compiled, **record(task))
+    found = Quasistatic(task).predict(model)
+    # A driven run knows the rate between rows; at the rows themselves only terms of velocity differ.
+    counted = ~task.turning
+    assert np.count_nonzero(counted) > 0.95 * len(counted)
+    assert found == pytest.approx(expected[counted], abs=2e-4 * np.max(expected))
+
+
+def test_maxwell_cells_are_sliders_behind_springs():
+    """Each cell follows the length until its limit; at the end of a long way all slide."""
+    task = task_of(cycles(each=400, levels=(4e5, 5e5)), MUSCLE)
+    states = Memory(task).states(setting(maxwell_slip=SLIP))
+    length, limit = task.state["length"], 0.02 * 0.3
+    for number in range(1, 5):
+        cell = states[f"maxwell_slip.cell_{number}"]
+        own = limit / 2.0 ** (4 - number)
+        early = np.abs(length - length[0]) < 0.85 * own
+        first = early & (np.arange(len(length)) < 100)
+        assert cell[first] == pytest.approx((length[first] - length[0]) / own, abs=2e-3)
+        turn = 400  # the shortest length
+        assert cell[turn - 1] == pytest.approx(-1.0, abs=1e-3)
+        assert np.max(np.abs(cell)) <= 1.0 + 1e-6
+
+
+def test_records_begin_at_rest():
+    rows = cycle_rows(each=30, levels=(4e5, 5e5))
+    twice = task_of(csv([*rows, *rows], CYCLE_HEADER, "kind: isobaric"), MUSCLE)
+    assert len(np.unique(twice.records)) == 2
+    states = Memory(twice).states(setting(dahl={}))["dahl.presliding"]
+    half = len(rows)
+    assert states[0] == states[half] == 0.0
+    assert states[:half] == pytest.approx(states[half:], abs=1e-9)
+    alone = Memory(task_of(csv(rows, CYCLE_HEADER, "kind: isobaric"), MUSCLE)).states(setting(dahl={}))
+    assert states[:half] == pytest.approx(alone["dahl.presliding"], abs=1e-9)
+
+
+def test_models_that_share_their_memory_share_the_run():
+    memory = Memory(task_of(cycles(each=30), MUSCLE))
+    name = "dahl.presliding"
+    first = memory.states(setting(dahl={"force": 10.0}))[name]
+    assert memory.states(setting(dahl={"force": 50.0}))[name] is first  # the force is not in the rates
+    assert memory.states(setting(dahl={"force": 10.0}, prestress={}))[name] is first
+    assert memory.states(setting(dahl={"force": 10.0}, creep={}))[name] is first, "each effect by itself"
+    other = memory.states(setting(dahl={"break_strain": 0.01}))[name]
+    assert not np.allclose(other, first)
+    wider = setting(dahl={}).with_numbers(["nominal_length"], [0.31])
+    assert memory.states(wider)[name] is not first
+    # Sensors turn what is read into what the memory follows.
+    assert memory.states(setting(dahl={}, length_offset={}))[name] is not first
+
+
+def test_no_memory_no_states():
+    memory = Memory(task_of(force_map(), MUSCLE))
+    assert memory.states(setting(prestress={}, viscous_damping={})) == {}
+    assert memory.by_parameters(setting(prestress={}), ["prestress.force"]) == {}
+
+
+def test_derivatives_are_asked_for_where_there_are_any():
+    memory = Memory(task_of(cycles(each=40), MUSCLE))
+    model = setting(dahl={"break_strain": 0.01})
+    names = ["dahl.force", "dahl.break_strain", "braid_angle"]
+    found = memory.by_parameters(model, names)
+    assert set(found) == {"dahl.break_strain"}
+    # z = sign + (z0 - sign) exp(-way/x_b) with x_b = eps L0: on the first way from rest by hand.
+    task = memory._task
+    way = 0.3 - task.state["length"][:40]
+    xb = 0.01 * 0.3
+    by_hand = way / (0.01 * xb) * np.exp(-way / xb)  # d/d eps of -(1 - exp(-way/(eps L0)))
+    derivative = found["dahl.break_strain"]["dahl.presliding"][:40]
+    assert derivative == pytest.approx(by_hand, abs=0.02 * np.max(by_hand))
+
+
+def test_after_a_new_level_the_first_way_is_not_counted():
+    """3 mm of 20 mm at each pressure but the first; the history of the first is known: there was none."""
+    sweep = np.concatenate([np.linspace(0.30, 0.28, 101), np.linspace(0.28, 0.30, 101)[1:]])
+    lines = [
+        f"{(number * 203 + row) * 0.05},{pressure},{length},{truth(pressure, length)}"
+        for number, pressure in enumerate((2e5, 4e5, 6e5))
+        for row, length in enumerate(sweep)
+    ]
+    task = task_of(csv(lines, "time_s,pressure_Pa,length_m,force_N", "kind: isobaric"), MUSCLE)
+    unseen = task.turning.reshape(3, 201)
+    told = task.excluded["history unknown at the start or after a break"]
+    assert 0 < told <= 2 * 16  # some of them are turning points too
+    assert not unseen[0, 2:15].any()
+    assert unseen[1:, :15].all()
+    assert not unseen[:, 20:95].any()

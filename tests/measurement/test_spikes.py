@@ -1,0 +1,50 @@
+"""Readings that leap away and back are found; steps, tips, coarse records and noise are left alone."""
+
+import numpy as np
+import pytest
+
+from mckibben.measurement.measurement import build
+from mckibben.measurement.spikes import spiked_rows
+
+ROWS = 400
+TIME = np.arange(ROWS) * 0.05
+PHASE = (TIME / 5.0) % 1.0
+TRIANGLE = np.where(PHASE < 0.5, 2.0 * PHASE, 2.0 - 2.0 * PHASE)
+NOISE = np.random.default_rng(3).standard_normal(ROWS)
+
+
+@pytest.mark.parametrize("height", [150.0, -150.0])
+@pytest.mark.parametrize("rows", [1, 2])
+def test_one_row_or_two_are_found(height: float, rows: int) -> None:
+    force = 400.0 * TRIANGLE + 1.5 * NOISE
+    for start in (30, 222):
+        force[start : start + rows] += height
+    (reason, found) = next(iter(spiked_rows({"force": force}).items()))
+    assert reason == "spikes of the force"
+    assert set(np.flatnonzero(found)) == {start + k for start in (30, 222) for k in range(rows)}
+
+
+@pytest.mark.parametrize(
+    "force",
+    [
+        400.0 * TRIANGLE + 1.5 * NOISE,
+        400.0 * TRIANGLE,  # sharp tips
+        400.0 * np.sign(np.sin(2.0 * np.pi * PHASE)) + 1.5 * NOISE,  # steps stay away
+        400.0 * np.sin(2.0 * np.pi * TIME / 0.15),  # three rows a period
+        40.0 * NOISE,
+        np.where(np.arange(ROWS) % 10 == 0, 100.0, 0.0) + NOISE,  # a pulse train is no exception
+        np.zeros(ROWS),
+    ],
+)
+def test_what_is_no_spike_is_left_alone(force: np.ndarray) -> None:
+    assert spiked_rows({"force": force}) == {}
+
+
+def test_a_spike_does_not_count_and_is_told() -> None:
+    force = 400.0 * (1.0 - TRIANGLE) + 100.0 + 1.5 * NOISE
+    force[57] += 200.0
+    columns = {"time": TIME, "pressure": np.full(ROWS, 3e5), "length": 0.3 - 0.03 * TRIANGLE, "force": force}
+    measurement = build(columns, name="a.csv", id="0" * 64)
+    assert np.flatnonzero(~measurement.usable).tolist() == [57]
+    assert measurement.exclusions["spikes of the force"] == 1
+    assert "1 of 400 rows are excluded: spikes of the force" in measurement.messages

@@ -1,0 +1,130 @@
+"""The store of measurements: whole files or none, whatever happens meanwhile."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+
+from mckibben.measurement.read import read_correction
+from mckibben.measurement.store import MeasurementStore
+from mckibben.physics.errors import InputError
+from tests.server.conftest import CSV
+
+ID = hashlib.sha256(CSV).hexdigest()
+MAPPING = read_correction('{"kind": "isobaric"}')
+
+# Puts the same large file again and again; says when it begins.
+_WRITER = """
+import sys
+from pathlib import Path
+from mckibben.measurement.store import MeasurementStore
+folder = Path(sys.argv[1])
+rows = b"".join(b"%d,%d,%d\\n" % (n, 300, n) for n in range(1, 20000))
+store = MeasurementStore(folder)
+print("ready", flush=True)
+for number in range(10_000):
+    store.put(b"# note: %d\\npressure_Pa,length_mm,force_N\\n" % number + rows, "large.csv")
+"""
+
+
+def names(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.rglob("*") if path.is_file())
+
+
+@pytest.mark.parametrize("wait", [0.0, 0.05, 0.1, 0.2, 0.4])
+def test_a_kill_leaves_no_partial_file(tmp_path: Path, wait: float) -> None:
+    process = subprocess.Popen([sys.executable, "-c", _WRITER, str(tmp_path)], stdout=subprocess.PIPE)
+    try:
+        assert process.stdout is not None
+        assert process.stdout.readline() == b"ready\n"
+        deadline = time.monotonic() + 30.0
+        while not list(tmp_path.rglob("*.data")) and time.monotonic() < deadline:
+            time.sleep(0.001)
+        time.sleep(wait)
+    finally:
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        process.stdout.close()
+    data = list(tmp_path.rglob("*.data"))
+    assert data
+    for path in data:
+        assert hashlib.sha256(path.read_bytes()).hexdigest() == path.stem
+    leftover = [
+        path for path in tmp_path.rglob("*") if path.is_file() and path.suffix not in (".data", ".json")
+    ]
+    # Between link and rename a whole file may carry its passing name for a moment; never a part of one.
+    for path in leftover:
+        assert path.suffix == ".tmp"
+        assert path.stat().st_size in {len(each.read_bytes()) for each in data} | {21}
+    assert MeasurementStore(tmp_path).get(data[0].stem).rows == 19_999
+
+
+def test_the_same_file_at_once_is_kept_once(tmp_path: Path) -> None:
+    stores = [MeasurementStore(tmp_path) for _ in range(8)]
+    failures: list[BaseException] = []
+
+    def put(store: MeasurementStore) -> None:
+        try:
+            assert store.put(CSV, "run.csv").id == ID
+        except BaseException as error:
+            failures.append(error)
+
+    threads = [threading.Thread(target=put, args=(store,)) for store in stores]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not failures
+    assert names(tmp_path) == [f"{ID}.data", f"{ID}.json"]
+
+
+def test_what_a_killed_process_left_is_removed(tmp_path: Path) -> None:
+    store = MeasurementStore(tmp_path)
+    store.put(CSV, "run.csv")
+    folder = tmp_path / "measurements"
+    old, young = folder / ".old.tmp", folder / ".young.tmp"
+    for path in (old, young):
+        path.write_bytes(b"half")
+    os.utime(old, (0, 0))
+    store.put(CSV, "run.csv")
+    assert not old.exists()
+    assert young.exists(), "it may belong to a process that is still writing"
+
+
+def test_a_damaged_file_is_not_given_out_and_is_mended(tmp_path: Path) -> None:
+    MeasurementStore(tmp_path).put(CSV, "run.csv")
+    path = tmp_path / "measurements" / f"{ID}.data"
+    path.write_bytes(CSV[:-10])
+    with pytest.raises(InputError, match="there is no measurement"):
+        MeasurementStore(tmp_path).get(ID)
+    MeasurementStore(tmp_path).put(CSV, "run.csv")
+    assert path.read_bytes() == CSV
+    assert MeasurementStore(tmp_path).get(ID).rows == 9
+
+
+def test_a_mapped_measurement_lives_beside_the_plain_one(tmp_path: Path) -> None:
+    store = MeasurementStore(tmp_path)
+    plain, mapped = store.put(CSV, "run.csv"), store.put(CSV, "run.csv", MAPPING)
+    assert (plain.id, plain.kind) == (ID, "static")
+    assert (mapped.id, mapped.kind) == (MAPPING.identity(CSV), "isobaric")
+    assert names(tmp_path) == sorted([f"{ID}.data", f"{ID}.json", f"{mapped.id}.json"])
+    later = MeasurementStore(tmp_path)
+    assert (later.get(mapped.id).kind, later.get(ID).kind) == ("isobaric", "static")
+
+
+def test_content_that_needs_its_mapping_is_found_by_it_only(tmp_path: Path) -> None:
+    content = b"alpha,length_mm,force_N\n1,300,5\n2,290,6\n"
+    correction = read_correction('{"columns": {"alpha": {"channel": "pressure", "unit": "bar"}}}')
+    kept = MeasurementStore(tmp_path).put(content, "run.csv", correction)
+    later = MeasurementStore(tmp_path)
+    assert later.get(kept.id).columns["pressure"].tolist() == [1e5, 2e5]
+    with pytest.raises(InputError, match="there is no measurement"):
+        later.get(hashlib.sha256(content).hexdigest())
