@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from mckibben.physics.catalogue import Catalogue
+from mckibben.physics.catalogue import EffectCatalogue
 from mckibben.physics.muscle import Muscle
 from mckibben.simulation.statics.model import StaticModel
 
@@ -37,7 +37,7 @@ def test_pictures_and_files_named_exist():
 
 
 def test_the_example_effect_takes_its_force_off_every_curve(example_folder):
-    catalogue = Catalogue([example_folder])
+    catalogue = EffectCatalogue([example_folder])
     assert catalogue.problems == []
     muscle = Muscle(0.3, 0.02, radians(25))
     state = {"length": [0.25, 0.28], "pressure": [3e5, 5e5], "clipped": False}

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from mckibben.application.wording import sentence_of
-from mckibben.identification.residual.structure import Structure
+from mckibben.identification.residual.structure import ResidualStructure
 
 TITLES = {"creep": "Creep", "leak": "Leak"}
 
@@ -19,13 +19,13 @@ def result(
 ) -> Any:  # fmt: skip
     return SimpleNamespace(
         status=status,
-        subject=SimpleNamespace(unit=unit),
+        predictor=SimpleNamespace(unit=unit),
         start=SimpleNamespace(rmse=before),
         best=SimpleNamespace(rmse=after),
         added=added,
         noise=noise,
         alternatives=alternatives,
-        structure=Structure(share, (("pressure", 0.5), ("time", 0.2), ("velocity", 0.1))),
+        structure=ResidualStructure(share, (("pressure", 0.5), ("time", 0.2), ("velocity", 0.1))),
     )
 
 

@@ -63,14 +63,14 @@ def diagnosed(case: Case) -> Line:
     line = Line(case.name, case.seed, case.kind, len(case.hidden), case.unknown is not None)
     studio = _studio()
     try:
-        subject, setting = subject_and_start(case, studio)
+        predictor, fit_model = subject_and_start(case, studio)
         began = time.perf_counter()
-        result = diagnose(subject, setting, catalogue=studio.catalogue)
+        result = diagnose(predictor, fit_model, catalogue=studio.catalogue)
         line.seconds = time.perf_counter() - began
     except Exception as error:  # a case that breaks is a line of the table, not its end
         line.problem = f"{type(error).__name__}: {error}"[:120]
         return line
-    floor = true_floor(case, subject)
+    floor = true_floor(case, predictor)
     groups = [{name, *(a.effect for a in result.alternatives if a.of == name)} for name in result.added]
     named = set().union(*groups) if groups else set()
     line.status, line.named = result.status, list(result.added)
@@ -79,7 +79,7 @@ def diagnosed(case: Case) -> Line:
     line.before, line.after = result.start.rmse / floor, result.best.rmse / floor
     line.floor = (result.noise or float("nan")) / floor
     if line.unknown and result.term is not None:
-        line.taken = _taken(subject, result, floor)
+        line.taken = _taken(predictor, result, floor)
     return line
 
 
@@ -89,8 +89,8 @@ def subject_and_start(case: Case, studio: Any) -> tuple[Any, Any]:
     from mckibben.documents.convert import given_muscle
     from mckibben.documents.drive_reading import drive_of
     from mckibben.documents.muscle import MuscleInput
-    from mckibben.identification.predict import subject_of
-    from mckibben.identification.predict.fit_model import Setting
+    from mckibben.identification.predict import predictor_of
+    from mckibben.identification.predict.fit_model import FitModel
     from mckibben.measurement.points import Points, joined
     from mckibben.measurement.read import read_measurement
 
@@ -103,28 +103,28 @@ def subject_and_start(case: Case, studio: Any) -> tuple[Any, Any]:
     else:
         start = studio.start_model(given_muscle(MuscleInput.model_validate(case.muscle)), case.effects)
         drive, model = None, studio.static_model(start)
-    setting = Setting(model.muscle, model.effects, model.values)
-    return subject_of(measurement, setting.muscle, drive), setting
+    fit_model = FitModel(model.muscle, model.effects, model.values)
+    return predictor_of(measurement, fit_model.muscle, drive), fit_model
 
 
-def true_floor(case: Case, subject: Any) -> float:
+def true_floor(case: Case, predictor: Any) -> float:
     """Rms of the true noise over the scale of the subject's residual."""
-    if len(subject.channels) == 1:
+    if len(predictor.channels) == 1:
         return next(iter(case.noise.values()))
-    shares = [(case.noise[channel.name] / channel.noise) ** 2 for channel in subject.channels]
+    shares = [(case.noise[channel.name] / channel.noise) ** 2 for channel in predictor.channels]
     return float(np.sqrt(np.mean(shares)))
 
 
-def _taken(subject: Any, result: Any, floor: float) -> float:
-    from mckibben.identification.fit.fitted_model import fitted_node
+def _taken(predictor: Any, result: Any, floor: float) -> float:
+    from mckibben.identification.fit.fitted_model import refitted
     from mckibben.identification.predict.fit_model import free_numbers
     from mckibben.physics.custom import custom_effect
 
     effect = custom_effect(result.term.formula, result.term.coefficients)
-    setting = result.best.setting.adding(effect)
-    node = fitted_node(subject, setting, free_numbers(setting, (), result.best.freed))
+    fit_model = result.best.fit_model.adding(effect)
+    fitted_model = refitted(predictor, fit_model, free_numbers(fit_model, (), result.best.freed))
     excess = result.best.mean_square - floor**2
-    return 1.0 - max(node.mean_square - floor**2, 0.0) / excess if excess > 0.0 else 1.0
+    return 1.0 - max(fitted_model.mean_square - floor**2, 0.0) / excess if excess > 0.0 else 1.0
 
 
 def _studio() -> Any:

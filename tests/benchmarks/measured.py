@@ -16,8 +16,8 @@ from scipy.optimize import least_squares
 
 from mckibben.documents.studio import Studio
 from mckibben.identification.diagnose.diagnosis import Diagnosis, diagnose
-from mckibben.identification.predict import subject_of
-from mckibben.identification.predict.fit_model import Setting, free_geometry
+from mckibben.identification.predict import predictor_of
+from mckibben.identification.predict.fit_model import FitModel, free_geometry
 from mckibben.measurement.read import read_measurement
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.resources import presets_folder
@@ -56,9 +56,9 @@ def on_map(
     """Diagnosis of a force map from the ideal muscle."""
     facts = studio.facts(preset)
     muscle = facts.muscle._replace(nominal_length=nominal_length)
-    subject = subject_of(read_measurement(path.read_bytes(), path.name), muscle)
+    predictor = predictor_of(read_measurement(path.read_bytes(), path.name), muscle)
     geometry = free_geometry(muscle, free, facts.tolerance)
-    return diagnose(subject, Setting(muscle), catalogue=default_catalogue(), geometry=geometry)
+    return diagnose(predictor, FitModel(muscle), catalogue=default_catalogue(), geometry=geometry)
 
 
 def main() -> None:
@@ -72,12 +72,12 @@ def main() -> None:
         path = folder / f"{sample}_force_map.csv"
         for free in ((), ("braid_angle",)):
             found = on_map(studio, path, preset, length, free)
-            scale = 100.0 / float(np.max(found.subject.measured))
+            scale = 100.0 / float(np.max(found.predictor.measured))
             errors = [scale * error for error in (found.start.rmse, found.best.rmse, found.best.holdout_rmse)]
             label = f"{sample}{' --free braid_angle' if free else ''}"
             effects = f"{len(found.best.free)}: {', '.join(found.added)} ({found.status})"
             say(f"{label:36}{errors[0]:7.2f}{errors[1]:7.2f}{errors[2]:10.2f}  {effects}")
-            inputs, measured = found.subject.inputs, found.subject.measured
+            inputs, measured = found.predictor.inputs, found.predictor.measured
         fit, hold = sarosi(inputs["pressure"], 1.0 - inputs["length"] / length, measured)
         say(f"{sample + ' Sarosi':36}{'':7}{scale * fit:7.2f}{scale * hold:10.2f}  5")
 

@@ -17,7 +17,7 @@ from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.motion import motion_of
 from mckibben.measurement.read import read_measurement
 from mckibben.measurement.reduction import reduced
-from mckibben.measurement.sweeps import segments_of
+from mckibben.measurement.sweeps import sweeps_of
 
 ROWS = 1_000_000
 
@@ -68,7 +68,7 @@ def test_a_million_rows(benchmark: BenchmarkFixture, make) -> None:
 
 
 def test_its_segments(benchmark: BenchmarkFixture, large: Measurement) -> None:
-    result = benchmark.pedantic(segments_of, args=(large.columns, large.kind), rounds=3)
+    result = benchmark.pedantic(sweeps_of, args=(large.columns, large.kind), rounds=3)
     assert result.sweeps == 100
 
 

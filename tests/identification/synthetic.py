@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from mckibben.identification.fit.fitted_model import Node
-from mckibben.identification.predict.fit_model import Setting
+from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
-from mckibben.identification.predict.predictor import Channel, Subject
+from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.read import read_measurement
 from mckibben.physics.catalogue import default_catalogue
@@ -129,7 +129,7 @@ def cycles(extra=lambda **_: 0.0, **options) -> Measurement:
     return csv(cycle_rows(extra, **options), CYCLE_HEADER, "kind: isobaric")
 
 
-class Plain(Subject):
+class Plain(Predictor):
     """Values beside y = X b, for tests of what works on any subject: no physics, no effects."""
 
     def __init__(
@@ -141,7 +141,7 @@ class Plain(Subject):
     ) -> None:
         self.kind = "static"
         self.measured, self.design = measured, design
-        self.channels = (Channel("force", "N", slice(None), 1.0, float(np.max(np.abs(measured)))),)
+        self.channels = (PredictedChannel("force", "N", slice(None), 1.0, float(np.max(np.abs(measured)))),)
         self.scale = np.ones(len(measured))
         self.folds = tuple(folds)
         self.groups = self.folds[0]
@@ -150,13 +150,13 @@ class Plain(Subject):
         self.inputs = dict(inputs)
         self.rows_used, self.excluded, self.messages = len(measured), {}, ()
 
-    def predict(self, setting: Setting, *, clipped: bool = True) -> np.ndarray:
+    def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
         return np.zeros(len(self.measured))
 
     def why_hidden(self, effect: Effect) -> str:
         return "nothing shows here"
 
-    def prepare(self, setting: Setting, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
+    def prepare(self, fit_model: FitModel, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
         pass
 
 
@@ -165,7 +165,7 @@ def linear_node(
     design: np.ndarray,
     folds: Sequence[np.ndarray],
     bounds: Sequence[tuple[float, float]] | None = None,
-) -> Node:
+) -> FittedModel:
     """The least-squares fit of y = X b as a node, solved here; ``bounds`` are told, not obeyed."""
     numbers = np.linalg.lstsq(design, measured, rcond=None)[0] if design.shape[1] else np.empty(0)
     limits = bounds or [(-1e6, 1e6)] * len(numbers)
@@ -173,4 +173,4 @@ def linear_node(
         Free(f"x.b{number}", float(value), low, high, "1")
         for number, (value, (low, high)) in enumerate(zip(numbers, limits, strict=True))
     )
-    return Node(Setting(MUSCLE), free, frozenset(), measured - design @ numbers, design, tuple(folds))
+    return FittedModel(FitModel(MUSCLE), free, frozenset(), measured - design @ numbers, design, tuple(folds))

@@ -65,9 +65,11 @@ def test_the_truth_shares_no_code_with_what_it_judges():
     files = list(FOLDER.glob("*.py"))
     assert len(files) > 15
     for file in files:
-        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-            names = [node.module or ""] if isinstance(node, ast.ImportFrom) else []
-            names += [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+        for fitted_model in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            names = [fitted_model.module or ""] if isinstance(fitted_model, ast.ImportFrom) else []
+            names += (
+                [alias.name for alias in fitted_model.names] if isinstance(fitted_model, ast.Import) else []
+            )
             assert not [name for name in names if name.split(".")[0] == "mckibben"], file.name
         assert "mckibben" not in file.read_text(encoding="utf-8"), file.name
         assert len(file.read_text(encoding="utf-8").splitlines()) <= 300, file.name

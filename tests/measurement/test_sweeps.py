@@ -5,7 +5,7 @@ import pytest
 from scipy.signal import lfilter
 
 from mckibben.measurement.measurement import Measurement, build
-from mckibben.measurement.sweeps import Segments
+from mckibben.measurement.sweeps import Sweeps
 
 ROWS = 4000
 TIME = np.arange(ROWS) * 0.01
@@ -17,7 +17,7 @@ def triangle(rows: int, cycles: float) -> np.ndarray:
     return np.where(phase < 0.5, 2.0 * phase, 2.0 - 2.0 * phase)
 
 
-def isobaric(stroke: np.ndarray, noise: float = 0.0, **more) -> Segments:
+def isobaric(stroke: np.ndarray, noise: float = 0.0, **more) -> Sweeps:
     """Segments of a loop at one pressure; the stroke goes from 0 to 1 for 50 mm."""
     rows = len(stroke)
     columns = {
@@ -30,7 +30,7 @@ def isobaric(stroke: np.ndarray, noise: float = 0.0, **more) -> Segments:
     return build(columns, name="a.csv", id="0" * 64, kind="isobaric").segments
 
 
-def borders(segments: Segments) -> np.ndarray:
+def borders(segments: Sweeps) -> np.ndarray:
     return np.flatnonzero(np.diff(segments.sweep))
 
 
@@ -121,7 +121,7 @@ def test_a_direction_column_decides() -> None:
 def test_one_row_and_no_motion() -> None:
     for rows in (1, 2, 30):
         columns = {"pressure": np.full(rows, 1e5), "length": np.full(rows, 0.3), "force": np.ones(rows)}
-        segments: Segments = build(columns, name="a", id="0" * 64, kind="static").segments
+        segments: Sweeps = build(columns, name="a", id="0" * 64, kind="static").segments
         assert (segments.sweeps, segments.cycles, segments.held_rows) == (1, 1, rows)
 
 

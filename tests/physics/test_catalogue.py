@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from mckibben.physics.catalogue import BUILT_IN_FOLDER, Catalogue, default_catalogue
+from mckibben.physics.catalogue import BUILT_IN_FOLDER, EffectCatalogue, default_catalogue
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import Muscle
@@ -55,7 +55,7 @@ def test_a_new_file_appears_and_works(tmp_path: Path) -> None:
     write(tmp_path, "rope_drag.py", ("return force * direction", "return 2.0 * force * direction"))
     (tmp_path / "_draft.py").write_text("raise RuntimeError", encoding="utf-8")
     (tmp_path / "notes.txt").write_text("not an effect", encoding="utf-8")
-    catalogue = Catalogue([tmp_path])
+    catalogue = EffectCatalogue([tmp_path])
     assert set(catalogue) - set(default_catalogue()) == {"rope_drag"}
     assert catalogue.problems == []
     effect = catalogue["rope_drag"]
@@ -107,7 +107,7 @@ def test_a_broken_file_of_the_user_becomes_a_problem(
 ) -> None:
     write(tmp_path, "broken.py", (old, new))
     write(tmp_path, "sound.py")
-    catalogue = Catalogue([tmp_path])
+    catalogue = EffectCatalogue([tmp_path])
     assert "broken" not in catalogue
     assert "sound" in catalogue, "the others still load"
     (problem,) = catalogue.problems
@@ -122,13 +122,13 @@ def test_a_parameter_that_nothing_takes_is_refused(tmp_path: Path) -> None:
         ("direction: Value, force: Value", "direction: Value"),
         ("return force *", "return 3.0 *"),
     )
-    (problem,) = Catalogue([tmp_path]).problems
+    (problem,) = EffectCatalogue([tmp_path]).problems
     assert "no slot function takes ['force']" in problem.message
 
 
 def test_an_id_that_exists_is_refused(tmp_path: Path) -> None:
     write(tmp_path, "coulomb_friction.py", ("return force * direction", "return 2.0 * force * direction"))
-    catalogue = Catalogue([tmp_path])
+    catalogue = EffectCatalogue([tmp_path])
     (problem,) = catalogue.problems
     assert "an effect 'coulomb_friction' exists already; rename the file" in problem.message
     own = catalogue["coulomb_friction"]
@@ -140,14 +140,14 @@ def test_two_folders_with_one_id(tmp_path: Path) -> None:
     for folder in folders:
         folder.mkdir()
         write(folder, "twice.py")
-    catalogue = Catalogue(folders)
+    catalogue = EffectCatalogue(folders)
     assert "twice" in catalogue
     assert len(catalogue.problems) == 1
 
 
 def test_a_missing_folder_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="does not exist"):
-        Catalogue([tmp_path / "nowhere"])
+        EffectCatalogue([tmp_path / "nowhere"])
 
 
 def test_every_slot_says_what_it_does() -> None:

@@ -10,7 +10,7 @@ import symengine as se
 
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.drive import DriveModel
-from mckibben.physics.drive_terms import COUNTER, OUTPUTS, Structure
+from mckibben.physics.drive_terms import COUNTER, OUTPUTS, DriveStructure
 from mckibben.physics.driven import DrivenModel
 from mckibben.physics.effect import Effect
 from tests.physics.contract_states import MUSCLE
@@ -96,7 +96,10 @@ def jacobian(model: DriveModel | DrivenModel) -> list[se.Basic]:
 
 @pytest.mark.parametrize("effect", EFFECTS, ids=[effect.id for effect in EFFECTS])
 def test_every_effect_alone_gives_finite_equations_that_vanish_when_off(effect: Effect) -> None:
-    without, model = DriveModel(Structure((), tube=True)), DriveModel(Structure((effect,), tube=True))
+    without, model = (
+        DriveModel(DriveStructure((), tube=True)),
+        DriveModel(DriveStructure((effect,), tube=True)),
+    )
     expressions = [*model.rates, *model.outputs, *jacobian(model)]
     for share, speed in ((0.3, 0.2), (0.0, 0.0), (1.0, -0.5)):
         at = numbers(model, defaults([effect]), share=share, speed=speed)
@@ -119,7 +122,7 @@ def test_every_effect_alone_gives_finite_equations_that_vanish_when_off(effect: 
     ("tube", "regulator", "pair"), [(True, False, False), (False, True, False), (True, False, True)]
 )
 def test_all_effects_at_once_give_a_finite_jacobian(tube: bool, regulator: bool, pair: bool) -> None:
-    model = DriveModel(Structure(tuple(EFFECTS), tube=tube, regulator=regulator, pair=pair))
+    model = DriveModel(DriveStructure(tuple(EFFECTS), tube=tube, regulator=regulator, pair=pair))
     assert len(model.rates) == len(model.states)
     expressions = [*model.rates, *model.outputs, *jacobian(model)]
     free = set().union(*(expression.free_symbols for expression in expressions))
@@ -149,7 +152,7 @@ def test_settled_states_have_a_rest() -> None:
     """Their rates are linear in them, so a column of differences for each gives where all are zero."""
     effects = [effect for effect in EFFECTS if any(state.settled for state in effect.states)]
     assert effects
-    model = DriveModel(Structure(tuple(effects)))
+    model = DriveModel(DriveStructure(tuple(effects)))
     names = [state.name for state in model.states]
     settled = [state for state in model.states if state.settled]
     rates = [model.rates[names.index(state.name)] for state in settled]

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from latex2mathml.converter import convert
 
-from mckibben.physics.catalogue import BUILT_IN_FOLDER, Catalogue, default_catalogue
+from mckibben.physics.catalogue import BUILT_IN_FOLDER, EffectCatalogue, default_catalogue
 from mckibben.physics.effect import Effect
 from mckibben.physics.units import si
 from tests.physics import contract, contract_dynamic, contract_slots
@@ -88,7 +88,7 @@ def test_files_stay_small() -> None:
 def test_effect_of_a_further_folder_is_held_to_the_same(tmp_path: Path) -> None:
     source = (BUILT_IN_FOLDER / "linear_elasticity.py").read_text(encoding="utf-8")
     (tmp_path / "shop_spring.py").write_text(source, encoding="utf-8")
-    catalogue = Catalogue([tmp_path])
+    catalogue = EffectCatalogue([tmp_path])
     assert catalogue.problems == []
     for check in contract.checks_of(catalogue["shop_spring"]):
         check(catalogue["shop_spring"])

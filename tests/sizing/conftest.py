@@ -10,7 +10,7 @@ from mckibben.application.sizing_task import catalogue_of, task_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.resources import presets_folder
-from mckibben.sizing import Catalogue, Task
+from mckibben.sizing import PartsCatalogue, Task
 
 LIFT: dict[str, Any] = {
     "load": {"mass": "20 kg"},
@@ -29,7 +29,7 @@ def studio() -> Studio:
     return Studio(presets=presets_folder())
 
 
-def understood(document: dict[str, Any], studio: Studio) -> tuple[Task, Catalogue]:
+def understood(document: dict[str, Any], studio: Studio) -> tuple[Task, PartsCatalogue]:
     """Task and catalogue of a document."""
     given = SizingTask.model_validate(document)
     return task_of(given), catalogue_of(given, studio)

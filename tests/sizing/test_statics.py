@@ -102,7 +102,7 @@ def test_the_least_time_is_below_every_simulated_time(studio: Studio) -> None:
     from mckibben.simulation.outcome import Watch
     from mckibben.sizing.bench import Bench
     from mckibben.sizing.catalogue import Group
-    from mckibben.sizing.search import Candidate
+    from mckibben.sizing.search import DesignCandidate
 
     task, catalogue = understood({**LIFT, "catalogue": {"muscles": ["DMSP-20"]}}, studio)
     duty, part, bench = task.duties()[0], catalogue.muscles[0], Bench(task, Watch())
@@ -112,7 +112,7 @@ def test_the_least_time_is_below_every_simulated_time(studio: Studio) -> None:
         group = Group(duty, part, 1, valve, catalogue.tubes[0])
         least = least_time(sheet.rest, duty, task, conductance=group.conductance)
         for index in sheet.sound(1)[::17]:
-            figures = bench.run(Candidate(group, sheet, sheet.sound(1)).design(int(index)))
+            figures = bench.run(DesignCandidate(group, sheet, sheet.sound(1)).design(int(index)))
             if figures.time is not None:
                 ran.append((least[index], figures.time))
     assert len(ran) > 30

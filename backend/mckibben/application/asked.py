@@ -9,7 +9,7 @@ from mckibben.documents.convert import given_muscle
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
-from mckibben.identification.predict.fit_model import Setting
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.measurement.points import Points, find_points, joined
 from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.custom import CUSTOM, TERM
@@ -48,16 +48,16 @@ class Asked:
                     hint=f"state {name}, or leave it out of 'free'",
                 )
 
-    def setting(self) -> Setting:
+    def fit_model(self) -> FitModel:
         """The start model as identification knows it."""
         effects = tuple(self.start.catalogue[name] for name in self.start.effects)
-        return Setting(
+        return FitModel(
             self.start.muscle.checked(), effects, self.start.effects, assumed=frozenset(self.start.assumed)
         )
 
-    def effects_json(self, setting: Setting) -> dict[str, dict[str, float | str]]:
+    def effects_json(self, fit_model: FitModel) -> dict[str, dict[str, float | str]]:
         """Effects with their values as a request takes them, a typed term with its text."""
-        found: dict[str, dict[str, float | str]] = {name: dict(own) for name, own in setting.values.items()}
+        found: dict[str, dict[str, float | str]] = {name: dict(own) for name, own in fit_model.values.items()}
         if CUSTOM in found and self.start.term is not None:
             found[CUSTOM] = {TERM: self.start.term, **found[CUSTOM]}
         return found

@@ -39,7 +39,7 @@ def comparison_answer(asked: Asked, *, fit: bool = False) -> Json:
     if thinned:
         messages.append(f"curves show at most {MAX_POINTS_PER_SERIES} points each; the figures use all rows")
     left_out = sum(points.left_out.values())
-    muscle = result.setting.muscle
+    muscle = result.fit_model.muscle
     return {
         **report,
         "rows": report["rows"] + left_out,
@@ -53,7 +53,7 @@ def comparison_answer(asked: Asked, *, fit: bool = False) -> Json:
         **failures(result),
         "series": series,
         "validation": validation,
-        "model": {"effects": asked.effects_json(result.setting)},
+        "model": {"effects": asked.effects_json(result.fit_model)},
         "flags": start_flags(start),
     }
 
@@ -75,16 +75,16 @@ def _compared(asked: Asked, points: Points, effects: EffectValues, *, fit: bool)
 
 def failures(result: Comparison) -> Json:
     """Where the model fails: over each variable, as a map, in loops, in words; and whether it is noise."""
-    subject = result.subject
-    residual = result.residual / subject.scale
-    variables = variables_of(subject, result.setting.muscle.nominal_length)
-    found = profiles(residual, variables, subject.folds[0])
+    predictor = result.predictor
+    residual = result.residual / predictor.scale
+    variables = variables_of(predictor, result.fit_model.muscle.nominal_length)
+    found = profiles(residual, variables, predictor.folds[0])
     chart = heat_map(residual, variables)
-    white = whiteness(residual, subject.sweeps)
+    white = whiteness(residual, predictor.sweeps)
     areas = []
-    if subject.predicted == "force" and "length" in subject.inputs and "time" in subject.inputs:
-        areas = loops(residual, subject.inputs["length"], subject.groups)
-    unit = "" if subject.unit == "1" else f" {subject.unit}"
+    if predictor.predicted == "force" and "length" in predictor.inputs and "time" in predictor.inputs:
+        areas = loops(residual, predictor.inputs["length"], predictor.groups)
+    unit = "" if predictor.unit == "1" else f" {predictor.unit}"
     words = [
         f"{profile.worst}: {profile.rmse:.3g}{unit} rms; this variable alone predicts "
         f"{100.0 * profile.share_explained:.0f} % of the error"
@@ -105,14 +105,14 @@ def failures(result: Comparison) -> Json:
 
 def _validation(asked: Asked, points: Points, fitted: Comparison) -> tuple[Json, bool]:
     """The fitted model on what it has not seen."""
-    started = replace(asked.start, muscle=fitted.setting.muscle, rhombus=None)
+    started = replace(asked.start, muscle=fitted.fit_model.muscle, rhombus=None)
     other = replace(asked, start=started, free=(), freed=())
-    result = _compared(other, points, dict(fitted.setting.values), fit=False)
+    result = _compared(other, points, dict(fitted.fit_model.values), fit=False)
     series, thinned = _series(result, "validation")
     return {
         "rmse": result.rmse,
         "nrmse_percent": result.nrmse_percent,
-        "rows_used": result.subject.rows_used,
+        "rows_used": result.predictor.rows_used,
         "series": series,
     }, thinned
 
@@ -129,27 +129,27 @@ def _length_messages(start: StartModel, points: Points) -> list[str]:
 
 def _series(result: Comparison, use: str) -> tuple[list[Json], bool]:
     """One curve per channel and group of rows, thinned for the screen."""
-    subject, rest = result.subject, result.setting.muscle.nominal_length
-    inputs = subject.inputs
-    count = len(subject.measured)
+    predictor, rest = result.predictor, result.fit_model.muscle.nominal_length
+    inputs = predictor.inputs
+    count = len(predictor.measured)
     unknown = np.full(count, np.nan)
     length = inputs.get("length", unknown)
-    if subject.predicted == "length":
-        length = subject.measured
+    if predictor.predicted == "length":
+        length = predictor.measured
     elif "displacement" in inputs:
         length = rest - inputs["displacement"]
     pressure = inputs.get("pressure", unknown)
     place = np.arange(count)
     series, thinned = [], False
-    for channel in subject.channels:
+    for channel in predictor.channels:
         inside = place[channel.rows]
-        labels = np.unique(subject.groups[inside])
+        labels = np.unique(predictor.groups[inside])
         if len(labels) > _MAX_SERIES:
             labels, thinned = labels[:_MAX_SERIES], True
         for number, label in enumerate(labels, 1):
-            rows = inside[subject.groups[inside] == label]
+            rows = inside[predictor.groups[inside] == label]
             held = _held(pressure[rows])
-            name = _label(number, held, _held(length[rows]), timed=subject.kind == "transient")
+            name = _label(number, held, _held(length[rows]), timed=predictor.kind == "transient")
             if len(rows) > MAX_POINTS_PER_SERIES:
                 rows, thinned = rows[np.linspace(0, len(rows) - 1, MAX_POINTS_PER_SERIES).astype(int)], True
             series.append(
@@ -165,7 +165,7 @@ def _series(result: Comparison, use: str) -> tuple[list[Json], bool]:
                     "x_pressure": pressure[rows],
                     "velocity": inputs.get("velocity", unknown)[rows],
                     "direction": inputs.get("direction", unknown)[rows],
-                    "measured": subject.measured[rows],
+                    "measured": predictor.measured[rows],
                     "predicted": result.predicted[rows],
                     "residual": result.residual[rows],
                 }

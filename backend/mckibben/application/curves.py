@@ -15,7 +15,7 @@ from mckibben.physics import ideal
 from mckibben.physics.errors import InputError
 from mckibben.server.schemas.curves import CurvesOptions, CurvesRequest
 from mckibben.simulation.statics.inverse import contraction_at
-from mckibben.simulation.statics.limits import Flag, FlagCode
+from mckibben.simulation.statics.limits import FlagCode, LimitFlag
 from mckibben.simulation.statics.model import StaticModel
 
 Array = NDArray[np.float64]
@@ -198,7 +198,7 @@ def _free_flag(model: StaticModel, contraction: float) -> str | None:
 
 def _operating_points(
     request: CurvesOptions, model: StaticModel, pressures: Array, held: Array
-) -> tuple[list[Json], list[Flag]]:
+) -> tuple[list[Json], list[LimitFlag]]:
     """Where the muscle holds the load at each pressure, and every limit that is crossed there."""
     if request.load is None:
         return [], []
@@ -225,7 +225,7 @@ def _operating_points(
             crossed = model.limits.flags(pressure=pressure, force=request.load, contraction=held[index])
         else:
             why = f"{request.load:.4g} N stretch the muscle to the braid lock at {pressure / 1e5:.3g} bar"
-            crossed = [Flag(FlagCode.OUT_OF_REACH, why, "load")]
+            crossed = [LimitFlag(FlagCode.OUT_OF_REACH, why, "load")]
         flags += crossed
         points.append(
             {

@@ -11,12 +11,12 @@ from mckibben.application.asked import Asked
 from mckibben.application.start import Json, geometry_json
 from mckibben.application.wording import sentence_of
 from mckibben.documents.studio import Studio
-from mckibben.identification.diagnose.diagnosis import FEWEST_VALUES, Candidate, Diagnosis, diagnose
+from mckibben.identification.diagnose.diagnosis import FEWEST_VALUES, Diagnosis, SingleAddition, diagnose
 from mckibben.identification.diagnose.next_measurement import declared
 from mckibben.identification.fit.comparison import check_finite, parameter_table
-from mckibben.identification.fit.fitted_model import Node
+from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import CancelledError
-from mckibben.identification.predict import subject_of
+from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import free_geometry
 from mckibben.identification.residual.profiles import variables_of
 from mckibben.identification.residual.structure import SYMBOLS
@@ -39,7 +39,7 @@ def prepare(asked: Asked, studio: Studio) -> Callable[[Watch], Json]:
     Raises:
         InputError: the measurement does not allow it.
     """
-    setting = asked.setting()
+    fit_model = asked.fit_model()
     measurement = asked.points.measurement
     notes: list[str] = []
     used = measurement
@@ -49,37 +49,37 @@ def prepare(asked: Asked, studio: Studio) -> Callable[[Watch], Json]:
         used = less.measurement
         left_out |= measurement.exclusions
         notes.append(less.message)
-    subject = subject_of(used, setting.muscle, asked.drive)
-    check_finite(subject, setting)
-    if len(subject.measured) < FEWEST_VALUES:
+    predictor = predictor_of(used, fit_model.muscle, asked.drive)
+    check_finite(predictor, fit_model)
+    if len(predictor.measured) < FEWEST_VALUES:
         raise InputError(
-            f"{measurement.name}: {len(subject.measured)} values are too few for a diagnosis",
+            f"{measurement.name}: {len(predictor.measured)} values are too few for a diagnosis",
             field="measurement",
             hint=f"measure at least {FEWEST_VALUES}, at several pressures or lengths; 'compare' takes fewer",
         )
     geometry = free_geometry(
-        setting.muscle, asked.free, {} if asked.start.preset is None else asked.start.preset.tolerance
+        fit_model.muscle, asked.free, {} if asked.start.preset is None else asked.start.preset.tolerance
     )
-    if asked.noise is not None and len(subject.channels) > 1:
+    if asked.noise is not None and len(predictor.channels) > 1:
         raise InputError(
             "one noise cannot be stated for several predicted channels", field="noise", hint="leave it out"
         )
     rows = measurement.rows + sum(asked.points.left_out.values())
-    left_out |= subject.excluded
-    if averaged := rows - subject.rows_used - sum(left_out.values()):
+    left_out |= predictor.excluded
+    if averaged := rows - predictor.rows_used - sum(left_out.values()):
         left_out["averaged into the others"] = averaged
     # A typed term is not a candidate, but stays in the model that has it.
     catalogue = {**studio.catalogue, **asked.start.catalogue}
 
     def work(watch: Watch) -> Json:
-        def tell(candidate: Candidate) -> None:
+        def tell(candidate: SingleAddition) -> None:
             if watch.found is not None:
                 watch.found(_candidate(asked, candidate, catalogue))
 
         try:
             result = diagnose(
-                subject,
-                setting,
+                predictor,
+                fit_model,
                 catalogue=catalogue,
                 geometry=geometry,
                 freed=asked.freed,
@@ -91,17 +91,17 @@ def prepare(asked: Asked, studio: Studio) -> Callable[[Watch], Json]:
             raise InputError(
                 "the diagnosis was stopped before it was done", hint="fewer rows or effects", code="stopped"
             ) from stop
-        counts = {"rows": rows, "rows_used": subject.rows_used, "excluded": left_out}
+        counts = {"rows": rows, "rows_used": predictor.rows_used, "excluded": left_out}
         return counts | _answer(asked, result, catalogue, notes=notes)
 
     return work
 
 
 def _answer(asked: Asked, result: Diagnosis, catalogue: Mapping[str, Effect], *, notes: list[str]) -> Json:
-    subject, best = result.subject, result.best
+    predictor, best = result.predictor, result.best
     start = asked.start
-    full_scale = float(np.max(np.abs(subject.measured / subject.scale)))
-    muscle = best.setting.muscle
+    full_scale = float(np.max(np.abs(predictor.measured / predictor.scale)))
+    muscle = best.fit_model.muscle
     titles = {name: effect.title for name, effect in catalogue.items()}
     experiments = [
         {
@@ -114,9 +114,9 @@ def _answer(asked: Asked, result: Diagnosis, catalogue: Mapping[str, Effect], *,
     ]
     nexts = [p.sentence(titles) for p in result.proposals]
     return {
-        "kind": subject.kind,
-        "predicted": subject.predicted,
-        "unit": subject.unit,
+        "kind": predictor.kind,
+        "predicted": predictor.predicted,
+        "unit": predictor.unit,
         "baseline": {
             "rmse": result.start.rmse,
             "nrmse_percent": 100.0 * result.start.rmse / full_scale if full_scale else None,
@@ -129,10 +129,10 @@ def _answer(asked: Asked, result: Diagnosis, catalogue: Mapping[str, Effect], *,
         "path": [
             {
                 "added": step.added,
-                "rmse": step.node.rmse,
-                "holdout_rmse": step.node.holdout_rmse,
-                "model": {"effects": asked.effects_json(step.node.setting)},
-                "freed": sorted(step.node.freed),
+                "rmse": step.fitted_model.rmse,
+                "holdout_rmse": step.fitted_model.holdout_rmse,
+                "model": {"effects": asked.effects_json(step.fitted_model.fit_model)},
+                "freed": sorted(step.fitted_model.freed),
             }
             for step in result.path
         ],
@@ -147,7 +147,7 @@ def _answer(asked: Asked, result: Diagnosis, catalogue: Mapping[str, Effect], *,
             "experiments": experiments,
             "sentence": sentence_of(result, titles),
         },
-        "parameters": parameter_table(best.setting, result.fit),
+        "parameters": parameter_table(best.fit_model, result.fit),
         "correlations": [
             {"a": a, "b": b, "value": value}
             for a, b, value in (result.fit.correlations if result.fit else ())
@@ -157,7 +157,7 @@ def _answer(asked: Asked, result: Diagnosis, catalogue: Mapping[str, Effect], *,
         ),
         "model": {
             "muscle": {name: float(value) for name, value in muscle._asdict().items() if value},
-            "effects": asked.effects_json(best.setting),
+            "effects": asked.effects_json(best.fit_model),
         },
         "freed": sorted(best.freed),
         "not_tried": [{"effect": item.effect, "why": item.why} for item in result.not_tried],
@@ -176,10 +176,10 @@ def groups_of(result: Diagnosis) -> list[list[str]]:
 
 
 def _channels(result: Diagnosis) -> Json:
-    subject = result.subject
-    if len(subject.channels) < 2:
+    predictor = result.predictor
+    if len(predictor.channels) < 2:
         return {}
-    residual = result.best.residual * subject.scale
+    residual = result.best.residual * predictor.scale
     return {
         channel.name: {
             "rmse": float(np.sqrt(np.mean(residual[channel.rows] ** 2))),
@@ -187,41 +187,41 @@ def _channels(result: Diagnosis) -> Json:
             "noise_floor": channel.noise,
             "full_scale": channel.full_scale,
         }
-        for channel in subject.channels
+        for channel in predictor.channels
     }
 
 
-def _candidate(asked: Asked, candidate: Candidate, catalogue: Mapping[str, Effect]) -> Json:
-    node, effect = candidate.node, candidate.effect
+def _candidate(asked: Asked, candidate: SingleAddition, catalogue: Mapping[str, Effect]) -> Json:
+    fitted_model, effect = candidate.fitted_model, candidate.effect
     twin = catalogue.get(candidate.twins[0]) if candidate.twins else None
     return {
         "effect": effect.id,
         "title": effect.title,
-        "rmse": node.rmse,
-        "holdout_rmse": node.holdout_rmse,
+        "rmse": fitted_model.rmse,
+        "holdout_rmse": fitted_model.holdout_rmse,
         "gain_percent": 100.0 * candidate.gain,
         "delta_bic": candidate.score,
-        "parameters": _parameters(node, effect),
+        "parameters": _parameters(fitted_model, effect),
         "twins": list(candidate.twins),
         "why": candidate.why,
         "equation": effect.equation,
-        "freed": sorted(node.freed),
+        "freed": sorted(fitted_model.freed),
         "next_measurement": None if twin is None else declared(effect, twin) or None,
-        "model": {"effects": asked.effects_json(node.setting)},
+        "model": {"effects": asked.effects_json(fitted_model.fit_model)},
     }
 
 
-def _parameters(node: Node, effect: Effect) -> Json:
-    errors = node.standard_errors
-    free = {p.name: number for number, p in enumerate(node.free)}
+def _parameters(fitted_model: FittedModel, effect: Effect) -> Json:
+    errors = fitted_model.standard_errors
+    free = {p.name: number for number, p in enumerate(fitted_model.free)}
     found = {}
     for p in effect.parameters:
         place = free.get(f"{effect.id}.{p.name}")
         found[p.name] = {
-            "value": node.setting.values[effect.id][p.name],
+            "value": fitted_model.fit_model.values[effect.id][p.name],
             "stderr": None if place is None else errors[place],
             "unit": p.unit,
-            "at_bound": place is not None and bool(node.at_bound[place]),
+            "at_bound": place is not None and bool(fitted_model.at_bound[place]),
             "fitted": place is not None,
         }
     return found
@@ -232,7 +232,7 @@ def _term(asked: Asked, result: Diagnosis) -> Json | None:
     term = result.term
     if term is None:
         return None
-    effects = asked.effects_json(result.best.setting)
+    effects = asked.effects_json(result.best.fit_model)
     formula, coefficients = term.formula, dict(term.coefficients)
     if CUSTOM in effects:  # one typed term at a time: the new one goes on where it ends
         old = effects[CUSTOM]
@@ -242,7 +242,7 @@ def _term(asked: Asked, result: Diagnosis) -> Json | None:
         coefficients = {renamed[name]: value for name, value in coefficients.items()}
         formula = f"{old[TERM]} + {formula}"
         coefficients |= {name: float(value) for name, value in old.items() if name != TERM}
-    variables = variables_of(result.subject, result.best.setting.muscle.nominal_length)
+    variables = variables_of(result.predictor, result.best.fit_model.muscle.nominal_length)
     name = next(
         (n for n, _ in result.structure.variables if n in SYMBOLS.values()),
         next(n for n in SYMBOLS.values() if n in variables),

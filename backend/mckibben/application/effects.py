@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from mckibben.application.start import Json
-from mckibben.physics.catalogue import Catalogue
+from mckibben.physics.catalogue import EffectCatalogue
 from mckibben.physics.effect import Effect
 from mckibben.physics.parameter import Parameter, Source
 
 
-def effects_answer(catalogue: Catalogue) -> Json:
+def effects_answer(catalogue: EffectCatalogue) -> Json:
     """Every effect with all it declares, and the effect files that could not be loaded."""
     return {
         "effects": [_effect(effect) for effect in catalogue.values()],

@@ -37,7 +37,7 @@ def inverse_answer(request: Question, studio: Studio) -> Json:
     }
 
 
-def _ask(request: Question, model: StaticModel) -> inverse.Answer:
+def _ask(request: Question, model: StaticModel) -> inverse.InverseResult:
     temperature = request.temperature
     match request:
         case PressureQuestion():

@@ -17,7 +17,7 @@ from mckibben.simulation.command.segments import Segments
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import Run
 from mckibben.simulation.outcome import Outcome
-from mckibben.simulation.statics.limits import Flag, FlagCode
+from mckibben.simulation.statics.limits import FlagCode, LimitFlag
 from mckibben.simulation.timing.table import FIGURES, Interval, Trace, phases, timing, tracking
 
 Array = np.ndarray
@@ -265,7 +265,7 @@ def _part_flags(given: GivenDrive) -> list[Json]:
     return found
 
 
-def _crossed(run: Run) -> Iterable[Flag]:
+def _crossed(run: Run) -> Iterable[LimitFlag]:
     """The limits that the run crosses anywhere; a stop that gives way by a hair is no contraction."""
     if not len(run.time):
         return
@@ -285,7 +285,7 @@ def _crossed(run: Run) -> Iterable[Flag]:
         )
         for item in crossed:
             if (item.code is FlagCode.OVER_PRETENSION_LIMIT) is stretch:
-                yield Flag(item.code, item.message, _FIELDS.get(item.code, "stops"))
+                yield LimitFlag(item.code, item.message, _FIELDS.get(item.code, "stops"))
 
 
 def _at_most(value: float, limit: float | None) -> float:

@@ -12,10 +12,19 @@ from mckibben.documents.task import SizingTask, TaskLoad
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.presets import MusclePreset, Preset, TubePreset, ValvePreset
-from mckibben.sizing import Catalogue, Limits, MusclePart, Pair, Task, TubePart, Uncertainty, ValvePart
-from mckibben.sizing.catalogue import Part, Values
+from mckibben.sizing import (
+    DesignLimits,
+    MusclePart,
+    Pair,
+    PartsCatalogue,
+    Task,
+    TubePart,
+    Uncertainty,
+    ValvePart,
+)
+from mckibben.sizing.catalogue import CataloguePart, Values
 
-Found = TypeVar("Found", bound=Part)
+Found = TypeVar("Found", bound=CataloguePart)
 
 _LEAST_TUBE = 0.05  # m
 # A muscle without any data on its length may be cut to these [m].
@@ -60,7 +69,7 @@ def task_of(document: SizingTask) -> Task:
         cycle_time=document.cycle_time,
         supply_pressure=document.supply_pressure,
         temperature=document.ambient_temperature,
-        limits=Limits(stiffness=document.stiffness, **document.limits.model_dump()),
+        limits=DesignLimits(stiffness=document.stiffness, **document.limits.model_dump()),
         uncertainty=Uncertainty(**document.uncertainty.model_dump()),
         rank_by=document.rank_by,
         max_proposals=document.max_proposals,
@@ -94,7 +103,7 @@ def _profile(load: TaskLoad) -> tuple[tuple[float, ...], tuple[float, ...]]:
     return tuple(given.strokes), tuple(given.forces)
 
 
-def catalogue_of(document: SizingTask, studio: Studio) -> Catalogue:
+def catalogue_of(document: SizingTask, studio: Studio) -> PartsCatalogue:
     """What may be used, with everything its presets say.
 
     Raises:
@@ -113,9 +122,9 @@ def catalogue_of(document: SizingTask, studio: Studio) -> Catalogue:
         muscles = _different(muscles)
     valves = _parts(studio, "valves", given.valves, lambda preset: _valve(preset, studio), _switches)
     if not length:
-        return Catalogue(muscles, valves, (TubePart("", tube=None),))
+        return PartsCatalogue(muscles, valves, (TubePart("", tube=None),))
     tubes = _parts(studio, "tubes", given.tubes, lambda preset: _tube(preset, studio, length), lambda _: True)
-    return Catalogue(muscles, valves, tubes)
+    return PartsCatalogue(muscles, valves, tubes)
 
 
 def _parts(

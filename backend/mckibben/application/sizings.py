@@ -11,7 +11,7 @@ from mckibben.application.start import Json, flag
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.simulation.outcome import Outcome, Watch
-from mckibben.sizing import Catalogue, Design, Proposal, Rejection, Sizing, Task, size
+from mckibben.sizing import Design, PartsCatalogue, Proposal, Rejection, Sizing, Task, size
 from mckibben.sizing.catalogue import switch_on
 from mckibben.sizing.ranking import front_of
 from mckibben.sizing.trial import Trial
@@ -30,7 +30,7 @@ class Searched:
 
     document: SizingTask
     task: Task
-    catalogue: Catalogue
+    catalogue: PartsCatalogue
     found: Sizing
     answer: Json
 

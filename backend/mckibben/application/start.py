@@ -7,7 +7,7 @@ from typing import Any
 
 from mckibben.documents.start_model import StartModel
 from mckibben.physics.muscle import Muscle, assumption
-from mckibben.simulation.statics.limits import Flag
+from mckibben.simulation.statics.limits import LimitFlag
 
 Json = dict[str, Any]
 
@@ -17,7 +17,7 @@ def flag(code: str, message: str, field: str | None = None) -> Json:
     return {"code": code, "message": message, "field": field}
 
 
-def flags_json(flags: Iterable[Flag]) -> list[Json]:
+def flags_json(flags: Iterable[LimitFlag]) -> list[Json]:
     """Flags of the simulation as JSON, each once."""
     unique = {(str(item.code), item.message): item for item in flags}
     return [flag(str(item.code), item.message, item.field) for item in unique.values()]

@@ -15,9 +15,9 @@ _UNKNOWN_NOISE = "These data do not tell their noise: state it to know whether t
 def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
     """What the verdict means, in one to three sentences."""
     # A length is told in millimetres.
-    scaled = result.subject.unit == "1"
+    scaled = result.predictor.unit == "1"
     unit, scale = {"1": ("times the noise", 1.0), "m": ("mm", 1e3)}.get(
-        result.subject.unit, (result.subject.unit, 1.0)
+        result.predictor.unit, (result.predictor.unit, 1.0)
     )
     before, after = scale * result.start.rmse, scale * result.best.rmse
     names = _joined([titles.get(name, name) for name in result.added])

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from mckibben.physics.braid import Braid, Rhombus, braid_from_rhombus, rest_diameter_and_angle
-from mckibben.physics.catalogue import Catalogue
+from mckibben.physics.catalogue import EffectCatalogue
 from mckibben.physics.custom import CUSTOM, typed_effect
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError, did_you_mean
@@ -18,7 +18,7 @@ from mckibben.physics.muscle import GEOMETRY, Muscle
 from mckibben.physics.units import si
 from mckibben.presets import MusclePreset, Quantity
 from mckibben.presets.quantity import quantities
-from mckibben.simulation.statics.limits import Limits
+from mckibben.simulation.statics.limits import MuscleLimits
 
 EffectValues = dict[str, dict[str, float]]
 
@@ -71,7 +71,7 @@ class PresetFacts:
     id: str
     muscle: Muscle
     effects: EffectValues
-    limits: Limits
+    limits: MuscleLimits
     tolerance: dict[str, float]
     shortest: float | None
     longest: float | None
@@ -102,12 +102,12 @@ class StartModel:
     assumed: tuple[str, ...] = ()
 
     @property
-    def limits(self) -> Limits:
+    def limits(self) -> MuscleLimits:
         """What the maker allows; nothing is known of a muscle given by geometry."""
-        return Limits() if self.preset is None else self.preset.limits
+        return MuscleLimits() if self.preset is None else self.preset.limits
 
 
-def preset_facts(preset: MusclePreset, catalogue: Catalogue) -> PresetFacts:
+def preset_facts(preset: MusclePreset, catalogue: EffectCatalogue) -> PresetFacts:
     """The preset in SI, with the defaults of its effects filled in."""
     geometry, limits = preset.geometry, preset.limits
     wall = geometry.wall_thickness
@@ -121,7 +121,7 @@ def preset_facts(preset: MusclePreset, catalogue: Catalogue) -> PresetFacts:
             inside_diameter=geometry.inside_diameter.si("m"),
         ),
         effects={name: catalogue[name].defaults | own for name, own in preset.effect_values().items()},
-        limits=Limits(
+        limits=MuscleLimits(
             max_pressure=_optional(limits.max_pressure, "Pa"),
             max_force=_optional(limits.max_force, "N"),
             max_contraction=_optional(limits.max_contraction, "1"),
@@ -151,7 +151,7 @@ def start_model(
     effects: Mapping[str, Mapping[str, float | str]] | None,
     *,
     preset: PresetFacts | None,
-    catalogue: Catalogue,
+    catalogue: EffectCatalogue,
 ) -> StartModel:
     """The muscle and effects a request means.
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from mckibben.documents.start_model import GivenMuscle, PresetFacts, StartModel, preset_facts, start_model
-from mckibben.physics.catalogue import Catalogue, default_catalogue
+from mckibben.physics.catalogue import EffectCatalogue, default_catalogue
 from mckibben.physics.errors import InputError
 from mckibben.presets import MusclePreset, PresetLibrary
 from mckibben.simulation.statics.model import StaticModel
@@ -28,7 +28,7 @@ class Studio:
     def __init__(
         self, *, presets: Path, user_presets: Path | None = None, effects: Sequence[Path] = ()
     ) -> None:
-        self.catalogue = Catalogue(effects) if effects else default_catalogue()
+        self.catalogue = EffectCatalogue(effects) if effects else default_catalogue()
         #: Effect id -> parameter name -> parameter; what presets are checked against.
         self.effect_table = {
             name: {p.name: p for p in effect.parameters} for name, effect in self.catalogue.items()

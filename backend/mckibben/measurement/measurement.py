@@ -25,12 +25,12 @@ from mckibben.measurement.kind import (
 )
 from mckibben.measurement.saturation import pushing_rows, unusable_rows
 from mckibben.measurement.spikes import spiked_rows
-from mckibben.measurement.sweeps import Segments, segments_of
+from mckibben.measurement.sweeps import Sweeps, sweeps_of
 from mckibben.physics.errors import InputError, did_you_mean
 
 __all__ = [
-    "CHANNEL_UNITS", "FORCE_KINDS", "KINDS", "STROKES", "Channel", "Measurement", "build", "detect_kind",
-    "group_rows", "lengths",
+    "CHANNEL_UNITS", "FORCE_KINDS", "KINDS", "STROKES", "MeasuredChannel", "Measurement", "build",
+    "detect_kind", "group_rows", "lengths",
 ]  # fmt: skip
 
 #: Canonical channel name -> SI unit. Pressure is gauge; displacement is a contraction stroke (positive =
@@ -43,7 +43,7 @@ CHANNEL_UNITS: Mapping[str, str] = MappingProxyType({
 _HARDLY_A_PRESSURE = 2e3  # Pa: a muscle does not notice it
 
 
-class Channel(NamedTuple):
+class MeasuredChannel(NamedTuple):
     """Where a channel came from; ``unit``, ``minimum`` and ``maximum`` are SI, ``source_unit`` the file's."""
 
     name: str
@@ -83,7 +83,7 @@ class Measurement:
     kind: str
     kind_detected: bool
     columns: Mapping[str, NDArray]
-    channels: tuple[Channel, ...]
+    channels: tuple[MeasuredChannel, ...]
     ignored: tuple[str, ...]
     conditions: Mapping[str, float | str]
     slack: NDArray[np.bool_]
@@ -92,7 +92,7 @@ class Measurement:
     skipped: Mapping[str, int] = field(default_factory=dict)
     starts: tuple[int, ...] = (0,)
     kind_reason: str = ""
-    segmented: Segments | None = None
+    segmented: Sweeps | None = None
 
     @cached_property
     def usable(self) -> NDArray[np.bool_]:
@@ -114,9 +114,9 @@ class Measurement:
         return MappingProxyType(counts)
 
     @cached_property
-    def segments(self) -> Segments:
+    def segments(self) -> Sweeps:
         """Sweeps, cycles, directions and speeds, found when first asked for."""
-        return self.segmented or segments_of(self.columns, self.kind, starts=self.starts)
+        return self.segmented or sweeps_of(self.columns, self.kind, starts=self.starts)
 
     @property
     def rows(self) -> int:
@@ -204,7 +204,7 @@ def build(
         unit = CHANNEL_UNITS[channel]
         column, source_unit = (origins or {}).get(channel, (channel, unit))
         channels.append(
-            Channel(channel, column, unit, float(np.min(values)), float(np.max(values)), source_unit)
+            MeasuredChannel(channel, column, unit, float(np.min(values)), float(np.max(values)), source_unit)
         )
     labels, rule = group_rows(table, kind)
     table["group"] = labels

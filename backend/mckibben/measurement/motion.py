@@ -17,7 +17,7 @@ _OPPOSED = -0.5  # correlation below which a measured velocity counts the other 
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class RecordedMotion:
     """Rates of each row; arrays have shape (rows,).
 
     Attributes:
@@ -39,7 +39,7 @@ class Motion:
     messages: tuple[str, ...]
 
 
-def motion_of(measurement: Measurement, nominal_length: float) -> Motion:
+def motion_of(measurement: Measurement, nominal_length: float) -> RecordedMotion:
     """Velocity and pressure rate of a measurement in time.
 
     A measured velocity is taken as it is (its sign as dL/dt, unless the measured stroke shows that it counts
@@ -82,7 +82,7 @@ def motion_of(measurement: Measurement, nominal_length: float) -> Motion:
         if pressure is None
         else rates(time, pressure, starts=starts)
     )
-    return Motion(
+    return RecordedMotion(
         value, sigma, rate.value, rate.sigma, directions(value, sigma, starts=starts),
         "velocity" in columns, tuple(messages),
     )  # fmt: skip

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.measurement.derivative import Array, running_mean
-from mckibben.measurement.measurement import STROKES, Channel, Measurement
+from mckibben.measurement.measurement import STROKES, MeasuredChannel, Measurement
 
 ROWS = 4000
 _SIGNALS = ("pressure", *STROKES, "force", "diameter", "command", "velocity")
@@ -130,6 +130,6 @@ def _change(measurement: Measurement, kept: NDArray[np.intp]) -> Array:
     return largest
 
 
-def _ranged(channel: Channel, columns: dict[str, NDArray]) -> Channel:
+def _ranged(channel: MeasuredChannel, columns: dict[str, NDArray]) -> MeasuredChannel:
     values = columns[channel.name]
     return channel._replace(minimum=float(np.min(values)), maximum=float(np.max(values)))

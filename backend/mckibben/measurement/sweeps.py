@@ -22,7 +22,7 @@ _MANY_PARTS = 5000
 
 
 @dataclass(frozen=True, eq=False)
-class Segments:
+class Sweeps:
     """Where each row belongs; arrays have shape (rows,).
 
     Attributes:
@@ -44,9 +44,9 @@ class Segments:
     signal: str
     noise: float
 
-    def only(self, rows: NDArray[np.intp]) -> Segments:
+    def only(self, rows: NDArray[np.intp]) -> Sweeps:
         """The segments of some of the rows, their numbers as before."""
-        return Segments(
+        return Sweeps(
             self.sweep[rows], self.cycle[rows], self.direction[rows], self.speed_level[rows],
             self.speeds, self.signal, self.noise,
         )  # fmt: skip
@@ -67,7 +67,7 @@ class Segments:
         return int(np.count_nonzero(self.direction == 0))
 
 
-def segments_of(columns: Mapping[str, NDArray], kind: str, *, starts: tuple[int, ...] = (0,)) -> Segments:
+def sweeps_of(columns: Mapping[str, NDArray], kind: str, *, starts: tuple[int, ...] = (0,)) -> Sweeps:
     """The segments of a measurement.
 
     The signal is the stroke (the pressure of an isometric test, or where no stroke was measured). It turns
@@ -94,7 +94,7 @@ def segments_of(columns: Mapping[str, NDArray], kind: str, *, starts: tuple[int,
     else:
         begins, direction = _found(signal, time, bounds, noise, span)
     sweep = np.cumsum(begins) - 1
-    return Segments(
+    return Sweeps(
         sweep, _cycles(begins, sweep, direction, bounds), direction,
         *_speed_levels(signal, time, sweep, direction), name, noise,
     )  # fmt: skip

@@ -22,7 +22,7 @@ class EffectProblem:
     message: str
 
 
-class Catalogue(Mapping[str, Effect]):
+class EffectCatalogue(Mapping[str, Effect]):
     """Effects by id, in order of their ids; the file name without ``.py`` is the id.
 
     A broken file of the project itself raises; a broken file of a further folder becomes a problem, and the
@@ -69,9 +69,9 @@ class Catalogue(Mapping[str, Effect]):
 
 
 @cache
-def default_catalogue() -> Catalogue:
+def default_catalogue() -> EffectCatalogue:
     """The project's own effects, loaded once."""
-    return Catalogue()
+    return EffectCatalogue()
 
 
 def _files(folder: Path) -> list[Path]:

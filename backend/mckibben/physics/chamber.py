@@ -64,7 +64,7 @@ def muscle_side(
     """The equations of one muscle.
 
     Args:
-        tube, regulator: see `mckibben.physics.drive_terms.Structure`.
+        tube, regulator: see `mckibben.physics.drive_terms.DriveStructure`.
         model, values: effects, their numbers and states.
         muscle: geometry.
         constants: of the drive, by name.

@@ -29,8 +29,8 @@ from mckibben.physics.drive_terms import (
     COUNTER_OUTPUTS,
     INPUTS,
     OUTPUTS,
+    DriveStructure,
     StateInfo,
-    Structure,
 )
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import GEOMETRY, Muscle
@@ -52,7 +52,7 @@ class DriveModel:
         outputs: expressions of ``output_names``: `OUTPUTS`, of a pair `COUNTER_OUTPUTS` too.
     """
 
-    def __init__(self, structure: Structure) -> None:
+    def __init__(self, structure: DriveStructure) -> None:
         model = Model(structure.effects)
         suffixes = ("", COUNTER) if structure.pair else ("",)
         self.output_names = (*OUTPUTS, *COUNTER_OUTPUTS) if structure.pair else OUTPUTS
@@ -82,7 +82,7 @@ class DriveModel:
         self.outputs = [se.sympify(outputs[name]) for name in self.output_names]
 
     def _equations(
-        self, structure: Structure, model: Model, muscle: Muscle
+        self, structure: DriveStructure, model: Model, muscle: Muscle
     ) -> tuple[dict[str, Value], dict[str, Value]]:
         y, u, c = self.symbols, self.inputs, self._constants
         passed = y["clock"] - u["begin"]
@@ -169,7 +169,7 @@ class DriveModel:
         }
 
 
-def _side_states(structure: Structure, model: Model, suffix: str) -> list[StateInfo]:
+def _side_states(structure: DriveStructure, model: Model, suffix: str) -> list[StateInfo]:
     states = [StateInfo("pressure", None, 1e5)]
     if structure.tube:
         states.append(StateInfo("tube_pressure", None, 1e5))

@@ -70,7 +70,7 @@ COUNTER_OUTPUTS = tuple(
 
 
 @dataclass(frozen=True, slots=True)
-class Structure:
+class DriveStructure:
     """What decides the equations.
 
     Attributes:

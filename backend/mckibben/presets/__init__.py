@@ -1,10 +1,10 @@
 """Presets: muscles, valves, tubes, fittings, curves, measurements, designs, drives, tasks, mysteries.
 
 Each is one JSON file. Every physical value carries its unit, source and grade. A file that cannot be used
-becomes a `Problem` and the others still load.
+becomes a `LibraryProblem` and the others still load.
 """
 
-from mckibben.presets.library import PresetLibrary, Problem
+from mckibben.presets.library import LibraryProblem, PresetLibrary
 from mckibben.presets.mystery import MysteryPreset
 from mckibben.presets.quantity import Quantity
 from mckibben.presets.schema import (
@@ -24,12 +24,12 @@ __all__ = [
     "DesignPreset",
     "DrivePreset",
     "FittingPreset",
+    "LibraryProblem",
     "MeasurementPreset",
     "MusclePreset",
     "MysteryPreset",
     "Preset",
     "PresetLibrary",
-    "Problem",
     "Quantity",
     "TaskPreset",
     "TubePreset",

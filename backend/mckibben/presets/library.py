@@ -21,7 +21,7 @@ USER_ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9-]{0,63}")
 Signature = tuple[tuple[str, int, int, int], ...]
 
 
-class Problem(NamedTuple):
+class LibraryProblem(NamedTuple):
     """A preset file that was not loaded: file, field inside it, what is wrong, what would be right."""
 
     file: str
@@ -35,7 +35,7 @@ class _Shelf:
     """The valid presets of one folder, by lower-case slug, and the problems of the others."""
 
     presets: dict[str, Preset] = field(default_factory=dict)
-    problems: list[Problem] = field(default_factory=list)
+    problems: list[LibraryProblem] = field(default_factory=list)
 
 
 class PresetLibrary:
@@ -107,7 +107,7 @@ class PresetLibrary:
         preset = self.get("muscles", preset_id)
         return cast(MusclePreset, preset)
 
-    def problems(self, kind: str | None = None) -> list[Problem]:
+    def problems(self, kind: str | None = None) -> list[LibraryProblem]:
         """Files that were not loaded, of one kind or of all."""
         kinds = KINDS if kind is None else [kind]
         for name in kinds:
@@ -194,7 +194,7 @@ class PresetLibrary:
                         [Finding("id", f"the id '{preset.id}' exists already", "another id")]
                     )
             except BadDocumentError as bad:
-                shelf.problems.extend(Problem(name, *finding) for finding in bad.findings)
+                shelf.problems.extend(LibraryProblem(name, *finding) for finding in bad.findings)
             else:
                 shelf.presets[key] = preset
         return shelf

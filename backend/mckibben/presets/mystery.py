@@ -56,7 +56,7 @@ class HiddenEffect(Strict):
     effects: Annotated[list[Key], Field(min_length=1)]
 
 
-class Answer(Strict):
+class MysteryAnswer(Strict):
     """What is hidden in a measurement; nothing in one that the start model explains."""
 
     hidden: list[HiddenEffect]
@@ -84,13 +84,13 @@ class MysteryPreset(Preset):
     data_columns: MysteryColumns
     sealed: Annotated[str, Field(min_length=1, max_length=20_000)]
 
-    def answer(self) -> Answer:
+    def answer(self) -> MysteryAnswer:
         """What is hidden.
 
         Raises:
             ValueError: the seal holds something else.
         """
-        return Answer.model_validate_json(base64.b64decode(self.sealed, validate=True))
+        return MysteryAnswer.model_validate_json(base64.b64decode(self.sealed, validate=True))
 
     def si_columns(self) -> dict[str, NDArray[np.float64]]:
         """Channel -> values in SI."""

@@ -1,17 +1,17 @@
 """From a task to drives: what the catalogue offers, ranked, and why the rest does not do."""
 
-from mckibben.sizing.catalogue import Catalogue, Design, MusclePart, TubePart, ValvePart
+from mckibben.sizing.catalogue import Design, MusclePart, PartsCatalogue, TubePart, ValvePart
 from mckibben.sizing.proposal import Proposal
 from mckibben.sizing.rejection import Rejection
 from mckibben.sizing.search import Sizing, size
-from mckibben.sizing.task import Limits, Pair, Task, Uncertainty
+from mckibben.sizing.task import DesignLimits, Pair, Task, Uncertainty
 
 __all__ = [
-    "Catalogue",
     "Design",
-    "Limits",
+    "DesignLimits",
     "MusclePart",
     "Pair",
+    "PartsCatalogue",
     "Proposal",
     "Rejection",
     "Sizing",

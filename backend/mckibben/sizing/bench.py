@@ -13,7 +13,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from mckibben.physics.drive_terms import INPUTS, Structure
+from mckibben.physics.drive_terms import INPUTS, DriveStructure
 from mckibben.physics.errors import InputError
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import constants_of, segments_of
@@ -86,7 +86,9 @@ class Bench:
 
     def compile(self, group: Group) -> None:
         """Get the equations of a group ready, so that no two threads do it at the same time."""
-        compiled_drive(Structure(group.effects, group.tube.tube is not None, False, group.duty.pair), _LEVEL)
+        compiled_drive(
+            DriveStructure(group.effects, group.tube.tube is not None, False, group.duty.pair), _LEVEL
+        )
 
     def prepared(self, design: Design) -> Prepared:
         """A design ready to run."""

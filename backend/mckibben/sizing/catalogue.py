@@ -11,7 +11,7 @@ from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import Muscle
 from mckibben.simulation.command.signals import Signal, signal_from
 from mckibben.simulation.drive.parts import Drive, Load, Tube, Valve
-from mckibben.simulation.statics.limits import Limits
+from mckibben.simulation.statics.limits import MuscleLimits
 from mckibben.simulation.statics.model import StaticModel
 from mckibben.sizing.task import Duty, Task
 
@@ -19,7 +19,7 @@ Values = Mapping[str, Mapping[str, float]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Part:
+class CataloguePart:
     """A muscle, valve or tube that may be used.
 
     Attributes:
@@ -34,7 +34,7 @@ class Part:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class MusclePart(Part):
+class MusclePart(CataloguePart):
     """A muscle of any length between ``shortest`` and ``longest`` [m].
 
     Attributes:
@@ -43,7 +43,7 @@ class MusclePart(Part):
     """
 
     muscle: Muscle
-    limits: Limits
+    limits: MuscleLimits
     shortest: float
     longest: float
     hysteresis: float = 0.0
@@ -52,7 +52,7 @@ class MusclePart(Part):
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class ValvePart(Part):
+class ValvePart(CataloguePart):
     """A switching or proportional valve; used fully open."""
 
     valve: Valve
@@ -60,14 +60,14 @@ class ValvePart(Part):
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class TubePart(Part):
+class TubePart(CataloguePart):
     """A tube between the valve and each muscle; None sits the valve on the muscle."""
 
     tube: Tube | None
 
 
 @dataclass(frozen=True, slots=True)
-class Catalogue:
+class PartsCatalogue:
     """What may be combined."""
 
     muscles: tuple[MusclePart, ...]
@@ -97,7 +97,7 @@ class Group:
         return {name: own for part in self._parts for name, own in dict(part.values).items()}
 
     @property
-    def _parts(self) -> tuple[Part, ...]:
+    def _parts(self) -> tuple[CataloguePart, ...]:
         return (self.muscle, self.valve, self.tube)
 
     @property

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mckibben.sizing.catalogue import Catalogue, Group
+from mckibben.sizing.catalogue import Group, PartsCatalogue
 from mckibben.sizing.reasons import (
     number_text,
     remedies_text,
@@ -45,7 +45,7 @@ class Rejection:
 
 
 def at_rest_rejections(
-    sheets: Sequence[Sheet], catalogue: Catalogue, task: Task, works: set[str]
+    sheets: Sequence[Sheet], catalogue: PartsCatalogue, task: Task, works: set[str]
 ) -> list[Rejection]:
     """The muscles that the closed form rules out, whatever the valve; ``works`` are those that do."""
     found = [

@@ -10,7 +10,7 @@ import numpy as np
 
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.sizing.bench import Bench, EndedError
-from mckibben.sizing.catalogue import Catalogue, Design, Group
+from mckibben.sizing.catalogue import Design, Group, PartsCatalogue
 from mckibben.sizing.chance import chance
 from mckibben.sizing.proposal import Proposal, propose
 from mckibben.sizing.ranking import ranked
@@ -54,7 +54,7 @@ class Sizing:
     outcome: Outcome = Outcome.COMPLETED
 
 
-def size(task: Task, catalogue: Catalogue, watch: Watch | None = None) -> Sizing:
+def size(task: Task, catalogue: PartsCatalogue, watch: Watch | None = None) -> Sizing:
     """Drives for a task.
 
     Args:
@@ -76,7 +76,7 @@ def size(task: Task, catalogue: Catalogue, watch: Watch | None = None) -> Sizing
 
 
 @dataclass(frozen=True, eq=False)
-class Candidate:
+class DesignCandidate:
     """A group and those of its designs that the closed form leaves, as positions in the sheet."""
 
     group: Group
@@ -96,7 +96,7 @@ class Candidate:
 
 
 class _Search:
-    def __init__(self, task: Task, catalogue: Catalogue, bench: Bench, found: Sizing) -> None:
+    def __init__(self, task: Task, catalogue: PartsCatalogue, bench: Bench, found: Sizing) -> None:
         self.task, self.catalogue, self.bench, self.found = task, catalogue, bench, found
         self.parts = [(valve, tube) for valve in catalogue.valves for tube in catalogue.tubes]
 
@@ -137,9 +137,9 @@ class _Search:
         if ended is not None:
             raise EndedError(ended)
 
-    def _prune(self, sheets: list[Sheet]) -> tuple[list[Candidate], list[tuple[Group, Trial | None]]]:
+    def _prune(self, sheets: list[Sheet]) -> tuple[list[DesignCandidate], list[tuple[Group, Trial | None]]]:
         """What the closed form leaves, and the groups of which it leaves nothing."""
-        kept: list[Candidate] = []
+        kept: list[DesignCandidate] = []
         failed: list[tuple[Group, Trial | None]] = []
         for sheet in sheets:
             self.found.combinations += int(sheet.allowed.sum()) * len(self.parts)
@@ -149,17 +149,17 @@ class _Search:
                     group = Group(sheet.duty, sheet.part, parallel, valve, tube)
                     left = self._quick(group, sheet, sound)
                     if len(left):
-                        kept.append(Candidate(group, sheet, left))
+                        kept.append(DesignCandidate(group, sheet, left))
                     else:
                         failed.append((group, None))
         self.found.pruned = self.found.combinations - sum(len(candidate.left) for candidate in kept)
         return kept, failed
 
-    def _likely(self, candidates: list[Candidate]) -> list[Candidate]:
+    def _likely(self, candidates: list[DesignCandidate]) -> list[DesignCandidate]:
         """Those worth simulating: of a pair's pulleys the best, not more groups than there is time for."""
         ordered = sorted(candidates, key=lambda candidate: candidate.promise)
         taken: Counter[tuple[str, int, str, str]] = Counter()
-        kept: list[Candidate] = []
+        kept: list[DesignCandidate] = []
         for candidate in ordered:
             group = candidate.group
             key = (group.muscle.id, group.parallel, group.valve.id, group.tube.id)
@@ -178,7 +178,7 @@ class _Search:
         times = least_time(sheet.rest, sheet.duty, task, conductance=group.conductance)
         return sound[times[sound] <= wanted]
 
-    def _try(self, candidates: list[Candidate]) -> tuple[list[Trial], list[tuple[Group, Trial | None]]]:
+    def _try(self, candidates: list[DesignCandidate]) -> tuple[list[Trial], list[tuple[Group, Trial | None]]]:
         """The best trial of each group that does the task, and the nearest of those that do not."""
         first = [(candidate, index) for candidate in candidates for index in _first_choice(candidate)]
         ran = self._run(first, (_PRUNED, 0.8 * _TRIED))
@@ -202,9 +202,9 @@ class _Search:
         return good, slow
 
     def _run(
-        self, jobs: list[tuple[Candidate, int]], share: tuple[float, float]
-    ) -> dict[Candidate, list[Trial]]:
-        found: dict[Candidate, list[Trial]] = {}
+        self, jobs: list[tuple[DesignCandidate, int]], share: tuple[float, float]
+    ) -> dict[DesignCandidate, list[Trial]]:
+        found: dict[DesignCandidate, list[Trial]] = {}
         for candidate, _ in jobs:
             self.bench.compile(candidate.group)
         trials = self.bench.each(
@@ -249,7 +249,7 @@ def _varied(trials: list[Trial], count: int) -> list[Trial]:
     return [*first, *rest][:count]
 
 
-def _first_choice(candidate: Candidate) -> list[int]:
+def _first_choice(candidate: DesignCandidate) -> list[int]:
     """Designs that bracket a group: the least air, the same length at full pressure, the most force."""
     rest, left = candidate.sheet.rest, candidate.left
     cheap = int(left[np.argmin(rest.air[left])])
@@ -258,7 +258,7 @@ def _first_choice(candidate: Candidate) -> list[int]:
     return list(dict.fromkeys((cheap, int(same[np.argmax(rest.pressure[same])]), strong)))
 
 
-def _second_choice(candidate: Candidate) -> list[int]:
+def _second_choice(candidate: DesignCandidate) -> list[int]:
     """Every length at its highest pressure."""
     rest, left = candidate.sheet.rest, candidate.left
     found: dict[float, int] = {}

@@ -29,7 +29,7 @@ class Pair:
 
 
 @dataclass(frozen=True, slots=True)
-class Limits:
+class DesignLimits:
     """What a drive must keep to; None = no such limit.
 
     Attributes:
@@ -96,7 +96,7 @@ class Task:
     cycle_time: float | None = None
     supply_pressure: float = 6e5
     temperature: float = 293.15
-    limits: Limits = field(default_factory=Limits)
+    limits: DesignLimits = field(default_factory=DesignLimits)
     uncertainty: Uncertainty = field(default_factory=Uncertainty)
     rank_by: str = "balanced"
     max_proposals: int = 10

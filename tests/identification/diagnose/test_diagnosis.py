@@ -14,8 +14,8 @@ from mckibben.application.wording import sentence_of
 from mckibben.documents.studio import Studio
 from mckibben.identification.diagnose.diagnosis import Diagnosis, diagnose
 from mckibben.identification.fit.fitter import CancelledError
-from mckibben.identification.predict import subject_of
-from mckibben.identification.predict.fit_model import Setting, free_geometry
+from mckibben.identification.predict import predictor_of
+from mckibben.identification.predict.fit_model import FitModel, free_geometry
 from mckibben.identification.predict.free import Free
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.read import read_measurement
@@ -37,16 +37,16 @@ def ripple(*, kappa: float, **_: float) -> float:
     return 12.0 * sin(150.0 * kappa)
 
 
-def setting(**effects: dict[str, float]) -> Setting:
+def fit_model(**effects: dict[str, float]) -> FitModel:
     chosen = tuple(CATALOGUE[name] for name in effects)
-    return Setting(MUSCLE, chosen, {e.id: e.defaults | effects[e.id] for e in chosen})
+    return FitModel(MUSCLE, chosen, {e.id: e.defaults | effects[e.id] for e in chosen})
 
 
 def diagnosis(
-    measurement: Measurement, start: Setting | None = None, *, geometry: Sequence[Free] = (), **options
+    measurement: Measurement, start: FitModel | None = None, *, geometry: Sequence[Free] = (), **options
 ) -> Diagnosis:
-    subject = subject_of(measurement, MUSCLE)
-    return diagnose(subject, start or setting(), catalogue=CATALOGUE, geometry=geometry, **options)
+    predictor = predictor_of(measurement, MUSCLE)
+    return diagnose(predictor, start or fit_model(), catalogue=CATALOGUE, geometry=geometry, **options)
 
 
 @lru_cache
@@ -61,7 +61,7 @@ def of_friction(noise: float) -> Diagnosis:
 def test_data_without_noise_end_at_their_digits():
     found = diagnosis(force_map(prestress=-30.0))
     assert (found.status, found.added) == ("ambiguous", ("prestress",))
-    assert found.best.setting.values["prestress"]["force"] == pytest.approx(-30.0, rel=1e-6)
+    assert found.best.fit_model.values["prestress"]["force"] == pytest.approx(-30.0, rel=1e-6)
     assert {other.effect for other in found.alternatives} == {"force_offset"}
 
 
@@ -92,16 +92,18 @@ def test_noise_alone_is_adequate(measurement):
 
 def test_a_right_model_with_effects_is_adequate():
     measurement = cycles(coulomb, noise=1.0, each=30, c10=0.4e6)
-    start = setting(bladder_elasticity={"shear_modulus": 0.6e6}, coulomb_friction={"force": 4.0})
+    start = fit_model(bladder_elasticity={"shear_modulus": 0.6e6}, coulomb_friction={"force": 4.0})
     found = diagnosis(measurement, start)
     assert found.status == "adequate"
     assert found.added == ()
     # The start model as given is far off; its numbers are refitted.
     assert found.start.rmse > 5.0 * found.best.rmse
-    assert found.best.setting.values["bladder_elasticity"]["shear_modulus"] == pytest.approx(0.4e6, rel=0.01)
-    assert found.best.setting.values["coulomb_friction"]["force"] == pytest.approx(FRICTION, rel=0.02)
-    assert found.path[0].node.rmse == found.start.rmse
-    assert found.path[-1].node.rmse == found.best.rmse
+    assert found.best.fit_model.values["bladder_elasticity"]["shear_modulus"] == pytest.approx(
+        0.4e6, rel=0.01
+    )
+    assert found.best.fit_model.values["coulomb_friction"]["force"] == pytest.approx(FRICTION, rel=0.02)
+    assert found.path[0].fitted_model.rmse == found.start.rmse
+    assert found.path[-1].fitted_model.rmse == found.best.rmse
 
 
 def test_without_noise_nothing_is_missing_either():
@@ -121,7 +123,7 @@ def test_one_missing_friction_is_found(noise):
     found = of_friction(noise)
     assert found.status == "missing_effects"
     assert found.added == ("coulomb_friction",)
-    value = found.best.setting.values["coulomb_friction"]["force"]
+    value = found.best.fit_model.values["coulomb_friction"]["force"]
     assert value == pytest.approx(FRICTION, abs=0.2 * noise + 1e-4)
     assert found.alternatives == ()
     assert found.start.rmse == pytest.approx(np.hypot(FRICTION, noise), rel=0.02)
@@ -157,15 +159,15 @@ def test_two_effects_are_found_in_the_order_of_their_size():
     assert found.status == "missing_effects"
     assert set(found.added) == {"bladder_elasticity", "coulomb_friction"}
     assert [step.added for step in found.path] == [None, "bladder_elasticity", "coulomb_friction"]
-    errors = [step.node.rmse for step in found.path]
+    errors = [step.fitted_model.rmse for step in found.path]
     assert errors == sorted(errors, reverse=True)
     assert errors[-1] == pytest.approx(1.0, rel=0.15)
-    assert found.path[-1].node.setting.ids == found.best.setting.ids
+    assert found.path[-1].fitted_model.fit_model.ids == found.best.fit_model.ids
 
 
 def test_every_effect_that_can_show_is_a_candidate_with_its_reason():
     found = of_friction(1.0)
-    expected = {name for name, effect in CATALOGUE.items() if found.subject.reveals(effect)}
+    expected = {name for name, effect in CATALOGUE.items() if found.predictor.reveals(effect)}
     assert {candidate.effect.id for candidate in found.candidates} == expected
     scores = [candidate.score for candidate in found.candidates]
     assert scores == sorted(scores)
@@ -174,15 +176,15 @@ def test_every_effect_that_can_show_is_a_candidate_with_its_reason():
         # An effect that cannot be switched off by what is fitted may do harm.
         if all(p.fitted or p.off is None for p in candidate.effect.parameters):
             assert candidate.gain > -1e-3
-        assert candidate.node.setting.ids[-1] == candidate.effect.id
+        assert candidate.fitted_model.fit_model.ids[-1] == candidate.effect.id
 
 
 def test_a_bladder_is_found_without_a_stated_wall_by_its_product_with_the_modulus():
     bare = MUSCLE._replace(wall_thickness=0.0)
-    subject = subject_of(force_map(noise=1.0, c10=0.3e6), bare)
-    found = diagnose(subject, Setting(bare), catalogue=CATALOGUE)
+    predictor = predictor_of(force_map(noise=1.0, c10=0.3e6), bare)
+    found = diagnose(predictor, FitModel(bare), catalogue=CATALOGUE)
     assert found.added == ("bladder_elasticity",)
-    best = found.best.setting
+    best = found.best.fit_model
     assert found.best.rmse == pytest.approx(1.0, rel=0.2)
     assert best.assumed == {"wall_thickness"}
     # The hidden wall of 1.8 mm at 0.3 MPa; what was assumed instead of it only shifts the modulus.
@@ -193,12 +195,12 @@ def test_a_bladder_is_found_without_a_stated_wall_by_its_product_with_the_modulu
     assert f"shear modulus x wall thickness = {product:.4g} N/m" in said
     assert "state wall_thickness" in said
     # Without the effect nothing of the muscle was assumed.
-    assert found.start.setting.muscle == bare
+    assert found.start.fit_model.muscle == bare
     assert best.without("bladder_elasticity").muscle == bare
 
 
 def test_every_effect_is_a_candidate_or_told_with_the_reason():
-    found = diagnosis(force_map(noise=1.0), setting(prestress={"force": 0.0}))
+    found = diagnosis(force_map(noise=1.0), fit_model(prestress={"force": 0.0}))
     tried = {candidate.effect.id for candidate in found.candidates}
     reasons = {item.effect: item.why for item in found.not_tried}
     assert tried | set(reasons) | {"prestress"} == set(CATALOGUE)
@@ -238,7 +240,7 @@ def test_slack_rows_with_noise_do_not_bend_the_fit():
     found = diagnosis(csv(rows, "pressure_bar,length_mm,force_N", "kind: static"))
     assert found.added == ("bladder_elasticity",)
     assert found.best.rmse < 1.1 * 2.0
-    assert found.best.setting.number("bladder_elasticity.shear_modulus") == pytest.approx(0.5e6, rel=0.02)
+    assert found.best.fit_model.number("bladder_elasticity.shear_modulus") == pytest.approx(0.5e6, rel=0.02)
 
 
 def test_another_braid_angle_is_told_beside_the_effects():
@@ -273,13 +275,13 @@ def test_a_ripple_is_an_unknown_effect_with_a_term():
     assert found.structure.variables[0][0] == "contraction"
     assert found.term is not None
     assert found.term.share > 0.9
-    contraction = 1.0 - found.subject.inputs["length"] / 0.3
+    contraction = 1.0 - found.predictor.inputs["length"] / 0.3
     hidden = 12.0 * np.sin(150.0 * contraction)
     assert np.sqrt(np.mean((found.term.values - hidden) ** 2)) < 2.5
     # The term can be typed; with it nothing is left.
     effect = custom_effect(found.term.formula, found.term.coefficients)
-    start = Setting(MUSCLE, (effect,), {"custom": effect.defaults})
-    assert found.subject.rmse(found.subject.residual(start)) < 3.0
+    start = FitModel(MUSCLE, (effect,), {"custom": effect.defaults})
+    assert found.predictor.rmse(found.predictor.residual(start)) < 3.0
 
 
 def test_a_catalogued_part_is_found_beside_an_unknown_one():
@@ -310,7 +312,7 @@ def test_freed_geometry_explains_what_geometry_can():
     angle = free_geometry(MUSCLE, ["braid_angle"], {"braid_angle": radians(2.0)})
     found = diagnosis(measurement, geometry=angle)
     assert found.status == "adequate"
-    assert np.degrees(found.best.setting.muscle.braid_angle) == pytest.approx(25.5, abs=0.05)
+    assert np.degrees(found.best.fit_model.muscle.braid_angle) == pytest.approx(25.5, abs=0.05)
 
 
 def test_geometry_that_a_fit_moved_is_told():
@@ -374,10 +376,10 @@ def test_the_maps_of_martens_and_boblan_from_the_ideal_muscle(sample, preset, no
         pytest.skip(f"{path.name} is not beside the project")
     facts = Studio(presets=presets_folder()).facts(preset)
     muscle = facts.muscle._replace(nominal_length=nominal_length)
-    subject = subject_of(read_measurement(path.read_bytes(), path.name), muscle)
+    predictor = predictor_of(read_measurement(path.read_bytes(), path.name), muscle)
     geometry = free_geometry(muscle, free, facts.tolerance)
-    found = diagnose(subject, Setting(muscle), catalogue=CATALOGUE, geometry=geometry)
-    full_scale = float(np.max(subject.measured))
+    found = diagnose(predictor, FitModel(muscle), catalogue=CATALOGUE, geometry=geometry)
+    full_scale = float(np.max(predictor.measured))
     assert len(found.best.free) <= 5
     assert found.best.rmse <= 0.010 * full_scale
     assert found.best.holdout_rmse <= 0.013 * full_scale

@@ -5,17 +5,22 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mckibben.identification.diagnose.next_measurement import Proposal, declared, protocols, separation
-from mckibben.identification.predict.fit_model import Setting
-from mckibben.identification.predict.quasistatic import Quasistatic
+from mckibben.identification.diagnose.next_measurement import (
+    SeparatingExperiment,
+    declared,
+    protocols,
+    separation,
+)
+from mckibben.identification.predict.fit_model import FitModel
+from mckibben.identification.predict.quasistatic import QuasistaticPredictor
 from tests.identification.synthetic import CATALOGUE, MUSCLE
 
-TESTS = protocols(Setting(MUSCLE), largest_pressure=6e5)
+TESTS = protocols(FitModel(MUSCLE), largest_pressure=6e5)
 
 
-def setting(**values: dict[str, float]) -> Setting:
+def fit_model(**values: dict[str, float]) -> FitModel:
     chosen = tuple(CATALOGUE[name] for name in values)
-    return Setting(MUSCLE, chosen, {e.id: e.defaults | values[e.id] for e in chosen})
+    return FitModel(MUSCLE, chosen, {e.id: e.defaults | values[e.id] for e in chosen})
 
 
 def test_the_catalogue_says_it_from_either_side():
@@ -40,21 +45,25 @@ def test_protocols_can_be_made(number):
         # dL/dt as stated is that of the lengths.
         slope = np.gradient(length[rows], task.time[rows])
         assert task.state["velocity"][rows] == pytest.approx(slope)
-    assert np.all(np.isfinite(Quasistatic(task).predict(Setting(MUSCLE))))
+    assert np.all(np.isfinite(QuasistaticPredictor(task).predict(FitModel(MUSCLE))))
 
 
 def test_a_constant_force_is_never_told_from_another():
-    words, apart = separation(setting(prestress={"force": 40.0}), setting(force_offset={}), TESTS, noise=1.0)
+    words, apart = separation(
+        fit_model(prestress={"force": 40.0}), fit_model(force_offset={}), TESTS, noise=1.0
+    )
     assert apart < 0.5
-    text = Proposal("prestress", "force_offset", "remove the muscle", words or "any", apart).sentence({})
+    text = SeparatingExperiment(
+        "prestress", "force_offset", "remove the muscle", words or "any", apart
+    ).sentence({})
     assert "a force measurement alone does not" in text
-    text = Proposal("prestress", "force_offset", "", words or "any", apart).sentence({})
+    text = SeparatingExperiment("prestress", "force_offset", "", words or "any", apart).sentence({})
     assert "no simulated force measurement separates them, and no other experiment is known" in text
 
 
 def test_friction_and_damping_differ_over_speed():
     """Two decades of speed: 15 N of friction against a damping that could only match one of them."""
-    truth, other = setting(coulomb_friction={"force": 15.0}), setting(viscous_damping={})
+    truth, other = fit_model(coulomb_friction={"force": 15.0}), fit_model(viscous_damping={})
     words, apart = separation(truth, other, TESTS, noise=1.0)
     # Fitted to F_c sign(v) at speeds far apart, c v leaves nearly all of 15 N.
     assert 10.0 < apart < 15.1
@@ -64,13 +73,13 @@ def test_friction_and_damping_differ_over_speed():
 
 
 def test_a_model_is_not_apart_from_itself():
-    same = setting(coulomb_friction={"force": 15.0})
+    same = fit_model(coulomb_friction={"force": 15.0})
     assert separation(same, same, TESTS, noise=1.0)[1] < 1e-4
 
 
 def test_a_proposal_in_words():
-    proposal = Proposal("a", "b", "pull it slowly", "loops", 4.26)
+    proposal = SeparatingExperiment("a", "b", "pull it slowly", "loops", 4.26)
     assert proposal.sentence({"a": "Alpha", "b": "Beta"}) == (
         "Alpha or Beta: pull it slowly; simulated best: loops (4.3 sigma apart)"
     )
-    assert Proposal("a", "b", "", "", 0.0).sentence({}) == "a or b"
+    assert SeparatingExperiment("a", "b", "", "", 0.0).sentence({}) == "a or b"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mckibben.identification.diagnose.reason import Seen, seen, why
+from mckibben.identification.diagnose.reason import ResidualTraits, seen, why
 from tests.identification.synthetic import CATALOGUE
 
 ROWS = 4000
@@ -48,11 +48,11 @@ def test_growth_with_pressure_takes_a_range_of_it():
 def test_the_share_of_the_mean():
     assert seen(np.full(ROWS, -3.0), {}).constant == pytest.approx(1.0)
     assert seen(2.0 + NOISE, {}).constant == pytest.approx(0.8, abs=0.02)
-    assert seen(np.zeros(ROWS), VARIABLES) == Seen(None, None, 0.0)
+    assert seen(np.zeros(ROWS), VARIABLES) == ResidualTraits(None, None, 0.0)
 
 
 def test_a_sentence_names_what_agrees_and_what_does_not():
-    odd = Seen(odd=0.8, pressure_power=1.0, constant=0.0)
+    odd = ResidualTraits(odd=0.8, pressure_power=1.0, constant=0.0)
     text = why(CATALOGUE["pressure_friction"], odd, gain=0.42)
     assert text.startswith(CATALOGUE["pressure_friction"].title)
     assert "changes sign with the direction of motion" in text
@@ -68,7 +68,11 @@ def test_a_sentence_names_what_agrees_and_what_does_not():
 
 @pytest.mark.parametrize("name", sorted(CATALOGUE))
 def test_every_effect_has_a_sentence(name):
-    for found in (Seen(None, None, 0.0), Seen(0.0, 0.0, 1.0), Seen(0.9, 2.2, 0.0)):
+    for found in (
+        ResidualTraits(None, None, 0.0),
+        ResidualTraits(0.0, 0.0, 1.0),
+        ResidualTraits(0.9, 2.2, 0.0),
+    ):
         text = why(CATALOGUE[name], found, gain=0.5)
         assert text.startswith(CATALOGUE[name].title)
         assert text.endswith(".")

@@ -16,7 +16,7 @@ from mckibben.identification.diagnose.score import (
     log_ratio,
     score,
 )
-from mckibben.identification.fit.fitted_model import Node
+from mckibben.identification.fit.fitted_model import FittedModel
 from tests.identification.synthetic import linear_node
 
 ROWS = 40_000
@@ -66,7 +66,7 @@ def test_a_constant_and_a_slow_residual():
     assert effective_rows(slow, [np.arange(300)], folds) == pytest.approx(20.0)  # two for each of ten folds
 
 
-def node_of(squares: list[float], *, free: int = 0, rows: int = 30) -> Node:
+def node_of(squares: list[float], *, free: int = 0, rows: int = 30) -> FittedModel:
     """A node with given mean squares of its folds and so many numbers that do not change them."""
     residual = np.concatenate([np.full(rows, np.sqrt(square)) for square in squares])
     labels = np.repeat(np.arange(len(squares)), rows)
@@ -78,10 +78,10 @@ def node_of(squares: list[float], *, free: int = 0, rows: int = 30) -> Node:
 
 
 def test_score_is_the_mean_log_of_the_folds_and_the_price_of_the_numbers():
-    node = node_of([4.0, 1.0, 0.25], free=2)
-    assert score(node, rows=50.0, noise=None) == pytest.approx(50.0 * 0.0 + 2 * log(50.0))
-    node = node_of([4.0, 4.0, 4.0])
-    assert score(node, rows=50.0, noise=None) == pytest.approx(50.0 * log(4.0))
+    fitted_model = node_of([4.0, 1.0, 0.25], free=2)
+    assert score(fitted_model, rows=50.0, noise=None) == pytest.approx(50.0 * 0.0 + 2 * log(50.0))
+    fitted_model = node_of([4.0, 4.0, 4.0])
+    assert score(fitted_model, rows=50.0, noise=None) == pytest.approx(50.0 * log(4.0))
 
 
 def test_folds_count_alike_whatever_their_size():

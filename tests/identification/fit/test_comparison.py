@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from mckibben.identification.fit.comparison import compare
-from mckibben.identification.predict import subject_of
-from mckibben.identification.predict.fit_model import Setting
+from mckibben.identification.predict import predictor_of
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.residual.noise import channel_noise
 from mckibben.measurement.read import read_measurement
 from mckibben.physics.errors import InputError
@@ -77,8 +77,8 @@ def test_left_out_groups_are_those_of_refits():
     measurement = force_map(noise=3.0, c10=0.5e6, prestress=30.0)
     effects = {"bladder_elasticity": {}, "prestress": {}}
     whole = compare(measurement, MUSCLE, effects, catalogue=CATALOGUE, fit=True)
-    task = whole.subject.task  # type: ignore[attr-defined]
-    square, folds = 0.0, whole.subject.folds[0]
+    task = whole.predictor.task  # type: ignore[attr-defined]
+    square, folds = 0.0, whole.predictor.folds[0]
     for label in np.unique(folds):
         out = folds == label
         design = np.column_stack([
@@ -151,8 +151,8 @@ def test_isotonic_length_under_a_hanging_mass():
     rows = [f"{load / a / 1e5},{1e3 * length}" for a, length in zip(area, lengths, strict=True)]
     measurement = csv(rows, "pressure_bar,length_mm", "kind: isotonic", "load_mass: 20 kg")
     result = compare(measurement, MUSCLE, {}, catalogue=CATALOGUE)
-    assert result.subject.predicted == "length"
-    assert result.subject.unit == "m"
+    assert result.predictor.predicted == "length"
+    assert result.predictor.unit == "m"
     assert result.rmse < 1e-9
 
 
@@ -180,8 +180,8 @@ def test_diameter_of_the_braid():
     lengths = np.linspace(0.24, 0.3, 6)
     rows = [f"{1e3 * length},{1e3 * diameter(length)}" for length in lengths]
     result = compare(csv(rows, "length_mm,diameter_mm"), MUSCLE, {}, catalogue=CATALOGUE)
-    assert result.subject.kind == "diameter"
-    assert result.subject.predicted == "diameter"
+    assert result.predictor.kind == "diameter"
+    assert result.predictor.predicted == "diameter"
     assert result.rmse < 1e-12
 
 
@@ -243,18 +243,18 @@ def test_given_noise_counts_before_an_estimate():
 
 def test_noise_floor_ignores_what_is_smooth():
     measurement = force_map(noise=3.0, c10=0.5e6)
-    subject = subject_of(measurement, MUSCLE)
-    residual = subject.measured - subject.predict(Setting(MUSCLE))
-    assert channel_noise(subject, residual, subject.channels[0])[0] == pytest.approx(3.0, rel=0.35)
+    predictor = predictor_of(measurement, MUSCLE)
+    residual = predictor.measured - predictor.predict(FitModel(MUSCLE))
+    assert channel_noise(predictor, residual, predictor.channels[0])[0] == pytest.approx(3.0, rel=0.35)
 
 
 def test_the_fit_is_a_minimum():
     measurement = force_map(noise=2.0, c10=0.5e6)
     result = compare(measurement, MUSCLE, {"bladder_elasticity": {}}, catalogue=CATALOGUE, fit=True)
-    here = result.setting.values["bladder_elasticity"]["shear_modulus"]
+    here = result.fit_model.values["bladder_elasticity"]["shear_modulus"]
     for factor in (0.999, 1.001):
-        other = result.setting.with_numbers(["bladder_elasticity.shear_modulus"], [factor * here])
-        assert result.subject.rmse(result.subject.residual(other)) > result.rmse
+        other = result.fit_model.with_numbers(["bladder_elasticity.shear_modulus"], [factor * here])
+        assert result.predictor.rmse(result.predictor.residual(other)) > result.rmse
 
 
 @pytest.mark.parametrize(

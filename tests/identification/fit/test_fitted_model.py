@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mckibben.identification.fit.fitted_model import Node, counts, fitted_node
-from mckibben.identification.predict import subject_of
-from mckibben.identification.predict.fit_model import Setting, free_geometry, free_numbers
+from mckibben.identification.fit.fitted_model import FittedModel, counts, refitted
+from mckibben.identification.predict import predictor_of
+from mckibben.identification.predict.fit_model import FitModel, free_geometry, free_numbers
 from mckibben.identification.predict.free import Free
 from tests.identification.synthetic import CATALOGUE, MUSCLE, force_map, linear_node
 
@@ -33,13 +33,13 @@ def left_out(design: np.ndarray, measured: np.ndarray, labels: np.ndarray) -> np
 
 
 def test_left_out_folds_are_those_of_refits_for_a_linear_model():
-    node = linear_node(MEASURED, DESIGN, FOLDS)
-    for labels, squares in zip(FOLDS, node.fold_squares, strict=True):
+    fitted_model = linear_node(MEASURED, DESIGN, FOLDS)
+    for labels, squares in zip(FOLDS, fitted_model.fold_squares, strict=True):
         assert squares == pytest.approx(left_out(DESIGN, MEASURED, labels), rel=1e-8)
     first = FOLDS[0]
     whole = np.average(left_out(DESIGN, MEASURED, first), weights=np.unique(first, return_counts=True)[1])
-    assert node.holdout_rmse == pytest.approx(np.sqrt(whole), rel=1e-8)
-    assert node.holdout_rmse > node.rmse
+    assert fitted_model.holdout_rmse == pytest.approx(np.sqrt(whole), rel=1e-8)
+    assert fitted_model.holdout_rmse > fitted_model.rmse
 
 
 def test_units_of_the_numbers_do_not_matter():
@@ -51,29 +51,29 @@ def test_units_of_the_numbers_do_not_matter():
 
 def test_leave_one_out_is_the_press_statistic():
     """Allen's PRESS: the residual over one minus its leverage."""
-    node = linear_node(MEASURED, DESIGN, [np.arange(ROWS)])
+    fitted_model = linear_node(MEASURED, DESIGN, [np.arange(ROWS)])
     hat = DESIGN @ np.linalg.inv(DESIGN.T @ DESIGN) @ DESIGN.T
-    press = node.residual / (1.0 - np.diag(hat))
-    assert node.fold_squares[0] == pytest.approx(press**2, rel=1e-8)
+    press = fitted_model.residual / (1.0 - np.diag(hat))
+    assert fitted_model.fold_squares[0] == pytest.approx(press**2, rel=1e-8)
 
 
 def test_without_numbers_what_is_left_out_is_the_residual():
-    node = linear_node(MEASURED, np.empty((ROWS, 0)), FOLDS)
+    fitted_model = linear_node(MEASURED, np.empty((ROWS, 0)), FOLDS)
     expected = [np.mean(MEASURED[FOLDS[0] == label] ** 2) for label in range(4)]
-    assert node.fold_squares[0] == pytest.approx(expected)
-    assert node.holdout_rmse == pytest.approx(np.sqrt(np.mean(MEASURED**2)))
-    assert node.implausible == 0
-    assert node.standard_errors == []
+    assert fitted_model.fold_squares[0] == pytest.approx(expected)
+    assert fitted_model.holdout_rmse == pytest.approx(np.sqrt(np.mean(MEASURED**2)))
+    assert fitted_model.implausible == 0
+    assert fitted_model.standard_errors == []
 
 
 def test_numbers_stay_within_their_bounds_when_a_fold_is_left_out():
     """An outlier pulls the mean; without it the mean could go no lower than its bound."""
     measured = np.array([1.0, 1.0, 1.0, 1.0, 9.0, 9.0])
     labels = np.array([0, 0, 1, 1, 2, 2])
-    node = linear_node(measured, np.ones((6, 1)), [labels], [(3.0, 20.0)])
-    assert node.free[0].start == pytest.approx(11.0 / 3.0)
-    assert node.fold_squares[0][2] == pytest.approx((9.0 - 3.0) ** 2)  # not (9 - 1)^2
-    assert node.fold_squares[0][0] == pytest.approx((1.0 - 5.0) ** 2)
+    fitted_model = linear_node(measured, np.ones((6, 1)), [labels], [(3.0, 20.0)])
+    assert fitted_model.free[0].start == pytest.approx(11.0 / 3.0)
+    assert fitted_model.fold_squares[0][2] == pytest.approx((9.0 - 3.0) ** 2)  # not (9 - 1)^2
+    assert fitted_model.fold_squares[0][0] == pytest.approx((1.0 - 5.0) ** 2)
 
 
 def test_a_number_that_one_fold_alone_knows_is_off_without_it():
@@ -81,36 +81,38 @@ def test_a_number_that_one_fold_alone_knows_is_off_without_it():
     labels = np.repeat([0, 1, 2], 20)
     seen = np.where(labels == 2, 1.0, 0.0)
     measured = 1.0 + 4.0 * seen + RANDOM.normal(0.0, 0.01, 60)
-    node = linear_node(measured, np.column_stack([np.ones(60), seen]), [labels], [(-10, 10)] * 2)
-    free = (node.free[0], replace(node.free[1], lower=0.0, upper=100.0, off=0.0))
-    node = replace(node, free=free)
-    assert np.sqrt(node.fold_squares[0][2]) == pytest.approx(4.0, rel=1e-2)
-    assert np.sqrt(node.fold_squares[0][0]) < 0.02
+    fitted_model = linear_node(measured, np.column_stack([np.ones(60), seen]), [labels], [(-10, 10)] * 2)
+    free = (fitted_model.free[0], replace(fitted_model.free[1], lower=0.0, upper=100.0, off=0.0))
+    fitted_model = replace(fitted_model, free=free)
+    assert np.sqrt(fitted_model.fold_squares[0][2]) == pytest.approx(4.0, rel=1e-2)
+    assert np.sqrt(fitted_model.fold_squares[0][0]) < 0.02
 
 
 def test_standard_errors_are_those_of_the_textbook():
-    node = linear_node(MEASURED, DESIGN, FOLDS)
-    variance = node.residual @ node.residual / (ROWS - 3)
+    fitted_model = linear_node(MEASURED, DESIGN, FOLDS)
+    variance = fitted_model.residual @ fitted_model.residual / (ROWS - 3)
     expected = np.sqrt(variance * np.diag(np.linalg.inv(DESIGN.T @ DESIGN)))
-    assert node.standard_errors == pytest.approx(expected.tolist(), rel=1e-6)
+    assert fitted_model.standard_errors == pytest.approx(expected.tolist(), rel=1e-6)
 
 
-def with_free(node: Node, *changes: dict) -> Node:
-    return replace(node, free=tuple(replace(p, **c) for p, c in zip(node.free, changes, strict=True)))
+def with_free(fitted_model: FittedModel, *changes: dict) -> FittedModel:
+    return replace(
+        fitted_model, free=tuple(replace(p, **c) for p, c in zip(fitted_model.free, changes, strict=True))
+    )
 
 
 def test_numbers_at_bounds_and_numbers_that_do_nothing():
-    node = linear_node(MEASURED, DESIGN, FOLDS)
-    starts = [p.start for p in node.free]
+    fitted_model = linear_node(MEASURED, DESIGN, FOLDS)
+    starts = [p.start for p in fitted_model.free]
     plain: list[dict] = [{}, {}, {}]
-    assert not node.at_bound.any()
-    assert node.implausible == 0
-    bounded = with_free(node, {"lower": starts[0]}, *plain[1:])
+    assert not fitted_model.at_bound.any()
+    assert fitted_model.implausible == 0
+    bounded = with_free(fitted_model, {"lower": starts[0]}, *plain[1:])
     assert bounded.at_bound.tolist() == [True, False, False]
     assert bounded.inner.tolist() == [1, 2]
     assert bounded.implausible == 1
     # Where it does nothing is no bound of what is plausible.
-    off = with_free(node, {"lower": starts[0], "off": starts[0]}, *plain[1:])
+    off = with_free(fitted_model, {"lower": starts[0], "off": starts[0]}, *plain[1:])
     assert off.idle.tolist() == [True, False, False]
     assert not off.at_bound.any()
     assert off.implausible == 0
@@ -118,16 +120,16 @@ def test_numbers_at_bounds_and_numbers_that_do_nothing():
 
 def test_numbers_that_stand_in_for_each_other_are_implausible():
     twin = np.column_stack([DESIGN, DESIGN[:, 1] * (1.0 + 1e-4 * RANDOM.normal(size=ROWS))])
-    node = linear_node(MEASURED, twin, FOLDS)
-    assert node.implausible == 1
-    assert node.standard_errors == [None] * 4
+    fitted_model = linear_node(MEASURED, twin, FOLDS)
+    assert fitted_model.implausible == 1
+    assert fitted_model.standard_errors == [None] * 4
 
 
 def test_numbers_that_the_data_do_not_see_take_no_part():
     blind = np.column_stack([DESIGN, np.zeros(ROWS)])
-    node = linear_node(MEASURED, blind, FOLDS)
-    assert node.inner.tolist() == [0, 1, 2]
-    assert node.fold_squares[0] == pytest.approx(left_out(DESIGN, MEASURED, FOLDS[0]), rel=1e-8)
+    fitted_model = linear_node(MEASURED, blind, FOLDS)
+    assert fitted_model.inner.tolist() == [0, 1, 2]
+    assert fitted_model.fold_squares[0] == pytest.approx(left_out(DESIGN, MEASURED, FOLDS[0]), rel=1e-8)
 
 
 def test_counts_are_in_the_order_of_the_labels():
@@ -135,26 +137,33 @@ def test_counts_are_in_the_order_of_the_labels():
 
 
 def test_a_fit_of_a_subject_finds_what_was_hidden():
-    subject = subject_of(force_map(c10=0.5e6, prestress=40.0, angle=26.0), MUSCLE)
+    predictor = predictor_of(force_map(c10=0.5e6, prestress=40.0, angle=26.0), MUSCLE)
     chosen = tuple(CATALOGUE[name] for name in ("bladder_elasticity", "prestress"))
-    start = Setting(MUSCLE, chosen, {e.id: e.defaults for e in chosen})
+    start = FitModel(MUSCLE, chosen, {e.id: e.defaults for e in chosen})
     geometry = free_geometry(MUSCLE, ["braid_angle"], {})
-    node = fitted_node(subject, start, free_numbers(start, geometry), freed=["prestress.force"])
-    assert node.rmse < 1e-3
-    assert node.setting.values["bladder_elasticity"]["shear_modulus"] == pytest.approx(0.5e6, rel=1e-4)
-    assert node.setting.values["prestress"]["force"] == pytest.approx(40.0, rel=1e-4)
-    assert np.degrees(node.setting.muscle.braid_angle) == pytest.approx(26.0, abs=1e-4)
-    assert [p.start for p in node.free] == [node.setting.number(p.name) for p in node.free]
-    assert node.key == (frozenset({"bladder_elasticity", "prestress"}), frozenset({"prestress.force"}))
+    fitted_model = refitted(predictor, start, free_numbers(start, geometry), freed=["prestress.force"])
+    assert fitted_model.rmse < 1e-3
+    assert fitted_model.fit_model.values["bladder_elasticity"]["shear_modulus"] == pytest.approx(
+        0.5e6, rel=1e-4
+    )
+    assert fitted_model.fit_model.values["prestress"]["force"] == pytest.approx(40.0, rel=1e-4)
+    assert np.degrees(fitted_model.fit_model.muscle.braid_angle) == pytest.approx(26.0, abs=1e-4)
+    assert [p.start for p in fitted_model.free] == [
+        fitted_model.fit_model.number(p.name) for p in fitted_model.free
+    ]
+    assert fitted_model.key == (
+        frozenset({"bladder_elasticity", "prestress"}),
+        frozenset({"prestress.force"}),
+    )
     assert start.values["prestress"]["force"] == 110.0  # the start model is as it was
 
 
 def test_nothing_free_is_the_model_as_it_is():
-    subject = subject_of(force_map(prestress=40.0), MUSCLE)
-    node = fitted_node(subject, Setting(MUSCLE), ())
-    assert node.residual == pytest.approx(np.full(60, -40.0), abs=1e-7)
-    assert node.rmse == pytest.approx(40.0)
-    assert node.free == ()
+    predictor = predictor_of(force_map(prestress=40.0), MUSCLE)
+    fitted_model = refitted(predictor, FitModel(MUSCLE), ())
+    assert fitted_model.residual == pytest.approx(np.full(60, -40.0), abs=1e-7)
+    assert fitted_model.rmse == pytest.approx(40.0)
+    assert fitted_model.free == ()
 
 
 def test_a_magnitude_that_matters_is_a_hundredth_of_the_range():

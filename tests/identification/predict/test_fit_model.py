@@ -6,20 +6,20 @@ from math import radians
 
 import pytest
 
-from mckibben.identification.predict.fit_model import LOAD, Setting, free_geometry, free_numbers
+from mckibben.identification.predict.fit_model import LOAD, FitModel, free_geometry, free_numbers
 from mckibben.identification.predict.free import Free
 from mckibben.physics.errors import InputError
 from mckibben.physics.muscle import NEUTRAL_ANGLE
 from tests.identification.synthetic import CATALOGUE, MUSCLE
 
 
-def setting(*ids: str) -> Setting:
+def fit_model(*ids: str) -> FitModel:
     chosen = tuple(CATALOGUE[name] for name in ids)
-    return Setting(MUSCLE, chosen, {e.id: e.defaults for e in chosen})
+    return FitModel(MUSCLE, chosen, {e.id: e.defaults for e in chosen})
 
 
 def test_numbers_by_their_names():
-    model = setting("prestress", "dahl")
+    model = fit_model("prestress", "dahl")
     names = ["prestress.force", "dahl.break_strain", "braid_angle", LOAD]
     other = model.with_numbers(names, [50.0, 0.01, 0.4, 120.0])
     assert [other.number(name) for name in names] == [50.0, 0.01, 0.4, 120.0]
@@ -32,7 +32,7 @@ def test_numbers_by_their_names():
 
 
 def test_effects_come_and_go():
-    model = setting("prestress")
+    model = fit_model("prestress")
     wider = model.adding(CATALOGUE["dahl"], {"force": 3.0})
     assert wider.ids == ("prestress", "dahl")
     assert wider.values["dahl"] == {**CATALOGUE["dahl"].defaults, "force": 3.0}
@@ -41,7 +41,7 @@ def test_effects_come_and_go():
 
 
 def test_a_fit_changes_what_is_declared_freed_or_geometry():
-    model = setting("bladder_elasticity", "prestress")
+    model = fit_model("bladder_elasticity", "prestress")
     names = [p.name for p in free_numbers(model)]
     assert names == ["bladder_elasticity.shear_modulus", "prestress.force"]
     geometry = free_geometry(MUSCLE, ["braid_angle"], {})

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mckibben.identification.predict.comparable_rows import task_of
-from mckibben.identification.predict.fit_model import Setting
+from mckibben.identification.predict.comparable_rows import comparable_rows
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.late import as_read, late
 from mckibben.simulation.drive.driven import driven_force
 from mckibben.simulation.statics.model import StaticModel
@@ -15,9 +15,9 @@ from tests.identification.synthetic import CATALOGUE, MUSCLE, cycles
 TAU = 0.2
 
 
-def setting(**values: dict[str, float]) -> Setting:
+def fit_model(**values: dict[str, float]) -> FitModel:
     chosen = tuple(CATALOGUE[name] for name in values)
-    return Setting(MUSCLE, chosen, {e.id: e.defaults | values[e.id] for e in chosen})
+    return FitModel(MUSCLE, chosen, {e.id: e.defaults | values[e.id] for e in chosen})
 
 
 def jittered(rows: int) -> np.ndarray:
@@ -29,7 +29,7 @@ def test_a_ramp_is_shown_late_by_the_time_constant():
     time = jittered(400)
     time -= time[0]
     shown = as_read(
-        setting(sensor_lag={"force_time": TAU}), time=time, records=[np.arange(400)], values=3.0 * time
+        fit_model(sensor_lag={"force_time": TAU}), time=time, records=[np.arange(400)], values=3.0 * time
     )
     assert shown == pytest.approx(3.0 * (time - TAU * (1.0 - np.exp(-time / TAU))), abs=1e-12)
 
@@ -38,7 +38,7 @@ def test_two_equal_stages_show_a_ramp_critically_damped():
     """y = t - 2 tau + (t + 2 tau) exp(-t/tau) for r = t behind 1/(1 + tau p)^2."""
     time = jittered(400)
     time -= time[0]
-    model = setting(sensor_lag={"force_time": TAU, "second_share": 1.0})
+    model = fit_model(sensor_lag={"force_time": TAU, "second_share": 1.0})
     shown = as_read(model, time=time, records=[np.arange(400)], values=3.0 * time)
     expected = 3.0 * (time - 2.0 * TAU + (time + 2.0 * TAU) * np.exp(-time / TAU))
     assert shown == pytest.approx(expected, abs=1e-5)
@@ -48,7 +48,7 @@ def test_two_stages_rise_as_the_sum_of_two_lags():
     """Step response 1 - (T e^(-t/T) - S e^(-t/S)) / (T - S)."""
     time = np.concatenate([[0.0, 1e-6], np.linspace(0.01, 2.0, 300)])
     signal = np.where(time > 0.0, 1.0, 0.0)
-    model = setting(sensor_lag={"force_time": TAU, "second_share": 0.3})
+    model = fit_model(sensor_lag={"force_time": TAU, "second_share": 0.3})
     shown = as_read(model, time=time, records=[np.arange(len(time))], values=signal)
     short = 0.3 * TAU
     rest = (TAU * np.exp(-time / TAU) - short * np.exp(-time / short)) / (TAU - short)
@@ -59,7 +59,7 @@ def test_every_record_starts_at_rest_and_columns_go_through_alike():
     time = np.concatenate([jittered(50), jittered(60)])
     records = [np.arange(50), np.arange(50, 110)]
     signal = np.random.default_rng(0).normal(size=(110, 3))
-    model = setting(sensor_lag={"force_time": 0.05}, time_skew={"delay": 0.01})
+    model = fit_model(sensor_lag={"force_time": 0.05}, time_skew={"delay": 0.01})
     shown = as_read(model, time=time, records=records, values=signal)
     assert shown[[0, 50]] == pytest.approx(signal[[0, 50]])
     for column in range(3):
@@ -69,15 +69,15 @@ def test_every_record_starts_at_rest_and_columns_go_through_alike():
 
 def test_without_a_time_constant_nothing_is_late():
     time, signal = jittered(50), np.arange(50.0)
-    model = setting(sensor_lag={"force_time": 0.0}, bladder_elasticity={})
+    model = fit_model(sensor_lag={"force_time": 0.0}, bladder_elasticity={})
     assert as_read(model, time=time, records=[np.arange(50)], values=signal) == pytest.approx(signal)
     assert [effect.id for effect in model.effects if late(effect)] == ["sensor_lag"]
 
 
 def test_it_is_what_the_integrated_record_shows():
-    task = task_of(cycles(each=200), MUSCLE)
+    task = comparable_rows(cycles(each=200), MUSCLE)
     assert task.time is not None
-    model = setting(sensor_lag={"force_time": TAU}, bladder_elasticity={})
+    model = fit_model(sensor_lag={"force_time": TAU}, bladder_elasticity={})
     compiled = StaticModel.of(MUSCLE, model.effects, model.values)
     state = {"time": task.time, "pressure": task.state["pressure"], "length": task.state["length"]}
     expected = driven_force(compiled, **state)

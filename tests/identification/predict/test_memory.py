@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mckibben.identification.predict.comparable_rows import Task, task_of
-from mckibben.identification.predict.fit_model import Setting
+from mckibben.identification.predict.comparable_rows import ComparableRows, comparable_rows
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.memory import Memory, remembers
-from mckibben.identification.predict.quasistatic import Quasistatic
+from mckibben.identification.predict.quasistatic import QuasistaticPredictor
 from mckibben.simulation.drive.driven import driven_force
 from mckibben.simulation.statics.model import StaticModel
 from tests.identification.synthetic import (
@@ -25,25 +25,25 @@ from tests.identification.synthetic import (
 SLIP = {"force": 30.0, "break_strain": 0.02, "ratio": 2.0}
 
 
-def setting(**values: dict[str, float]) -> Setting:
+def fit_model(**values: dict[str, float]) -> FitModel:
     chosen = tuple(CATALOGUE[name] for name in values)
-    return Setting(MUSCLE, chosen, {e.id: e.defaults | values[e.id] for e in chosen})
+    return FitModel(MUSCLE, chosen, {e.id: e.defaults | values[e.id] for e in chosen})
 
 
-def record(task: Task) -> dict[str, np.ndarray]:
+def record(task: ComparableRows) -> dict[str, np.ndarray]:
     assert task.time is not None
     return {"time": task.time, "pressure": task.state["pressure"], "length": task.state["length"]}
 
 
 @pytest.mark.parametrize("effect", sorted(name for name, e in CATALOGUE.items() if remembers(e)))
 def test_states_along_a_record_give_the_driven_force(effect):
-    task = task_of(cycles(each=40), MUSCLE)
-    model = setting(**{effect: {}})
+    task = comparable_rows(cycles(each=40), MUSCLE)
+    model = fit_model(**{effect: {}})
     states = Memory(task).states(model)
     assert set(states) == {f"{effect}.{state.name}" for state in CATALOGUE[effect].states}
     compiled = StaticModel.of(MUSCLE, model.effects, model.values)
     expected = driven_force(compiled, **record(task))
-    found = Quasistatic(task).predict(model)
+    found = QuasistaticPredictor(task).predict(model)
     # A driven run knows the rate between rows; at the rows themselves only terms of velocity differ.
     counted = ~task.turning
     assert np.count_nonzero(counted) > 0.95 * len(counted)
@@ -52,8 +52,8 @@ def test_states_along_a_record_give_the_driven_force(effect):
 
 def test_maxwell_cells_are_sliders_behind_springs():
     """Each cell follows the length until its limit; at the end of a long way all slide."""
-    task = task_of(cycles(each=400, levels=(4e5, 5e5)), MUSCLE)
-    states = Memory(task).states(setting(maxwell_slip=SLIP))
+    task = comparable_rows(cycles(each=400, levels=(4e5, 5e5)), MUSCLE)
+    states = Memory(task).states(fit_model(maxwell_slip=SLIP))
     length, limit = task.state["length"], 0.02 * 0.3
     for number in range(1, 5):
         cell = states[f"maxwell_slip.cell_{number}"]
@@ -68,40 +68,42 @@ def test_maxwell_cells_are_sliders_behind_springs():
 
 def test_records_begin_at_rest():
     rows = cycle_rows(each=30, levels=(4e5, 5e5))
-    twice = task_of(csv([*rows, *rows], CYCLE_HEADER, "kind: isobaric"), MUSCLE)
+    twice = comparable_rows(csv([*rows, *rows], CYCLE_HEADER, "kind: isobaric"), MUSCLE)
     assert len(np.unique(twice.records)) == 2
-    states = Memory(twice).states(setting(dahl={}))["dahl.presliding"]
+    states = Memory(twice).states(fit_model(dahl={}))["dahl.presliding"]
     half = len(rows)
     assert states[0] == states[half] == 0.0
     assert states[:half] == pytest.approx(states[half:], abs=1e-9)
-    alone = Memory(task_of(csv(rows, CYCLE_HEADER, "kind: isobaric"), MUSCLE)).states(setting(dahl={}))
+    alone = Memory(comparable_rows(csv(rows, CYCLE_HEADER, "kind: isobaric"), MUSCLE)).states(
+        fit_model(dahl={})
+    )
     assert states[:half] == pytest.approx(alone["dahl.presliding"], abs=1e-9)
 
 
 def test_models_that_share_their_memory_share_the_run():
-    memory = Memory(task_of(cycles(each=30), MUSCLE))
+    memory = Memory(comparable_rows(cycles(each=30), MUSCLE))
     name = "dahl.presliding"
-    first = memory.states(setting(dahl={"force": 10.0}))[name]
-    assert memory.states(setting(dahl={"force": 50.0}))[name] is first  # the force is not in the rates
-    assert memory.states(setting(dahl={"force": 10.0}, prestress={}))[name] is first
-    assert memory.states(setting(dahl={"force": 10.0}, creep={}))[name] is first, "each effect by itself"
-    other = memory.states(setting(dahl={"break_strain": 0.01}))[name]
+    first = memory.states(fit_model(dahl={"force": 10.0}))[name]
+    assert memory.states(fit_model(dahl={"force": 50.0}))[name] is first  # the force is not in the rates
+    assert memory.states(fit_model(dahl={"force": 10.0}, prestress={}))[name] is first
+    assert memory.states(fit_model(dahl={"force": 10.0}, creep={}))[name] is first, "each effect by itself"
+    other = memory.states(fit_model(dahl={"break_strain": 0.01}))[name]
     assert not np.allclose(other, first)
-    wider = setting(dahl={}).with_numbers(["nominal_length"], [0.31])
+    wider = fit_model(dahl={}).with_numbers(["nominal_length"], [0.31])
     assert memory.states(wider)[name] is not first
     # Sensors turn what is read into what the memory follows.
-    assert memory.states(setting(dahl={}, length_offset={}))[name] is not first
+    assert memory.states(fit_model(dahl={}, length_offset={}))[name] is not first
 
 
 def test_no_memory_no_states():
-    memory = Memory(task_of(force_map(), MUSCLE))
-    assert memory.states(setting(prestress={}, viscous_damping={})) == {}
-    assert memory.by_parameters(setting(prestress={}), ["prestress.force"]) == {}
+    memory = Memory(comparable_rows(force_map(), MUSCLE))
+    assert memory.states(fit_model(prestress={}, viscous_damping={})) == {}
+    assert memory.by_parameters(fit_model(prestress={}), ["prestress.force"]) == {}
 
 
 def test_derivatives_are_asked_for_where_there_are_any():
-    memory = Memory(task_of(cycles(each=40), MUSCLE))
-    model = setting(dahl={"break_strain": 0.01})
+    memory = Memory(comparable_rows(cycles(each=40), MUSCLE))
+    model = fit_model(dahl={"break_strain": 0.01})
     names = ["dahl.force", "dahl.break_strain", "braid_angle"]
     found = memory.by_parameters(model, names)
     assert set(found) == {"dahl.break_strain"}
@@ -122,7 +124,7 @@ def test_after_a_new_level_the_first_way_is_not_counted():
         for number, pressure in enumerate((2e5, 4e5, 6e5))
         for row, length in enumerate(sweep)
     ]
-    task = task_of(csv(lines, "time_s,pressure_Pa,length_m,force_N", "kind: isobaric"), MUSCLE)
+    task = comparable_rows(csv(lines, "time_s,pressure_Pa,length_m,force_N", "kind: isobaric"), MUSCLE)
     unseen = task.turning.reshape(3, 201)
     told = task.excluded["history unknown at the start or after a break"]
     assert 0 < told <= 2 * 16  # some of them are turning points too

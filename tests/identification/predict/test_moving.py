@@ -10,8 +10,8 @@ import pytest
 
 from mckibben.identification.diagnose.diagnosis import diagnose
 from mckibben.identification.fit.comparison import compare
-from mckibben.identification.predict import Moving, subject_of
-from mckibben.identification.predict.fit_model import Setting, free_numbers
+from mckibben.identification.predict import TransientPredictor, predictor_of
+from mckibben.identification.predict.fit_model import FitModel, free_numbers
 from mckibben.measurement.measurement import Measurement, build
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.signals import signal_from
@@ -70,22 +70,22 @@ def measured(
     )
 
 
-def setting(effects: Mapping[str, Mapping[str, float]]) -> Setting:
+def fit_model(effects: Mapping[str, Mapping[str, float]]) -> FitModel:
     chosen = tuple(CATALOGUE[name] for name in effects)
-    return Setting(MUSCLE, chosen, {e.id: e.defaults | effects[e.id] for e in chosen})
+    return FitModel(MUSCLE, chosen, {e.id: e.defaults | effects[e.id] for e in chosen})
 
 
 def test_a_drive_with_known_numbers_is_predicted_back():
-    subject = subject_of(measured(drive()), MUSCLE, drive({}))
-    assert isinstance(subject, Moving)
-    assert [channel.name for channel in subject.channels] == ["pressure", "displacement"]
-    assert subject.predicted == "pressure, displacement"
-    assert subject.unit == "1"
-    found = subject.predict(setting(HIDDEN))
-    for channel, tolerance in zip(subject.channels, (20.0, 2e-6), strict=True):
-        assert found[channel.rows] == pytest.approx(subject.measured[channel.rows], abs=tolerance)
-    ideal = subject.predict(setting({}))
-    assert np.max(np.abs(ideal - subject.measured)[subject.channels[1].rows]) > 1e-3
+    predictor = predictor_of(measured(drive()), MUSCLE, drive({}))
+    assert isinstance(predictor, TransientPredictor)
+    assert [channel.name for channel in predictor.channels] == ["pressure", "displacement"]
+    assert predictor.predicted == "pressure, displacement"
+    assert predictor.unit == "1"
+    found = predictor.predict(fit_model(HIDDEN))
+    for channel, tolerance in zip(predictor.channels, (20.0, 2e-6), strict=True):
+        assert found[channel.rows] == pytest.approx(predictor.measured[channel.rows], abs=tolerance)
+    ideal = predictor.predict(fit_model({}))
+    assert np.max(np.abs(ideal - predictor.measured)[predictor.channels[1].rows]) > 1e-3
 
 
 def test_a_run_that_begins_filled_starts_at_its_measured_pressure():
@@ -96,33 +96,33 @@ def test_a_run_that_begins_filled_starts_at_its_measured_pressure():
     )
     filled = measured(drive(command=held, start_pressure=2.5e5))
     assert filled.columns["displacement"][0] > 0.02  # hanging still, contracted
-    subject = subject_of(filled, MUSCLE, drive({}))  # documented as vented
-    found = subject.predict(setting(HIDDEN))
-    for channel, tolerance in zip(subject.channels, (50.0, 5e-6), strict=True):
-        assert found[channel.rows] == pytest.approx(subject.measured[channel.rows], abs=tolerance)
+    predictor = predictor_of(filled, MUSCLE, drive({}))  # documented as vented
+    found = predictor.predict(fit_model(HIDDEN))
+    for channel, tolerance in zip(predictor.channels, (50.0, 5e-6), strict=True):
+        assert found[channel.rows] == pytest.approx(predictor.measured[channel.rows], abs=tolerance)
 
 
 def test_force_is_a_channel_where_it_was_measured():
-    subject = subject_of(measured(drive(), keep=("pressure", "displacement", "force")), MUSCLE, drive({}))
-    force = subject.channels[2]
+    predictor = predictor_of(measured(drive(), keep=("pressure", "displacement", "force")), MUSCLE, drive({}))
+    force = predictor.channels[2]
     assert force.name == "force"
-    assert subject.predict(setting(HIDDEN))[force.rows] == pytest.approx(
-        subject.measured[force.rows], abs=0.5
+    assert predictor.predict(fit_model(HIDDEN))[force.rows] == pytest.approx(
+        predictor.measured[force.rows], abs=0.5
     )
     # Still, under 12 kg: the load is the weight.
-    assert subject.measured[force.rows][140] == pytest.approx(12.0 * G, rel=0.02)
+    assert predictor.measured[force.rows][140] == pytest.approx(12.0 * G, rel=0.02)
 
 
 def test_channels_are_weighed_by_their_noise():
     noise = {"pressure": 800.0, "displacement": 2e-4}
-    subject = subject_of(measured(drive(), noise=noise), MUSCLE, drive({}))
-    for channel in subject.channels:
+    predictor = predictor_of(measured(drive(), noise=noise), MUSCLE, drive({}))
+    for channel in predictor.channels:
         # The corners of the run are not smooth.
         assert channel.noise == pytest.approx(noise[channel.name], rel=0.25)
-        assert np.all(subject.scale[channel.rows] == channel.noise)
-    right = subject.rmse(subject.residual(setting(HIDDEN)))
+        assert np.all(predictor.scale[channel.rows] == channel.noise)
+    right = predictor.rmse(predictor.residual(fit_model(HIDDEN)))
     assert right == pytest.approx(1.0, rel=0.25)
-    assert subject.rmse(subject.residual(setting({}))) > 5.0
+    assert predictor.rmse(predictor.residual(fit_model({}))) > 5.0
 
 
 def test_a_comparison_of_several_channels_tells_each():
@@ -155,23 +155,23 @@ def test_a_fit_of_a_transient_finds_the_hidden_numbers():
 def test_a_fallback_of_the_air_alone():
     """Only the pressure was measured: the leak shows there."""
     measurement = measured(drive({"leak": {}}), keep=("pressure",))
-    subject = subject_of(measurement, MUSCLE, drive({}))
-    assert [channel.name for channel in subject.channels] == ["pressure"]
-    assert subject.unit == "Pa"
-    assert np.all(subject.scale == 1.0)
-    assert subject.rmse(subject.residual(setting({"leak": {}}))) < 20.0
+    predictor = predictor_of(measurement, MUSCLE, drive({}))
+    assert [channel.name for channel in predictor.channels] == ["pressure"]
+    assert predictor.unit == "Pa"
+    assert np.all(predictor.scale == 1.0)
+    assert predictor.rmse(predictor.residual(fit_model({"leak": {}}))) < 20.0
 
 
 def test_without_a_command_the_measured_pressure_moves_the_load():
     measurement = measured(drive(), command=False, conditions={"load_mass": 12.0})
-    subject = subject_of(measurement, MUSCLE)
-    assert [channel.name for channel in subject.channels] == ["displacement"]
-    assert subject.unit == "m"
-    found = subject.predict(setting(HIDDEN))
+    predictor = predictor_of(measurement, MUSCLE)
+    assert [channel.name for channel in predictor.channels] == ["displacement"]
+    assert predictor.unit == "m"
+    found = predictor.predict(fit_model(HIDDEN))
     # Straight lines between rows 10 ms apart stand for the pressure.
-    assert found == pytest.approx(subject.measured, abs=2e-4)
-    assert subject.reveals(CATALOGUE["bladder_elasticity"])
-    assert not subject.reveals(CATALOGUE["leak"])  # the pressure is as measured, wherever the air went
+    assert found == pytest.approx(predictor.measured, abs=2e-4)
+    assert predictor.reveals(CATALOGUE["bladder_elasticity"])
+    assert not predictor.reveals(CATALOGUE["leak"])  # the pressure is as measured, wherever the air went
 
 
 def test_a_slow_motion_passes_through_equilibria():
@@ -183,7 +183,7 @@ def test_a_slow_motion_passes_through_equilibria():
         {"time": time, "pressure": pressure, "displacement": stroke},
         name="slow", id="1" * 64, kind="transient", conditions={"load_mass": 20.0}, excluded_rows={},
     )  # fmt: skip
-    found = subject_of(measurement, MUSCLE).predict(setting({"viscous_damping": {"coefficient": 1000.0}}))
+    found = predictor_of(measurement, MUSCLE).predict(fit_model({"viscous_damping": {"coefficient": 1000.0}}))
     moving = slice(20, 180)
     carried = truth(pressure[moving], 0.3 - found[moving])
     assert carried == pytest.approx(np.full(160, 20.0 * G), rel=1e-2)
@@ -192,14 +192,14 @@ def test_a_slow_motion_passes_through_equilibria():
 def test_two_records_start_afresh():
     second = drive(command=pulse(0.5, 1.0))
     measurement = measured(drive(), second)
-    subject = subject_of(measurement, MUSCLE, drive({}))
-    assert len(np.unique(subject.records)) == 4  # two channels of two runs
-    assert [len(rows) for rows in subject.sweeps] == [301] * 4
-    found = subject.predict(setting(HIDDEN))
-    assert subject.measured[:301] == pytest.approx(found[:301], abs=20.0)
-    assert subject.measured[301:602] == pytest.approx(found[301:602], abs=20.0)
+    predictor = predictor_of(measurement, MUSCLE, drive({}))
+    assert len(np.unique(predictor.records)) == 4  # two channels of two runs
+    assert [len(rows) for rows in predictor.sweeps] == [301] * 4
+    found = predictor.predict(fit_model(HIDDEN))
+    assert predictor.measured[:301] == pytest.approx(found[:301], abs=20.0)
+    assert predictor.measured[301:602] == pytest.approx(found[301:602], abs=20.0)
     # A moment's rows of both channels are left out together, and every fold is one stretch of one run.
-    labels = subject.folds[0]
+    labels = predictor.folds[0]
     assert labels[:602].tolist() == labels[602:].tolist()
     assert len(np.unique(labels)) >= 6
     for label in np.unique(labels):
@@ -210,26 +210,26 @@ def test_two_records_start_afresh():
 
 def test_a_switched_command_is_held_and_a_changing_one_is_a_line():
     measurement = measured(drive())
-    subject = subject_of(measurement, MUSCLE, drive({}))
-    command = subject._records[0].drive.command
+    predictor = predictor_of(measurement, MUSCLE, drive({}))
+    command = predictor._records[0].drive.command
     assert command.value(1.4949) == 1.0
     assert command.value(1.506) == -1.0
     assert command.interpolation == "hold"
     ramp = drive(
         command=signal_from({"shape": "sine", "period": "2 s", "amplitude": 1.0}, unit="1", field="c")
     )
-    smooth = subject_of(measured(ramp), MUSCLE, drive({}))
+    smooth = predictor_of(measured(ramp), MUSCLE, drive({}))
     recorded = smooth._records[0].drive.command
     assert recorded.interpolation == "linear"
     assert recorded.value(0.505) == pytest.approx(np.sin(np.pi * 0.505), abs=1e-3)
-    assert smooth.predict(setting(HIDDEN))[:301] == pytest.approx(smooth.measured[:301], abs=2e3)
+    assert smooth.predict(fit_model(HIDDEN))[:301] == pytest.approx(smooth.measured[:301], abs=2e3)
 
 
 def test_what_the_measurement_states_replaces_the_drives_own():
     stated = {"load_mass": 12.0, "supply_pressure": 6e5}
     other = drive({}, load=Load(mass=3.0, spring=5.0), supply_pressure=2e5)
-    subject = subject_of(measured(drive(), conditions=stated), MUSCLE, other)
-    own = subject._records[0].drive
+    predictor = predictor_of(measured(drive(), conditions=stated), MUSCLE, other)
+    own = predictor._records[0].drive
     assert own.load.mass == 12.0
     assert own.load.spring == 5.0
     assert own.supply_pressure == 6e5
@@ -237,17 +237,17 @@ def test_what_the_measurement_states_replaces_the_drives_own():
 
 def test_a_controller_is_not_run_again():
     pid = replace(drive({}), controller=object(), reference=object())  # type: ignore[arg-type]
-    subject = subject_of(measured(drive()), MUSCLE, pid)
-    assert subject._records[0].drive.controller is None
-    assert subject.predict(setting(HIDDEN))[:301] == pytest.approx(subject.measured[:301], abs=20.0)
+    predictor = predictor_of(measured(drive()), MUSCLE, pid)
+    assert predictor._records[0].drive.controller is None
+    assert predictor.predict(fit_model(HIDDEN))[:301] == pytest.approx(predictor.measured[:301], abs=20.0)
 
 
 def test_what_acts_on_the_air_or_the_force_alone():
-    subject = subject_of(measured(drive()), MUSCLE, drive({}))
-    assert subject.reveals(CATALOGUE["leak"])
-    assert not subject.reveals(CATALOGUE["force_offset"])  # no force was measured
-    assert "states that there is none" in subject.why_hidden(CATALOGUE["tube_resistance"])
-    forced = subject_of(measured(drive(), keep=("displacement", "force")), MUSCLE, drive({}))
+    predictor = predictor_of(measured(drive()), MUSCLE, drive({}))
+    assert predictor.reveals(CATALOGUE["leak"])
+    assert not predictor.reveals(CATALOGUE["force_offset"])  # no force was measured
+    assert "states that there is none" in predictor.why_hidden(CATALOGUE["tube_resistance"])
+    forced = predictor_of(measured(drive(), keep=("displacement", "force")), MUSCLE, drive({}))
     assert forced.reveals(CATALOGUE["force_offset"])
 
 
@@ -255,15 +255,17 @@ def test_a_tube_that_the_drive_does_not_state_is_tried():
     """The truth has the assumed tube, written down as a tube; the model of the diagnosis states none."""
     tube = Tube(inside_diameter=4e-3, length=1.0)
     measurement = measured(drive(tube=tube), noise={"pressure": 300.0, "displacement": 3e-5})
-    subject = subject_of(measurement, MUSCLE, drive(assumed_tube=tube))
-    assert subject.reveals(CATALOGUE["tube_resistance"])
+    predictor = predictor_of(measurement, MUSCLE, drive(assumed_tube=tube))
+    assert predictor.reveals(CATALOGUE["tube_resistance"])
     found = diagnose(
-        subject, setting(HIDDEN), catalogue={name: CATALOGUE[name] for name in ("tube_resistance", "leak")}
+        predictor,
+        fit_model(HIDDEN),
+        catalogue={name: CATALOGUE[name] for name in ("tube_resistance", "leak")},
     )
     assert found.start.rmse > 3.0
     assert found.added == ("tube_resistance",)
     assert found.best.rmse == pytest.approx(1.0, rel=0.1)
-    assert found.best.setting.values["tube_resistance"]["factor"] == pytest.approx(1.0, abs=0.05)
+    assert found.best.fit_model.values["tube_resistance"]["factor"] == pytest.approx(1.0, abs=0.05)
 
 
 def test_a_drive_that_states_no_tube_runs_without_one():
@@ -277,26 +279,26 @@ def test_a_drive_that_states_no_tube_runs_without_one():
 
 
 def test_differences_are_those_of_two_runs():
-    subject = subject_of(measured(drive()), MUSCLE, drive({}))
-    model = setting(HIDDEN)
+    predictor = predictor_of(measured(drive()), MUSCLE, drive({}))
+    model = fit_model(HIDDEN)
     free = free_numbers(model)
-    gradient = subject.linearised(model, free)[1]
+    gradient = predictor.linearised(model, free)[1]
     for column, parameter in enumerate(free):
         here = model.number(parameter.name)
         step = 0.02 * here
-        ends = [subject.predict(model.with_numbers([parameter.name], [here + s * step])) for s in (1, -1)]
-        expected = (ends[0] - ends[1]) / (2 * step) / subject.scale
-        got = gradient[:, column] / subject.scale
+        ends = [predictor.predict(model.with_numbers([parameter.name], [here + s * step])) for s in (1, -1)]
+        expected = (ends[0] - ends[1]) / (2 * step) / predictor.scale
+        got = gradient[:, column] / predictor.scale
         assert np.sqrt(np.mean((got - expected) ** 2)) < 0.05 * np.sqrt(np.mean(expected**2))
 
 
 def test_a_run_that_breaks_off_is_far_off_not_an_error():
-    subject = subject_of(measured(drive()), MUSCLE, drive({}))
-    torn = replace(subject._records[0].drive, load=Load(force=-1e6))
-    subject._records = [replace(subject._records[0], drive=torn)]
-    found = subject.predict(setting({}))
+    predictor = predictor_of(measured(drive()), MUSCLE, drive({}))
+    torn = replace(predictor._records[0].drive, load=Load(force=-1e6))
+    predictor._records = [replace(predictor._records[0], drive=torn)]
+    found = predictor.predict(fit_model({}))
     assert np.all(np.isfinite(found))
-    assert subject.rmse(subject.measured - found) == pytest.approx(1e3)
+    assert predictor.rmse(predictor.measured - found) == pytest.approx(1e3)
 
 
 def test_long_records_are_thinned_evenly():
@@ -306,11 +308,11 @@ def test_long_records_are_thinned_evenly():
         {"time": time, "pressure": pressure, "displacement": 0.01 + 1e-3 * np.sin(time)},
         name="long", id="2" * 64, kind="transient", conditions={"load_mass": 20.0}, excluded_rows={},
     )  # fmt: skip
-    subject = subject_of(measurement, MUSCLE)
-    assert 500 < len(subject.measured) < 4500
-    assert subject.rows[0] == 0
-    assert subject.rows[-1] == 9000
-    assert np.ptp(np.diff(subject.rows)) <= 1
+    predictor = predictor_of(measurement, MUSCLE)
+    assert 500 < len(predictor.measured) < 4500
+    assert predictor.rows[0] == 0
+    assert predictor.rows[-1] == 9000
+    assert np.ptp(np.diff(predictor.rows)) <= 1
 
 
 def test_rows_that_are_not_compared_are_counted_with_their_reason():
@@ -322,12 +324,12 @@ def test_rows_that_are_not_compared_are_counted_with_their_reason():
         name="two", id="4" * 64, kind="transient", conditions={"load_mass": 20.0},
         excluded_rows={"stuck": stuck},
     )  # fmt: skip
-    subject = subject_of(measurement, MUSCLE)
-    assert subject.rows_used == len(subject.rows) == 2000
-    (between,) = (reason for reason in subject.excluded if reason != "stuck")
+    predictor = predictor_of(measurement, MUSCLE)
+    assert predictor.rows_used == len(predictor.rows) == 2000
+    (between,) = (reason for reason in predictor.excluded if reason != "stuck")
     assert "1000 rows" in between
-    assert subject.excluded == {"stuck": 20, between: 1281 - 1000 + 301}
-    short = subject_of(measured(drive()), MUSCLE, drive())
+    assert predictor.excluded == {"stuck": 20, between: 1281 - 1000 + 301}
+    short = predictor_of(measured(drive()), MUSCLE, drive())
     assert (short.rows_used, short.excluded) == (len(GRID), {})
 
 
@@ -337,7 +339,7 @@ def test_rows_that_are_not_compared_are_counted_with_their_reason():
 def test_what_is_missing_is_named(keep, field):
     measurement = measured(drive(), keep=keep, command=False, conditions={"load_mass": 12.0})
     with pytest.raises(InputError) as error:
-        subject_of(measurement, MUSCLE)
+        predictor_of(measurement, MUSCLE)
     assert error.value.field == field
     assert "command column" in error.value.hint
 
@@ -348,15 +350,15 @@ def test_a_run_of_two_rows_is_too_short():
         name="short", id="3" * 64, kind="transient", conditions={"load_mass": 5.0}, excluded_rows={},
     )  # fmt: skip
     with pytest.raises(InputError, match="too short") as error:
-        subject_of(measurement, MUSCLE)
+        predictor_of(measurement, MUSCLE)
     assert error.value.field == "time"
 
 
 def test_motion_from_a_measured_pressure_is_that_of_the_kernel():
     """The subject adds nothing to the driven run but the load of the conditions."""
     measurement = measured(drive(), command=False, conditions={"load_mass": 12.0})
-    subject = subject_of(measurement, MUSCLE)
-    own = replace(subject._records[0].drive, model=StaticModel(MUSCLE, HIDDEN))
+    predictor = predictor_of(measurement, MUSCLE)
+    own = replace(predictor._records[0].drive, model=StaticModel(MUSCLE, HIDDEN))
     columns = measurement.columns
     expected = driven_motion(own, time=GRID, pressure=columns["pressure"], stroke=columns["displacement"][0])
-    assert subject.predict(setting(HIDDEN)) == pytest.approx(expected["stroke_reading"], abs=1e-12)
+    assert predictor.predict(fit_model(HIDDEN)) == pytest.approx(expected["stroke_reading"], abs=1e-12)

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mckibben.identification.predict import Quasistatic, subject_of
-from mckibben.identification.predict.comparable_rows import task_of
-from mckibben.identification.predict.fit_model import LOAD, Setting, free_numbers
+from mckibben.identification.predict import QuasistaticPredictor, predictor_of
+from mckibben.identification.predict.comparable_rows import comparable_rows
+from mckibben.identification.predict.fit_model import LOAD, FitModel, free_numbers
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.memory import remembers
 from mckibben.physics.errors import InputError
@@ -27,13 +27,13 @@ DELAYS = ("sensor_lag", "time_skew")
 REMEMBERING = sorted(name for name, effect in CATALOGUE.items() if remembers(effect))
 
 
-def setting(*ids: str, **values: dict[str, float]) -> Setting:
+def fit_model(*ids: str, **values: dict[str, float]) -> FitModel:
     """A model with effects at their defaults, or at values."""
     chosen = tuple(CATALOGUE[name] for name in (*ids, *values))
-    return Setting(MUSCLE, chosen, {e.id: e.defaults | values.get(e.id, {}) for e in chosen})
+    return FitModel(MUSCLE, chosen, {e.id: e.defaults | values.get(e.id, {}) for e in chosen})
 
 
-def numbers(model: Setting, names: list[str]) -> list[Free]:
+def numbers(model: FitModel, names: list[str]) -> list[Free]:
     """Named numbers as free ones, wide bounds."""
     found = []
     for name in names:
@@ -44,7 +44,7 @@ def numbers(model: Setting, names: list[str]) -> list[Free]:
     return found
 
 
-def step_of(model: Setting, name: str) -> float:
+def step_of(model: FitModel, name: str) -> float:
     effect, _, parameter = name.partition(".")
     if not parameter:
         return 1e-3 if name == LOAD else 1e-6
@@ -52,10 +52,10 @@ def step_of(model: Setting, name: str) -> float:
     return 1e-5 * (declared.upper - declared.lower)
 
 
-def central(subject: Quasistatic, model: Setting, name: str, step: float) -> np.ndarray:
+def central(predictor: QuasistaticPredictor, model: FitModel, name: str, step: float) -> np.ndarray:
     """Central difference of the prediction."""
     ends = [
-        subject.predict(model.with_numbers([name], [model.number(name) + sign * step]), clipped=False)
+        predictor.predict(model.with_numbers([name], [model.number(name) + sign * step]), clipped=False)
         for sign in (1, -1)
     ]
     return (ends[0] - ends[1]) / (2 * step)
@@ -66,70 +66,70 @@ def assert_alike(exact: np.ndarray, expected: np.ndarray, tolerance: float) -> N
     np.testing.assert_allclose(exact / scale, expected / scale, atol=tolerance)
 
 
-def mapped() -> Quasistatic:
+def mapped() -> QuasistaticPredictor:
     """A map whose rows move both ways, warm: everything has something to act on."""
-    task = task_of(force_map(c10=0.4e6), MUSCLE)
+    task = comparable_rows(force_map(c10=0.4e6), MUSCLE)
     state = {
         **task.state,
         "direction": np.where(np.arange(60) % 2, 1.0, -1.0),
         "velocity": np.full(60, 0.02),
         "temperature": np.full(60, 310.0),
     }
-    return Quasistatic(replace(task, state=state))
+    return QuasistaticPredictor(replace(task, state=state))
 
 
 @pytest.mark.parametrize("effect", sorted(set(CATALOGUE) - set(DELAYS) - set(REMEMBERING)))
 def test_exact_gradient_of_every_effect_is_the_central_difference(effect):
-    subject = mapped()
+    predictor = mapped()
     # The elastomer gives the temperature something to act on, the compliance tests the implicit derivative.
-    model = setting(*dict.fromkeys(("bladder_elasticity", "rig_compliance", effect)))
+    model = fit_model(*dict.fromkeys(("bladder_elasticity", "rig_compliance", effect)))
     names = [*(f"{effect}.{p.name}" for p in CATALOGUE[effect].parameters), "braid_angle", "nominal_length"]
-    predicted, exact = subject.linearised(model, numbers(model, names))
-    np.testing.assert_allclose(predicted, subject.predict(model, clipped=False), rtol=1e-9, atol=1e-7)
+    predicted, exact = predictor.linearised(model, numbers(model, names))
+    np.testing.assert_allclose(predicted, predictor.predict(model, clipped=False), rtol=1e-9, atol=1e-7)
     assert exact.shape == (60, len(names))
     for column, name in enumerate(names):
-        assert_alike(exact[:, column], central(subject, model, name, step_of(model, name)), 2e-4)
+        assert_alike(exact[:, column], central(predictor, model, name, step_of(model, name)), 2e-4)
 
 
 @pytest.mark.parametrize("effect", REMEMBERING)
 def test_gradient_of_effects_with_memory_is_the_central_difference(effect):
     """Exact, but for the numbers of a memory's own rates: those to a few percent."""
-    subject = subject_of(cycles(c10=0.4e6, each=40), MUSCLE)
-    assert isinstance(subject, Quasistatic)
-    model = setting("bladder_elasticity", "rig_compliance", effect)
+    predictor = predictor_of(cycles(c10=0.4e6, each=40), MUSCLE)
+    assert isinstance(predictor, QuasistaticPredictor)
+    model = fit_model("bladder_elasticity", "rig_compliance", effect)
     wanted = CATALOGUE[effect].wanted("rates")
     for p in CATALOGUE[effect].parameters:
         name = f"{effect}.{p.name}"
-        exact = subject.linearised(model, numbers(model, [name]))[1][:, 0]
+        exact = predictor.linearised(model, numbers(model, [name]))[1][:, 0]
         if p.name not in wanted:
-            assert_alike(exact, central(subject, model, name, step_of(model, name)), 2e-4)
+            assert_alike(exact, central(predictor, model, name, step_of(model, name)), 2e-4)
             continue
-        expected = central(subject, model, name, 2e-3 * max(abs(model.number(name)), 0.01 * p.upper))
+        expected = central(predictor, model, name, 2e-3 * max(abs(model.number(name)), 0.01 * p.upper))
         size = np.sqrt(np.mean(expected**2))
         assert np.sqrt(np.mean((exact - expected) ** 2)) < 0.05 * size + 1e-9, name
 
 
 @pytest.mark.parametrize("effect", REMEMBERING)
 def test_braid_angle_beside_memory(effect):
-    subject = subject_of(cycles(c10=0.4e6, each=40), MUSCLE)
-    assert isinstance(subject, Quasistatic)
-    model = setting("bladder_elasticity", effect)
-    exact = subject.linearised(model, numbers(model, ["braid_angle"]))[1][:, 0]
-    assert_alike(exact, central(subject, model, "braid_angle", 1e-6), 2e-3)
+    predictor = predictor_of(cycles(c10=0.4e6, each=40), MUSCLE)
+    assert isinstance(predictor, QuasistaticPredictor)
+    model = fit_model("bladder_elasticity", effect)
+    exact = predictor.linearised(model, numbers(model, ["braid_angle"]))[1][:, 0]
+    assert_alike(exact, central(predictor, model, "braid_angle", 1e-6), 2e-3)
 
 
 @pytest.mark.parametrize("effect", DELAYS)
 def test_delayed_sensors_are_differenced_and_the_rest_taken_at_once(effect):
-    subject = subject_of(cycles(c10=0.4e6, each=40, levels=(4e5, 5e5, 6e5)), MUSCLE)
-    assert isinstance(subject, Quasistatic)
+    predictor = predictor_of(cycles(c10=0.4e6, each=40, levels=(4e5, 5e5, 6e5)), MUSCLE)
+    assert isinstance(predictor, QuasistaticPredictor)
     first = CATALOGUE[effect].parameters[0].name
-    model = setting("bladder_elasticity", **{effect: {first: 0.02}})
+    model = fit_model("bladder_elasticity", **{effect: {first: 0.02}})
     names = [f"{effect}.{first}", "bladder_elasticity.shear_modulus"]
-    predicted, gradient = subject.linearised(model, free_numbers(model)[::-1])
+    predicted, gradient = predictor.linearised(model, free_numbers(model)[::-1])
     order = [p.name for p in free_numbers(model)[::-1]]
-    np.testing.assert_allclose(predicted, subject.predict(model, clipped=False))
+    np.testing.assert_allclose(predicted, predictor.predict(model, clipped=False))
     for name in names:
-        expected = central(subject, model, name, 1e-2 * model.number(name))
+        expected = central(predictor, model, name, 1e-2 * model.number(name))
         got = gradient[:, order.index(name)]
         size = np.sqrt(np.mean(expected**2))
         assert np.sqrt(np.mean((got - expected) ** 2)) < 0.05 * size, name
@@ -141,22 +141,22 @@ def test_a_skew_is_a_shift_of_the_force():
         f"{t:.3f},{1e5 * (2 + t):.10g},{0.28 + 1e-9 * (k % 2)},{100 + t}"
         for k, t in enumerate(np.linspace(0.0, 2.0, 81))
     ]
-    subject = subject_of(csv(rows, "time_s,pressure_Pa,length_m,force_N", "kind: isometric"), MUSCLE)
-    prompt, late = setting(), setting(time_skew={"delay": 0.05})
-    change = subject.predict(late) - subject.predict(prompt)
-    time = subject.inputs["time"]
-    slope = np.ptp(subject.predict(prompt)) / np.ptp(time)
+    predictor = predictor_of(csv(rows, "time_s,pressure_Pa,length_m,force_N", "kind: isometric"), MUSCLE)
+    prompt, late = fit_model(), fit_model(time_skew={"delay": 0.05})
+    change = predictor.predict(late) - predictor.predict(prompt)
+    time = predictor.inputs["time"]
+    slope = np.ptp(predictor.predict(prompt)) / np.ptp(time)
     begun = time > 0.25
     assert np.count_nonzero(begun) > 60
     assert change[begun] == pytest.approx(np.full(np.count_nonzero(begun), -0.05 * slope), rel=1e-3)
 
 
-def isotonic(*conditions: str, load: float = 250.0) -> Quasistatic:
+def isotonic(*conditions: str, load: float = 250.0) -> QuasistaticPredictor:
     """Lengths of the ideal muscle under a load at nine pressures."""
     rows = [f"{p / 1e5},{1e3 * length_under(load, p)}" for p in np.linspace(3e5, 6e5, 9)]
-    subject = subject_of(csv(rows, "pressure_bar,length_mm", "kind: isotonic", *conditions), MUSCLE)
-    assert isinstance(subject, Quasistatic)
-    return subject
+    predictor = predictor_of(csv(rows, "pressure_bar,length_mm", "kind: isotonic", *conditions), MUSCLE)
+    assert isinstance(predictor, QuasistaticPredictor)
+    return predictor
 
 
 @pytest.mark.parametrize(
@@ -164,25 +164,25 @@ def isotonic(*conditions: str, load: float = 250.0) -> Quasistatic:
     ["bladder_elasticity", "prestress", "pressure_offset", "length_offset", "load_scale", "end_caps"],
 )
 def test_gradient_of_a_length_under_load(effect):
-    subject = isotonic("load_force: 250 N")
-    model = setting(*dict.fromkeys(("bladder_elasticity", effect)))
+    predictor = isotonic("load_force: 250 N")
+    model = fit_model(*dict.fromkeys(("bladder_elasticity", effect)))
     names = [*(f"{effect}.{p.name}" for p in CATALOGUE[effect].parameters), "braid_angle", "braid_diameter"]
-    predicted, exact = subject.linearised(model, numbers(model, names))
-    assert predicted == pytest.approx(subject.predict(model), abs=1e-9)
+    predicted, exact = predictor.linearised(model, numbers(model, names))
+    assert predicted == pytest.approx(predictor.predict(model), abs=1e-9)
     for column, name in enumerate(names):
-        assert_alike(exact[:, column], central(subject, model, name, step_of(model, name)), 1e-3)
+        assert_alike(exact[:, column], central(predictor, model, name, step_of(model, name)), 1e-3)
 
 
 def test_length_under_an_unknown_load():
-    subject = isotonic()
-    assert subject.unknown_load is not None
-    model = replace(setting(), load=180.0)
-    expected = [length_under(180.0, p) for p in subject.task.state["pressure"]]
-    assert subject.predict(model) == pytest.approx(expected, abs=1e-8)
+    predictor = isotonic()
+    assert predictor.unknown_load is not None
+    model = replace(fit_model(), load=180.0)
+    expected = [length_under(180.0, p) for p in predictor.task.state["pressure"]]
+    assert predictor.predict(model) == pytest.approx(expected, abs=1e-8)
     load = Free(LOAD, 180.0, 0.0, 1e3, "N")
-    exact = subject.linearised(model, [load])[1][:, 0]
+    exact = predictor.linearised(model, [load])[1][:, 0]
     # dL/dW = 1/(dF/dL): more load, longer
-    slope = [(length_under(180.5, p) - length_under(179.5, p)) for p in subject.task.state["pressure"]]
+    slope = [(length_under(180.5, p) - length_under(179.5, p)) for p in predictor.task.state["pressure"]]
     assert exact == pytest.approx(slope, rel=1e-3)
     assert np.all(exact > 0.0)
 
@@ -200,38 +200,38 @@ def test_dry_friction_holds_a_length_between_two_branches():
         f"{0.5 * k},{p / 1e5:.10g},{1e3 * length:.10g}"
         for k, (p, length) in enumerate(zip(pressure, expected, strict=True))
     ]
-    subject = subject_of(
+    predictor = predictor_of(
         csv(rows, "time_s,pressure_bar,length_mm", "kind: isotonic", "load_force: 250 N"), MUSCLE
     )
-    model = setting(coulomb_friction={"force": 40.0})
-    found = subject.predict(model)
-    assert found[1:] == pytest.approx(subject.measured[1:], abs=1e-6)
+    model = fit_model(coulomb_friction={"force": 40.0})
+    found = predictor.predict(model)
+    assert found[1:] == pytest.approx(predictor.measured[1:], abs=1e-6)
     assert np.ptp(found[31:34]) < 1e-9  # it sticks at the turn
-    gradient = subject.linearised(model, free_numbers(model))[1][:, 0]
-    assert isinstance(subject, Quasistatic)
-    assert_alike(gradient[2:], central(subject, model, "coulomb_friction.force", 0.01)[2:], 1e-2)
+    gradient = predictor.linearised(model, free_numbers(model))[1][:, 0]
+    assert isinstance(predictor, QuasistaticPredictor)
+    assert_alike(gradient[2:], central(predictor, model, "coulomb_friction.force", 0.01)[2:], 1e-2)
 
 
 def test_a_load_beyond_the_braid_lock_ends_there():
-    subject = isotonic("load_force: 50 kN")
-    assert subject.predict(setting()) == pytest.approx(0.9999 * float(MUSCLE.braid.thread_length))
+    predictor = isotonic("load_force: 50 kN")
+    assert predictor.predict(fit_model()) == pytest.approx(0.9999 * float(MUSCLE.braid.thread_length))
 
 
 def test_diameters_of_free_and_of_measured_lengths():
     rows = [f"{p / 1e5},{1e3 * diameter(length_under(0.0, p, c10=0.4e6))}" for p in np.linspace(2e5, 6e5, 7)]
-    subject = subject_of(csv(rows, "pressure_bar,diameter_mm", "kind: diameter"), MUSCLE)
-    assert isinstance(subject, Quasistatic)
-    model = setting(bladder_elasticity={"shear_modulus": 0.4e6})
-    assert subject.unit == "m"
-    assert np.max(np.abs(subject.predict(model) - subject.measured)) < 1e-6
+    predictor = predictor_of(csv(rows, "pressure_bar,diameter_mm", "kind: diameter"), MUSCLE)
+    assert isinstance(predictor, QuasistaticPredictor)
+    model = fit_model(bladder_elasticity={"shear_modulus": 0.4e6})
+    assert predictor.unit == "m"
+    assert np.max(np.abs(predictor.predict(model) - predictor.measured)) < 1e-6
     names = ["bladder_elasticity.shear_modulus"]
-    exact = subject.linearised(model, free_numbers(model))[1][:, 0]
-    assert_alike(exact, central(subject, model, names[0], 1e2), 1e-2)
+    exact = predictor.linearised(model, free_numbers(model))[1][:, 0]
+    assert_alike(exact, central(predictor, model, names[0], 1e2), 1e-2)
 
 
 def test_what_data_can_reveal():
-    ordered = subject_of(cycles(), MUSCLE)
-    grid = subject_of(force_map(), MUSCLE)
+    ordered = predictor_of(cycles(), MUSCLE)
+    grid = predictor_of(force_map(), MUSCLE)
     lifted = isotonic("load_force: 250 N")
     for name in (*REMEMBERING, *DELAYS):
         assert not grid.reveals(CATALOGUE[name]), name  # a map has no order in time
@@ -242,21 +242,21 @@ def test_what_data_can_reveal():
 
 
 def test_a_trial_in_the_wide_structure_is_the_prediction():
-    subject = mapped()
-    model = setting(bladder_elasticity={"shear_modulus": 0.5e6})
-    before = subject.trial(model)
-    subject.prepare(model, [e for e in CATALOGUE.values() if subject.reveals(e)], ())
-    assert subject.trial(model) == pytest.approx(before, abs=1e-7)
+    predictor = mapped()
+    model = fit_model(bladder_elasticity={"shear_modulus": 0.5e6})
+    before = predictor.trial(model)
+    predictor.prepare(model, [e for e in CATALOGUE.values() if predictor.reveals(e)], ())
+    assert predictor.trial(model) == pytest.approx(before, abs=1e-7)
     further = model.adding(CATALOGUE["prestress"], {"force": 50.0})
-    assert subject.trial(further) == pytest.approx(before - 50.0, abs=1e-7)
+    assert predictor.trial(further) == pytest.approx(before - 50.0, abs=1e-7)
 
 
 def test_rows_that_cannot_be_used_are_counted_or_refused():
     rows = ["3,280,150", "3,290,300", "3,345,450"]
-    subject = subject_of(csv(rows, "pressure_bar,length_mm,force_N", "kind: static"), MUSCLE)
-    assert subject.excluded == {"beyond the braid lock": 1}
-    assert subject.rows_used == 2
+    predictor = predictor_of(csv(rows, "pressure_bar,length_mm,force_N", "kind: static"), MUSCLE)
+    assert predictor.excluded == {"beyond the braid lock": 1}
+    assert predictor.rows_used == 2
     none = csv(["3,345,150", "4,346,300"], "pressure_bar,length_mm,force_N", "kind: static")
     with pytest.raises(InputError, match="no row can be compared") as error:
-        subject_of(none, MUSCLE)
+        predictor_of(none, MUSCLE)
     assert error.value.field == "measurement"

@@ -80,14 +80,14 @@ def test_a_coarse_converter_is_not_free_of_noise():
 def test_channels_are_looked_at_alone():
     first, second = noise(0.1, 1000), noise(30.0, 1000, seed=1)
     values = np.concatenate([first, second])
-    subject = Plain(values, np.empty((2000, 0)), [np.arange(2000) // 400])
-    subject.sweeps = [np.arange(1000), np.arange(1000, 2000)]
+    predictor = Plain(values, np.empty((2000, 0)), [np.arange(2000) // 400])
+    predictor.sweeps = [np.arange(1000), np.arange(1000, 2000)]
     one, two = (
-        subject.channels[0].__class__(name, "N", rows, 1.0, 1.0)
+        predictor.channels[0].__class__(name, "N", rows, 1.0, 1.0)
         for name, rows in (("force", slice(0, 1000)), ("pressure", slice(1000, 2000)))
     )
-    assert channel_noise(subject, values, one)[0] == pytest.approx(0.1, rel=0.15)
-    assert channel_noise(subject, values, two)[0] == pytest.approx(30.0, rel=0.15)
+    assert channel_noise(predictor, values, one)[0] == pytest.approx(0.1, rel=0.15)
+    assert channel_noise(predictor, values, two)[0] == pytest.approx(30.0, rel=0.15)
 
 
 def test_scattered_points_tell_the_noise_between_neighbours():

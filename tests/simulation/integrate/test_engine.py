@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 from mckibben.documents.studio import Studio
 from mckibben.physics.drive import DriveModel
-from mckibben.physics.drive_terms import StateInfo, Structure
+from mckibben.physics.drive_terms import DriveStructure, StateInfo
 from mckibben.resources import presets_folder
 from mckibben.simulation.integrate.engine import CompiledDrive, Outcome, Solution, compile_system, integrate
 from mckibben.simulation.integrate.system import compiled_drive
@@ -127,7 +127,7 @@ def test_what_leaves_all_bounds_diverges():
 )
 @pytest.mark.parametrize("kind", ["tube", "regulator", "pair"])
 def test_the_jacobian_is_the_derivative_of_the_rates(names, kind):
-    structure = Structure(tuple(STUDIO.catalogue[name] for name in names), **{kind: True})
+    structure = DriveStructure(tuple(STUDIO.catalogue[name] for name in names), **{kind: True})
     model, compiled = DriveModel(structure), compiled_drive(structure)
     arguments = [*model.symbols.values(), *model.parameters.values(), *model.inputs.values()]
     size = compiled.size
@@ -144,7 +144,7 @@ def test_the_jacobian_is_the_derivative_of_the_rates(names, kind):
 
 
 def test_every_level_computes_the_same():
-    structure = Structure((STUDIO.catalogue["bladder_elasticity"], STUDIO.catalogue["dahl"]), tube=True)
+    structure = DriveStructure((STUDIO.catalogue["bladder_elasticity"], STUDIO.catalogue["dahl"]), tube=True)
     quick, good = compiled_drive(structure), compiled_drive(structure, 2)
     assert quick is not good
     packed = np.random.default_rng(6).uniform(

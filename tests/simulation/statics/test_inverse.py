@@ -10,11 +10,11 @@ import pytest
 from mckibben.physics.ideal import blocked_force
 from mckibben.physics.muscle import Muscle
 from mckibben.simulation.statics import inverse
-from mckibben.simulation.statics.limits import Limits
+from mckibben.simulation.statics.limits import MuscleLimits
 from mckibben.simulation.statics.model import StaticModel
 
 MUSCLE = Muscle(0.3, 0.0218, radians(26.5), 0.0018, 0.02)
-LIMITS = Limits(6e5, 1500.0, 0.25, 0.04)
+LIMITS = MuscleLimits(6e5, 1500.0, 0.25, 0.04)
 
 
 @pytest.fixture(scope="module")

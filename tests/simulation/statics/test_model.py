@@ -9,7 +9,7 @@ import pytest
 
 from mckibben.physics.errors import InputError
 from mckibben.physics.muscle import Muscle
-from mckibben.simulation.statics.limits import Limits
+from mckibben.simulation.statics.limits import MuscleLimits
 from mckibben.simulation.statics.model import StaticModel
 
 MUSCLE = Muscle(0.3, 0.0218, radians(26.5), 0.0018, 0.02)
@@ -145,9 +145,9 @@ def test_geometry_that_cannot_pull_is_refused_in_physical_words(change, word):
 
 
 def test_limits_flag_every_crossing():
-    limits = Limits(6e5, 1500.0, 0.25, 0.04)
+    limits = MuscleLimits(6e5, 1500.0, 0.25, 0.04)
     codes = {flag.code for flag in limits.flags(pressure=7e5, force=1600.0, contraction=0.3)}
     assert codes == {"over_pressure", "over_force_limit", "over_contraction_limit"}
     assert [flag.code for flag in limits.flags(contraction=-0.05)] == ["over_pretension_limit"]
     assert limits.flags(pressure=6e5, force=1500.0, contraction=0.25) == []
-    assert Limits().flags(pressure=9e9, force=9e9, contraction=0.9) == []
+    assert MuscleLimits().flags(pressure=9e9, force=9e9, contraction=0.9) == []

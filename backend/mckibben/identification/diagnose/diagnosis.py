@@ -7,22 +7,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mckibben.identification.diagnose.gauge_zero import Vented, vented
-from mckibben.identification.diagnose.next_measurement import Proposal
-from mckibben.identification.diagnose.reason import Seen, seen, why
+from mckibben.identification.diagnose.gauge_zero import GaugeZero, vented
+from mckibben.identification.diagnose.next_measurement import SeparatingExperiment
+from mckibben.identification.diagnose.reason import ResidualTraits, seen, why
 from mckibben.identification.diagnose.score import effective_rows, score
 from mckibben.identification.diagnose.search import search
 from mckibben.identification.diagnose.twins import Alternative, alternatives, same, same_predictions
 from mckibben.identification.diagnose.verdict import is_force, left_structure, messages, proposals, status_of
-from mckibben.identification.fit.fitted_model import Node
-from mckibben.identification.fit.fitter import CancelledError, Fits
+from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.fit.fitter import CancelledError, Fitter
 from mckibben.identification.fit.least_squares import FitResult, least_squares_fit
-from mckibben.identification.predict.fit_model import Setting
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
-from mckibben.identification.predict.predictor import Subject
+from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.noise import noise_of
 from mckibben.identification.residual.profiles import Profile, profiles, variables_of
-from mckibben.identification.residual.structure import Structure, Term, proposed_term
+from mckibben.identification.residual.structure import ResidualStructure, Term, proposed_term
 from mckibben.physics.effect import Effect
 from mckibben.simulation.outcome import Outcome, Watch
 
@@ -32,7 +32,7 @@ _DIGITS = 1e-9  # of the largest value
 
 
 @dataclass(frozen=True)
-class Candidate:
+class SingleAddition:
     """The start model with one more effect, everything refitted.
 
     Attributes:
@@ -45,7 +45,7 @@ class Candidate:
     """
 
     effect: Effect
-    node: Node
+    fitted_model: FittedModel
     gain: float
     score: float
     twins: tuple[str, ...]
@@ -53,11 +53,11 @@ class Candidate:
 
 
 @dataclass(frozen=True)
-class Step:
+class PathStep:
     """One step of the path: what was added, and the errors after it."""
 
     added: str | None
-    node: Node
+    fitted_model: FittedModel
 
 
 @dataclass(frozen=True)
@@ -90,37 +90,37 @@ class Diagnosis:
         not_tried: effects of the catalogue that were no candidates, with the reason.
     """
 
-    subject: Subject
-    start: Node
-    root: Node
+    predictor: Predictor
+    start: FittedModel
+    root: FittedModel
     noise: float | None
     noise_how: str
     where: tuple[Profile, ...]
-    seen: Seen
-    candidates: tuple[Candidate, ...]
-    path: tuple[Step, ...]
-    best: Node
+    seen: ResidualTraits
+    candidates: tuple[SingleAddition, ...]
+    path: tuple[PathStep, ...]
+    best: FittedModel
     fit: FitResult | None
     status: str
     added: tuple[str, ...]
     alternatives: tuple[Alternative, ...]
-    structure: Structure
+    structure: ResidualStructure
     term: Term | None
-    proposals: tuple[Proposal, ...]
+    proposals: tuple[SeparatingExperiment, ...]
     messages: tuple[str, ...] = ()
     not_tried: tuple[NotTried, ...] = ()
 
 
 def diagnose(
-    subject: Subject,
-    setting: Setting,
+    predictor: Predictor,
+    fit_model: FitModel,
     *,
     catalogue: Mapping[str, Effect],
     geometry: Sequence[Free] = (),
     freed: Sequence[str] = (),
     noise: float | None = None,
     watch: Watch | None = None,
-    found: Callable[[Candidate], None] = lambda _: None,
+    found: Callable[[SingleAddition], None] = lambda _: None,
 ) -> Diagnosis:
     """Find what a model of a measurement is missing.
 
@@ -141,96 +141,114 @@ def diagnose(
 
     # Many small decompositions: threads of the linear algebra only wait for each other.
     with threadpool_limits(1):
-        return _diagnose(subject, setting, catalogue, geometry, frozenset(freed), noise, watch, found)
+        return _diagnose(predictor, fit_model, catalogue, geometry, frozenset(freed), noise, watch, found)
 
 
 def _diagnose(
-    subject: Subject,
-    setting: Setting,
+    predictor: Predictor,
+    fit_model: FitModel,
     catalogue: Mapping[str, Effect],
     geometry: Sequence[Free],
     freed: frozenset[str],
     noise: float | None,
     watch: Watch | None,
-    found: Callable[[Candidate], None],
+    found: Callable[[SingleAddition], None],
 ) -> Diagnosis:
-    inside = set(setting.ids)
+    inside = set(fit_model.ids)
     absent = [effect for effect in catalogue.values() if effect.id not in inside]
-    candidates = tuple(effect for effect in absent if subject.reveals(effect))
-    not_tried = [NotTried(effect.id, why) for effect in absent if (why := subject.why_hidden(effect))]
+    candidates = tuple(effect for effect in absent if predictor.reveals(effect))
+    not_tried = [NotTried(effect.id, why) for effect in absent if (why := predictor.why_hidden(effect))]
     progress = _Progress(watch or Watch(time_limit=np.inf))
-    work = Fits(
-        subject,
+    fitter = Fitter(
+        predictor,
         tuple(geometry),
         candidates,
         None,
         tell=progress.tell,
-        estimate=lambda node: noise_of(subject, node.residual, noise)[0],
+        estimate=lambda fitted_model: noise_of(predictor, fitted_model.residual, noise)[0],
     )
-    subject.prepare(setting, candidates, geometry)
-    start = Node(
-        setting, (), frozenset(), subject.residual(setting) / subject.scale,
-        np.empty((len(subject.measured), 0)), subject.folds,
+    predictor.prepare(fit_model, candidates, geometry)
+    start = FittedModel(
+        fit_model, (), frozenset(), predictor.residual(fit_model) / predictor.scale,
+        np.empty((len(predictor.measured), 0)), predictor.folds,
     )  # fmt: skip
-    readings = subject.inputs.get("pressure")
+    readings = predictor.inputs.get("pressure")
     vent = None if readings is None else vented(readings, candidates)
-    first = setting
+    first = fit_model
     if vent is not None:
-        work.held = frozenset({f"{vent.effect.id}.{vent.parameter}"})
-        first = setting.adding(vent.effect, {vent.parameter: vent.value})
+        fitter.held = frozenset({f"{vent.effect.id}.{vent.parameter}"})
+        first = fit_model.adding(vent.effect, {vent.parameter: vent.value})
         candidates = tuple(effect for effect in candidates if effect is not vent.effect)
-        work.candidates = candidates
-    root = work.fit(first, freed)
-    if subject.unknown_load is not None and root.implausible:
+        fitter.candidates = candidates
+    root = fitter.fit(first, freed)
+    if predictor.unknown_load is not None and root.implausible:
         # The start model has a constant tension of its own, which takes the place of the load.
-        subject.unknown_load = None
-        work.known.clear()
-        root = work.fit(first, freed)
-    work.noise, how = noise_of(subject, root.residual, noise)
-    variables = variables_of(subject, setting.muscle.nominal_length)
+        predictor.unknown_load = None
+        fitter.known.clear()
+        root = fitter.fit(first, freed)
+    fitter.noise, how = noise_of(predictor, root.residual, noise)
+    variables = variables_of(predictor, fit_model.muscle.nominal_length)
     before = seen(root.residual, variables)
-    where = profiles(start.residual, variables, subject.folds[0])
-    fitted = {effect.id for effect in work.promising(root, candidates)[: subject.tried]}
+    where = profiles(start.residual, variables, predictor.folds[0])
+    fitted = {effect.id for effect in fitter.promising(root, candidates)[: predictor.tried]}
     singles, guesses = [], []
     for number, effect in enumerate(sorted(candidates, key=lambda effect: effect.id not in fitted)):
         progress.share = 0.45 * number / max(len(candidates), 1)
         if effect.id in fitted:
-            singles.append((effect, work.adding(root, effect)))
-            found(_candidate(work, root, effect, singles[-1][1], before, ()))
+            singles.append((effect, fitter.adding(root, effect)))
+            found(_candidate(fitter, root, effect, singles[-1][1], before, ()))
         else:
-            guesses.append((effect, work.guessed(root, effect)))
+            guesses.append((effect, fitter.guessed(root, effect)))
     progress.share, progress.end = 0.45, 0.85
-    best = search(work, root, singles=[node for _, node in singles])
-    work.noise, how = noise_of(subject, best.residual, noise)
+    best = search(fitter, root, singles=[fitted_model for _, fitted_model in singles])
+    fitter.noise, how = noise_of(predictor, best.residual, noise)
     # Made-up data have no noise: what differs by less than their digits is the same.
-    full_scale = float(np.max(np.abs(subject.measured / subject.scale)))
-    level = max(work.noise or best.rmse, _DIGITS * full_scale)
+    full_scale = float(np.max(np.abs(predictor.measured / predictor.scale)))
+    level = max(fitter.noise or best.rmse, _DIGITS * full_scale)
     progress.share, progress.end = 0.85, 0.95
-    path = _path(work, start, root, best, vent)
+    path = _path(fitter, start, root, best, vent)
     added = tuple(step.added for step in path if step.added)
     proven = () if vent is None else (vent.effect.id,)
-    others = tuple(alternatives(work, best, [name for name in added if name not in proven], level))
-    fit = _final_fit(subject, best)
-    changing = [(effect.id, node) for effect, node in singles if not same(node, root, level)]
+    others = tuple(alternatives(fitter, best, [name for name in added if name not in proven], level))
+    fit = _final_fit(predictor, best)
+    changing = [
+        (effect.id, fitted_model) for effect, fitted_model in singles if not same(fitted_model, root, level)
+    ]
     alike = same_predictions(changing, level)
     ranked = sorted(
         (
-            _candidate(work, root, effect, node, before, alike.get(effect.id, ()))
-            for effect, node in (*singles, *guesses)
+            _candidate(fitter, root, effect, fitted_model, before, alike.get(effect.id, ()))
+            for effect, fitted_model in (*singles, *guesses)
         ),
         key=lambda candidate: candidate.score,
     )
-    rest = left_structure(subject, best.residual, variables)
-    status = status_of(start, best, work.noise, added, others, rest, full_scale)
+    rest = left_structure(predictor, best.residual, variables)
+    status = status_of(start, best, fitter.noise, added, others, rest, full_scale)
     term = None
-    if status == "unknown_effect" and is_force(subject):
+    if status == "unknown_effect" and is_force(predictor):
         term = proposed_term(best.residual, variables, best.jacobian[:, best.inner])
     progress.share = 0.95
     return Diagnosis(
-        subject, start, root, work.noise, how, tuple(where), before, tuple(ranked), path, best, fit, status,
-        added, others, rest, term, tuple(proposals(best, others, catalogue, level, subject)),
-        (*([] if vent is None else [vent.message]), *messages(work, first, best, fit)), tuple(not_tried),
-    )  # fmt: skip
+        predictor=predictor,
+        start=start,
+        root=root,
+        noise=fitter.noise,
+        noise_how=how,
+        where=tuple(where),
+        seen=before,
+        candidates=tuple(ranked),
+        path=path,
+        best=best,
+        fit=fit,
+        status=status,
+        added=added,
+        alternatives=others,
+        structure=rest,
+        term=term,
+        proposals=tuple(proposals(best, others, catalogue, level, predictor)),
+        messages=(*([] if vent is None else [vent.message]), *messages(fitter, first, best, fit)),
+        not_tried=tuple(not_tried),
+    )
 
 
 class _Progress:
@@ -248,32 +266,39 @@ class _Progress:
 
 
 def _candidate(
-    work: Fits, root: Node, effect: Effect, node: Node, before: Seen, twins: Sequence[str]
-) -> Candidate:
-    rows = effective_rows(node.residual, work.subject.sweeps, work.subject.folds)
-    change = score(node, rows=rows, noise=work.noise) - score(root, rows=rows, noise=work.noise)
-    gain = 1.0 - node.rmse / root.rmse if root.rmse > 0.0 else 0.0
-    return Candidate(effect, node, gain, change, tuple(twins), why(effect, before, gain=gain))
+    fitter: Fitter,
+    root: FittedModel,
+    effect: Effect,
+    fitted_model: FittedModel,
+    before: ResidualTraits,
+    twins: Sequence[str],
+) -> SingleAddition:
+    rows = effective_rows(fitted_model.residual, fitter.predictor.sweeps, fitter.predictor.folds)
+    change = score(fitted_model, rows=rows, noise=fitter.noise) - score(root, rows=rows, noise=fitter.noise)
+    gain = 1.0 - fitted_model.rmse / root.rmse if root.rmse > 0.0 else 0.0
+    return SingleAddition(effect, fitted_model, gain, change, tuple(twins), why(effect, before, gain=gain))
 
 
-def _path(work: Fits, start: Node, root: Node, best: Node, vent: Vented | None) -> tuple[Step, ...]:
-    steps = [Step(None, start)]
+def _path(
+    fitter: Fitter, start: FittedModel, root: FittedModel, best: FittedModel, vent: GaugeZero | None
+) -> tuple[PathStep, ...]:
+    steps = [PathStep(None, start)]
     if vent is not None:
-        steps.append(Step(vent.effect.id, root))
-    node, left = root, [e for e in best.setting.effects if e.id not in set(root.setting.ids)]
+        steps.append(PathStep(vent.effect.id, root))
+    fitted_model, left = root, [e for e in best.fit_model.effects if e.id not in set(root.fit_model.ids)]
     while len(left) > 1:
-        nexts = [(effect, work.adding(node, effect)) for effect in left]
-        effect, node = min(nexts, key=lambda pair: pair[1].rmse)
-        steps.append(Step(effect.id, node))
+        nexts = [(effect, fitter.adding(fitted_model, effect)) for effect in left]
+        effect, fitted_model = min(nexts, key=lambda pair: pair[1].rmse)
+        steps.append(PathStep(effect.id, fitted_model))
         left.remove(effect)
     if left:
-        steps.append(Step(left[0].id, best))
+        steps.append(PathStep(left[0].id, best))
     elif best.rmse < 0.98 * start.rmse:
-        steps.append(Step(None, best))
+        steps.append(PathStep(None, best))
     return tuple(steps)
 
 
-def _final_fit(subject: Subject, best: Node) -> FitResult | None:
+def _final_fit(predictor: Predictor, best: FittedModel) -> FitResult | None:
     if not best.free:
         return None
     freedom = [p.start for p in best.free]

@@ -19,7 +19,7 @@ _PLATEAU = 3e3  # Pa; readings this near the lowest belong to it
 _ROWS = 4  # of the plateau, at least
 
 
-class Vented(NamedTuple):
+class GaugeZero(NamedTuple):
     """The sensor effect that the vented rows call for, its parameter and the value they give [Pa]."""
 
     effect: Effect
@@ -36,7 +36,7 @@ class Vented(NamedTuple):
         )
 
 
-def vented(pressure: np.ndarray, candidates: Iterable[Effect]) -> Vented | None:
+def vented(pressure: np.ndarray, candidates: Iterable[Effect]) -> GaugeZero | None:
     """The zero error of the pressure sensor that readings below zero prove; None when there are none.
 
     Args:
@@ -56,5 +56,5 @@ def vented(pressure: np.ndarray, candidates: Iterable[Effect]) -> Vented | None:
                 effect.call("pressure_sensor", {}, {**effect.off, p.name: value}) if p.unit == "Pa" else None
             )
             if moves is not None and tuple(moves) == (1.0, value) and p.lower < value < p.upper:
-                return Vented(effect, p.name, value, len(plateau))
+                return GaugeZero(effect, p.name, value, len(plateau))
     return None

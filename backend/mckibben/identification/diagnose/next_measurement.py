@@ -12,11 +12,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mckibben.identification.fit.fitted_model import fitted_node
-from mckibben.identification.predict.comparable_rows import Task
-from mckibben.identification.predict.fit_model import Setting, free_numbers
+from mckibben.identification.fit.fitted_model import refitted
+from mckibben.identification.predict.comparable_rows import ComparableRows
+from mckibben.identification.predict.fit_model import FitModel, free_numbers
 from mckibben.identification.predict.free import Free
-from mckibben.identification.predict.quasistatic import Quasistatic
+from mckibben.identification.predict.quasistatic import QuasistaticPredictor
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.simulation.statics.inverse import contraction_at
@@ -30,11 +30,11 @@ class Protocol:
     """An experiment that could be made: its name in words and its rows."""
 
     words: str
-    task: Task
+    task: ComparableRows
 
 
 @dataclass(frozen=True)
-class Proposal:
+class SeparatingExperiment:
     """An experiment for a pair of effects.
 
     Attributes:
@@ -73,8 +73,8 @@ def declared(first: Effect, second: Effect) -> str:
 
 
 def separation(
-    truth: Setting,
-    other: Setting,
+    truth: FitModel,
+    other: FitModel,
     protocols: list[Protocol],
     *,
     noise: float,
@@ -86,23 +86,23 @@ def separation(
     """
     best, most = "", 0.0
     for protocol in protocols:
-        bare = Quasistatic(protocol.task)
+        bare = QuasistaticPredictor(protocol.task)
         force = bare.predict(truth, clipped=False)
         slack = bare.predict(truth) != force
         if np.count_nonzero(~slack) < _FEWEST:
             continue
-        subject = Quasistatic(replace(protocol.task, measured=force, turning=slack))
-        node = fitted_node(subject, other, free_numbers(other, geometry))
-        left = subject.measured - subject.predict(node.setting, clipped=False)
+        predictor = QuasistaticPredictor(replace(protocol.task, measured=force, turning=slack))
+        fitted_model = refitted(predictor, other, free_numbers(other, geometry))
+        left = predictor.measured - predictor.predict(fitted_model.fit_model, clipped=False)
         apart = float(np.sqrt(np.mean(left**2))) / noise
         if apart > most:
             best, most = protocol.words, apart
     return best, most
 
 
-def protocols(setting: Setting, *, largest_pressure: float) -> list[Protocol]:
+def protocols(fit_model: FitModel, *, largest_pressure: float) -> list[Protocol]:
     """Experiments on a force rig, within the pressure that was measured and the muscle's range."""
-    muscle = setting.muscle
+    muscle = fit_model.muscle
     model = StaticModel(muscle)
     ideal = float(contraction_at(model, load=0.0, pressures=np.array([largest_pressure]))[0])
     most = 0.6 * ideal
@@ -153,13 +153,13 @@ def _hold(words: str, pressure: float, contraction: float, rest: float) -> Proto
     return Protocol(words, _task([(time, np.full(len(time), pressure), rest * (1.0 - stroke), 0)]))
 
 
-def _task(parts: list[tuple[np.ndarray, np.ndarray, np.ndarray, int]]) -> Task:
+def _task(parts: list[tuple[np.ndarray, np.ndarray, np.ndarray, int]]) -> ComparableRows:
     time, pressure = [part[0] for part in parts], [part[1] for part in parts]
     length, label = [part[2] for part in parts], [part[3] for part in parts]
     velocity = np.concatenate([np.gradient(x, t) for t, x in zip(time, length, strict=True)])
     labels = np.repeat(label, [len(t) for t in time])
     count = len(labels)
-    return Task(
+    return ComparableRows(
         kind="isobaric",
         channel="force",
         unit="N",

@@ -6,9 +6,9 @@ from collections.abc import Collection
 
 import numpy as np
 
-from mckibben.identification.fit.fitted_model import Node, fitted_node
-from mckibben.identification.predict.fit_model import Setting, free_geometry, free_numbers
-from mckibben.identification.predict.predictor import Subject
+from mckibben.identification.fit.fitted_model import FittedModel, refitted
+from mckibben.identification.predict.fit_model import FitModel, free_geometry, free_numbers
+from mckibben.identification.predict.predictor import Predictor
 
 _BY_HAND = ("braid_angle", "braid_diameter", "nominal_length")
 _AS_GOOD = 1.05  # of the error that the effects leave
@@ -16,7 +16,7 @@ _PLAUSIBLE = 0.6  # of what a fit of geometry may change
 
 
 def geometry_instead(
-    subject: Subject, first: Setting, best: Node, *, held: Collection[str] = ()
+    predictor: Predictor, first: FitModel, best: FittedModel, *, held: Collection[str] = ()
 ) -> list[str]:
     """The dimension that explains the data as well as the added effects, in a sentence; empty without one.
 
@@ -28,17 +28,17 @@ def geometry_instead(
         best: the best model, with effects added to it.
         held: numbers of the start model that no fit changes.
     """
-    if subject.one_sided:
+    if predictor.one_sided:
         return []
     found = []
     for name in _BY_HAND:
         (dimension,) = free_geometry(first.muscle, [name], {})
-        numbers = free_numbers(first, [dimension], load=subject.unknown_load)
+        numbers = free_numbers(first, [dimension], load=predictor.unknown_load)
         free = [parameter for parameter in numbers if parameter.name not in held]
-        node = fitted_node(subject, first, free)
-        value = node.setting.number(name)
+        fitted_model = refitted(predictor, first, free)
+        value = fitted_model.fit_model.number(name)
         moved = abs(value - dimension.start) / (dimension.upper - dimension.start)
-        if moved < _PLAUSIBLE and node.rmse <= _AS_GOOD * best.rmse:
+        if moved < _PLAUSIBLE and fitted_model.rmse <= _AS_GOOD * best.rmse:
             given = _shown(dimension.start, dimension.unit)
             found.append(f"a {name.replace('_', ' ')} of {_shown(value, dimension.unit)} instead of {given}")
     if not found:

@@ -13,7 +13,7 @@ _CLEAR = 0.15  # share of the residual from which something is said to be seen
 
 
 @dataclass(frozen=True)
-class Seen:
+class ResidualTraits:
     """What a residual looks like.
 
     Attributes:
@@ -27,11 +27,11 @@ class Seen:
     constant: float
 
 
-def seen(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> Seen:
+def seen(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> ResidualTraits:
     """Parity, growth with pressure and offset of a residual."""
     whole = float(np.mean(residual**2))
     if not whole > 0.0:
-        return Seen(None, None, 0.0)
+        return ResidualTraits(None, None, 0.0)
     odd = None
     direction = variables.get("direction")
     if direction is not None and np.any(direction > 0) and np.any(direction < 0):
@@ -50,10 +50,10 @@ def seen(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> Seen:
                 sizes.append(0.5 * np.log(np.mean(residual[rows] ** 2) + 1e-30))
         if len(centres) >= 3:
             power = float(np.polyfit(centres, sizes, 1)[0])
-    return Seen(odd, power, float(np.mean(residual)) ** 2 / whole)
+    return ResidualTraits(odd, power, float(np.mean(residual)) ** 2 / whole)
 
 
-def why(effect: Effect, found: Seen, *, gain: float) -> str:
+def why(effect: Effect, found: ResidualTraits, *, gain: float) -> str:
     """The sentence of a candidate.
 
     Args:

@@ -17,7 +17,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mckibben.identification.fit.fitted_model import Node, counts
+from mckibben.identification.fit.fitted_model import FittedModel, counts
 
 #: A model must lower the score by this much: between "strong" (6) and "very strong" (10) on the scale of
 #: Kass & Raftery (1995).
@@ -52,30 +52,30 @@ def effective_rows(residual: np.ndarray, sweeps: Sequence[np.ndarray], folds: Se
     return max(len(centred) / length, 2.0 * sum(len(np.unique(labels)) for labels in folds))
 
 
-def score(node: Node, *, rows: float, noise: float | None) -> float:
+def score(fitted_model: FittedModel, *, rows: float, noise: float | None) -> float:
     """S of the module's docstring."""
     floor = (_BELOW_FLOOR * (noise or 0.0)) ** 2 + 1e-300
     ways = [
         float(np.average(np.log(np.maximum(squares, floor)), weights=counts(labels)))
-        for squares, labels in zip(node.fold_squares, node.folds, strict=True)
+        for squares, labels in zip(fitted_model.fold_squares, fitted_model.folds, strict=True)
     ]
-    price = len(node.free) * float(np.log(rows)) + LEAST_SCORE * node.implausible
-    return rows * float(np.mean(ways)) + price + _complexity(node)
+    price = len(fitted_model.free) * float(np.log(rows)) + LEAST_SCORE * fitted_model.implausible
+    return rows * float(np.mean(ways)) + price + _complexity(fitted_model)
 
 
-def _complexity(node: Node) -> float:
+def _complexity(fitted_model: FittedModel) -> float:
     """Names the simpler one of two effects that predict the same."""
-    return _SIMPLER * sum(_ORDER.get(effect.type, 0) for effect in node.setting.effects)
+    return _SIMPLER * sum(_ORDER.get(effect.type, 0) for effect in fitted_model.fit_model.effects)
 
 
-def log_ratio(before: Node, after: Node) -> tuple[float, float]:
+def log_ratio(before: FittedModel, after: FittedModel) -> tuple[float, float]:
     """Mean over groups of ln(error before / error after) in rms, and its standard error."""
-    first, second = (np.maximum(node.fold_squares[0], 1e-300) for node in (before, after))
+    first, second = (np.maximum(fitted_model.fold_squares[0], 1e-300) for fitted_model in (before, after))
     ratios = 0.5 * np.log(first / second)
     return float(np.mean(ratios)), float(np.std(ratios, ddof=1) / np.sqrt(len(ratios)))
 
 
-def better(after: Node, before: Node, *, rows: float, noise: float | None) -> bool:
+def better(after: FittedModel, before: FittedModel, *, rows: float, noise: float | None) -> bool:
     """Whether a model with more numbers earns them, and none of them is implausible."""
     if after.implausible > before.implausible:
         return False

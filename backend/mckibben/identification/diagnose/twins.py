@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mckibben.identification.diagnose.search import exchanged
-from mckibben.identification.fit.fitted_model import Node
-from mckibben.identification.fit.fitter import Fits
+from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.fit.fitter import Fitter
 
 #: Fitted predictions that differ by less than this share of the noise are the same prediction: data of
 #: another functional form than ours differ from the best fit by as much.
@@ -35,40 +35,40 @@ class Alternative:
     effect: str
     difference: float
     cosine: float
-    node: Node
+    fitted_model: FittedModel
 
 
-def alternatives(work: Fits, best: Node, added: Sequence[str], noise: float) -> list[Alternative]:
+def alternatives(fitter: Fitter, best: FittedModel, added: Sequence[str], noise: float) -> list[Alternative]:
     """For each added effect those that, exchanged for it and refitted, predict the same."""
     found = []
     for effect_id in added:
-        less = work.dropping(best, effect_id)
-        inside = set(best.setting.ids)
-        others = [effect for effect in work.candidates if effect.id not in inside]
-        own = next(effect for effect in best.setting.effects if effect.id == effect_id)
-        mine = work.changes(less, own)
-        for effect in work.promising(less, others)[:_TRIED]:
-            node = exchanged(work, less, effect)
-            difference = float(np.sqrt(np.mean((node.residual - best.residual) ** 2))) / noise
-            cosine = _cosine(mine, work.changes(less, effect))
-            parallel = abs(cosine) > _COSINE and node.rmse <= _AS_GOOD * best.rmse
+        less = fitter.dropping(best, effect_id)
+        inside = set(best.fit_model.ids)
+        others = [effect for effect in fitter.candidates if effect.id not in inside]
+        own = next(effect for effect in best.fit_model.effects if effect.id == effect_id)
+        mine = fitter.changes(less, own)
+        for effect in fitter.promising(less, others)[:_TRIED]:
+            fitted_model = exchanged(fitter, less, effect)
+            difference = float(np.sqrt(np.mean((fitted_model.residual - best.residual) ** 2))) / noise
+            cosine = _cosine(mine, fitter.changes(less, effect))
+            parallel = abs(cosine) > _COSINE and fitted_model.rmse <= _AS_GOOD * best.rmse
             if difference < SAME or parallel:
-                found.append(Alternative(effect_id, effect.id, difference, cosine, node))
+                found.append(Alternative(effect_id, effect.id, difference, cosine, fitted_model))
     return found
 
 
-def same_predictions(nodes: Sequence[tuple[str, Node]], noise: float) -> dict[str, list[str]]:
+def same_predictions(fitted_models: Sequence[tuple[str, FittedModel]], noise: float) -> dict[str, list[str]]:
     """Effect -> the others whose fitted model predicts the same."""
-    found: dict[str, list[str]] = {name: [] for name, _ in nodes}
-    for number, (first, one) in enumerate(nodes):
-        for second, two in nodes[number + 1 :]:
+    found: dict[str, list[str]] = {name: [] for name, _ in fitted_models}
+    for number, (first, one) in enumerate(fitted_models):
+        for second, two in fitted_models[number + 1 :]:
             if same(one, two, noise):
                 found[first].append(second)
                 found[second].append(first)
     return found
 
 
-def same(one: Node, two: Node, noise: float) -> bool:
+def same(one: FittedModel, two: FittedModel, noise: float) -> bool:
     """Whether two fitted models predict the same as far as the noise lets see."""
     return bool(np.mean((one.residual - two.residual) ** 2) < (SAME * noise) ** 2)
 

@@ -6,15 +6,20 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from mckibben.identification.diagnose.next_measurement import Proposal, declared, protocols, separation
+from mckibben.identification.diagnose.next_measurement import (
+    SeparatingExperiment,
+    declared,
+    protocols,
+    separation,
+)
 from mckibben.identification.diagnose.other_geometry import geometry_instead
 from mckibben.identification.diagnose.twins import Alternative
-from mckibben.identification.fit.fitted_model import Node
-from mckibben.identification.fit.fitter import Fits
+from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.fit.fitter import Fitter
 from mckibben.identification.fit.least_squares import FitResult
-from mckibben.identification.predict.fit_model import Setting
-from mckibben.identification.predict.predictor import Subject
-from mckibben.identification.residual.structure import Structure, structure
+from mckibben.identification.predict.fit_model import FitModel
+from mckibben.identification.predict.predictor import Predictor
+from mckibben.identification.residual.structure import ResidualStructure, structure
 from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import assumption
 
@@ -25,10 +30,12 @@ _EXPLAINED = 0.98  # of the excess over the noise
 _SMALL = 0.03  # of full scale: an error of data that do not tell their noise, up to which nothing is missed
 
 
-def left_structure(subject: Subject, residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> Structure:
+def left_structure(
+    predictor: Predictor, residual: np.ndarray, variables: Mapping[str, np.ndarray]
+) -> ResidualStructure:
     """Structure left in the residual: of each channel, together by their mean squares."""
     parts = []
-    for channel in subject.channels:
+    for channel in predictor.channels:
         own = {name: values[channel.rows] for name, values in variables.items()}
         left = residual[channel.rows]
         parts.append((float(np.mean(left**2)), structure(left, own)))
@@ -38,16 +45,16 @@ def left_structure(subject: Subject, residual: np.ndarray, variables: Mapping[st
         for name, share in part.variables:
             lost[name] = lost.get(name, 0.0) + share * size / whole
     order = tuple(sorted(lost.items(), key=lambda pair: -pair[1]))
-    return Structure(sum(size * part.share for size, part in parts) / whole, order)
+    return ResidualStructure(sum(size * part.share for size, part in parts) / whole, order)
 
 
 def status_of(
-    start: Node,
-    best: Node,
+    start: FittedModel,
+    best: FittedModel,
     noise: float | None,
     added: Sequence[str],
     others: Sequence[Alternative],
-    rest: Structure,
+    rest: ResidualStructure,
     full_scale: float,
 ) -> str:
     """adequate, missing_effects, ambiguous or unknown_effect.
@@ -75,49 +82,53 @@ def status_of(
     return "ambiguous" if others else "missing_effects"
 
 
-def is_force(subject: Subject) -> bool:
+def is_force(predictor: Predictor) -> bool:
     """Whether a force is predicted, to which a term can be added."""
-    return [channel.name for channel in subject.channels] == ["force"]
+    return [channel.name for channel in predictor.channels] == ["force"]
 
 
 def proposals(
-    best: Node, others: Sequence[Alternative], catalogue: Mapping[str, Effect], noise: float, subject: Subject
-) -> list[Proposal]:
+    best: FittedModel,
+    others: Sequence[Alternative],
+    catalogue: Mapping[str, Effect],
+    noise: float,
+    predictor: Predictor,
+) -> list[SeparatingExperiment]:
     """Experiments that would separate each added effect from what could stand in for it."""
     found = []
-    pressure = subject.inputs.get("pressure")
+    pressure = predictor.inputs.get("pressure")
     high = float(np.max(pressure)) if pressure is not None else 6e5
     for other in others:
         words, apart = "", 0.0
-        if is_force(subject) and high > 0.0:
-            tests = protocols(best.setting, largest_pressure=high)
-            words, apart = separation(best.setting, other.node.setting, tests, noise=noise)
+        if is_force(predictor) and high > 0.0:
+            tests = protocols(best.fit_model, largest_pressure=high)
+            words, apart = separation(best.fit_model, other.fitted_model.fit_model, tests, noise=noise)
         text = declared(catalogue[other.of], catalogue[other.effect])
-        found.append(Proposal(other.of, other.effect, text, words, apart))
+        found.append(SeparatingExperiment(other.of, other.effect, text, words, apart))
     return found
 
 
-def _assumptions(best: Node) -> list[str]:
+def _assumptions(best: FittedModel) -> list[str]:
     """Fields of the muscle that were assumed, and the products that the data determine instead."""
     found = []
-    for name in sorted(best.setting.assumed):
-        value = best.setting.number(name)
+    for name in sorted(best.fit_model.assumed):
+        value = best.fit_model.number(name)
         products = [
             f"{p.name.replace('_', ' ')} x {name.replace('_', ' ')} = "
-            f"{best.setting.values[effect.id][p.name] * value:.4g} N/m"
-            for effect in best.setting.effects
+            f"{best.fit_model.values[effect.id][p.name] * value:.4g} N/m"
+            for effect in best.fit_model.effects
             if name in effect.needs
             for p in effect.parameters
-            if p.unit == "Pa" and best.setting.values[effect.id][p.name] != 0.0
+            if p.unit == "Pa" and best.fit_model.values[effect.id][p.name] != 0.0
         ]
         found.append(
-            f"{assumption(best.setting.muscle, name)}. What these data determine is {', '.join(products)}; "
+            f"{assumption(best.fit_model.muscle, name)}. What these data determine is {', '.join(products)}; "
             f"state {name} to know the modulus itself"
         )
     return found
 
 
-def messages(work: Fits, first: Setting, best: Node, fit: FitResult | None) -> list[str]:
+def messages(fitter: Fitter, first: FitModel, best: FittedModel, fit: FitResult | None) -> list[str]:
     """What has to be said of the noise, of geometry that took up an effect or could, and of the fit.
 
     Args:
@@ -126,12 +137,12 @@ def messages(work: Fits, first: Setting, best: Node, fit: FitResult | None) -> l
         best: the best model; fit: its numbers with errors.
     """
     found = _assumptions(best)
-    if len(best.setting.ids) > len(first.ids) and not work.geometry:
-        found += geometry_instead(work.subject, first, best, held=work.held)
-    if work.noise is None:
+    if len(best.fit_model.ids) > len(first.ids) and not fitter.geometry:
+        found += geometry_instead(fitter.predictor, first, best, held=fitter.held)
+    if fitter.noise is None:
         found.append("the sweeps are too short to estimate the noise: state it to know when to stop")
-    for p in work.geometry:
-        moved = 100.0 * (best.setting.number(p.name) / p.start - 1.0)
+    for p in fitter.geometry:
+        moved = 100.0 * (best.fit_model.number(p.name) / p.start - 1.0)
         if abs(moved) > 0.5:
             found.append(f"the fit moved {p.name.replace('_', ' ')} by {moved:+.1f} %")
     return [*found, *(fit.messages if fit else ())]

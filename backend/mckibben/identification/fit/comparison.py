@@ -7,11 +7,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from mckibben.identification.fit.fitted_model import Node
+from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.least_squares import FitResult
 from mckibben.identification.fit.misfit import Misfit
-from mckibben.identification.predict import Quasistatic, Subject, subject_of
-from mckibben.identification.predict.fit_model import Setting, free_geometry, free_numbers
+from mckibben.identification.predict import Predictor, QuasistaticPredictor, predictor_of
+from mckibben.identification.predict.fit_model import FitModel, free_geometry, free_numbers
 from mckibben.identification.predict.free import Free
 from mckibben.identification.residual.noise import noise_of
 from mckibben.measurement.measurement import Measurement
@@ -28,7 +28,7 @@ _STARTS = 4
 
 @dataclass(frozen=True)
 class Comparison:
-    """A model beside a measurement, SI; arrays are stacked over the predicted channels of ``subject``.
+    """A model beside a measurement, SI; arrays are stacked over the predicted channels of ``predictor``.
 
     Attributes:
         subject: the rows used.
@@ -44,8 +44,8 @@ class Comparison:
         messages: what has to be said.
     """
 
-    subject: Subject
-    setting: Setting
+    predictor: Predictor
+    fit_model: FitModel
     predicted: np.ndarray
     rmse: float
     holdout_rmse: float | None
@@ -59,12 +59,12 @@ class Comparison:
     @property
     def residual(self) -> np.ndarray:
         """Measured minus predicted."""
-        return self.subject.measured - self.predicted
+        return self.predictor.measured - self.predicted
 
     @property
     def full_scale(self) -> float:
         """Largest measured magnitude over the scale of the residual."""
-        return float(np.max(np.abs(self.subject.measured / self.subject.scale)))
+        return float(np.max(np.abs(self.predictor.measured / self.predictor.scale)))
 
     @property
     def nrmse_percent(self) -> float:
@@ -73,16 +73,16 @@ class Comparison:
 
     def report(self) -> dict:
         """The figures as `mckibben compare --json` prints them."""
-        subject = self.subject
-        several = len(subject.channels) > 1
-        mean = float(np.mean(self.residual / subject.scale))
+        predictor = self.predictor
+        several = len(predictor.channels) > 1
+        mean = float(np.mean(self.residual / predictor.scale))
         return {
-            "kind": subject.kind,
+            "kind": predictor.kind,
             "rows": self.rows,
-            "rows_used": subject.rows_used,
+            "rows_used": predictor.rows_used,
             "excluded": dict(self.excluded),
-            "predicted": subject.predicted,
-            "unit": subject.unit,
+            "predicted": predictor.predicted,
+            "unit": predictor.unit,
             "rmse": self.rmse,
             "nrmse_percent": self.nrmse_percent,
             "full_scale": self.full_scale,
@@ -90,12 +90,12 @@ class Comparison:
             "noise_floor": self.noise,
             "residual_mean": mean,
             "channels": self._channels() if several else {},
-            "parameters": parameter_table(self.setting, self.fit),
+            "parameters": parameter_table(self.fit_model, self.fit),
             "correlations": [
                 {"a": a, "b": b, "value": value}
                 for a, b, value in (self.fit.correlations if self.fit else ())
             ],
-            "geometry": {name: float(getattr(self.setting.muscle, name)) for name in GEOMETRY},
+            "geometry": {name: float(getattr(self.fit_model.muscle, name)) for name in GEOMETRY},
             "messages": [*self.messages, *(self.fit.messages if self.fit else ())],
         }
 
@@ -107,19 +107,19 @@ class Comparison:
                 "noise_floor": channel.noise,
                 "full_scale": channel.full_scale,
             }
-            for channel in self.subject.channels
+            for channel in self.predictor.channels
         }
 
 
-def parameter_table(setting: Setting, fit: FitResult | None) -> dict[str, dict[str, dict]]:
+def parameter_table(fit_model: FitModel, fit: FitResult | None) -> dict[str, dict[str, dict]]:
     """Effect -> parameter -> value, standard error, unit, whether it was fitted and ended at a bound."""
     fitted = {parameter.name: parameter for parameter in fit.parameters} if fit else {}
     table: dict[str, dict[str, dict]] = {}
-    for effect in setting.effects:
+    for effect in fit_model.effects:
         for p in effect.parameters:
             own = fitted.get(f"{effect.id}.{p.name}")
             table.setdefault(effect.id, {})[p.name] = {
-                "value": setting.values[effect.id][p.name],
+                "value": fit_model.values[effect.id][p.name],
                 "stderr": own.stderr if own else None,
                 "unit": p.unit,
                 "at_bound": own.at_bound if own else False,
@@ -171,33 +171,33 @@ def compare(
         InputError: a row, kind, effect, parameter or geometry field that cannot be used.
     """
     values = checked_values(effects, catalogue)
-    setting = Setting(muscle.checked(), tuple(catalogue[name] for name in values), values)
-    subject = subject_of(measurement, muscle, drive)
-    check_finite(subject, setting)
+    fit_model = FitModel(muscle.checked(), tuple(catalogue[name] for name in values), values)
+    predictor = predictor_of(measurement, muscle, drive)
+    check_finite(predictor, fit_model)
     geometry = free_geometry(muscle, free, tolerance or {})
-    messages = list(subject.messages)
-    choice = free_numbers(setting, geometry, freed, load=subject.unknown_load) if fit else ()
+    messages = list(predictor.messages)
+    choice = free_numbers(fit_model, geometry, freed, load=predictor.unknown_load) if fit else ()
     if free and not fit:
         messages.append("a freed geometry only matters to a fit")
     if fit and not choice:
         messages.append("nothing to fit: the model has no effects and no geometry was freed")
     result = None
     if choice:
-        result = fit_of(subject, setting, choice)
-        setting = setting.with_numbers([p.name for p in choice], result.numbers)
-    predicted = subject.predict(setting)
-    rmse = subject.rmse(subject.measured - predicted)
+        result = fit_of(predictor, fit_model, choice)
+        fit_model = fit_model.with_numbers([p.name for p in choice], result.numbers)
+    predicted = predictor.predict(fit_model)
+    rmse = predictor.rmse(predictor.measured - predicted)
     holdout: float | None = rmse
     if choice:
-        holdout = holdout_rmse(subject, setting, choice)
+        holdout = holdout_rmse(predictor, fit_model, choice)
         if holdout is None:
             messages.append("one group only: no group can be left out")
-    floor, how = noise_of(subject, (subject.measured - predicted) / subject.scale, noise)
+    floor, how = noise_of(predictor, (predictor.measured - predicted) / predictor.scale, noise)
     if floor is None:
         messages.append("sweeps are too short to estimate the noise")
     return Comparison(
-        subject,
-        setting,
+        predictor,
+        fit_model,
         predicted,
         rmse,
         holdout,
@@ -205,42 +205,44 @@ def compare(
         how,
         result,
         measurement.rows,
-        subject.excluded,
+        predictor.excluded,
         tuple(messages),
     )
 
 
-def check_finite(subject: Subject, setting: Setting) -> None:
+def check_finite(predictor: Predictor, fit_model: FitModel) -> None:
     """Refuse a model without a finite value somewhere in the data, as a typed term may be.
 
     Raises:
         InputError: says at how many rows.
     """
-    if not isinstance(subject, Quasistatic):
+    if not isinstance(predictor, QuasistaticPredictor):
         return  # a run that breaks off is far off
-    lost, rows = subject.lost(setting)
+    lost, rows = predictor.lost(fit_model)
     if lost:
         raise InputError(
             f"the model has no finite value at {lost} of {rows} rows",
-            field=f"effects.{CUSTOM}.{TERM}" if CUSTOM in setting.ids else "effects",
+            field=f"effects.{CUSTOM}.{TERM}" if CUSTOM in fit_model.ids else "effects",
             hint="look for a division by zero, a root or an exponential, or give other parameters",
         )
 
 
-def fit_of(subject: Subject, setting: Setting, choice: Sequence[Free]) -> FitResult:
+def fit_of(predictor: Predictor, fit_model: FitModel, choice: Sequence[Free]) -> FitResult:
     """Fit the numbers; several starts where a model is quick, tightly where its derivatives are exact."""
-    misfit = Misfit(subject, setting, choice)
-    if isinstance(subject, Quasistatic):
+    misfit = Misfit(predictor, fit_model, choice)
+    if isinstance(predictor, QuasistaticPredictor):
         return misfit.fit(starts=_STARTS, tolerance=_TIGHT, evaluations=200)
     return misfit.fit(starts=1, tolerance=1e-5, evaluations=40)
 
 
-def holdout_rmse(subject: Subject, setting: Setting, choice: Sequence[Free]) -> float | None:
+def holdout_rmse(predictor: Predictor, fit_model: FitModel, choice: Sequence[Free]) -> float | None:
     """Error over whole groups left out of the fit; None when there is one group only."""
-    if len(np.unique(subject.folds[0])) < 2:
+    if len(np.unique(predictor.folds[0])) < 2:
         return None
-    predicted, jacobian = subject.linearised(setting, choice)
-    ended = tuple(replace(p, start=setting.number(p.name)) for p in choice)
-    misfit = (subject.measured - predicted) / subject.scale
-    node = Node(setting, ended, frozenset(), misfit, jacobian / subject.scale[:, None], subject.folds)
-    return node.holdout_rmse
+    predicted, jacobian = predictor.linearised(fit_model, choice)
+    ended = tuple(replace(p, start=fit_model.number(p.name)) for p in choice)
+    misfit = (predictor.measured - predicted) / predictor.scale
+    fitted_model = FittedModel(
+        fit_model, ended, frozenset(), misfit, jacobian / predictor.scale[:, None], predictor.folds
+    )
+    return fitted_model.holdout_rmse

@@ -9,9 +9,9 @@ from functools import cached_property
 import numpy as np
 
 from mckibben.identification.fit.misfit import Misfit
-from mckibben.identification.predict.fit_model import Setting
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
-from mckibben.identification.predict.predictor import Subject
+from mckibben.identification.predict.predictor import Predictor
 
 _NEAR_BOUND = 1e-6  # of the range
 _AT_BOUND = 1e-3  # of the range
@@ -20,7 +20,7 @@ _CUTOFF = 1e-13  # of the largest singular value, below which a direction is not
 
 
 @dataclass(frozen=True, eq=False)
-class Node:
+class FittedModel:
     """A fitted model.
 
     Attributes:
@@ -29,10 +29,10 @@ class Node:
         freed: names of further constants that were freed.
         residual: measured minus predicted over the scale, shape (values,).
         jacobian: derivatives of the prediction over the scale, shape (values, free).
-        folds: ways of leaving out, see `mckibben.identification.predict.predictor.Subject`.
+        folds: ways of leaving out, see `mckibben.identification.predict.predictor.Predictor`.
     """
 
-    setting: Setting
+    fit_model: FitModel
     free: tuple[Free, ...]
     freed: frozenset[str]
     residual: np.ndarray = field(repr=False)
@@ -42,7 +42,7 @@ class Node:
     @property
     def key(self) -> tuple[frozenset[str], frozenset[str]]:
         """What was searched: the effects and the freed constants."""
-        return frozenset(self.setting.ids), self.freed
+        return frozenset(self.fit_model.ids), self.freed
 
     @cached_property
     def mean_square(self) -> float:
@@ -154,25 +154,25 @@ def counts(labels: np.ndarray) -> np.ndarray:
     return np.unique(labels, return_counts=True)[1]
 
 
-def fitted_node(
-    subject: Subject,
-    setting: Setting,
+def refitted(
+    predictor: Predictor,
+    fit_model: FitModel,
     free: Sequence[Free],
     *,
     freed: Collection[str] = (),
-) -> Node:
+) -> FittedModel:
     """Fit the free numbers jointly from their starts, as tightly as a search needs it."""
     if not free:
-        residual = subject.residual(setting) / subject.scale
+        residual = predictor.residual(fit_model) / predictor.scale
         empty = np.empty((len(residual), 0))
-        return Node(setting, (), frozenset(freed), residual, empty, subject.folds)
-    misfit = Misfit(subject, setting, free)
-    result = misfit.fit(starts=1, tolerance=subject.tolerance, evaluations=subject.evaluations)
+        return FittedModel(fit_model, (), frozenset(freed), residual, empty, predictor.folds)
+    misfit = Misfit(predictor, fit_model, free)
+    result = misfit.fit(starts=1, tolerance=predictor.tolerance, evaluations=predictor.evaluations)
     numbers = np.array(result.numbers)
-    ended = misfit.setting(numbers)
+    ended = misfit.fit_model(numbers)
     # Fits follow the force below zero too; what counts is what a slack muscle reads.
-    residual = subject.residual(ended) / subject.scale
+    residual = predictor.residual(ended) / predictor.scale
     same = np.isclose(residual, -misfit.value(numbers), rtol=1e-9)
     jacobian = np.where(same[:, None], misfit.derivatives(numbers), 0.0)
     there = tuple(replace(p, start=float(x)) for p, x in zip(free, numbers, strict=True))
-    return Node(ended, there, frozenset(freed), residual, jacobian, subject.folds)
+    return FittedModel(ended, there, frozenset(freed), residual, jacobian, predictor.folds)

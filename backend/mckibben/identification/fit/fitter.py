@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from mckibben.identification.fit.fitted_model import Node, fitted_node
-from mckibben.identification.predict.fit_model import Setting, free_numbers
+from mckibben.identification.fit.fitted_model import FittedModel, refitted
+from mckibben.identification.predict.fit_model import FitModel, free_numbers
 from mckibben.identification.predict.free import Free
-from mckibben.identification.predict.predictor import Subject
+from mckibben.identification.predict.predictor import Predictor
 from mckibben.physics.effect import Effect
 
 _MOVED = 1e-3  # of its start: a number that moves less has not been looked for
@@ -25,7 +25,7 @@ class CancelledError(Exception):
 
 
 @dataclass
-class Fits:
+class Fitter:
     """Fits models of one subject and remembers them.
 
     Attributes:
@@ -39,50 +39,52 @@ class Fits:
         tell: told now and then what is being done; may raise `CancelledError`.
     """
 
-    subject: Subject
+    predictor: Predictor
     geometry: tuple[Free, ...]
     candidates: tuple[Effect, ...]
     noise: float | None
     held: frozenset[str] = frozenset()
     tell: Callable[[str], None] = lambda _: None
-    estimate: Callable[[Node], float | None] = lambda _: None
-    known: dict[tuple[frozenset[str], frozenset[str]], Node] = field(default_factory=dict)
+    estimate: Callable[[FittedModel], float | None] = lambda _: None
+    known: dict[tuple[frozenset[str], frozenset[str]], FittedModel] = field(default_factory=dict)
     acts: dict[str, dict[str, float]] = field(default_factory=dict)
     twice: set[tuple[frozenset[str], frozenset[str]]] = field(default_factory=set)
 
-    def fit(self, setting: Setting, freed: frozenset[str] = frozenset(), *, again: bool = False) -> Node:
+    def fit(
+        self, fit_model: FitModel, freed: frozenset[str] = frozenset(), *, again: bool = False
+    ) -> FittedModel:
         """The fitted model of a choice of effects and freed constants; found again when it was fitted.
 
         ``again`` fits from another start, once, and keeps the better end.
         """
-        key = frozenset(setting.ids), freed
+        key = frozenset(fit_model.ids), freed
         if key not in self.known or (again and key not in self.twice):
-            self.tell(", ".join(setting.ids))
-            free = free_numbers(setting, self.geometry, freed, load=self.subject.unknown_load)
+            self.tell(", ".join(fit_model.ids))
+            free = free_numbers(fit_model, self.geometry, freed, load=self.predictor.unknown_load)
             free = [parameter for parameter in free if parameter.name not in self.held]
-            node = fitted_node(self.subject, setting, free, freed=freed)
+            fitted_model = refitted(self.predictor, fit_model, free, freed=freed)
             if again:
                 self.twice.add(key)
-            if key not in self.known or node.rmse < self.known[key].rmse:
-                self.known[key] = node
+            if key not in self.known or fitted_model.rmse < self.known[key].rmse:
+                self.known[key] = fitted_model
         return self.known[key]
 
-    def adding(self, node: Node, effect: Effect) -> Node:
+    def adding(self, fitted_model: FittedModel, effect: Effect) -> FittedModel:
         """The model with one more effect, its numbers refitted from where they are."""
-        off = self.acting(node, effect)
-        freed = node.freed | {f"{effect.id}.{n}" for n in off if not effect.parameter(n).fitted}
-        near = node.setting.adding(effect, _between(effect, off))
+        off = self.acting(fitted_model, effect)
+        freed = fitted_model.freed | {f"{effect.id}.{n}" for n in off if not effect.parameter(n).fitted}
+        near = fitted_model.fit_model.adding(effect, _between(effect, off))
         found = self.fit(near, freed)
         started = near.values[effect.id]
         still = all(
-            abs(found.setting.values[effect.id][name] - started[name]) < _MOVED * abs(started[name])
+            abs(found.fit_model.values[effect.id][name] - started[name]) < _MOVED * abs(started[name])
             for name in off
         )
-        if found.rmse > _STUCK * node.rmse or still:
-            found = self.fit(node.setting.adding(effect), freed, again=True)
+        if found.rmse > _STUCK * fitted_model.rmse or still:
+            found = self.fit(fitted_model.fit_model.adding(effect), freed, again=True)
         return found
 
-    def acting(self, node: Node, effect: Effect) -> dict[str, float]:
+    def acting(self, fitted_model: FittedModel, effect: Effect) -> dict[str, float]:
         """Numbers of an effect that do something in these data, with the value at which they do nothing.
 
         Those that the effect declares as fitted; where the data do not see them, its further constants.
@@ -92,40 +94,47 @@ class Fits:
                 {p.name: p.off for p in effect.parameters if p.off is not None and p.fitted is fitted}
                 for fitted in (True, False)
             ]
-            seen = (off for off in own if np.any(self._sizes(self._columns(node, effect, off)) > self._least))
+            seen = (
+                off
+                for off in own
+                if np.any(self._sizes(self._columns(fitted_model, effect, off)) > self._least)
+            )
             self.acts[effect.id] = next(seen, own[0])
         return self.acts[effect.id]
 
-    def freeing(self, node: Node, effect: Effect) -> list[Node]:
+    def freeing(self, fitted_model: FittedModel, effect: Effect) -> list[FittedModel]:
         """The model with further constants of an effect freed: together, or fewer where that is too much."""
-        names = {f"{effect.id}.{p.name}" for p in effect.parameters if not p.fitted} - node.freed
-        names -= self._blind(node, names)
+        names = {f"{effect.id}.{p.name}" for p in effect.parameters if not p.fitted} - fitted_model.freed
+        names -= self._blind(fitted_model, names)
         if not names:
             return []
-        whole = self.fit(node.setting, node.freed | names)
-        if len(names) == 1 or whole.implausible <= node.implausible:
+        whole = self.fit(fitted_model.fit_model, fitted_model.freed | names)
+        if len(names) == 1 or whole.implausible <= fitted_model.implausible:
             return [whole]
         stuck = {p.name for p, at in zip(whole.free, whole.at_bound, strict=True) if at}
         fewer = [names - stuck] if 1 < len(names - stuck) < len(names) else []
-        return [self.fit(node.setting, node.freed | some) for some in (*fewer, *({n} for n in sorted(names)))]
+        return [
+            self.fit(fitted_model.fit_model, fitted_model.freed | some)
+            for some in (*fewer, *({n} for n in sorted(names)))
+        ]
 
-    def holding(self, node: Node, name: str, value: float) -> Node:
+    def holding(self, fitted_model: FittedModel, name: str, value: float) -> FittedModel:
         """The model with a freed constant held at a value again, refitted."""
-        return self.fit(node.setting.with_numbers([name], [value]), node.freed - {name})
+        return self.fit(fitted_model.fit_model.with_numbers([name], [value]), fitted_model.freed - {name})
 
-    def dropping(self, node: Node, effect_id: str) -> Node:
+    def dropping(self, fitted_model: FittedModel, effect_id: str) -> FittedModel:
         """The model without an effect, refitted."""
-        freed = frozenset(name for name in node.freed if not name.startswith(f"{effect_id}."))
-        return self.fit(node.setting.without(effect_id), freed)
+        freed = frozenset(name for name in fitted_model.freed if not name.startswith(f"{effect_id}."))
+        return self.fit(fitted_model.fit_model.without(effect_id), freed)
 
-    def promising(self, node: Node, effects: Sequence[Effect]) -> list[Effect]:
+    def promising(self, fitted_model: FittedModel, effects: Sequence[Effect]) -> list[Effect]:
         """Effects in the order of the error they would take away to first order."""
-        inner = node.jacobian[:, node.inner]
-        basis = np.linalg.qr(inner)[0] if inner.shape[1] else np.empty((len(node.residual), 0))
-        left = node.residual - basis @ (basis.T @ node.residual)
+        inner = fitted_model.jacobian[:, fitted_model.inner]
+        basis = np.linalg.qr(inner)[0] if inner.shape[1] else np.empty((len(fitted_model.residual), 0))
+        left = fitted_model.residual - basis @ (basis.T @ fitted_model.residual)
         gains = []
         for effect in effects:
-            columns = self.changes(node, effect)
+            columns = self.changes(fitted_model, effect)
             rest = columns - basis @ (basis.T @ columns)
             size, whole = np.linalg.norm(rest, axis=0), np.linalg.norm(columns, axis=0)
             seen = size > 1e-3 * whole
@@ -134,61 +143,63 @@ class Fits:
             )
             gains.append(float(np.sum((rest[:, seen] / size[seen] @ found) ** 2)))
         order = np.argsort(gains)[::-1]
-        least = _LEAST_PROMISE * float(left @ left) if self.near_floor(node) else 0.0
+        least = _LEAST_PROMISE * float(left @ left) if self.near_floor(fitted_model) else 0.0
         return [effects[index] for index in order if gains[index] > least]
 
-    def guessed(self, node: Node, effect: Effect) -> Node:
+    def guessed(self, fitted_model: FittedModel, effect: Effect) -> FittedModel:
         """The model with one more effect of the size that is best to first order, nothing else refitted."""
         free = tuple(
             p
-            for p in free_numbers(node.setting.adding(effect, effect.off), (), node.freed)
+            for p in free_numbers(fitted_model.fit_model.adding(effect, effect.off), (), fitted_model.freed)
             if p.name.startswith(f"{effect.id}.")
         )
-        off = self.acting(node, effect)
+        off = self.acting(fitted_model, effect)
         reach = np.array([_between(effect, off)[name] - value for name, value in off.items()])
-        columns = self.changes(node, effect)
-        size = np.linalg.lstsq(columns, node.residual, rcond=1e-6)[0] * reach
+        columns = self.changes(fitted_model, effect)
+        size = np.linalg.lstsq(columns, fitted_model.residual, rcond=1e-6)[0] * reach
         named = {f"{effect.id}.{name}": value + x for (name, value), x in zip(off.items(), size, strict=True)}
         inside = {p.name: float(np.clip(named[p.name], p.lower, p.upper)) for p in free if p.name in named}
-        setting = node.setting.adding(effect, effect.off)
-        setting = setting.with_numbers(list(inside), list(inside.values()))
-        left = (self.subject.measured - self.subject.trial(setting)) / self.subject.scale
-        if float(np.mean(left**2)) > node.mean_square:
-            setting, left = node.setting.adding(effect, effect.off), node.residual
-        return Node(setting, node.free, node.freed, left, node.jacobian, node.folds)
+        fit_model = fitted_model.fit_model.adding(effect, effect.off)
+        fit_model = fit_model.with_numbers(list(inside), list(inside.values()))
+        left = (self.predictor.measured - self.predictor.trial(fit_model)) / self.predictor.scale
+        if float(np.mean(left**2)) > fitted_model.mean_square:
+            fit_model, left = fitted_model.fit_model.adding(effect, effect.off), fitted_model.residual
+        return FittedModel(
+            fit_model, fitted_model.free, fitted_model.freed, left, fitted_model.jacobian, fitted_model.folds
+        )
 
-    def changes(self, node: Node, effect: Effect) -> np.ndarray:
+    def changes(self, fitted_model: FittedModel, effect: Effect) -> np.ndarray:
         """Change of the prediction by each number of an effect of moderate size, (values, numbers)."""
-        return self._columns(node, effect, self.acting(node, effect))
+        return self._columns(fitted_model, effect, self.acting(fitted_model, effect))
 
-    def _columns(self, node: Node, effect: Effect, off: dict[str, float]) -> np.ndarray:
-        before = self.subject.measured - node.residual * self.subject.scale
+    def _columns(self, fitted_model: FittedModel, effect: Effect, off: dict[str, float]) -> np.ndarray:
+        before = self.predictor.measured - fitted_model.residual * self.predictor.scale
         columns = [np.empty((len(before), 0))]
         for name in off:
             single = effect.off | {name: _between(effect, off)[name]}
-            trial = self.subject.trial(node.setting.adding(effect, single))
-            columns.append(((trial - before) / self.subject.scale)[:, None])
+            trial = self.predictor.trial(fitted_model.fit_model.adding(effect, single))
+            columns.append(((trial - before) / self.predictor.scale)[:, None])
         return np.hstack(columns)
 
-    def _blind(self, node: Node, names: set[str]) -> set[str]:
+    def _blind(self, fitted_model: FittedModel, names: set[str]) -> set[str]:
         """Those of some constants that change nothing in these data."""
-        free = [p for p in free_numbers(node.setting, (), names) if p.name in names]
+        free = [p for p in free_numbers(fitted_model.fit_model, (), names) if p.name in names]
         if not free:
             return set()
-        columns = self.subject.linearised(node.setting, free)[1]
+        columns = self.predictor.linearised(fitted_model.fit_model, free)[1]
         span = np.array([p.upper - p.lower for p in free])
         reach = self._sizes(columns) * span
         return {p.name for p, size in zip(free, reach, strict=True) if not size > self._least}
 
-    def listen(self, node: Node) -> None:
+    def listen(self, fitted_model: FittedModel) -> None:
         """Lower the noise where the residual of a better model shows less."""
-        found = self.estimate(node)
+        found = self.estimate(fitted_model)
         if found is not None:
             self.noise = found if self.noise is None else min(self.noise, found)
 
-    def near_floor(self, node: Node) -> bool:
+    def near_floor(self, fitted_model: FittedModel) -> bool:
         """Whether only an effect that shows by itself is worth a look."""
-        return self.noise is not None and node.rmse < _NEAR_FLOOR * self.noise
+        return self.noise is not None and fitted_model.rmse < _NEAR_FLOOR * self.noise
 
     @property
     def _least(self) -> float:

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from mckibben.identification.fit.least_squares import FitResult, least_squares_fit
-from mckibben.identification.predict.fit_model import Setting
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
-from mckibben.identification.predict.predictor import Subject
+from mckibben.identification.predict.predictor import Predictor
 
 _LOST = 1e3  # times the largest value: misfit of a row where a guess of the fit has no finite value
 
@@ -26,16 +26,16 @@ class Misfit:
         free: what is changed.
     """
 
-    def __init__(self, subject: Subject, setting: Setting, free: Sequence[Free]) -> None:
-        self._subject, self._setting, self._free = subject, setting, free
+    def __init__(self, predictor: Predictor, fit_model: FitModel, free: Sequence[Free]) -> None:
+        self._subject, self._setting, self._free = predictor, fit_model, free
         self._names = [parameter.name for parameter in free]
-        self._lost = _LOST * float(np.max(np.abs(subject.measured / subject.scale), initial=1.0))
+        self._lost = _LOST * float(np.max(np.abs(predictor.measured / predictor.scale), initial=1.0))
         self._at: bytes | None = None
         self._misfit = np.empty(0)
         self._predicted: np.ndarray | None = None
         self._slopes: np.ndarray | None = None
 
-    def setting(self, numbers: np.ndarray) -> Setting:
+    def fit_model(self, numbers: np.ndarray) -> FitModel:
         """The model with these numbers."""
         return self._setting.with_numbers(self._names, numbers)
 
@@ -43,16 +43,16 @@ class Misfit:
         """Misfit, shape (values,)."""
         key = numbers.tobytes()
         if key != self._at:
-            subject, setting = self._subject, self.setting(numbers)
+            predictor, fit_model = self._subject, self.fit_model(numbers)
             self._predicted, self._slopes = None, None
             with np.errstate(all="ignore"):
-                if subject.one_sided:  # derivatives are runs of their own: only where a step was good
-                    predicted = self._predicted = subject.predict(setting, clipped=False)
+                if predictor.one_sided:  # derivatives are runs of their own: only where a step was good
+                    predicted = self._predicted = predictor.predict(fit_model, clipped=False)
                 else:
-                    predicted, slopes = subject.linearised(setting, self._free)
+                    predicted, slopes = predictor.linearised(fit_model, self._free)
                     slopes = np.where(np.isfinite(predicted)[:, None], slopes, 0.0)
-                    self._slopes = self._finite(slopes / subject.scale[:, None])
-                misfit = (predicted - subject.measured) / subject.scale
+                    self._slopes = self._finite(slopes / predictor.scale[:, None])
+                misfit = (predicted - predictor.measured) / predictor.scale
             self._at, self._misfit = key, np.where(np.isfinite(misfit), misfit, self._lost)
         return self._misfit
 
@@ -60,7 +60,7 @@ class Misfit:
         """Of the misfit, shape (values, free)."""
         self.value(numbers)
         if self._slopes is None:
-            slopes = self._subject.differences(self.setting(numbers), self._free, self._predicted)
+            slopes = self._subject.differences(self.fit_model(numbers), self._free, self._predicted)
             self._slopes = self._finite(slopes / self._subject.scale[:, None])
         return self._slopes
 

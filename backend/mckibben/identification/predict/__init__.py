@@ -11,10 +11,10 @@
 
 from __future__ import annotations
 
-from mckibben.identification.predict.comparable_rows import task_of
-from mckibben.identification.predict.moving import Moving
-from mckibben.identification.predict.predictor import Channel, Subject
-from mckibben.identification.predict.quasistatic import Quasistatic
+from mckibben.identification.predict.comparable_rows import comparable_rows
+from mckibben.identification.predict.moving import TransientPredictor
+from mckibben.identification.predict.predictor import PredictedChannel, Predictor
+from mckibben.identification.predict.quasistatic import QuasistaticPredictor
 from mckibben.measurement.measurement import Measurement
 from mckibben.physics import ideal
 from mckibben.physics.errors import InputError
@@ -23,13 +23,13 @@ from mckibben.simulation.command.shapes import Step
 from mckibben.simulation.drive.parts import Drive, Load, Valve
 from mckibben.simulation.statics.model import StaticModel
 
-__all__ = ["Channel", "Moving", "Quasistatic", "Subject", "subject_of"]
+__all__ = ["PredictedChannel", "Predictor", "QuasistaticPredictor", "TransientPredictor", "predictor_of"]
 
 _PRESSURE = 6e5  # Pa; where no pressure was measured
 _ANY_VALVE = Valve(1e-8, 1e-8)  # the pressure is measured, so no air flows through it
 
 
-def subject_of(measurement: Measurement, muscle: Muscle, drive: Drive | None = None) -> Subject:
+def predictor_of(measurement: Measurement, muscle: Muscle, drive: Drive | None = None) -> Predictor:
     """The subject of a measurement.
 
     Args:
@@ -41,11 +41,11 @@ def subject_of(measurement: Measurement, muscle: Muscle, drive: Drive | None = N
         InputError: a channel, a condition or the drive is missing.
     """
     if measurement.kind != "transient":
-        task = task_of(measurement, muscle)
+        task = comparable_rows(measurement, muscle)
         pressure = max(float(task.state["pressure"].max()), 1.0)
         blocked = ideal.force(braid=muscle.braid, pressure=pressure, length=muscle.nominal_length)
-        return Quasistatic(task, largest_load=float(blocked))
-    return Moving(measurement, drive or _bare_drive(measurement, muscle))
+        return QuasistaticPredictor(task, largest_load=float(blocked))
+    return TransientPredictor(measurement, drive or _bare_drive(measurement, muscle))
 
 
 def _bare_drive(measurement: Measurement, muscle: Muscle) -> Drive:

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mckibben.measurement.measurement import FORCE_KINDS, STROKES, Measurement, lengths
-from mckibben.measurement.motion import Motion, motion_of
+from mckibben.measurement.motion import RecordedMotion, motion_of
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.physics.muscle import Muscle
@@ -34,7 +34,7 @@ _FEW = 0.1  # share of the rows up to which that is an exception
 
 
 @dataclass(frozen=True)
-class Task:
+class ComparableRows:
     """The rows of a measurement that can be compared, and what the model needs for them.
 
     Attributes:
@@ -69,7 +69,7 @@ class Task:
     unknown_load: bool
     messages: tuple[str, ...]
 
-    def chosen(self, keep: np.ndarray) -> Task:
+    def chosen(self, keep: np.ndarray) -> ComparableRows:
         """The task with some of its rows (a mask or indices) only."""
         return replace(
             self,
@@ -83,7 +83,7 @@ class Task:
         )
 
 
-def task_of(measurement: Measurement, muscle: Muscle) -> Task:
+def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
     """The comparison that a measurement of any kind but transient allows.
 
     Rows without pulling force (slack), unusable rows and rows longer than the braid allows are excluded, with
@@ -137,7 +137,7 @@ def task_of(measurement: Measurement, muscle: Muscle) -> Task:
         np.count_nonzero(unseen & keep & ~turning)
     )
     turning |= unseen
-    return Task(
+    return ComparableRows(
         kind,
         channel,
         unit,
@@ -224,7 +224,7 @@ def _unknown_history(measurement: Measurement, length: np.ndarray | None) -> np.
     return rows
 
 
-def _jumps(time: np.ndarray, length: np.ndarray, moved: Motion) -> np.ndarray:
+def _jumps(time: np.ndarray, length: np.ndarray, moved: RecordedMotion) -> np.ndarray:
     """Rows at which the velocity jumps, so that they may belong to either side: few, or none is told.
 
     Those far less sure than all the others; and of two rows between which it changes suddenly the one nearer

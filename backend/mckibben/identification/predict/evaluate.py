@@ -12,8 +12,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from mckibben.identification.predict.comparable_rows import Task
-from mckibben.identification.predict.fit_model import LOAD, Setting
+from mckibben.identification.predict.comparable_rows import ComparableRows
+from mckibben.identification.predict.fit_model import LOAD, FitModel
 from mckibben.identification.predict.memory import Memory, remembers
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import Model
@@ -31,17 +31,17 @@ _FEW_ROWS = 600
 class Evaluation:
     """Evaluates settings at the rows of one task."""
 
-    def __init__(self, task: Task) -> None:
+    def __init__(self, task: ComparableRows) -> None:
         self.task = task
         self._memory = Memory(task)
 
-    def state(self, setting: Setting) -> dict[str, np.ndarray]:
+    def state(self, fit_model: FitModel) -> dict[str, np.ndarray]:
         """What the model is evaluated at: measured inputs, and where the memory of the effects has got to."""
         state = {name: self.task.state[name] for name in INPUTS if name in self.task.state}
-        return state | self._memory.states(setting)
+        return state | self._memory.states(fit_model)
 
     def at(
-        self, setting: Setting, names: Sequence[str] = (), state: State | None = None
+        self, fit_model: FitModel, names: Sequence[str] = (), state: State | None = None
     ) -> tuple[dict[str, np.ndarray], np.ndarray]:
         """Outputs at the measured length, and derivatives of the force by the named numbers.
 
@@ -49,21 +49,21 @@ class Evaluation:
         """
         # A typed term may have no slope, or no value, somewhere: that is looked for in what comes out.
         with np.errstate(all="ignore"):
-            return self._at(setting, names, state)
+            return self._at(fit_model, names, state)
 
     def _at(
-        self, setting: Setting, names: Sequence[str], state: State | None
+        self, fit_model: FitModel, names: Sequence[str], state: State | None
     ) -> tuple[dict[str, np.ndarray], np.ndarray]:
-        moved = self._memory.by_parameters(setting, names)
-        effects = sorted_effects(setting.effects)
+        moved = self._memory.by_parameters(fit_model, names)
+        effects = sorted_effects(fit_model.effects)
         memory = any(map(remembers, effects))
         inner = [name for name in names if name != LOAD]
         inner += sorted({state for own in moved.values() for state in own})
         few = len(self.task.measured) <= _FEW_ROWS
         gradient_by = _derivatives(effects, inner, memory) if few else tuple(inner)
         compiled = compiled_state(effects, gradient_by, memory=memory, quick=True)
-        constants = compiled.pack(setting.muscle, setting.values)
-        out, raw = settle(compiled, constants, state or self.state(setting))
+        constants = compiled.pack(fit_model.muscle, fit_model.values)
+        out, raw = settle(compiled, constants, state or self.state(fit_model))
         picked = [gradient_by.index(name) for name in inner]
         force, tension, _, compliance = np.moveaxis(raw.reshape(-1, 4, raw.shape[1])[picked], 1, 0)
         pulling = out["tension"] > 0.0

@@ -24,7 +24,7 @@ _DEFAULT_SHARE = 0.10
 
 
 @dataclass(frozen=True)
-class Setting:
+class FitModel:
     """A muscle, its effects and their values.
 
     Numbers are named "effect.parameter", by the field of the muscle, or `LOAD`.
@@ -56,7 +56,7 @@ class Setting:
         effect, parameter = name.split(".")
         return self.values[effect][parameter]
 
-    def with_numbers(self, names: Sequence[str], numbers: Sequence[float] | np.ndarray) -> Setting:
+    def with_numbers(self, names: Sequence[str], numbers: Sequence[float] | np.ndarray) -> FitModel:
         """The same model with some numbers replaced."""
         values = {effect: dict(own) for effect, own in self.values.items()}
         geometry: dict[str, Any] = {}
@@ -72,7 +72,7 @@ class Setting:
         muscle = self.muscle._replace(**geometry) if geometry else self.muscle
         return replace(self, muscle=muscle, values=values, load=load)
 
-    def adding(self, effect: Effect, values: Mapping[str, float] | None = None) -> Setting:
+    def adding(self, effect: Effect, values: Mapping[str, float] | None = None) -> FitModel:
         """The model with one more effect, at its defaults unless values are given.
 
         What the effect needs of the muscle and nobody stated is assumed.
@@ -87,7 +87,7 @@ class Setting:
             assumed=self.assumed | unknown,
         )
 
-    def without(self, effect_id: str) -> Setting:
+    def without(self, effect_id: str) -> FitModel:
         """The model without an effect, and without what was assumed for it alone."""
         effects = tuple(effect for effect in self.effects if effect.id != effect_id)
         idle = self.assumed - {name for effect in effects for name in effect.needs}
@@ -106,7 +106,11 @@ class Setting:
 
 
 def free_numbers(
-    setting: Setting, geometry: Iterable[Free] = (), freed: Collection[str] = (), *, load: Free | None = None
+    fit_model: FitModel,
+    geometry: Iterable[Free] = (),
+    freed: Collection[str] = (),
+    *,
+    load: Free | None = None,
 ) -> tuple[Free, ...]:
     """What a fit of the model may change.
 
@@ -117,14 +121,14 @@ def free_numbers(
         load: the unknown load with its bounds.
     """
     own = [
-        _free(effect.id, p, setting.values[effect.id][p.name])
-        for effect in setting.effects
+        _free(effect.id, p, fit_model.values[effect.id][p.name])
+        for effect in fit_model.effects
         for p in effect.parameters
         if p.fitted or f"{effect.id}.{p.name}" in freed
     ]
-    others = [Free(f.name, setting.number(f.name), f.lower, f.upper, f.unit) for f in geometry]
+    others = [Free(f.name, fit_model.number(f.name), f.lower, f.upper, f.unit) for f in geometry]
     if load is not None:
-        others.append(Free(LOAD, setting.load, load.lower, load.upper, load.unit))
+        others.append(Free(LOAD, fit_model.load, load.lower, load.upper, load.unit))
     return (*own, *others)
 
 

@@ -19,7 +19,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from mckibben.identification.predict.fit_model import Setting
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.physics.effect import Effect
 
 _SLOTS = ("skew", "force_reading", "pressure_reading", "stroke_reading")
@@ -33,7 +33,7 @@ def late(effect: Effect) -> bool:
 
 
 def as_read(
-    setting: Setting, *, time: np.ndarray, records: Sequence[np.ndarray], values: np.ndarray
+    fit_model: FitModel, *, time: np.ndarray, records: Sequence[np.ndarray], values: np.ndarray
 ) -> np.ndarray:
     """What the force channel shows of values, shape (rows,) or (rows, columns), record by record.
 
@@ -44,10 +44,10 @@ def as_read(
         values: what an ideal channel would show.
     """
     read = values.astype(float).copy()
-    for effect in setting.effects:
+    for effect in fit_model.effects:
         if not late(effect):
             continue
-        own = setting.values[effect.id]
+        own = fit_model.values[effect.id]
         constants = _constants(effect, own)
         delay = float(effect.call("skew", {}, own)) if "skew" in effect.slots else 0.0
         for rows in records:

@@ -15,7 +15,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from mckibben.identification.predict.evaluate import Evaluation, State
-from mckibben.identification.predict.fit_model import LOAD, Setting
+from mckibben.identification.predict.fit_model import LOAD, FitModel
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import Model
 
@@ -29,16 +29,16 @@ _STEP = 1e-3  # of a parameter's range, for the guide's derivative
 Found = tuple[np.ndarray, np.ndarray]
 
 
-def predicted_lengths(evaluation: Evaluation, setting: Setting, names: Sequence[str] = ()) -> Found:
+def predicted_lengths(evaluation: Evaluation, fit_model: FitModel, names: Sequence[str] = ()) -> Found:
     """Length of each row [m], and its derivatives by the named numbers, shape (rows, names)."""
-    state = evaluation.state(setting)
-    if not any(map(_rubs, setting.effects)):
-        return _balance(evaluation, setting, names, state)
+    state = evaluation.state(fit_model)
+    if not any(map(_rubs, fit_model.effects)):
+        return _balance(evaluation, fit_model, names, state)
     branches = []
     for sign in (-1.0, 1.0):
         speed = np.abs(state["velocity"]) * sign
         moving = {**state, "velocity": speed, "direction": np.full(len(speed), sign)}
-        branches.append(_balance(evaluation, setting, names, moving))
+        branches.append(_balance(evaluation, fit_model, names, moving))
     return _stuck(evaluation, *branches)
 
 
@@ -68,16 +68,16 @@ def _stuck(evaluation: Evaluation, shortening: Found, lengthening: Found) -> Fou
     return length, gradient
 
 
-def _balance(evaluation: Evaluation, setting: Setting, names: Sequence[str], state: State) -> Found:
+def _balance(evaluation: Evaluation, fit_model: FitModel, names: Sequence[str], state: State) -> Found:
     """Newton's method from the measured length, in bounded steps, within what the braid allows."""
     task = evaluation.task
-    rest = setting.muscle.nominal_length
-    low, high = _SHORTEST * rest, 0.9999 * float(setting.muscle.braid.thread_length)
+    rest = fit_model.muscle.nominal_length
+    low, high = _SHORTEST * rest, 0.9999 * float(fit_model.muscle.braid.thread_length)
     first = task.measured if task.channel == "length" else np.full(len(task.measured), rest)
     length = np.clip(first, low, high)
-    load = _load(task.state["load"], setting, state, length)
+    load = _load(task.state["load"], fit_model, state, length)
     for _ in range(_NEWTON_STEPS):
-        out, _ = evaluation.at(setting, (), {**state, "length": length})
+        out, _ = evaluation.at(fit_model, (), {**state, "length": length})
         excess, slope = out["force"] - load, out["force_by_length"]
         with np.errstate(divide="ignore", invalid="ignore"):
             step = np.where(slope > 0.0, excess / slope, np.sign(excess))
@@ -89,26 +89,28 @@ def _balance(evaluation: Evaluation, setting: Setting, names: Sequence[str], sta
             break
     if not names:
         return length, np.empty((len(length), 0))
-    out, gradient = evaluation.at(setting, names, {**state, "length": length})
+    out, gradient = evaluation.at(fit_model, names, {**state, "length": length})
     gradient = -gradient
     for column, name in enumerate(names):
-        gradient[:, column] += _load_slope(name, setting, state, length)
+        gradient[:, column] += _load_slope(name, fit_model, state, length)
     slope = out["force_by_length"]
     inside = (length > low) & (length < high) & (slope > 0.0)
     return length, np.where(inside[:, None], gradient / np.where(inside, slope, 1.0)[:, None], 0.0)
 
 
-def _load(stated: np.ndarray, setting: Setting, state: State, length: np.ndarray) -> np.ndarray:
+def _load(stated: np.ndarray, fit_model: FitModel, state: State, length: np.ndarray) -> np.ndarray:
     """What the muscle has to pull: load, unknown load, and the guide against the motion [N]."""
     creeping = np.where(state["velocity"] == 0.0, _CREEP * state["direction"], state["velocity"])
     context = {
-        "stroke": setting.muscle.nominal_length - length,
+        "stroke": fit_model.muscle.nominal_length - length,
         "speed": -creeping,
         "direction": -state["direction"],
     }
-    guides = [effect for effect in setting.effects if "guide" in effect.slots]
-    values = {e.id: {**setting.values[e.id], **_sliding(e, setting.values[e.id], context)} for e in guides}
-    return stated + setting.load + Model(tuple(guides)).sum("guide", values, context)
+    guides = [effect for effect in fit_model.effects if "guide" in effect.slots]
+    values = {
+        e.id: {**fit_model.values[e.id], **_sliding(e, fit_model.values[e.id], context)} for e in guides
+    }
+    return stated + fit_model.load + Model(tuple(guides)).sum("guide", values, context)
 
 
 def _sliding(
@@ -124,17 +126,17 @@ def _sliding(
     return {s.name: low / (low - high) for s, low, high in zip(effect.states, empty, full, strict=True)}
 
 
-def _load_slope(name: str, setting: Setting, state: State, length: np.ndarray) -> np.ndarray | float:
+def _load_slope(name: str, fit_model: FitModel, state: State, length: np.ndarray) -> np.ndarray | float:
     if name == LOAD:
         return 1.0
-    effect = next((e for e in setting.effects if e.id == name.partition(".")[0]), None)
+    effect = next((e for e in fit_model.effects if e.id == name.partition(".")[0]), None)
     if effect is None or "guide" not in effect.slots:
         return 0.0
     declared = effect.parameter(name.partition(".")[2])
     step = _STEP * (declared.upper - declared.lower)
     zero = np.zeros(len(length))
-    here = setting.number(name)
+    here = fit_model.number(name)
     ends = [
-        _load(zero, setting.with_numbers([name], [value]), state, length) for value in (here, here + step)
+        _load(zero, fit_model.with_numbers([name], [value]), state, length) for value in (here, here + step)
     ]
     return (ends[1] - ends[0]) / step

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mckibben.identification.predict.comparable_rows import Task
-from mckibben.identification.predict.fit_model import Setting
+from mckibben.identification.predict.comparable_rows import ComparableRows
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.simulation.drive.driven import driven_states
@@ -31,7 +31,7 @@ class Memory:
     fit of other parameters never integrates it again.
     """
 
-    def __init__(self, task: Task) -> None:
+    def __init__(self, task: ComparableRows) -> None:
         self._task = task
         self._kept: dict[tuple, dict[str, np.ndarray]] = {}
         self._records = [
@@ -40,34 +40,34 @@ class Memory:
             if np.count_nonzero(task.records == label) >= 2
         ]
 
-    def states(self, setting: Setting) -> dict[str, np.ndarray]:
+    def states(self, fit_model: FitModel) -> dict[str, np.ndarray]:
         """Value of each state ("effect.state") at each row."""
-        sensors = tuple(e for e in setting.effects if any(slot in e.slots for slot in _SENSORS))
+        sensors = tuple(e for e in fit_model.effects if any(slot in e.slots for slot in _SENSORS))
         found: dict[str, np.ndarray] = {}
-        for effect in filter(remembers, setting.effects):
+        for effect in filter(remembers, fit_model.effects):
             effects = (effect, *(sensor for sensor in sensors if sensor is not effect))
-            values = {e.id: dict(setting.values[e.id]) for e in effects}
-            key = (setting.muscle, *(self._key(e, values[e.id]) for e in effects))
+            values = {e.id: dict(fit_model.values[e.id]) for e in effects}
+            key = (fit_model.muscle, *(self._key(e, values[e.id]) for e in effects))
             if key not in self._kept:
                 if len(self._kept) >= _KEPT:
                     self._kept.pop(next(iter(self._kept)))
-                self._kept[key] = self._run(StaticModel.of(setting.muscle, effects, values), effect)
+                self._kept[key] = self._run(StaticModel.of(fit_model.muscle, effects, values), effect)
             found |= self._kept[key]
         return found
 
-    def by_parameters(self, setting: Setting, names: Sequence[str]) -> dict[str, dict[str, np.ndarray]]:
+    def by_parameters(self, fit_model: FitModel, names: Sequence[str]) -> dict[str, dict[str, np.ndarray]]:
         """Derivatives of the states by the named parameters that move them: name -> state -> rows."""
         found: dict[str, dict[str, np.ndarray]] = {}
         for name in names:
             effect_id, _, parameter = name.partition(".")
-            effect = next((e for e in setting.effects if e.id == effect_id), None)
+            effect = next((e for e in fit_model.effects if e.id == effect_id), None)
             if effect is None or not remembers(effect) or parameter not in effect.wanted("rates"):
                 continue
             declared = effect.parameter(parameter)
-            here = setting.number(name)
+            here = fit_model.number(name)
             step = _STEP * max(abs(here), 0.01 * (declared.upper - declared.lower))
             other = here + step if here + step <= declared.upper else here - step
-            first, last = self.states(setting), self.states(setting.with_numbers([name], [other]))
+            first, last = self.states(fit_model), self.states(fit_model.with_numbers([name], [other]))
             found[name] = {
                 state: (last[state] - first[state]) / (other - here)
                 for state in first

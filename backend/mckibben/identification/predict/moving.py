@@ -12,16 +12,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mckibben.identification.predict.comparable_rows import records_of
-from mckibben.identification.predict.fit_model import Setting
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.folds import FEWEST
 from mckibben.identification.predict.free import Free
-from mckibben.identification.predict.predictor import Channel, Subject
+from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.measurement.measurement import STROKES, Measurement, lengths
 from mckibben.measurement.noise import noise_floor
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
-from mckibben.simulation.command.signals import Table
+from mckibben.simulation.command.signals import TableSignal
 from mckibben.simulation.drive.driven import driven_motion
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import simulate
@@ -41,7 +41,7 @@ _AIR = (
 )  # fmt: skip
 
 
-class Recorded(Table):
+class Recorded(TableSignal):
     """A measured command; a record that begins with the valve open was switched on at its first row."""
 
     shape = "recorded"
@@ -63,7 +63,7 @@ class Record:
     rows: np.ndarray
 
 
-class Moving(Subject):
+class TransientPredictor(Predictor):
     """Transient measurements of one drive.
 
     Args:
@@ -107,7 +107,7 @@ class Moving(Subject):
             )
         rows = np.concatenate([record.rows for record in self._records])
         self.rows, count = rows, len(rows)
-        channels: list[Channel] = []
+        channels: list[PredictedChannel] = []
         self.rows_used, self.messages = count, measurement.messages
         self.excluded = dict(measurement.exclusions)
         if between := int(np.count_nonzero(measurement.usable)) - count:
@@ -117,7 +117,7 @@ class Moving(Subject):
             full_scale = float(np.max(np.abs(values)))
             noise = noise_floor(values, sweeps) or 1e-3 * full_scale
             place = slice(number * count, (number + 1) * count)
-            channels.append(Channel(name, unit, place, max(noise, 1e-6 * full_scale), full_scale))
+            channels.append(PredictedChannel(name, unit, place, max(noise, 1e-6 * full_scale), full_scale))
         self.channels = tuple(channels)
         self.measured = np.concatenate([values[rows] for _, _, values in found])
         several = len(found) > 1
@@ -153,26 +153,26 @@ class Moving(Subject):
             return "it acts on the tube, and the drive states that there is none"
         return ""
 
-    def prepare(self, setting: Setting, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
+    def prepare(self, fit_model: FitModel, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
         """One structure with every candidate that can be off, to look at their changes by."""
-        inside = {effect.id for effect in setting.effects}
+        inside = {effect.id for effect in fit_model.effects}
         # An energy balance in place of a polytrope is another structure even when no heat flows.
         # So is a tube that the drive does not state.
         tubeless = self._records[0].drive.tube is None
         other = {"heat", "tube_conductance"} if tubeless else {"heat"}
         further = [e for e in candidates if e.id not in inside and not other & set(e.slots) and not _fast(e)]
-        self._wide = Model((*setting.effects, *further)).effects
+        self._wide = Model((*fit_model.effects, *further)).effects
 
-    def trial(self, setting: Setting) -> np.ndarray:
+    def trial(self, fit_model: FitModel) -> np.ndarray:
         """As `predict`, in the structure of all candidates when it holds the model."""
-        if not set(setting.effects) <= set(self._wide):
-            return self.predict(setting)
-        values = {effect.id: setting.values.get(effect.id, effect.off) for effect in self._wide}
-        return self.predict(replace(setting, effects=self._wide, values=values))
+        if not set(fit_model.effects) <= set(self._wide):
+            return self.predict(fit_model)
+        values = {effect.id: fit_model.values.get(effect.id, effect.off) for effect in self._wide}
+        return self.predict(replace(fit_model, effects=self._wide, values=values))
 
-    def predict(self, setting: Setting, *, clipped: bool = True) -> np.ndarray:
+    def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
         """The channels of all records, stacked; far off where a run breaks off."""
-        model = StaticModel.of(setting.muscle, Model(setting.effects).effects, setting.values)
+        model = StaticModel.of(fit_model.muscle, Model(fit_model.effects).effects, fit_model.values)
         parts: list[list[np.ndarray]] = [[] for _ in self.channels]
         for record in self._records:
             readings = self._run(replace(record.drive, model=model), record)

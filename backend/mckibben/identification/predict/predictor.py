@@ -8,13 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mckibben.identification.predict.fit_model import Setting
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
 from mckibben.physics.effect import Effect
 
 
 @dataclass(frozen=True)
-class Channel:
+class PredictedChannel:
     """One predicted channel.
 
     Attributes:
@@ -32,7 +32,7 @@ class Channel:
     full_scale: float
 
 
-class Subject(ABC):
+class Predictor(ABC):
     """Measured values beside a model; arrays are stacked over the predicted channels.
 
     Attributes:
@@ -56,7 +56,7 @@ class Subject(ABC):
     """
 
     kind: str
-    channels: tuple[Channel, ...]
+    channels: tuple[PredictedChannel, ...]
     measured: np.ndarray
     scale: np.ndarray
     folds: tuple[np.ndarray, ...]
@@ -76,12 +76,12 @@ class Subject(ABC):
     unknown_load: Free | None = None
 
     @abstractmethod
-    def predict(self, setting: Setting, *, clipped: bool = True) -> np.ndarray:
+    def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
         """Predicted values, shape (values,); ``clipped``: a slack muscle reads no force."""
 
-    def trial(self, setting: Setting) -> np.ndarray:
+    def trial(self, fit_model: FitModel) -> np.ndarray:
         """Unclipped prediction by the quickest way, to look at what a candidate would change."""
-        return self.predict(setting, clipped=False)
+        return self.predict(fit_model, clipped=False)
 
     @abstractmethod
     def why_hidden(self, effect: Effect) -> str:
@@ -92,38 +92,38 @@ class Subject(ABC):
         return not self.why_hidden(effect)
 
     @abstractmethod
-    def prepare(self, setting: Setting, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
+    def prepare(self, fit_model: FitModel, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
         """Told which models a search will try, so that they can be made ready together."""
 
-    def linearised(self, setting: Setting, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
+    def linearised(self, fit_model: FitModel, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
         """Predicted values and their derivatives by the free numbers, shape (values, free)."""
-        predicted = self.predict(setting, clipped=False)
-        return predicted, self.differences(setting, free, predicted if self.one_sided else None)
+        predicted = self.predict(fit_model, clipped=False)
+        return predicted, self.differences(fit_model, free, predicted if self.one_sided else None)
 
     def differences(
-        self, setting: Setting, free: Sequence[Free], here: np.ndarray | None = None
+        self, fit_model: FitModel, free: Sequence[Free], here: np.ndarray | None = None
     ) -> np.ndarray:
         """Differences of `predict`, shape (values, free): central, or from what is predicted ``here``."""
         columns = []
         for parameter in free:
-            value = setting.number(parameter.name)
+            value = fit_model.number(parameter.name)
             step = self.step * min(parameter.upper - parameter.lower, max(abs(value), parameter.typical))
             low, high = max(value - step, parameter.lower), min(value + step, parameter.upper)
             if here is not None:
                 other = high if high - value >= value - low else low
-                moved = self.predict(setting.with_numbers([parameter.name], [other]), clipped=False)
+                moved = self.predict(fit_model.with_numbers([parameter.name], [other]), clipped=False)
                 columns.append((moved - here) / (other - value))
                 continue
             ends = [
-                self.predict(setting.with_numbers([parameter.name], [end]), clipped=False)
+                self.predict(fit_model.with_numbers([parameter.name], [end]), clipped=False)
                 for end in (low, high)
             ]
             columns.append((ends[1] - ends[0]) / (high - low))
         return np.column_stack(columns) if columns else np.empty((len(self.measured), 0))
 
-    def residual(self, setting: Setting) -> np.ndarray:
+    def residual(self, fit_model: FitModel) -> np.ndarray:
         """Measured minus predicted."""
-        return self.measured - self.predict(setting)
+        return self.measured - self.predict(fit_model)
 
     def rmse(self, residual: np.ndarray) -> float:
         """Root mean square of the residual over its scale."""

@@ -7,15 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from mckibben.identification.predict.comparable_rows import Task
+from mckibben.identification.predict.comparable_rows import ComparableRows
 from mckibben.identification.predict.evaluate import Evaluation, sorted_effects
-from mckibben.identification.predict.fit_model import LOAD, Setting
+from mckibben.identification.predict.fit_model import LOAD, FitModel
 from mckibben.identification.predict.folds import folds_of, ranges_of, sweeps_of
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.late import as_read, late
 from mckibben.identification.predict.lengths import predicted_lengths
 from mckibben.identification.predict.memory import remembers
-from mckibben.identification.predict.predictor import Channel, Subject
+from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.physics.effect import Effect
 from mckibben.simulation.statics.model import clip_slack
 
@@ -24,7 +24,7 @@ _NEAR_ZERO = 0.05  # of the range of the force
 _SLACK_BAND = 0.02  # of the range of the force
 
 
-class Quasistatic(Subject):
+class QuasistaticPredictor(Predictor):
     """A task of any kind but transient.
 
     Args:
@@ -32,7 +32,7 @@ class Quasistatic(Subject):
         largest_load: up to where an unknown load is looked for [N].
     """
 
-    def __init__(self, task: Task, *, largest_load: float = 0.0) -> None:
+    def __init__(self, task: ComparableRows, *, largest_load: float = 0.0) -> None:
         self.task = task
         self.kind = task.kind
         # Rows where the motion turns belong to the way, but are not held against the model.
@@ -41,7 +41,7 @@ class Quasistatic(Subject):
         self.measured = counted.measured
         self.scale = np.ones(len(self.measured))
         full_scale = float(np.max(np.abs(self.measured)))
-        self.channels = (Channel(task.channel, task.unit, slice(None), 1.0, full_scale),)
+        self.channels = (PredictedChannel(task.channel, task.unit, slice(None), 1.0, full_scale),)
         self.records, self.groups = counted.records, counted.groups
         self.rows_used, self.excluded, self.messages = len(self.measured), task.excluded, task.messages
         within = "pressure" if task.kind in ("isometric", "isotonic") else "length"
@@ -86,72 +86,72 @@ class Quasistatic(Subject):
             return "it does not change the diameter"
         return ""
 
-    def prepare(self, setting: Setting, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
+    def prepare(self, fit_model: FitModel, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
         """One structure that holds every model of a search: absent effects are off in it."""
-        inside = {effect.id for effect in setting.effects}
+        inside = {effect.id for effect in fit_model.effects}
         further = [e for e in candidates if e.id not in inside and not late(e)]
-        self._wide = sorted_effects((*setting.effects, *further))
+        self._wide = sorted_effects((*fit_model.effects, *further))
 
-    def trial(self, setting: Setting) -> np.ndarray:
+    def trial(self, fit_model: FitModel) -> np.ndarray:
         """As `predict`, in the structure of all candidates where that holds the model."""
-        if not set(setting.effects) <= set(self._wide):
-            return self.predict(setting, clipped=False)
-        values = {effect.id: setting.values.get(effect.id, effect.off) for effect in self._wide}
-        return self.predict(replace(setting, effects=self._wide, values=values), clipped=False)
+        if not set(fit_model.effects) <= set(self._wide):
+            return self.predict(fit_model, clipped=False)
+        values = {effect.id: fit_model.values.get(effect.id, effect.off) for effect in self._wide}
+        return self.predict(replace(fit_model, effects=self._wide, values=values), clipped=False)
 
-    def predict(self, setting: Setting, *, clipped: bool = True) -> np.ndarray:
+    def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
         """Force, length or diameter of each row; a load that passes the braid lock is predicted there."""
-        return self._everywhere(setting, clipped=clipped)[self._counted]
+        return self._everywhere(fit_model, clipped=clipped)[self._counted]
 
-    def lost(self, setting: Setting) -> tuple[int, int]:
+    def lost(self, fit_model: FitModel) -> tuple[int, int]:
         """At how many rows of the record a model has no finite value, counted or not, and of how many."""
         with np.errstate(all="ignore"):
-            values = self._everywhere(setting, clipped=False)
+            values = self._everywhere(fit_model, clipped=False)
         return int(np.count_nonzero(~np.isfinite(values))), len(values)
 
-    def _everywhere(self, setting: Setting, *, clipped: bool) -> np.ndarray:
+    def _everywhere(self, fit_model: FitModel, *, clipped: bool) -> np.ndarray:
         if self.task.channel == "length":
-            return predicted_lengths(self._evaluation, setting)[0]
+            return predicted_lengths(self._evaluation, fit_model)[0]
         if self.task.channel == "diameter":
-            return self._diameter(setting)
-        out = self._evaluation.at(_at_once(setting))[0]
+            return self._diameter(fit_model)
+        out = self._evaluation.at(_at_once(fit_model))[0]
         force = clip_slack(out) if clipped else self._followed(out)
-        return self._as_read(setting, force) if any(map(late, setting.effects)) else force
+        return self._as_read(fit_model, force) if any(map(late, fit_model.effects)) else force
 
-    def linearised(self, setting: Setting, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
+    def linearised(self, fit_model: FitModel, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
         """Predicted values and exact derivatives of force and length; differences for what has none."""
         names = tuple(parameter.name for parameter in free)
         if self.task.channel == "diameter":
-            return super().linearised(setting, free)
-        if any(map(late, setting.effects)):
-            return self._late_linearised(setting, free)
+            return super().linearised(fit_model, free)
+        if any(map(late, fit_model.effects)):
+            return self._late_linearised(fit_model, free)
         if self.task.channel == "force":
-            out, gradient = self._evaluation.at(setting, names)
+            out, gradient = self._evaluation.at(fit_model, names)
             gradient[self._slack(out)] = 0.0
             return self._followed(out)[self._counted], gradient[self._counted]
-        length, gradient = predicted_lengths(self._evaluation, setting, names)
+        length, gradient = predicted_lengths(self._evaluation, fit_model, names)
         return length[self._counted], gradient[self._counted]
 
-    def _late_linearised(self, setting: Setting, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
+    def _late_linearised(self, fit_model: FitModel, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
         """The filter of the late channel passes the exact derivatives too; differences by its own numbers."""
-        ids = {effect.id for effect in setting.effects if late(effect)}
+        ids = {effect.id for effect in fit_model.effects if late(effect)}
         inner = [p.name for p in free if p.name.partition(".")[0] not in ids]
-        out, slopes = self._evaluation.at(_at_once(setting), tuple(inner))
+        out, slopes = self._evaluation.at(_at_once(fit_model), tuple(inner))
         # A row without a slope must not take it from all rows after it.
         slopes = np.where(np.isfinite(slopes), slopes, 0.0)
         slopes[self._slack(out)] = 0.0
         force = self._followed(out)
-        shown = self._as_read(setting, np.column_stack([force, slopes]))
+        shown = self._as_read(fit_model, np.column_stack([force, slopes]))
         gradient = np.empty((len(shown), len(free)))
         for column, parameter in enumerate(free):
             if parameter.name in inner:
                 gradient[:, column] = shown[:, 1 + inner.index(parameter.name)]
                 continue
-            here = setting.number(parameter.name)
+            here = fit_model.number(parameter.name)
             step = self.step * min(parameter.upper - parameter.lower, max(abs(here), parameter.typical))
             low, high = max(here - step, parameter.lower), min(here + step, parameter.upper)
             first, last = (
-                self._as_read(setting.with_numbers([parameter.name], [end]), force) for end in (low, high)
+                self._as_read(fit_model.with_numbers([parameter.name], [end]), force) for end in (low, high)
             )
             gradient[:, column] = (last - first) / (high - low)
         return shown[:, 0][self._counted], gradient[self._counted]
@@ -164,19 +164,19 @@ class Quasistatic(Subject):
         """Rows that a model has slack and that read like it."""
         return self._idle & (out["tension"] <= 0.0)
 
-    def _as_read(self, setting: Setting, values: np.ndarray) -> np.ndarray:
+    def _as_read(self, fit_model: FitModel, values: np.ndarray) -> np.ndarray:
         """Values of every row behind the lags and the skew of a model."""
         task = self.task
         assert task.time is not None  # noqa: S101 - `reveals` asks for it
         records = [np.flatnonzero(task.records == label) for label in np.unique(task.records)]
-        return as_read(setting, time=task.time, records=records, values=values)
+        return as_read(fit_model, time=task.time, records=records, values=values)
 
-    def _diameter(self, setting: Setting) -> np.ndarray:
+    def _diameter(self, fit_model: FitModel) -> np.ndarray:
         if "length" in self.task.state:
-            return self._evaluation.at(setting)[0]["diameter"]
-        length, _ = predicted_lengths(self._evaluation, setting)
-        state = {**self._evaluation.state(setting), "length": length}
-        return self._evaluation.at(setting, (), state)[0]["diameter"]
+            return self._evaluation.at(fit_model)[0]["diameter"]
+        length, _ = predicted_lengths(self._evaluation, fit_model)
+        state = {**self._evaluation.state(fit_model), "length": length}
+        return self._evaluation.at(fit_model, (), state)[0]["diameter"]
 
 
 def _like_slack(force: np.ndarray) -> np.ndarray:
@@ -190,6 +190,6 @@ def _like_slack(force: np.ndarray) -> np.ndarray:
     return force <= max(least + _SLACK_BAND * span, -least)
 
 
-def _at_once(setting: Setting) -> Setting:
+def _at_once(fit_model: FitModel) -> FitModel:
     """The model without what is late."""
-    return replace(setting, effects=tuple(effect for effect in setting.effects if not late(effect)))
+    return replace(fit_model, effects=tuple(effect for effect in fit_model.effects if not late(effect)))

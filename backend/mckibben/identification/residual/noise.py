@@ -11,7 +11,7 @@ from mckibben.measurement.noise import CHI2_MEDIAN, SHORTEST_SWEEP, noise_floor
 if TYPE_CHECKING:
     from scipy.spatial import KDTree
 
-    from mckibben.identification.predict.predictor import Channel, Subject
+    from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 
 _PLACE = ("pressure", "length", "load", "direction")  # where a scattered point is
 _FEWEST = 30  # third differences, below which the points around each one tell more
@@ -62,7 +62,7 @@ def _beside_planes(
     return float(np.sqrt(np.median(squares) / CHI2_MEDIAN))
 
 
-def noise_of(subject: Subject, residual: np.ndarray, given: float | None) -> tuple[float | None, str]:
+def noise_of(predictor: Predictor, residual: np.ndarray, given: float | None) -> tuple[float | None, str]:
     """Noise of a residual over its scale, and from what it was told; None when it cannot be told.
 
     Args:
@@ -70,25 +70,27 @@ def noise_of(subject: Subject, residual: np.ndarray, given: float | None) -> tup
         residual: over the scale, shape (values,).
         given: what the user says of the single channel [SI].
     """
-    first, *others = subject.channels
+    first, *others = predictor.channels
     if others:
         return 1.0, "third differences of each channel"
     if given is not None:
         return given, "given"
-    value, how = channel_noise(subject, residual, first)
+    value, how = channel_noise(predictor, residual, first)
     if value is None:
         return None, "the sweeps are too short to tell"
     return max(value, _ROUNDING * first.full_scale), how
 
 
-def channel_noise(subject: Subject, values: np.ndarray, channel: Channel) -> tuple[float | None, str]:
+def channel_noise(
+    predictor: Predictor, values: np.ndarray, channel: PredictedChannel
+) -> tuple[float | None, str]:
     """Noise of one channel of stacked values, and from what: along its sweeps, or of scattered points."""
     rows = np.arange(len(values))[channel.rows]
     inside = np.zeros(len(values), bool)
     inside[rows] = True
-    sweeps = [sweep[inside[sweep]] for sweep in subject.sweeps]
+    sweeps = [sweep[inside[sweep]] for sweep in predictor.sweeps]
     differences = sum(len(rows) - 3 for rows in sweeps if len(rows) >= SHORTEST_SWEEP)
-    own = [subject.inputs[name] for name in _PLACE if name in subject.inputs]
+    own = [predictor.inputs[name] for name in _PLACE if name in predictor.inputs]
     if differences < _FEWEST and own:
         found = neighbour_noise(values[rows], np.column_stack(own)[rows])
         if found:

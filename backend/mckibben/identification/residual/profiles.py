@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mckibben.identification.predict.predictor import Subject
+from mckibben.identification.predict.predictor import Predictor
 
 _BINS = 10
 _MAP = (8, 8)
@@ -64,10 +64,10 @@ class Profile:
 
 
 def variables_of(
-    subject: Subject, nominal_length: float, groups: np.ndarray | None = None
+    predictor: Predictor, nominal_length: float, groups: np.ndarray | None = None
 ) -> dict[str, np.ndarray]:
     """What the residual may depend on, name of `SHOWN` -> values; only what changes."""
-    found = dict(subject.inputs)
+    found = dict(predictor.inputs)
     if "length" in found:
         found["contraction"] = 1.0 - found.pop("length") / nominal_length
     if groups is not None:
@@ -122,7 +122,7 @@ def _range(name: str, low: float, high: float) -> str:
 
 
 @dataclass(frozen=True)
-class HeatMap:
+class ResidualMap:
     """Mean and rms of the residual over two variables, shape (y bins, x bins); NaN without rows."""
 
     x: str
@@ -138,7 +138,7 @@ class HeatMap:
         return {name: getattr(self, name) for name in self.__dataclass_fields__}
 
 
-def heat_map(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> HeatMap | None:
+def heat_map(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> ResidualMap | None:
     """The residual over pressure and contraction, or the first two variables; None with fewer than two."""
     preferred = [name for name in ("contraction", "displacement", "time", "load") if name in variables]
     others = [name for name in ("pressure", "velocity", "command") if name in variables]
@@ -160,7 +160,9 @@ def heat_map(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> HeatM
         mean = np.bincount(flat, residual, minlength=size) / count
         rms = np.sqrt(np.bincount(flat, residual**2, minlength=size) / count)
     shape = (_MAP[1], _MAP[0])
-    return HeatMap(x, y, edges[0], edges[1], mean.reshape(shape), rms.reshape(shape), count.reshape(shape))
+    return ResidualMap(
+        x, y, edges[0], edges[1], mean.reshape(shape), rms.reshape(shape), count.reshape(shape)
+    )
 
 
 @dataclass(frozen=True)

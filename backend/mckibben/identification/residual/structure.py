@@ -26,7 +26,7 @@ SYMBOLS = {"P": "pressure", "kappa": "contraction", "v": "velocity", "s": "direc
 
 
 @dataclass(frozen=True)
-class Structure:
+class ResidualStructure:
     """What a regression without physics can still predict of a residual.
 
     Attributes:
@@ -56,13 +56,13 @@ class Term:
     values: np.ndarray
 
 
-def structure(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> Structure:
+def structure(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> ResidualStructure:
     """How much of a residual a regression without physics predicts, and from what."""
     from sklearn.ensemble import ExtraTreesRegressor  # 1 s import, not paid at start
 
     names = [name for name in variables if name != "group"]
     if not names or len(residual) < 40 or not np.any(residual):
-        return Structure(0.0, ())
+        return ResidualStructure(0.0, ())
     rows = np.arange(len(residual))
     if len(rows) > _MOST_ROWS:
         rows = np.unique(np.linspace(0, len(rows) - 1, _MOST_ROWS).astype(int))
@@ -87,7 +87,7 @@ def structure(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> Stru
     share = max(0.0, 1.0 - float(np.mean(left**2)) / whole)
     lost = (np.mean(shuffled**2, axis=1) - np.mean(left**2)) / whole
     order = np.argsort(lost)[::-1]
-    return Structure(share, tuple((names[i], float(lost[i])) for i in order if lost[i] > 0.02))
+    return ResidualStructure(share, tuple((names[i], float(lost[i])) for i in order if lost[i] > 0.02))
 
 
 def proposed_term(

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from mckibben.measurement.measurement import CHANNEL_UNITS, Measurement, build
-from mckibben.measurement.read.cells import Skip, Table
-from mckibben.measurement.read.channels import Reading, read_channels
+from mckibben.measurement.read.cells import CellTable, Skip
+from mckibben.measurement.read.channels import ChannelReading, read_channels
 from mckibben.measurement.read.conditions import read_conditions
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.header import TEXT_COLUMNS, Column, Meaning, map_headers
-from mckibben.measurement.read.source import Source
+from mckibben.measurement.read.source import RawTable
 
 
 class Read(NamedTuple):
@@ -21,7 +21,7 @@ class Read(NamedTuple):
     skipped: dict[str, Skip]
 
 
-def meaning_of(source: Source, correction: Correction, *, collect: bool = False) -> Meaning:
+def meaning_of(source: RawTable, correction: Correction, *, collect: bool = False) -> Meaning:
     """What the columns of a source are."""
     return map_headers(
         source.headers,
@@ -33,7 +33,7 @@ def meaning_of(source: Source, correction: Correction, *, collect: bool = False)
     )
 
 
-def conditions_of(source: Source, correction: Correction, messages: list[str]) -> dict[str, float | str]:
+def conditions_of(source: RawTable, correction: Correction, messages: list[str]) -> dict[str, float | str]:
     """Conditions of the file, the user's over them."""
     conditions = read_conditions(source.notes, messages)
     for key, value in correction.conditions.items():
@@ -44,7 +44,7 @@ def conditions_of(source: Source, correction: Correction, messages: list[str]) -
     return conditions
 
 
-def rows_of(source: Source, columns: list[Column], *, skip: bool) -> Table:
+def rows_of(source: RawTable, columns: list[Column], *, skip: bool) -> CellTable:
     """The rows of the columns that are used."""
     numeric = [c.index for c in columns if c.use not in TEXT_COLUMNS]
     text = [c.index for c in columns if c.use in TEXT_COLUMNS]
@@ -52,7 +52,7 @@ def rows_of(source: Source, columns: list[Column], *, skip: bool) -> Table:
 
 
 def assemble(
-    source: Source, *, name: str, id: str, correction: Correction, meaning: Meaning | None = None
+    source: RawTable, *, name: str, id: str, correction: Correction, meaning: Meaning | None = None
 ) -> Read:
     """The measurement of a table.
 
@@ -65,7 +65,9 @@ def assemble(
     messages += meaning.messages
     skip = correction.skip_bad_rows or str(conditions.get("bad_rows", "")).lower() == "skip"
     table = rows_of(source, meaning.columns, skip=skip)
-    reading = Reading(source.place, source.noun, table, conditions, messages, list(meaning.ignored), skip)
+    reading = ChannelReading(
+        source.place, source.noun, table, conditions, messages, list(meaning.ignored), skip
+    )
     columns, by_use, slack = read_channels(meaning.columns, reading)
     skipped = dict(reading.table.skipped)
     for reason, left_out in skipped.items():

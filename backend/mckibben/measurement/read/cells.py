@@ -36,7 +36,7 @@ class Skip(NamedTuple):
     first: str
 
 
-class Table(NamedTuple):
+class CellTable(NamedTuple):
     """``numbers`` and ``labels`` by column index; ``lines``: 1-based row of the file of each row.
 
     ``skipped``: reason -> rows that are not in the table.
@@ -47,9 +47,9 @@ class Table(NamedTuple):
     lines: NDArray[np.int64]
     skipped: Mapping[str, Skip] = {}
 
-    def only(self, keep: NDArray[np.bool_], reason: str, first: str) -> Table:
+    def only(self, keep: NDArray[np.bool_], reason: str, first: str) -> CellTable:
         """The table without the other rows, which are counted under a reason."""
-        return Table(
+        return CellTable(
             {index: values[keep] for index, values in self.numbers.items()},
             {index: Labels(label.codes[keep], label.words) for index, label in self.labels.items()},
             self.lines[keep],
@@ -105,7 +105,7 @@ class Problems:
 def read_cells(
     rows: Iterable[tuple[int, Sequence[Cell]]], headers: Sequence[str], *, numeric: Sequence[int],
     text: Sequence[int], problems: Problems,
-) -> Table:  # fmt: skip
+) -> CellTable:  # fmt: skip
     """Walk rows of cells.
 
     Args:
@@ -133,7 +133,7 @@ def read_cells(
     problems.raise_any()
     if not lines:
         raise no_rows(problems.place, problems.skipped)
-    return Table(
+    return CellTable(
         {index: np.array(values, dtype=np.float64) for index, values in numbers.items()},
         {i: Labels(np.array(values, dtype=np.intp), list(words[i])) for i, values in codes.items()},
         np.array(lines, dtype=np.int64),

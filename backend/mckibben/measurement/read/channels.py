@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
-from mckibben.measurement.read.cells import Labels, Table, no_rows
+from mckibben.measurement.read.cells import CellTable, Labels, no_rows
 from mckibben.measurement.read.conditions import ATMOSPHERE
 from mckibben.measurement.read.correction import SAMPLE, SLACK
 from mckibben.measurement.read.header import TEXT_COLUMNS, Column
@@ -28,12 +28,12 @@ _LOADING = {"load": 1.0, "loading": 1.0, "unload": -1.0, "unloading": -1.0}
 
 
 @dataclass
-class Reading:
+class ChannelReading:
     """What the conversion of columns reads and adds to."""
 
     place: str
     noun: str
-    table: Table
+    table: CellTable
     conditions: dict[str, float | str]
     messages: list[str]
     ignored: list[str]
@@ -55,7 +55,7 @@ class _Values(NamedTuple):
 
 
 def read_channels(
-    columns: list[Column], reading: Reading
+    columns: list[Column], reading: ChannelReading
 ) -> tuple[dict[str, NDArray], dict[str, Column], NDArray[np.bool_] | None]:
     """(channel -> values in SI, channel -> its column, rows marked as slack).
 
@@ -89,7 +89,7 @@ def read_channels(
     return channels, by_use | units, slack
 
 
-def _with_known_unit(column: Column, reading: Reading) -> Column | None:
+def _with_known_unit(column: Column, reading: ChannelReading) -> Column | None:
     """The column with a unit, guessed from its numbers where none is given; None = no such channel."""
     raw = reading.table.numbers[column.index]
     use, unit = column.use, column.unit
@@ -119,7 +119,7 @@ def _absolute(column: Column, conditions: Mapping[str, float | str]) -> bool | N
     return True if said.startswith("abs") else False if said.startswith(("gauge", "rel")) else None
 
 
-def _values(column: Column, reading: Reading) -> _Values:
+def _values(column: Column, reading: ChannelReading) -> _Values:
     """One numeric column in SI, and which of its rows cannot be."""
     raw = reading.table.numbers[column.index]
     use = column.use
@@ -141,7 +141,7 @@ def _values(column: Column, reading: Reading) -> _Values:
     return _Values(values, np.zeros(len(values), bool), "", "")
 
 
-def _say_reference(column: Column, reading: Reading) -> None:
+def _say_reference(column: Column, reading: ChannelReading) -> None:
     label = f"{reading.noun} '{column.header}'"
     if column.absolute:
         reading.messages.append(f"{label} is absolute pressure: {ATMOSPHERE:.0f} Pa subtracted")
@@ -149,7 +149,7 @@ def _say_reference(column: Column, reading: Reading) -> None:
         reading.messages.append(f"{label} read as gauge pressure")
 
 
-def _value_error(reading: Reading, column: Column, values: _Values) -> InputError:
+def _value_error(reading: ChannelReading, column: Column, values: _Values) -> InputError:
     first, count = int(np.argmax(values.bad)), int(np.count_nonzero(values.bad))
     line, value = int(reading.table.lines[first]), reading.table.numbers[column.index][first]
     more = f" (and {count - 1} more such rows)" if count > 1 else ""
@@ -161,7 +161,7 @@ def _value_error(reading: Reading, column: Column, values: _Values) -> InputErro
 
 
 def _read_labels(
-    by_use: Mapping[str, Column], columns: dict[str, NDArray], reading: Reading
+    by_use: Mapping[str, Column], columns: dict[str, NDArray], reading: ChannelReading
 ) -> NDArray[np.bool_] | None:
     """Add direction, group and sample; returns the rows marked as slack."""
     labels = {use: reading.table.labels[c.index] for use, c in by_use.items() if use in TEXT_COLUMNS}

@@ -11,11 +11,11 @@ from collections.abc import Sequence
 
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.read.assemble import assemble
-from mckibben.measurement.read.cells import Table
+from mckibben.measurement.read.cells import CellTable
 from mckibben.measurement.read.conditions import Note, note_of_line
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.header import HEADER_EXAMPLE
-from mckibben.measurement.read.source import SAMPLE_ROWS, Source
+from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
 from mckibben.measurement.read.table import first_rows, read_table, split_header
 from mckibben.physics.errors import InputError
 
@@ -39,7 +39,7 @@ def read_csv(data: bytes, name: str, correction: Correction | None = None) -> Me
     return assemble(source, name=name, id=correction.identity(data), correction=correction).measurement
 
 
-def open_csv(data: bytes, name: str) -> Source:
+def open_csv(data: bytes, name: str) -> RawTable:
     """The table of a delimited text.
 
     Raises:
@@ -50,12 +50,14 @@ def open_csv(data: bytes, name: str) -> Source:
     notes, separator, header_line, row, body = _split(text, name)
     headers = split_header(header_line, separator, name=name, row=row)
 
-    def read(numeric: Sequence[int], words: Sequence[int], skip: bool) -> Table:
+    def read(numeric: Sequence[int], words: Sequence[int], skip: bool) -> CellTable:
         return read_table(
             body, separator, headers, numeric=numeric, text=words, name=name, first_line=row + 1, skip=skip
         )
 
-    return Source(name, "csv", headers, read, first_rows(body, separator, SAMPLE_ROWS), notes, messages, row)
+    return RawTable(
+        name, "csv", headers, read, first_rows(body, separator, SAMPLE_ROWS), notes, messages, row
+    )
 
 
 def _decoded(data: bytes, name: str, messages: list[str]) -> str:

@@ -6,7 +6,7 @@ import re
 from pathlib import PurePath
 
 from mckibben.measurement.read.csv import open_csv
-from mckibben.measurement.read.source import Source
+from mckibben.measurement.read.source import RawTable
 from mckibben.physics.errors import InputError
 
 MAX_BYTES = 512_000_000  # of a file once it is unpacked
@@ -25,7 +25,7 @@ _REFUSED = {
 }
 
 
-def open_source(data: bytes, name: str) -> Source:
+def open_source(data: bytes, name: str) -> RawTable:
     """The table of a file.
 
     Raises:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from mckibben.measurement.read.mat5 import DamagedError, Foreign, read_variables
-from mckibben.measurement.read.source import Source, array_source
+from mckibben.measurement.read.source import RawTable, array_source
 from mckibben.measurement.read.vectors import known_columns, sorted_out
 from mckibben.physics.errors import InputError
 
@@ -17,7 +17,7 @@ _NOUN = "variable"
 TABLE_HINT = "save a table with: s = table2struct(T, 'ToScalar', true); save('test.mat', '-struct', 's')"
 
 
-def open_mat(data: bytes, name: str) -> Source:
+def open_mat(data: bytes, name: str) -> RawTable:
     """The table of a MATLAB file v5 to v7.
 
     Raises:
@@ -33,7 +33,7 @@ def open_mat(data: bytes, name: str) -> Source:
     return choose(values, name)
 
 
-def choose(values: dict[str, Any], name: str) -> Source:
+def choose(values: dict[str, Any], name: str) -> RawTable:
     """The source of a file's variables, or of the struct among them that holds most channels.
 
     Raises:

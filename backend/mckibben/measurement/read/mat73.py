@@ -9,7 +9,7 @@ import numpy as np
 
 from mckibben.measurement.read.mat import choose
 from mckibben.measurement.read.mat5 import Foreign
-from mckibben.measurement.read.source import Source
+from mckibben.measurement.read.source import RawTable
 from mckibben.physics.errors import InputError
 
 _MAX_VARIABLES = 2000
@@ -17,7 +17,7 @@ _MAX_VALUES = 64_000_000  # 512 MB as double
 _KNOWN_FILTERS = {1, 2, 3}  # deflate, shuffle, checksum: built in, nothing is loaded for them
 
 
-def open_mat73(data: bytes, name: str) -> Source:
+def open_mat73(data: bytes, name: str) -> RawTable:
     """The table of a MATLAB v7.3 file.
 
     Raises:

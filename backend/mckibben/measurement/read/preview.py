@@ -13,7 +13,7 @@ from mckibben.measurement.read.cells import Skip
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.formats import open_source
 from mckibben.measurement.read.header import Column, Meaning
-from mckibben.measurement.read.source import Source
+from mckibben.measurement.read.source import RawTable
 from mckibben.physics.errors import InputError
 
 
@@ -138,7 +138,7 @@ def missing_conditions(
     return tuple(missing)
 
 
-def _counted(source: Source, meaning: Meaning) -> tuple[Mapping[str, Skip], int]:
+def _counted(source: RawTable, meaning: Meaning) -> tuple[Mapping[str, Skip], int]:
     """(rows that cannot be read, number of those that can) where the rest of the file says too little."""
     try:
         table = rows_of(source, meaning.columns, skip=True)
@@ -147,7 +147,7 @@ def _counted(source: Source, meaning: Meaning) -> tuple[Mapping[str, Skip], int]
     return table.skipped, len(table.lines)
 
 
-def _columns(source: Source, meaning: Meaning, read: Read | None) -> tuple[PreviewColumn, ...]:
+def _columns(source: RawTable, meaning: Meaning, read: Read | None) -> tuple[PreviewColumn, ...]:
     guessed = {column.index: column for column in meaning.columns}
     used = {column.index: column for column in (read.columns if read else ())}
     ranges = {} if read is None else {c.name: c for c in read.measurement.channels}

@@ -8,18 +8,18 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.measurement.read.cells import Labels, Table, added, no_rows
+from mckibben.measurement.read.cells import CellTable, Labels, added, no_rows
 from mckibben.measurement.read.conditions import Note
 from mckibben.physics.errors import InputError
 
 SAMPLE_ROWS = 8
 #: (indices of numeric columns, of text columns, leave bad rows out) -> the table.
-ReadRows = Callable[[Sequence[int], Sequence[int], bool], Table]
+ReadRows = Callable[[Sequence[int], Sequence[int], bool], CellTable]
 Column = NDArray[np.float64] | list[str]
 
 
 @dataclass(frozen=True)
-class Source:
+class RawTable:
     """A table of a file.
 
     Attributes:
@@ -53,7 +53,7 @@ def array_source(
     noun: str,
     notes: list[Note],
     messages: list[str],
-) -> Source:
+) -> RawTable:
     """The source of a format that keeps whole columns: numbers as arrays, words as lists, all equally long.
 
     A value that is not finite is such a format's way to say "missing": its rows are left out, with a count.
@@ -61,7 +61,7 @@ def array_source(
     headers = list(columns)
     values = list(columns.values())
 
-    def read(numeric: Sequence[int], text: Sequence[int], skip: bool) -> Table:
+    def read(numeric: Sequence[int], text: Sequence[int], skip: bool) -> CellTable:
         numbers = {}
         for index in numeric:
             column = values[index]
@@ -89,7 +89,7 @@ def array_source(
         if bad.all():
             raise no_rows(place, skipped)
         keep = ~bad
-        return Table(
+        return CellTable(
             {index: np.array(column[keep], dtype=np.float64) for index, column in numbers.items()},
             {index: Labels(label.codes[keep], label.words) for index, label in labels.items()},
             lines[keep],
@@ -97,7 +97,7 @@ def array_source(
         )
 
     sample = [[_shown(column[row]) for column in values] for row in range(min(SAMPLE_ROWS, _length(values)))]
-    return Source(place, format, headers, read, sample, notes, messages, None, noun)
+    return RawTable(place, format, headers, read, sample, notes, messages, None, noun)
 
 
 def _length(values: Sequence[Column]) -> int:

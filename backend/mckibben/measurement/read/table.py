@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.measurement.read.cells import Labels, Problems, Table, good_rows, no_rows, read_cells
+from mckibben.measurement.read.cells import CellTable, Labels, Problems, good_rows, no_rows, read_cells
 from mckibben.physics.errors import InputError
 
 FAST_FROM = 200_000  # characters; below, importing pandas costs more than it saves
@@ -32,7 +32,7 @@ def split_header(line: str, separator: str, *, name: str, row: int) -> list[str]
 def read_table(
     body: str, separator: str, headers: Sequence[str], *, numeric: Sequence[int], text: Sequence[int],
     name: str, first_line: int, skip: bool = False,
-) -> Table:  # fmt: skip
+) -> CellTable:  # fmt: skip
     """Read the lines below the header.
 
     Args:
@@ -84,7 +84,7 @@ def _without_empty_end(body: str, separator: str) -> str:
 def _read_fast(
     body: str, separator: str, headers: Sequence[str], numeric: Sequence[int], text: Sequence[int],
     problems: Problems, first_line: int,
-) -> Table | None:  # fmt: skip
+) -> CellTable | None:  # fmt: skip
     """The table by pandas, its few odd rows by the careful way; None when more is odd."""
     width = len(headers)
     comma = separator != "," and "," in body
@@ -135,7 +135,7 @@ def _read_fast(
         codes, words = pd.factorize(chosen[good])
         labels[index] = _stripped(codes, [str(word) for word in words])
     kept = {index: values[good] if len(suspects) else values for index, values in numbers.items()}
-    return Table(kept, labels, first_line + regular[good], problems.skipped)
+    return CellTable(kept, labels, first_line + regular[good], problems.skipped)
 
 
 def _without(data: bytes, ends: NDArray[np.intp], lines: NDArray[np.intp]) -> bytes:
@@ -165,7 +165,7 @@ def _stripped(codes: NDArray[np.intp], words: Sequence[str]) -> Labels:
 def _read_carefully(
     body: str, separator: str, headers: Sequence[str], numeric: Sequence[int], text: Sequence[int],
     problems: Problems, first_line: int,
-) -> Table:  # fmt: skip
+) -> CellTable:  # fmt: skip
     reader = csv.reader(io.StringIO(body), delimiter=separator, strict=True)
 
     def rows() -> Iterator[tuple[int, list[str]]]:

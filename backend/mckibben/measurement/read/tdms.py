@@ -15,7 +15,7 @@ import numpy as np
 
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, Note, key_of
 from mckibben.measurement.read.header import map_headers
-from mckibben.measurement.read.source import Column, Source, array_source
+from mckibben.measurement.read.source import Column, RawTable, array_source
 from mckibben.measurement.read.vectors import known_columns, sorted_out, time_axis
 from mckibben.physics.errors import InputError
 
@@ -27,7 +27,7 @@ _RUN = "group"
 _KEYS = (*CONDITION_UNITS, *TEXT_CONDITIONS, "kind", "bad_rows")
 
 
-def open_tdms(data: bytes, name: str) -> Source:
+def open_tdms(data: bytes, name: str) -> RawTable:
     """The table of a TDMS file.
 
     Raises:

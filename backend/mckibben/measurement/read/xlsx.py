@@ -14,10 +14,10 @@ from collections.abc import Iterator, Sequence
 from datetime import date, datetime, time, timedelta
 from typing import Any
 
-from mckibben.measurement.read.cells import Cell, Problems, Table, no_rows, read_cells
+from mckibben.measurement.read.cells import Cell, CellTable, Problems, no_rows, read_cells
 from mckibben.measurement.read.conditions import Note, note_of_line
 from mckibben.measurement.read.header import HEADER_EXAMPLE, map_headers
-from mckibben.measurement.read.source import SAMPLE_ROWS, Source
+from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
 from mckibben.physics.errors import InputError
 
 _MAX_UNPACKED = 512_000_000  # bytes of all parts together
@@ -31,7 +31,7 @@ _warnings_lock = threading.Lock()  # catch_warnings is not safe between threads
 Rows = list[tuple[int, tuple[Cell, ...]]]
 
 
-def open_xlsx(data: bytes, name: str) -> Source:
+def open_xlsx(data: bytes, name: str) -> RawTable:
     """The table of a workbook.
 
     Raises:
@@ -142,7 +142,7 @@ def _plain(cell: Any) -> Cell:
     return cell
 
 
-def _table(rows: Rows, place: str) -> Source:
+def _table(rows: Rows, place: str) -> RawTable:
     """The source of a sheet."""
     notes: list[Note] = []
     for position, (number, cells) in enumerate(rows[:_HEADER_WITHIN]):
@@ -176,7 +176,7 @@ def _known(texts: list[str], place: str) -> bool:
     return bool(meaning.columns or meaning.problems)
 
 
-def _below(rows: Rows, headers: list[str], place: str, number: int, notes: list[Note]) -> Source:
+def _below(rows: Rows, headers: list[str], place: str, number: int, notes: list[Note]) -> RawTable:
     width = len(headers)
 
     def full() -> Iterator[tuple[int, tuple[Cell, ...]]]:
@@ -189,7 +189,7 @@ def _below(rows: Rows, headers: list[str], place: str, number: int, notes: list[
                 padded = (padded[0].replace(tzinfo=None) - origin, *padded[1:])
             yield line, padded
 
-    def read(numeric: Sequence[int], text: Sequence[int], skip: bool) -> Table:
+    def read(numeric: Sequence[int], text: Sequence[int], skip: bool) -> CellTable:
         if not rows:
             raise no_rows(place)
         return read_cells(
@@ -197,4 +197,4 @@ def _below(rows: Rows, headers: list[str], place: str, number: int, notes: list[
         )
 
     sample = [["" if cell is None else str(cell) for cell in cells] for _, cells in rows[:SAMPLE_ROWS]]
-    return Source(place, "xlsx", headers, read, sample, notes, [], number)
+    return RawTable(place, "xlsx", headers, read, sample, notes, [], number)

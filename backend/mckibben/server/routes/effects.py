@@ -8,7 +8,7 @@ import threading
 from fastapi import APIRouter, Request, Response
 
 from mckibben.application.effects import effects_answer
-from mckibben.physics.catalogue import Catalogue
+from mckibben.physics.catalogue import EffectCatalogue
 from mckibben.server.answer import JsonAnswer, StrictRoute, to_json
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.effects import EffectsAnswer
@@ -19,7 +19,7 @@ router = APIRouter(prefix="/api/effects", tags=["effects"], route_class=StrictRo
 class EffectsDocument:
     """The answer as bytes, written once: the catalogue does not change while the server runs."""
 
-    def __init__(self, catalogue: Catalogue) -> None:
+    def __init__(self, catalogue: EffectCatalogue) -> None:
         self._catalogue = catalogue
         self._lock = threading.Lock()
         self._content: tuple[bytes, str] | None = None

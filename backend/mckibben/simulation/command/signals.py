@@ -25,7 +25,7 @@ from mckibben.simulation.command.shapes import (
     Step,
     Triangle,
 )
-from mckibben.simulation.command.waveforms import Chirp, Random, Sine, Table
+from mckibben.simulation.command.waveforms import Chirp, Random, Sine, TableSignal
 
 __all__ = [
     "MAX_SEGMENTS",
@@ -40,7 +40,7 @@ __all__ = [
     "Sine",
     "Square",
     "Step",
-    "Table",
+    "TableSignal",
     "Triangle",
     "delayed",
     "merged",
@@ -54,7 +54,7 @@ SYNONYMS: dict[type[Signal], tuple[str, ...]] = {Square: ("amplitude",), Sine: (
 
 #: Name in a document -> shape.
 SHAPES: dict[str, type[Signal]] = {
-    kind.shape: kind for kind in (Step, Pulse, Square, Triangle, Ramp, Sine, Chirp, Random, Table)
+    kind.shape: kind for kind in (Step, Pulse, Square, Triangle, Ramp, Sine, Chirp, Random, TableSignal)
 }
 
 

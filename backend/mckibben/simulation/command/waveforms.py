@@ -137,7 +137,7 @@ class Random(Signal):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Table(Signal):
+class TableSignal(Signal):
     """Given points, joined by lines or held until the next; the first and last value hold outside.
 
     Two points at the same time are a jump. Times may begin before 0.

@@ -45,7 +45,7 @@ _PLACES = ("opening", "counter_opening", "external_force", "external_force_slope
 
 
 @dataclass(frozen=True)
-class Loop:
+class ControlLoop:
     """A controlled run to do.
 
     Attributes:
@@ -106,7 +106,7 @@ def simulate_controlled(
     parameters = parameters_of(drive, compiled)
     external = external_force(drive)
     begin = _inputs(0.0, drive.counter(0.0), external, 0.0)[0]
-    loop = Loop(
+    loop = ControlLoop(
         drive,
         compiled,
         controller,
@@ -127,7 +127,7 @@ def simulate_controlled(
     return run_of(drive, compiled, loop.grid, solution, command, time.perf_counter() - began)
 
 
-def loop_in_kernel(loop: Loop) -> tuple[Solution, np.ndarray]:
+def loop_in_kernel(loop: ControlLoop) -> tuple[Solution, np.ndarray]:
     """The run by the kernel, and when which command became active (rows of instant and command)."""
     drive, compiled, external = loop.drive, loop.compiled, loop.external
     kernels = kernel.ready()
@@ -184,7 +184,7 @@ def loop_in_kernel(loop: Loop) -> tuple[Solution, np.ndarray]:
     return solution, switches[: marks[2]]
 
 
-def loop_in_python(loop: Loop, engine: str) -> tuple[Solution, np.ndarray]:
+def loop_in_python(loop: ControlLoop, engine: str) -> tuple[Solution, np.ndarray]:
     """The run sample by sample under `integrate`, otherwise as `loop_in_kernel`."""
     drive, compiled, external, grid = loop.drive, loop.compiled, loop.external, loop.grid
     period, delays, samples = loop.controller.sample_time, dead_times(drive), len(loop.set_points)
@@ -235,7 +235,7 @@ def loop_in_python(loop: Loop, engine: str) -> tuple[Solution, np.ndarray]:
     return Solution(np.concatenate(rows), state, outcome, steps, rejected, name), np.array(switches)
 
 
-def _first_memory(loop: Loop) -> PidState:
+def _first_memory(loop: ControlLoop) -> PidState:
     return loop.controller.start(measurement=_measured(loop, loop.start))
 
 
@@ -253,7 +253,7 @@ def _inputs(opening: float, counter: float, external: Segments, now: float) -> n
     return np.array([[given[name] for name in INPUTS]])
 
 
-def _measured(loop: Loop, state: np.ndarray) -> float:
+def _measured(loop: ControlLoop, state: np.ndarray) -> float:
     """The load's stroke as its sensor reads it [m]; the inputs of the run have no part in it."""
     packed = np.concatenate([state, loop.parameters, np.zeros(len(INPUTS))])
     reading = float(loop.compiled.rates(packed)[loop.compiled.size + _MEASURED])

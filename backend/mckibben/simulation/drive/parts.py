@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import radians
 
 from mckibben.physics import ideal
-from mckibben.physics.drive_terms import Structure
+from mckibben.physics.drive_terms import DriveStructure
 from mckibben.physics.muscle import Muscle
 from mckibben.simulation.command.pid import PidController
 from mckibben.simulation.command.signals import Signal
@@ -130,9 +130,9 @@ class Drive:
         )
 
     @property
-    def structure(self) -> Structure:
+    def structure(self) -> DriveStructure:
         """What decides the equations."""
-        return Structure(
+        return DriveStructure(
             self.model.effects, self.tube_in_use is not None, self.regulator is not None, self.pair
         )
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from mckibben.physics.custom import blamed_on_the_term
 from mckibben.physics.drive import DriveModel
-from mckibben.physics.drive_terms import Structure
+from mckibben.physics.drive_terms import DriveStructure
 from mckibben.physics.driven import DrivenModel
 from mckibben.physics.effect import Effect
 from mckibben.simulation.integrate.elimination import Plan, plan_of
@@ -104,7 +104,7 @@ class CompiledDrive:
 
 
 @lru_cache(maxsize=128)
-def compiled_drive(structure: Structure, level: int = 0) -> CompiledDrive:
+def compiled_drive(structure: DriveStructure, level: int = 0) -> CompiledDrive:
     """A drive's compiled equations, built once (20 to 40 ms) and kept.
 
     Args:

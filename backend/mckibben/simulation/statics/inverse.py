@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mckibben.physics.model import ROOM_TEMPERATURE
-from mckibben.simulation.statics.limits import Flag, FlagCode
+from mckibben.simulation.statics.limits import FlagCode, LimitFlag
 from mckibben.simulation.statics.model import StaticModel
 
 SEARCH_PRESSURE = 4e6  # Pa; no fluidic muscle works beyond, so no answer is looked for there
@@ -20,13 +20,13 @@ _STEPS = 60
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class InverseResult:
     """The answer to an inverse question in SI, with the details that led to it and the crossed limits."""
 
     value: float | None
     unit: str
     details: dict[str, float | None] = field(default_factory=dict)
-    flags: list[Flag] = field(default_factory=list)
+    flags: list[LimitFlag] = field(default_factory=list)
 
 
 def contraction_at(
@@ -76,7 +76,7 @@ def pressure_for_force(
     length: float,
     direction: float = 0.0,
     temperature: float = ROOM_TEMPERATURE,
-) -> Answer:
+) -> InverseResult:
     """The gauge pressure at which the muscle pulls with ``force`` [N] at ``length`` [m].
 
     None with `OUT_OF_REACH` when no pressure up to 40 bar does, or when the muscle pulls more than that
@@ -100,18 +100,18 @@ def pressure_for_force(
             else f"at {contraction * 100:.3g} % contraction even {SEARCH_PRESSURE / 1e5:.0f} bar "
             + (f"give only {most:.4g} N" if most > 0.0 else "leave the muscle slack")
         )
-        return Answer(None, "Pa", details, [*flags, Flag(FlagCode.OUT_OF_REACH, why, "force")])
+        return InverseResult(None, "Pa", details, [*flags, LimitFlag(FlagCode.OUT_OF_REACH, why, "force")])
     without = excess(0.0)
     if without > 0.0:
         why = f"stretched to this length the muscle pulls {without + force:.4g} N without any pressure"
-        return Answer(None, "Pa", details, [*flags, Flag(FlagCode.OUT_OF_REACH, why, "force")])
+        return InverseResult(None, "Pa", details, [*flags, LimitFlag(FlagCode.OUT_OF_REACH, why, "force")])
 
     from scipy.optimize import root_scalar  # 0.2 s import, not paid at start
 
     pressure = 0.0
     if without < 0.0:
         pressure = float(root_scalar(excess, bracket=(0.0, SEARCH_PRESSURE), xtol=1e-6).root)
-    return Answer(pressure, "Pa", details, [*flags, *model.limits.flags(pressure=pressure)])
+    return InverseResult(pressure, "Pa", details, [*flags, *model.limits.flags(pressure=pressure)])
 
 
 def contraction_for_force(
@@ -121,7 +121,7 @@ def contraction_for_force(
     pressure: float,
     direction: float = 0.0,
     temperature: float = ROOM_TEMPERATURE,
-) -> Answer:
+) -> InverseResult:
     """The contraction ratio at which the muscle pulls with ``force`` [N] at a gauge pressure [Pa]."""
     contraction = float(
         contraction_at(
@@ -132,9 +132,9 @@ def contraction_for_force(
     flags = model.limits.flags(pressure=pressure, force=force)
     if np.isnan(contraction):
         why = f"{force:.4g} N stretch the muscle to the braid lock at {pressure / 1e5:.3g} bar"
-        return Answer(None, "1", details, [*flags, Flag(FlagCode.OUT_OF_REACH, why, "force")])
+        return InverseResult(None, "1", details, [*flags, LimitFlag(FlagCode.OUT_OF_REACH, why, "force")])
     details["length"] = model.muscle.nominal_length * (1.0 - contraction)
-    return Answer(contraction, "1", details, [*flags, *model.limits.flags(contraction=contraction)])
+    return InverseResult(contraction, "1", details, [*flags, *model.limits.flags(contraction=contraction)])
 
 
 def stroke_pressure(
@@ -144,7 +144,7 @@ def stroke_pressure(
     stroke: float,
     direction: float = -1.0,
     temperature: float = ROOM_TEMPERATURE,
-) -> Answer:
+) -> InverseResult:
     """The gauge pressure at which the muscle has lifted ``load`` [N] by ``stroke`` [m] from L0."""
     length = model.muscle.nominal_length - stroke
     return pressure_for_force(model, force=load, length=length, direction=direction, temperature=temperature)
@@ -157,7 +157,7 @@ def working_range(
     pressure: float,
     preload: float = 0.0,
     temperature: float = ROOM_TEMPERATURE,
-) -> Answer:
+) -> InverseResult:
     """The usable stroke [m]: from the length under ``preload`` [N] without pressure to that under ``load``.
 
     The start is the nominal length without preload; a preload stretches the muscle as far as its elastic
@@ -173,17 +173,17 @@ def working_range(
         )[0]
         if np.isnan(stretched):
             why = f"nothing in the model carries {preload:.4g} N without pressure short of the braid lock"
-            flags.append(Flag(FlagCode.OUT_OF_REACH, why, "preload"))
-            return Answer(None, "m", {"start": None, "end": None}, flags)
+            flags.append(LimitFlag(FlagCode.OUT_OF_REACH, why, "preload"))
+            return InverseResult(None, "m", {"start": None, "end": None}, flags)
         start = min(float(stretched), 0.0)
         flags += model.limits.flags(contraction=start)
     end = contraction_for_force(model, force=load, pressure=pressure, direction=-1.0, temperature=temperature)
     details: dict[str, float | None] = {"start": start, "end": end.value}
     if end.value is None:
-        return Answer(None, "m", details, [*flags, *(f for f in end.flags if f not in flags)])
+        return InverseResult(None, "m", details, [*flags, *(f for f in end.flags if f not in flags)])
     reached = end.value
     limit = model.limits.max_contraction
     if limit is not None and reached > limit:
         flags += model.limits.flags(contraction=reached)
         details["end"] = reached = limit
-    return Answer((reached - start) * rest, "m", details, flags)
+    return InverseResult((reached - start) * rest, "m", details, flags)

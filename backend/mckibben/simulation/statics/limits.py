@@ -17,7 +17,7 @@ class FlagCode(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Flag:
+class LimitFlag:
     """A crossed limit in words, and the input it belongs to."""
 
     code: FlagCode
@@ -26,7 +26,7 @@ class Flag:
 
 
 @dataclass(frozen=True, slots=True)
-class Limits:
+class MuscleLimits:
     """What the maker allows; None where it is not known.
 
     Attributes:
@@ -47,12 +47,12 @@ class Limits:
         pressure: float | None = None,
         force: float | None = None,
         contraction: float | None = None,
-    ) -> list[Flag]:
+    ) -> list[LimitFlag]:
         """The limits that a state crosses."""
-        found: list[Flag] = []
+        found: list[LimitFlag] = []
         if pressure is not None and self.max_pressure is not None and _above(pressure, self.max_pressure):
             found.append(
-                Flag(
+                LimitFlag(
                     FlagCode.OVER_PRESSURE,
                     f"{pressure / 1e5:.3g} bar is above the permitted {self.max_pressure / 1e5:.3g} bar",
                     "pressures",
@@ -60,7 +60,7 @@ class Limits:
             )
         if force is not None and self.max_force is not None and _above(force, self.max_force):
             found.append(
-                Flag(
+                LimitFlag(
                     FlagCode.OVER_FORCE_LIMIT,
                     f"{force:.4g} N is above the permitted {self.max_force:.4g} N",
                     "load",
@@ -70,7 +70,7 @@ class Limits:
             return found
         if self.max_contraction is not None and _above(contraction, self.max_contraction):
             found.append(
-                Flag(
+                LimitFlag(
                     FlagCode.OVER_CONTRACTION_LIMIT,
                     f"a contraction of {contraction * 100:.3g} % is above the permitted "
                     f"{self.max_contraction * 100:.3g} %",
@@ -78,7 +78,7 @@ class Limits:
             )
         if self.max_pretension is not None and _above(-contraction, self.max_pretension):
             found.append(
-                Flag(
+                LimitFlag(
                     FlagCode.OVER_PRETENSION_LIMIT,
                     f"a stretch of {-contraction * 100:.3g} % is above the permitted "
                     f"{self.max_pretension * 100:.3g} %",

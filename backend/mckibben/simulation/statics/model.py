@@ -16,7 +16,7 @@ from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.physics.muscle import Muscle
 from mckibben.simulation.statics.compiled import OUTPUTS, CompiledState, compiled_state
-from mckibben.simulation.statics.limits import Limits
+from mckibben.simulation.statics.limits import MuscleLimits
 
 EffectValues = Mapping[str, Mapping[str, float]]
 
@@ -56,10 +56,10 @@ class StaticModel:
         effects: EffectValues | None = None,
         *,
         catalogue: Mapping[str, Effect] | None = None,
-        limits: Limits | None = None,
+        limits: MuscleLimits | None = None,
     ) -> None:
         self.muscle = muscle.checked()
-        self.limits = limits or Limits()
+        self.limits = limits or MuscleLimits()
         known = default_catalogue() if catalogue is None else catalogue
         self.values = checked_values(effects or {}, known)
         self.effects = tuple(known[effect_id] for effect_id in self.values)
@@ -78,7 +78,7 @@ class StaticModel:
     ) -> StaticModel:
         """A model of effects and complete values that are known to be right, as a fit tries them."""
         model = cls.__new__(cls)
-        model.muscle, model.limits = muscle, Limits()
+        model.muscle, model.limits = muscle, MuscleLimits()
         model.effects = effects
         model.values = {effect.id: dict(values[effect.id]) for effect in effects}
         return model
