@@ -156,8 +156,8 @@ class Plain(Predictor):
     def why_hidden(self, effect: Effect) -> str:
         return "nothing shows here"
 
-    def prepare(self, fit_model: FitModel, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
-        pass
+    def prepared(self, fit_model: FitModel, candidates: Sequence[Effect]) -> Plain:
+        return self
 
 
 def linear_node(

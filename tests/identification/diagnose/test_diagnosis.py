@@ -22,7 +22,7 @@ from mckibben.measurement.read import read_measurement
 from mckibben.physics.custom import custom_effect
 from mckibben.resources import presets_folder
 from mckibben.simulation.outcome import Watch
-from tests.identification.synthetic import CATALOGUE, MUSCLE, csv, cycles, force_map
+from tests.identification.synthetic import CATALOGUE, MUSCLE, csv, cycles, force_map, length_under
 from tests.identification.synthetic import truth as hidden_force
 
 DATA = Path(__file__).parents[4] / "shared" / "data"
@@ -385,3 +385,16 @@ def test_the_maps_of_martens_and_boblan_from_the_ideal_muscle(sample, preset, no
     assert found.best.holdout_rmse <= 0.013 * full_scale
     # Hyperelastic walls and a constant force fit these maps best of all published structures.
     assert {"bladder_elasticity", "linear_elasticity"} & set(found.added)
+
+
+def test_a_diagnosis_changes_none_of_its_arguments():
+    """The same predictor serves a comparison, a diagnosis and its report one after the other."""
+    rows = [f"{p},{length_under(100.0, p, prestress=40.0)}" for p in np.linspace(1.5e5, 6e5, 60)]
+    predictor = predictor_of(csv(rows, "pressure_Pa,length_m", "kind: isotonic"), MUSCLE)
+    start = fit_model(prestress={"force": 30.0})
+    before = dict(vars(predictor))
+    assert before["unknown_load"] is not None
+    first = diagnose(predictor, start, catalogue=CATALOGUE)
+    assert vars(predictor) == before
+    again = diagnose(predictor, start, catalogue=CATALOGUE)
+    assert (again.added, again.best.rmse) == (first.added, first.best.rmse)

@@ -245,7 +245,7 @@ def test_a_trial_in_the_wide_structure_is_the_prediction():
     predictor = mapped()
     model = fit_model(bladder_elasticity={"shear_modulus": 0.5e6})
     before = predictor.trial(model)
-    predictor.prepare(model, [e for e in CATALOGUE.values() if predictor.reveals(e)], ())
+    predictor = predictor.prepared(model, [e for e in CATALOGUE.values() if predictor.reveals(e)])
     assert predictor.trial(model) == pytest.approx(before, abs=1e-7)
     further = model.adding(CATALOGUE["prestress"], {"force": 50.0})
     assert predictor.trial(further) == pytest.approx(before - 50.0, abs=1e-7)

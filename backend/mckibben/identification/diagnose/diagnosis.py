@@ -14,6 +14,7 @@ from mckibben.identification.diagnose.score import effective_rows, score
 from mckibben.identification.diagnose.search import search
 from mckibben.identification.diagnose.twins import Alternative, alternatives, same, same_predictions
 from mckibben.identification.diagnose.verdict import is_force, left_structure, messages, proposals, status_of
+from mckibben.identification.fit.effort import SearchEffort, diagnosis_effort
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import CancelledError, Fitter
 from mckibben.identification.fit.least_squares import FitResult, least_squares_fit
@@ -37,7 +38,7 @@ class SingleAddition:
 
     Attributes:
         effect: what was added.
-        node: the fitted model.
+        fitted_model: the fitted model.
         gain: share of the rms error that it took away.
         score: change of the score of `mckibben.identification.diagnose.score`; negative is better.
         twins: candidates whose fitted predictions are the same on these data.
@@ -73,7 +74,7 @@ class Diagnosis:
     """The answer.
 
     Attributes:
-        subject: the data.
+        predictor: the data.
         start: the start model as given, its residual over its scale.
         root: the start model refitted.
         noise: of the residual over its scale; None when it cannot be told. ``noise_how``: from what.
@@ -119,18 +120,20 @@ def diagnose(
     geometry: Sequence[Free] = (),
     freed: Sequence[str] = (),
     noise: float | None = None,
+    effort: SearchEffort | None = None,
     watch: Watch | None = None,
     found: Callable[[SingleAddition], None] = lambda _: None,
 ) -> Diagnosis:
     """Find what a model of a measurement is missing.
 
     Args:
-        subject: the data.
-        setting: the start model.
+        predictor: the data.
+        fit_model: the start model.
         catalogue: effects to choose from.
         geometry: geometry that fits may change.
         freed: further constants of the start model that fits may change, as "effect.parameter".
         noise: standard deviation of the predicted channel [SI], when it is known.
+        effort: how much work the search may do; by default what the cost of a prediction allows.
         watch: may cancel, and is told the share that is done.
         found: told each candidate as it is tried.
 
@@ -141,33 +144,47 @@ def diagnose(
 
     # Many small decompositions: threads of the linear algebra only wait for each other.
     with threadpool_limits(1):
-        return _diagnose(predictor, fit_model, catalogue, geometry, frozenset(freed), noise, watch, found)
+        return _diagnose(
+            predictor,
+            fit_model,
+            catalogue=catalogue,
+            geometry=geometry,
+            freed=frozenset(freed),
+            noise=noise,
+            effort=effort or diagnosis_effort(simulated=predictor.simulated),
+            watch=watch or Watch(time_limit=np.inf),
+            found=found,
+        )
 
 
 def _diagnose(
     predictor: Predictor,
     fit_model: FitModel,
+    *,
     catalogue: Mapping[str, Effect],
     geometry: Sequence[Free],
     freed: frozenset[str],
     noise: float | None,
-    watch: Watch | None,
+    effort: SearchEffort,
+    watch: Watch,
     found: Callable[[SingleAddition], None],
 ) -> Diagnosis:
     inside = set(fit_model.ids)
     absent = [effect for effect in catalogue.values() if effect.id not in inside]
     candidates = tuple(effect for effect in absent if predictor.reveals(effect))
     not_tried = [NotTried(effect.id, why) for effect in absent if (why := predictor.why_hidden(effect))]
-    progress = _Progress(watch or Watch(time_limit=np.inf))
+    progress = _Progress(watch)
+    predictor = predictor.prepared(fit_model, candidates)
     fitter = Fitter(
-        predictor,
-        tuple(geometry),
-        candidates,
-        None,
+        predictor=predictor,
+        geometry=tuple(geometry),
+        candidates=candidates,
+        noise=None,
+        load=predictor.unknown_load,
+        effort=effort,
         tell=progress.tell,
         estimate=lambda fitted_model: noise_of(predictor, fitted_model.residual, noise)[0],
     )
-    predictor.prepare(fit_model, candidates, geometry)
     start = FittedModel(
         fit_model, (), frozenset(), predictor.residual(fit_model) / predictor.scale,
         np.empty((len(predictor.measured), 0)), predictor.folds,
@@ -181,16 +198,16 @@ def _diagnose(
         candidates = tuple(effect for effect in candidates if effect is not vent.effect)
         fitter.candidates = candidates
     root = fitter.fit(first, freed)
-    if predictor.unknown_load is not None and root.implausible:
+    if fitter.load is not None and root.implausible:
         # The start model has a constant tension of its own, which takes the place of the load.
-        predictor.unknown_load = None
+        fitter.load = None
         fitter.known.clear()
         root = fitter.fit(first, freed)
     fitter.noise, how = noise_of(predictor, root.residual, noise)
     variables = variables_of(predictor, fit_model.muscle.nominal_length)
     before = seen(root.residual, variables)
     where = profiles(start.residual, variables, predictor.folds[0])
-    fitted = {effect.id for effect in fitter.promising(root, candidates)[: predictor.tried]}
+    fitted = {effect.id for effect in fitter.promising(root, candidates)[: effort.tried]}
     singles, guesses = [], []
     for number, effect in enumerate(sorted(candidates, key=lambda effect: effect.id not in fitted)):
         progress.share = 0.45 * number / max(len(candidates), 1)

@@ -8,6 +8,7 @@ import numpy as np
 
 from mckibben.identification.fit.fitted_model import FittedModel, refitted
 from mckibben.identification.predict.fit_model import FitModel, free_geometry, free_numbers
+from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
 
 _BY_HAND = ("braid_angle", "braid_diameter", "nominal_length")
@@ -16,24 +17,26 @@ _PLAUSIBLE = 0.6  # of what a fit of geometry may change
 
 
 def geometry_instead(
-    predictor: Predictor, first: FitModel, best: FittedModel, *, held: Collection[str] = ()
+    predictor: Predictor,
+    first: FitModel,
+    best: FittedModel,
+    *,
+    held: Collection[str] = (),
+    load: Free | None = None,
 ) -> list[str]:
     """The dimension that explains the data as well as the added effects, in a sentence; empty without one.
 
-    Transients are not judged: they hardly tell the geometry, and each fit takes long.
-
     Args:
-        subject: the data.
+        predictor: the data.
         first: the start model.
         best: the best model, with effects added to it.
         held: numbers of the start model that no fit changes.
+        load: bounds of the load where every fit has to find it.
     """
-    if predictor.one_sided:
-        return []
     found = []
     for name in _BY_HAND:
         (dimension,) = free_geometry(first.muscle, [name], {})
-        numbers = free_numbers(first, [dimension], load=predictor.unknown_load)
+        numbers = free_numbers(first, [dimension], load=load)
         free = [parameter for parameter in numbers if parameter.name not in held]
         fitted_model = refitted(predictor, first, free)
         value = fitted_model.fit_model.number(name)

@@ -30,7 +30,7 @@ def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel])
     """The best model that effects can make of a fitted start model.
 
     Args:
-        work: fits.
+        fitter: fits.
         root: the start model.
         singles: the start model with each single candidate.
     """
@@ -74,14 +74,14 @@ def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel])
             others = [effect for effect in fitter.candidates if effect.id not in inside]
             children += [
                 fitter.adding(fitted_model, effect)
-                for effect in fitter.promising(fitted_model, others)[: min(_TRIED, fitter.predictor.tried)]
+                for effect in fitter.promising(fitted_model, others)[: min(_TRIED, fitter.effort.tried)]
             ]
     return _polished(fitter, best, root)
 
 
 def _examined(fitter: Fitter, fitted_model: FittedModel, root: FittedModel) -> list[Effect]:
     """Effects whose further constants are tried in every model: all; where runs are dear what was added."""
-    start = () if fitter.predictor.thorough else root.fit_model.ids
+    start = () if fitter.effort.thorough else root.fit_model.ids
     return [effect for effect in fitted_model.fit_model.effects if effect.id not in start]
 
 

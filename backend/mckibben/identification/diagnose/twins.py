@@ -28,7 +28,7 @@ class Alternative:
         effect: the one that could be there instead.
         difference: rms difference of the fitted predictions over the noise.
         cosine: of the angle between both sensitivities.
-        node: the model with the exchange.
+        fitted_model: the model with the exchange.
     """
 
     of: str

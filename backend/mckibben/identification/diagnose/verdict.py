@@ -132,13 +132,14 @@ def messages(fitter: Fitter, first: FitModel, best: FittedModel, fit: FitResult 
     """What has to be said of the noise, of geometry that took up an effect or could, and of the fit.
 
     Args:
-        work: the fits of the search.
+        fitter: the fits of the search.
         first: the start model.
         best: the best model; fit: its numbers with errors.
     """
     found = _assumptions(best)
-    if len(best.fit_model.ids) > len(first.ids) and not fitter.geometry:
-        found += geometry_instead(fitter.predictor, first, best, held=fitter.held)
+    # Transients hardly tell the geometry, and each fit takes long: their effort leaves the dimensions out.
+    if fitter.effort.dimensions and len(best.fit_model.ids) > len(first.ids) and not fitter.geometry:
+        found += geometry_instead(fitter.predictor, first, best, held=fitter.held, load=fitter.load)
     if fitter.noise is None:
         found.append("the sweeps are too short to estimate the noise: state it to know when to stop")
     for p in fitter.geometry:

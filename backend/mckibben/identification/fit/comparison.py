@@ -7,10 +7,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from mckibben.identification.fit.effort import final_effort
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.least_squares import FitResult
 from mckibben.identification.fit.misfit import Misfit
-from mckibben.identification.predict import Predictor, QuasistaticPredictor, predictor_of
+from mckibben.identification.predict import Predictor, predictor_of
 from mckibben.identification.predict.fit_model import FitModel, free_geometry, free_numbers
 from mckibben.identification.predict.free import Free
 from mckibben.identification.residual.noise import noise_of
@@ -22,17 +23,14 @@ from mckibben.physics.muscle import GEOMETRY, Muscle
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.statics.model import EffectValues, checked_values
 
-_TIGHT = 1e-10  # tolerance of a fit with exact derivatives
-_STARTS = 4
-
 
 @dataclass(frozen=True)
 class Comparison:
     """A model beside a measurement, SI; arrays are stacked over the predicted channels of ``predictor``.
 
     Attributes:
-        subject: the rows used.
-        setting: the model compared, fitted numbers in place.
+        predictor: the rows used.
+        fit_model: the model compared, fitted numbers in place.
         predicted: the model's values.
         rmse: root mean square of the residual; over the noise of each channel when there are several.
         holdout_rmse: the same over groups that the fit did not see; equals rmse without a fit, None when
@@ -216,8 +214,6 @@ def check_finite(predictor: Predictor, fit_model: FitModel) -> None:
     Raises:
         InputError: says at how many rows.
     """
-    if not isinstance(predictor, QuasistaticPredictor):
-        return  # a run that breaks off is far off
     lost, rows = predictor.lost(fit_model)
     if lost:
         raise InputError(
@@ -229,10 +225,7 @@ def check_finite(predictor: Predictor, fit_model: FitModel) -> None:
 
 def fit_of(predictor: Predictor, fit_model: FitModel, choice: Sequence[Free]) -> FitResult:
     """Fit the numbers; several starts where a model is quick, tightly where its derivatives are exact."""
-    misfit = Misfit(predictor, fit_model, choice)
-    if isinstance(predictor, QuasistaticPredictor):
-        return misfit.fit(starts=_STARTS, tolerance=_TIGHT, evaluations=200)
-    return misfit.fit(starts=1, tolerance=1e-5, evaluations=40)
+    return Misfit(predictor, fit_model, choice).fit(final_effort(simulated=predictor.simulated))
 
 
 def holdout_rmse(predictor: Predictor, fit_model: FitModel, choice: Sequence[Free]) -> float | None:

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from mckibben.identification.fit.effort import FitEffort, search_effort
 from mckibben.identification.fit.misfit import Misfit
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
@@ -24,7 +25,7 @@ class FittedModel:
     """A fitted model.
 
     Attributes:
-        setting: with the fitted numbers.
+        fit_model: with the fitted numbers.
         free: what was free, starts at the fitted numbers.
         freed: names of further constants that were freed.
         residual: measured minus predicted over the scale, shape (values,).
@@ -160,14 +161,15 @@ def refitted(
     free: Sequence[Free],
     *,
     freed: Collection[str] = (),
+    effort: FitEffort | None = None,
 ) -> FittedModel:
-    """Fit the free numbers jointly from their starts, as tightly as a search needs it."""
+    """Fit the free numbers jointly from their starts; without an effort as tightly as a search needs it."""
     if not free:
         residual = predictor.residual(fit_model) / predictor.scale
         empty = np.empty((len(residual), 0))
         return FittedModel(fit_model, (), frozenset(freed), residual, empty, predictor.folds)
     misfit = Misfit(predictor, fit_model, free)
-    result = misfit.fit(starts=1, tolerance=predictor.tolerance, evaluations=predictor.evaluations)
+    result = misfit.fit(effort or search_effort(simulated=predictor.simulated))
     numbers = np.array(result.numbers)
     ended = misfit.fit_model(numbers)
     # Fits follow the force below zero too; what counts is what a slack muscle reads.

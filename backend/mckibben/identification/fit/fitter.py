@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from mckibben.identification.fit.effort import SearchEffort
 from mckibben.identification.fit.fitted_model import FittedModel, refitted
 from mckibben.identification.predict.fit_model import FitModel, free_numbers
 from mckibben.identification.predict.free import Free
@@ -29,10 +30,12 @@ class Fitter:
     """Fits models of one subject and remembers them.
 
     Attributes:
-        subject: the data.
+        predictor: the data.
         geometry: geometry that every fit may change.
         candidates: effects that may be added.
         noise: of the residual over its scale, None when it cannot be told.
+        load: bounds of the load where every fit has to find it.
+        effort: how much work fits and search may do.
         held: names of numbers that no fit changes, because something else has told them.
         estimate: the noise as a model's residual shows it; what a model misses may look like noise, so the
             search asks again as models become better.
@@ -43,6 +46,8 @@ class Fitter:
     geometry: tuple[Free, ...]
     candidates: tuple[Effect, ...]
     noise: float | None
+    load: Free | None
+    effort: SearchEffort
     held: frozenset[str] = frozenset()
     tell: Callable[[str], None] = lambda _: None
     estimate: Callable[[FittedModel], float | None] = lambda _: None
@@ -60,9 +65,9 @@ class Fitter:
         key = frozenset(fit_model.ids), freed
         if key not in self.known or (again and key not in self.twice):
             self.tell(", ".join(fit_model.ids))
-            free = free_numbers(fit_model, self.geometry, freed, load=self.predictor.unknown_load)
+            free = free_numbers(fit_model, self.geometry, freed, load=self.load)
             free = [parameter for parameter in free if parameter.name not in self.held]
-            fitted_model = refitted(self.predictor, fit_model, free, freed=freed)
+            fitted_model = refitted(self.predictor, fit_model, free, freed=freed, effort=self.effort.fit)
             if again:
                 self.twice.add(key)
             if key not in self.known or fitted_model.rmse < self.known[key].rmse:

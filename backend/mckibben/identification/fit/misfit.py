@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from mckibben.identification.fit.effort import FitEffort
 from mckibben.identification.fit.least_squares import FitResult, least_squares_fit
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
@@ -21,13 +22,13 @@ class Misfit:
     gradient. A row without a finite value is far off and has no gradient.
 
     Args:
-        subject: the data.
-        setting: the model around which numbers are changed.
+        predictor: the data.
+        fit_model: the model around which numbers are changed.
         free: what is changed.
     """
 
     def __init__(self, predictor: Predictor, fit_model: FitModel, free: Sequence[Free]) -> None:
-        self._subject, self._setting, self._free = predictor, fit_model, free
+        self._predictor, self._fit_model, self._free = predictor, fit_model, free
         self._names = [parameter.name for parameter in free]
         self._lost = _LOST * float(np.max(np.abs(predictor.measured / predictor.scale), initial=1.0))
         self._at: bytes | None = None
@@ -37,16 +38,16 @@ class Misfit:
 
     def fit_model(self, numbers: np.ndarray) -> FitModel:
         """The model with these numbers."""
-        return self._setting.with_numbers(self._names, numbers)
+        return self._fit_model.with_numbers(self._names, numbers)
 
     def value(self, numbers: np.ndarray) -> np.ndarray:
         """Misfit, shape (values,)."""
         key = numbers.tobytes()
         if key != self._at:
-            predictor, fit_model = self._subject, self.fit_model(numbers)
+            predictor, fit_model = self._predictor, self.fit_model(numbers)
             self._predicted, self._slopes = None, None
             with np.errstate(all="ignore"):
-                if predictor.one_sided:  # derivatives are runs of their own: only where a step was good
+                if predictor.simulated:  # derivatives are runs of their own: only where a step was good
                     predicted = self._predicted = predictor.predict(fit_model, clipped=False)
                 else:
                     predicted, slopes = predictor.linearised(fit_model, self._free)
@@ -60,20 +61,20 @@ class Misfit:
         """Of the misfit, shape (values, free)."""
         self.value(numbers)
         if self._slopes is None:
-            slopes = self._subject.differences(self.fit_model(numbers), self._free, self._predicted)
-            self._slopes = self._finite(slopes / self._subject.scale[:, None])
+            slopes = self._predictor.differences(self.fit_model(numbers), self._free, self._predicted)
+            self._slopes = self._finite(slopes / self._predictor.scale[:, None])
         return self._slopes
 
     def _finite(self, slopes: np.ndarray) -> np.ndarray:
         return np.where(np.all(np.isfinite(slopes), axis=1, keepdims=True), slopes, 0.0)
 
-    def fit(self, *, starts: int, tolerance: float, evaluations: int) -> FitResult:
+    def fit(self, effort: FitEffort) -> FitResult:
         """Least squares over the free numbers, see `least_squares_fit`."""
         return least_squares_fit(
             self.value,
             self.derivatives,
             self._free,
-            starts=starts,
-            tolerance=tolerance,
-            evaluations=evaluations,
+            starts=effort.starts,
+            tolerance=effort.tolerance,
+            evaluations=effort.evaluations,
         )

@@ -115,7 +115,7 @@ def free_numbers(
     """What a fit of the model may change.
 
     Args:
-        setting: the model; starts are its values.
+        fit_model: the model; starts are its values.
         geometry: geometry fields with their bounds (`free_geometry`).
         freed: names of further constants that are freed beyond those that effects declare as fitted.
         load: the unknown load with its bounds.

@@ -38,7 +38,7 @@ def as_read(
     """What the force channel shows of values, shape (rows,) or (rows, columns), record by record.
 
     Args:
-        setting: the late effects of this model are applied.
+        fit_model: the late effects of this model are applied.
         time: of each row [s], ascending within a record.
         records: rows of each record.
         values: what an ideal channel would show.

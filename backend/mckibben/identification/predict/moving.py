@@ -7,6 +7,7 @@ displacement that the measured pressure brings about. Several channels are scale
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,7 +15,6 @@ import numpy as np
 from mckibben.identification.predict.comparable_rows import records_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.folds import FEWEST
-from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.measurement.measurement import STROKES, Measurement, lengths
 from mckibben.measurement.noise import noise_floor
@@ -74,12 +74,8 @@ class TransientPredictor(Predictor):
         InputError: nothing that the model predicts was measured.
     """
 
+    simulated = True
     step = 2e-2
-    one_sided = True
-    thorough = False
-    tolerance = 1e-4
-    evaluations = 20
-    tried = 12
 
     def __init__(self, measurement: Measurement, drive: Drive) -> None:
         columns = measurement.columns
@@ -153,15 +149,17 @@ class TransientPredictor(Predictor):
             return "it acts on the tube, and the drive states that there is none"
         return ""
 
-    def prepare(self, fit_model: FitModel, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
-        """One structure with every candidate that can be off, to look at their changes by."""
+    def prepared(self, fit_model: FitModel, candidates: Sequence[Effect]) -> TransientPredictor:
+        """With one structure of every candidate that can be off, to look at their changes by."""
         inside = {effect.id for effect in fit_model.effects}
         # An energy balance in place of a polytrope is another structure even when no heat flows.
         # So is a tube that the drive does not state.
         tubeless = self._records[0].drive.tube is None
         other = {"heat", "tube_conductance"} if tubeless else {"heat"}
         further = [e for e in candidates if e.id not in inside and not other & set(e.slots) and not _fast(e)]
-        self._wide = Model((*fit_model.effects, *further)).effects
+        ready = copy(self)
+        ready._wide = Model((*fit_model.effects, *further)).effects
+        return ready
 
     def trial(self, fit_model: FitModel) -> np.ndarray:
         """As `predict`, in the structure of all candidates when it holds the model."""

@@ -47,10 +47,9 @@ class Predictor(ABC):
         records: label of the uninterrupted record, shape (values,).
         sweeps: indices of the values of each smooth sweep, in order.
         inputs: what the residual may depend on, name -> shape (values,), SI.
-        step: of differences, over the size of a number or its usual change; one_sided: half the runs.
-        tried: how many candidates are fitted to one model, those that promise most.
-        thorough: in a search the further constants of the start model too are tried in every model.
-        tolerance, evaluations: of a fit in a search.
+        simulated: whether each prediction is a run through time: a thousand times the cost of a closed form,
+            with derivatives by differences of runs.
+        step: of these differences, over the size of a number or its usual change.
         rows_used, excluded, messages: rows that count, why others do not, what was assumed.
         unknown_load: bounds of the load where it has to be fitted.
     """
@@ -67,12 +66,8 @@ class Predictor(ABC):
     rows_used: int
     excluded: Mapping[str, int]
     messages: tuple[str, ...]
+    simulated: bool = False
     step: float = 5e-3
-    one_sided: bool = False
-    tried: int = 40
-    thorough: bool = True
-    tolerance: float = 1e-6
-    evaluations: int = 60
     unknown_load: Free | None = None
 
     @abstractmethod
@@ -92,13 +87,17 @@ class Predictor(ABC):
         return not self.why_hidden(effect)
 
     @abstractmethod
-    def prepare(self, fit_model: FitModel, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
-        """Told which models a search will try, so that they can be made ready together."""
+    def prepared(self, fit_model: FitModel, candidates: Sequence[Effect]) -> Predictor:
+        """This predictor, ready for what a search will try: the start model with any candidates."""
+
+    def lost(self, fit_model: FitModel) -> tuple[int, int]:
+        """At how many rows a model has no finite value, and of how many; a run that breaks off is far off."""
+        return 0, len(self.measured)
 
     def linearised(self, fit_model: FitModel, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
         """Predicted values and their derivatives by the free numbers, shape (values, free)."""
         predicted = self.predict(fit_model, clipped=False)
-        return predicted, self.differences(fit_model, free, predicted if self.one_sided else None)
+        return predicted, self.differences(fit_model, free, predicted if self.simulated else None)
 
     def differences(
         self, fit_model: FitModel, free: Sequence[Free], here: np.ndarray | None = None

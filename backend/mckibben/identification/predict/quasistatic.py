@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 from dataclasses import replace
 
 import numpy as np
@@ -86,11 +87,13 @@ class QuasistaticPredictor(Predictor):
             return "it does not change the diameter"
         return ""
 
-    def prepare(self, fit_model: FitModel, candidates: Sequence[Effect], geometry: Sequence[Free]) -> None:
-        """One structure that holds every model of a search: absent effects are off in it."""
+    def prepared(self, fit_model: FitModel, candidates: Sequence[Effect]) -> QuasistaticPredictor:
+        """With one structure that holds every model of a search: absent effects are off in it."""
         inside = {effect.id for effect in fit_model.effects}
         further = [e for e in candidates if e.id not in inside and not late(e)]
-        self._wide = sorted_effects((*fit_model.effects, *further))
+        ready = copy(self)
+        ready._wide = sorted_effects((*fit_model.effects, *further))
+        return ready
 
     def trial(self, fit_model: FitModel) -> np.ndarray:
         """As `predict`, in the structure of all candidates where that holds the model."""

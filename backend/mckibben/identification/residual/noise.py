@@ -66,7 +66,7 @@ def noise_of(predictor: Predictor, residual: np.ndarray, given: float | None) ->
     """Noise of a residual over its scale, and from what it was told; None when it cannot be told.
 
     Args:
-        subject: the data.
+        predictor: the data.
         residual: over the scale, shape (values,).
         given: what the user says of the single channel [SI].
     """
