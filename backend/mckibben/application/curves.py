@@ -2,119 +2,205 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mckibben.application.start import Json, flags_json, geometry_json, start_flags
-from mckibben.documents.convert import given_muscle
+from mckibben.application.muscle_summary import (
+    GeometrySummary,
+    Notice,
+    geometry_of,
+    limit_notices,
+    start_notices,
+)
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
-from mckibben.physics import ideal
 from mckibben.physics.errors import InputError
-from mckibben.server.schemas.curves import CurvesOptions, CurvesRequest
-from mckibben.simulation.statics.inverse import contraction_at
-from mckibben.simulation.statics.limits import FlagCode, LimitFlag
+from mckibben.simulation.statics.characteristics import (
+    FILLING,
+    VENTING,
+    Array,
+    Characteristics,
+    Conditions,
+    ForceBranches,
+    HeldContractions,
+    OperatingPoint,
+    PressureBranch,
+    characteristics,
+    force_at_length,
+    held_contractions,
+    ideal_contraction,
+    lock_forces,
+    operating_points,
+    pressure_branch,
+)
 from mckibben.simulation.statics.model import StaticModel
 
-Array = NDArray[np.float64]
-
 _OVER_PRESSURE_POINTS = 81
-# Exact for polynomials up to degree 31, far above what a force curve needs.
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _SHORTEST = 0.05  # share of the nominal length; nothing contracts further
 
 
-class _Held(NamedTuple):
-    """Contractions at which the muscle carries a load; NaN where it cannot."""
+@dataclass(frozen=True, slots=True)
+class CurvesQuestion:
+    """Which muscle, which pressures, which range; SI.
 
-    free: Array  # without load, at each pressure
-    load: Array  # the load of the request, at each pressure; empty without one
-    filling: Array  # the same over the grid of pressures, while shortening
-    venting: Array  # and while lengthening
+    Attributes:
+        start: the muscle with its effects.
+        pressures: gauge pressures of the curves [Pa], at least one.
+        points: number of points along the length, at least two.
+        unclipped: whether negative forces are shown, which a muscle cannot exert.
+        contraction_from, contraction_to: the range; None: from the pretension limit to where the last curve
+            ends.
+        load: constant load for the operating points [N]; None without them.
+        fixed_length: length at which the force is shown over the pressure [m]; None without it.
+        conditions: direction of motion, temperature, what is behind a closed valve.
+    """
+
+    start: StartModel
+    pressures: tuple[float, ...] = (1e5, 2e5, 3e5, 4e5, 5e5, 6e5)
+    points: int = 200
+    unclipped: bool = False
+    contraction_from: float | None = None
+    contraction_to: float | None = None
+    load: float | None = None
+    fixed_length: float | None = None
+    conditions: Conditions = field(default_factory=Conditions)
 
 
-def curves_answer(request: CurvesRequest, studio: Studio) -> Json:
-    """The answer to a curves request, with numpy arrays in it.
+@dataclass(frozen=True, slots=True)
+class CurveLimits:
+    """What bounds the use of the muscle, SI; None where the preset does not say.
+
+    Attributes:
+        ideal_max_contraction: where the ideal force is zero.
+        braid_lock_force: ideal force of the fully stretched braid, per pressure.
+    """
+
+    max_pressure: float | None
+    max_force: float | None
+    max_contraction: float | None
+    max_pretension: float | None
+    ideal_max_contraction: float
+    braid_lock_force: Array
+
+
+@dataclass(frozen=True, slots=True)
+class OverPressure:
+    """Position at the load and force at the fixed length, from zero to the highest pressure, both ways."""
+
+    pressure: Array
+    load: float | None
+    filling: PressureBranch | None
+    venting: PressureBranch | None
+    fixed_length: float | None
+    force_at_fixed_length: ForceBranches | None
+
+
+@dataclass(frozen=True, slots=True)
+class EffectSettings:
+    """Effect id -> parameter -> value, SI."""
+
+    effects: Mapping[str, Mapping[str, float]]
+
+
+@dataclass(frozen=True, slots=True)
+class CurvesResult:
+    """Force, stiffness, volume and diameter over the length, SI.
+
+    Attributes:
+        pressure: gauge pressures of the rows, shape (P,).
+        length, contraction: of the columns, shape (N,).
+        force, stiffness, stiffness_closed: shape (P, N).
+        braid_angle, volume, diameter, outer_diameter: shape (N,), at the highest pressure where the pressure
+            stretches the braid.
+        model: the effects with all their values.
+        over_pressure: None without load and fixed length.
+    """
+
+    pressure: Array
+    length: Array
+    contraction: Array
+    braid_angle: Array
+    force: Array
+    stiffness: Array
+    stiffness_closed: Array
+    volume: Array
+    diameter: Array
+    outer_diameter: Array
+    limits: CurveLimits
+    characteristics: list[Characteristics]
+    geometry: GeometrySummary
+    model: EffectSettings
+    over_pressure: OverPressure | None
+    operating_points: list[OperatingPoint]
+    flags: list[Notice]
+
+
+def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
+    """The curves of a muscle.
 
     Raises:
-        InputError: the muscle, an effect or the range cannot be used.
+        InputError: the geometry cannot pull, a parameter is out of bounds, the range cannot be used; names the
+            field of the question.
     """
-    start = studio.start_model(given_muscle(request.muscle), request.effects)
-    return curves_of(request, start, studio)
-
-
-def curves_of(request: CurvesOptions, start: StartModel, studio: Studio) -> Json:
-    """The curves of a muscle that is known already.
-
-    Raises:
-        InputError: the geometry cannot pull, a parameter is out of bounds, the range cannot be used.
-    """
+    start, conditions = question.start, question.conditions
     model = studio.static_model(start)
-    pressures = np.array(request.pressures)
+    pressures = np.array(question.pressures)
     grid = np.linspace(0.0, float(np.max(pressures)), _OVER_PRESSURE_POINTS)
-    held = _solve(request, model, pressures, grid)
-    contraction = _range(request, model, held.free)
+    held = held_contractions(model, pressures, grid, question.load, conditions)
+    contraction = _range(question, model, held.free)
     length = model.muscle.nominal_length * (1.0 - contraction)
-    curves = model.curves(
+    columns = model.curves(
         pressures,
         length,
-        direction=request.direction,
-        temperature=request.temperature,
-        clipped=not request.unclipped,
-        dead_volume=request.dead_volume,
-        polytropic_exponent=request.polytropic_exponent,
+        direction=conditions.direction,
+        temperature=conditions.temperature,
+        clipped=not question.unclipped,
+        dead_volume=conditions.dead_volume,
+        polytropic_exponent=conditions.polytropic_exponent,
     )
-    points, flags = _operating_points(request, model, pressures, held.load)
-    flags = [crossed for p in request.pressures for crossed in model.limits.flags(pressure=p)] + flags
+    points: list[OperatingPoint] = []
+    crossed = [flag for p in question.pressures for flag in model.limits.flags(pressure=p)]
+    if question.load is not None:
+        points, flags = operating_points(model, pressures, question.load, held.loaded, conditions)
+        crossed += flags
     # Volume, diameter and angle depend on the length; where an effect lets the pressure stretch the braid,
     # they are those of the highest pressure.
     top = int(np.argmax(pressures))
-    return {
-        "pressure": pressures,
-        "length": length,
-        "contraction": contraction,
-        "braid_angle": curves.braid_angle[top],
-        "force": curves.force,
-        "stiffness": curves.stiffness,
-        "stiffness_closed": curves.stiffness_closed,
-        "volume": curves.volume[top],
-        "diameter": curves.diameter[top],
-        "outer_diameter": curves.outer_diameter[top],
-        "limits": _limits(model, pressures),
-        "characteristics": _characteristics(request, model, pressures, held.free),
-        "geometry": geometry_json(start),
-        "model": {"effects": model.values},
-        "over_pressure": _over_pressure(request, model, grid, held),
-        "operating_points": points,
-        "flags": [*start_flags(start), *flags_json(flags)],
-    }
-
-
-def _solve(request: CurvesOptions, model: StaticModel, pressures: Array, grid: Array) -> _Held:
-    """All contractions of the answer in one vectorised search: the calls cost more than the rows."""
-    free = (np.zeros(len(pressures)), pressures, np.full(len(pressures), float(request.direction)))
-    parts = [free]
-    if request.load is not None:
-        parts += [
-            (np.full(len(pressures), request.load), pressures, free[2]),
-            (np.full(len(grid), request.load), grid, np.full(len(grid), -1.0)),
-            (np.full(len(grid), request.load), grid, np.full(len(grid), 1.0)),
-        ]
-    rows: list[Any] = [np.concatenate(column) for column in zip(*parts, strict=True)]
-    found = contraction_at(
-        model, load=rows[0], pressures=rows[1], direction=rows[2], temperature=request.temperature
+    limits = model.limits
+    return CurvesResult(
+        pressure=pressures,
+        length=length,
+        contraction=contraction,
+        braid_angle=columns.braid_angle[top],
+        force=columns.force,
+        stiffness=columns.stiffness,
+        stiffness_closed=columns.stiffness_closed,
+        volume=columns.volume[top],
+        diameter=columns.diameter[top],
+        outer_diameter=columns.outer_diameter[top],
+        limits=CurveLimits(
+            max_pressure=limits.max_pressure,
+            max_force=limits.max_force,
+            max_contraction=limits.max_contraction,
+            max_pretension=limits.max_pretension,
+            ideal_max_contraction=ideal_contraction(model),
+            braid_lock_force=lock_forces(model, pressures),
+        ),
+        characteristics=characteristics(model, pressures, held.free, conditions),
+        geometry=geometry_of(start),
+        model=EffectSettings(model.values),
+        over_pressure=_over_pressure(question, model, grid, held),
+        operating_points=points,
+        flags=[*start_notices(start), *limit_notices(crossed)],
     )
-    ends = np.cumsum([len(part[0]) for part in parts])[:-1]
-    pieces = np.split(found, ends)
-    return _Held(*pieces, *[np.empty(0)] * (4 - len(pieces)))
 
 
-def _range(request: CurvesOptions, model: StaticModel, free: Array) -> Array:
+def _range(question: CurvesQuestion, model: StaticModel, free: Array) -> Array:
     """Contractions of the columns; unless given, the permitted range, and on to where the last curve ends."""
     locked = 1.0 - model.longest / model.muscle.nominal_length
-    first, last = request.contraction_from, request.contraction_to
+    first, last = question.contraction_from, question.contraction_to
     if first is None:
         first = max(-(model.limits.max_pretension or 0.0), locked)
         if last is not None and last <= first:
@@ -122,7 +208,7 @@ def _range(request: CurvesOptions, model: StaticModel, free: Array) -> Array:
     if last is None:
         reached = float(np.max(free, initial=0.0, where=np.isfinite(free)))
         enough = max(first, 0.0) + 1e-3
-        last = reached if reached > enough else max(_ideal_contraction(model), enough)
+        last = reached if reached > enough else max(ideal_contraction(model), enough)
         last = max(last, model.limits.max_contraction or 0.0)
     for name, value in (("contraction_from", first), ("contraction_to", last)):
         if value < locked:
@@ -136,148 +222,32 @@ def _range(request: CurvesOptions, model: StaticModel, free: Array) -> Array:
     if not last > first:
         raise InputError(
             f"the range ends at {last * 100:.3g} %, not after it begins at {first * 100:.3g} %",
-            field="contraction_to" if request.contraction_to is not None else "contraction_from",
+            field="contraction_to" if question.contraction_to is not None else "contraction_from",
         )
-    columns = np.linspace(first, last, request.points)
+    columns = np.linspace(first, last, question.points)
     nearest = int(np.argmin(np.abs(columns)))
     if 0 < nearest < len(columns) - 1:
         columns[nearest] = 0.0  # the nominal length itself, where the blocked force is read
     return columns
 
 
-def _ideal_contraction(model: StaticModel) -> float:
-    return float(ideal.max_contraction(braid_angle=model.muscle.braid_angle))
-
-
-def _limits(model: StaticModel, pressures: Array) -> Json:
-    limits = model.limits
-    return {
-        "max_pressure": limits.max_pressure,
-        "max_force": limits.max_force,
-        "max_contraction": limits.max_contraction,
-        "max_pretension": limits.max_pretension,
-        "ideal_max_contraction": _ideal_contraction(model),
-        "braid_lock_force": ideal.lock_force(braid=model.muscle.braid, pressure=pressures),
-    }
-
-
-def _characteristics(request: CurvesOptions, model: StaticModel, pressures: Array, free: Array) -> list[Json]:
-    """Blocked force, free contraction and work of each pressure."""
-    rest = model.muscle.nominal_length
-    stroke = np.where(np.isfinite(free) & (free > 0.0), free, 0.0)
-    # The work of the stroke by Gauss-Legendre over each pressure's own range; the first column is the
-    # nominal length itself.
-    at = np.concatenate([[0.0], (_NODES + 1.0) / 2.0]) * stroke[:, None]
-    force = model.force(
-        length=rest * (1.0 - at.ravel()),
-        pressure=np.repeat(pressures, at.shape[1]),
-        direction=request.direction,
-        temperature=request.temperature,
-    ).reshape(at.shape)
-    work = rest * stroke / 2.0 * (force[:, 1:] @ _WEIGHTS)
-    tension = ideal.thread_tension(braid=model.muscle.braid, pressure=pressures, length=rest)
-    return [
-        {
-            "pressure": pressure,
-            "blocked_force": force[index, 0],
-            "free_contraction": free[index],
-            "free_contraction_flag": _free_flag(model, free[index]),
-            "max_work": work[index],
-            "thread_tension_total": tension[index],
-        }
-        for index, pressure in enumerate(request.pressures)
-    ]
-
-
-def _free_flag(model: StaticModel, contraction: float) -> str | None:
-    if not np.isfinite(contraction):
-        return str(FlagCode.OUT_OF_REACH)
-    crossed = model.limits.flags(contraction=contraction)
-    return str(crossed[0].code) if crossed else None
-
-
-def _operating_points(
-    request: CurvesOptions, model: StaticModel, pressures: Array, held: Array
-) -> tuple[list[Json], list[LimitFlag]]:
-    """Where the muscle holds the load at each pressure, and every limit that is crossed there."""
-    if request.load is None:
-        return [], []
-    reached = np.flatnonzero(np.isfinite(held))
-    length = model.muscle.nominal_length * (1.0 - held)
-    figures = {
-        name: np.full(len(pressures), np.nan) for name in ("stiffness", "stiffness_closed", "diameter")
-    }
-    if reached.size:
-        there = model.curves(
-            pressures[reached],
-            length[reached],
-            direction=request.direction,
-            temperature=request.temperature,
-            dead_volume=request.dead_volume,
-            polytropic_exponent=request.polytropic_exponent,
-            clipped=False,  # in balance with the load, so never slack, not even at a load of zero
-        )
-        for name, values in figures.items():
-            values[reached] = np.diagonal(getattr(there, name))
-    points, flags = [], []
-    for index, pressure in enumerate(request.pressures):
-        if np.isfinite(held[index]):
-            crossed = model.limits.flags(pressure=pressure, force=request.load, contraction=held[index])
-        else:
-            why = f"{request.load:.4g} N stretch the muscle to the braid lock at {pressure / 1e5:.3g} bar"
-            crossed = [LimitFlag(FlagCode.OUT_OF_REACH, why, "load")]
-        flags += crossed
-        points.append(
-            {
-                "pressure": pressure,
-                "contraction": held[index],
-                "length": length[index],
-                "force": request.load if np.isfinite(held[index]) else None,
-                **{name: values[index] for name, values in figures.items()},
-                "flags": [str(item.code) for item in crossed],
-            }
-        )
-    return points, flags
-
-
-def _over_pressure(request: CurvesOptions, model: StaticModel, grid: Array, held: _Held) -> Json | None:
-    """Position at the load and force at the fixed length, from zero to the highest pressure, both ways."""
-    if request.load is None and request.fixed_length is None:
+def _over_pressure(
+    question: CurvesQuestion, model: StaticModel, grid: Array, held: HeldContractions
+) -> OverPressure | None:
+    load, fixed = question.load, question.fixed_length
+    if load is None and fixed is None:
         return None
-    force = None
-    if request.fixed_length is not None:
-        _check_fixed_length(request.fixed_length, model)
-        both = model.force(
-            length=request.fixed_length,
-            pressure=np.tile(grid, 2),
-            direction=np.repeat([-1.0, 1.0], len(grid)),
-            temperature=request.temperature,
+    temperature = question.conditions.temperature
+    forces, filling, venting = None, None, None
+    if fixed is not None:
+        _check_fixed_length(fixed, model)
+        forces = force_at_length(model, grid, fixed, temperature=temperature)
+    if load is not None:
+        filling, venting = (
+            pressure_branch(model, grid, contraction, direction=direction, temperature=temperature)
+            for contraction, direction in ((held.filling, FILLING), (held.venting, VENTING))
         )
-        force = {"filling": both[: len(grid)], "venting": both[len(grid) :]}
-    return {
-        "pressure": grid,
-        "load": request.load,
-        "filling": _branch(request, model, grid, held.filling, -1.0),
-        "venting": _branch(request, model, grid, held.venting, 1.0),
-        "fixed_length": request.fixed_length,
-        "force_at_fixed_length": force,
-    }
-
-
-def _branch(
-    request: CurvesOptions, model: StaticModel, grid: Array, held: Array, direction: float
-) -> Json | None:
-    if request.load is None:
-        return None
-    length = model.muscle.nominal_length * (1.0 - held)
-    reached = np.isfinite(length)
-    state: dict[str, Any] = {"direction": direction, "temperature": request.temperature}
-    widths = {name: np.full(len(grid), np.nan) for name in ("diameter", "outer_diameter")}
-    if reached.any():
-        there = model.outputs(length=length[reached], pressure=grid[reached], **state)
-        for name, width in widths.items():
-            width[reached] = there[name]
-    return {"contraction": held, "length": length, **widths}
+    return OverPressure(grid, load, filling, venting, fixed, forces)
 
 
 def _check_fixed_length(length: float, model: StaticModel) -> None:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 from mckibben.application.asked import Asked
 from mckibben.application.comparisons import comparison_answer
 from mckibben.application.diagnoses import prepare as prepare_diagnosis
+from mckibben.application.json_text import to_json
 from mckibben.application.measurements import measurement_answer
 from mckibben.application.programs import versions
 from mckibben.application.start import Json
@@ -31,7 +32,6 @@ from mckibben.report.diagnosis import (
     Source,
     diagnosis_report,
 )
-from mckibben.server.answer import to_json
 from mckibben.simulation.outcome import Watch
 
 _MODEL_FILE = "model.json"

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from datetime import datetime
 from math import ceil
 
+from mckibben.application.json_text import to_json
 from mckibben.application.programs import versions
 from mckibben.application.runs import answer_of as run_answer
 from mckibben.application.runs import grid_of
@@ -23,7 +24,6 @@ from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.physics.errors import InputError
 from mckibben.report.sizing import Chosen, Command, Material, sizing_report
-from mckibben.server.answer import to_json
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.sizing.catalogue import switch_on
 

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from mckibben.application.curves import curves_of
-from mckibben.application.start import Json
+from mckibben.application.curves import CurvesQuestion, CurvesResult, curves
 from mckibben.cli.options import start_model
 from mckibben.cli.output import figure, remark, write_json, write_table
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import si
-from mckibben.server.schemas.curves import CurvesOptions
 
 _MAX_PRESSURES = 12
 _TABLE_ROWS = 11
@@ -34,18 +33,19 @@ def run(
         InputError: an option cannot be used.
     """
     start = start_model(studio, muscle, ideal=ideal, effects=effects)
-    given = {} if pressure is None else {"pressures": _pressures(pressure)}
-    options = CurvesOptions.model_validate(given)
-    answer = curves_of(options, start, studio)
+    question = CurvesQuestion(start)
+    if pressure is not None:
+        question = replace(question, pressures=_pressures(pressure))
+    result = curves(question, studio)
     if as_json:
-        write_json(answer)
+        write_json(result)
         return
-    _write_tables(muscle, answer)
-    for flag in answer["flags"]:
-        remark(flag["message"])
+    _write_tables(muscle, result)
+    for notice in result.flags:
+        remark(notice.message)
 
 
-def _pressures(text: str) -> list[float]:
+def _pressures(text: str) -> tuple[float, ...]:
     """ "1 bar,3 bar" in Pa."""
     parts = [part.strip() for part in text.split(",")]
     if len(parts) > _MAX_PRESSURES:
@@ -59,21 +59,20 @@ def _pressures(text: str) -> list[float]:
         if not 0.0 <= value <= 1e8:
             raise InputError(f"--pressure: {part} is not between 0 and 1000 bar", hint="gauge pressures")
         found.append(value)
-    return found
+    return tuple(found)
 
 
-def _write_tables(muscle: str, answer: Json) -> None:
-    bars = [f"{value / 1e5:g} bar" for value in answer["pressure"]]
-    chosen = np.unique(np.linspace(0, len(answer["contraction"]) - 1, _TABLE_ROWS).astype(int))
-    force = np.asarray(answer["force"])
+def _write_tables(muscle: str, result: CurvesResult) -> None:
+    bars = [f"{value / 1e5:g} bar" for value in result.pressure]
+    chosen = np.unique(np.linspace(0, len(result.contraction) - 1, _TABLE_ROWS).astype(int))
     write_table(
         f"Force of {muscle} [N]",
         ["contraction", "length", *bars],
         [
             [
-                f"{answer['contraction'][index] * 100:.1f} %",
-                f"{answer['length'][index] * 1e3:.1f} mm",
-                *(figure(row[index]) for row in force),
+                f"{result.contraction[index] * 100:.1f} %",
+                f"{result.length[index] * 1e3:.1f} mm",
+                *(figure(row[index]) for row in result.force),
             ]
             for index in chosen
         ],
@@ -84,10 +83,10 @@ def _write_tables(muscle: str, answer: Json) -> None:
         [
             [
                 name,
-                figure(item["blocked_force"], unit=" N"),
-                figure(item["free_contraction"] * 100, unit=" %"),
-                figure(item["max_work"], unit=" J"),
+                figure(item.blocked_force, unit=" N"),
+                figure(item.free_contraction * 100, unit=" %"),
+                figure(item.max_work, unit=" J"),
             ]
-            for name, item in zip(bars, answer["characteristics"], strict=True)
+            for name, item in zip(bars, result.characteristics, strict=True)
         ],
     )

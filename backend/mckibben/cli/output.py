@@ -11,8 +11,8 @@ from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
+from mckibben.application.json_text import to_json
 from mckibben.application.start import Json
-from mckibben.server.answer import to_json
 from mckibben.simulation.outcome import Watch
 
 

@@ -8,30 +8,16 @@ from collections import Counter
 from collections.abc import Callable, Coroutine, Iterator
 from typing import Any
 
-import numpy as np
 import orjson
 from fastapi import Request, Response
 from fastapi.concurrency import run_in_threadpool
 from fastapi.routing import APIRoute
 from starlette.exceptions import HTTPException
 
-_OPTIONS = orjson.OPT_SERIALIZE_NUMPY
+from mckibben.application.json_text import to_json
+
 _LONGEST_PATH = 200  # characters of a field's path that are told
 _LARGE_BODY = 50_000  # bytes; reading more takes longer than other requests should wait
-
-
-def _unusual(value: object) -> object:
-    """What orjson does not take by itself: arrays that are not contiguous, numpy scalars."""
-    if isinstance(value, np.ndarray):
-        return value.tolist()
-    if isinstance(value, np.generic):
-        return value.item()
-    raise TypeError(f"{type(value).__name__} has no JSON form")
-
-
-def to_json(content: object) -> bytes:
-    """JSON text of plain values and numpy arrays; NaN and infinity become null."""
-    return orjson.dumps(content, option=_OPTIONS, default=_unusual)
 
 
 class JsonAnswer(Response):

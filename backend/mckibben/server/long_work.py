@@ -16,8 +16,8 @@ from fastapi.concurrency import run_in_threadpool
 from fastapi.sse import EventSourceResponse, format_sse_event
 from starlette.requests import ClientDisconnect
 
+from mckibben.application.json_text import to_json
 from mckibben.physics.errors import InputError
-from mckibben.server.answer import to_json
 from mckibben.server.errors import input_error_answer, unexpected_answer
 from mckibben.simulation.outcome import TIME_LIMIT, Watch
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from fastapi import APIRouter
 from fastapi.concurrency import run_in_threadpool
 
-from mckibben.application.curves import curves_answer
+from mckibben.application.curves import curves
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StudioDep
+from mckibben.server.questions.curves import curves_question
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.curves import CurvesAnswer, CurvesRequest
 
@@ -17,7 +18,11 @@ router = APIRouter(prefix="/api/curves", tags=["curves"], route_class=StrictRout
 @router.post("", response_model=CurvesAnswer, responses=errors(400, 413, 415, 422))
 async def compute_curves(body: CurvesRequest, studio: StudioDep) -> JsonAnswer:
     """Force, stiffness, volume and diameter over the length for each pressure, and what bounds them."""
+
+    def answer() -> JsonAnswer:
+        return JsonAnswer(curves(curves_question(body, studio), studio))
+
     if studio.is_built_in(body.muscle.preset, body.effects or ()):
         # On the event loop: such an answer takes about as long as the change of thread would.
-        return JsonAnswer(curves_answer(body, studio))
-    return await run_in_threadpool(lambda: JsonAnswer(curves_answer(body, studio)))
+        return answer()
+    return await run_in_threadpool(answer)

@@ -1,0 +1,108 @@
+"""What every result says of its muscle: the geometry at rest, and what to know about it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from mckibben.documents.start_model import StartModel
+from mckibben.physics.muscle import Muscle, assumption
+from mckibben.simulation.statics.limits import LimitFlag
+
+
+@dataclass(frozen=True, slots=True)
+class Notice:
+    """Something the user should know about a result.
+
+    Attributes:
+        code: what kind, e.g. "over_force_limit", "unverified", "assumed".
+        message: in words.
+        field: the input it belongs to, e.g. "muscle.preset".
+    """
+
+    code: str
+    message: str
+    field: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Lattice:
+    """The braid as a lattice of rhombi: side [m], number along and around the muscle."""
+
+    side: float
+    along: float
+    around: float
+
+
+@dataclass(frozen=True, slots=True)
+class GeometrySummary:
+    """The muscle at rest in all its forms.
+
+    Attributes:
+        braid_diameter: of the braid (mid-wall) at the braid angle [m].
+        braid_angle: between thread and axis [rad].
+        nominal_length: at rest [m].
+        inside_diameter: bore [m].
+        wall_thickness: [m]; 0 when it is not known.
+        thread_length, turns: of one thread [m], [-].
+        rhombus: the lattice, when the muscle was given by it.
+    """
+
+    braid_diameter: float
+    braid_angle: float
+    nominal_length: float
+    inside_diameter: float
+    wall_thickness: float
+    thread_length: float
+    turns: float
+    rhombus: Lattice | None
+
+
+def geometry_of(start: StartModel, muscle: Muscle | None = None) -> GeometrySummary:
+    """The geometry of a start model, or of the muscle that a fit made of it.
+
+    A fitted geometry no longer belongs to the lattice that the muscle was given by.
+    """
+    if muscle is not None and muscle != start.muscle:
+        start = replace(start, muscle=muscle, rhombus=None)
+    of, lattice = start.muscle, start.rhombus
+    return GeometrySummary(
+        braid_diameter=of.braid_diameter,
+        braid_angle=of.braid_angle,
+        nominal_length=of.nominal_length,
+        inside_diameter=of.inside_diameter,
+        wall_thickness=of.wall_thickness,
+        thread_length=of.braid.thread_length,
+        turns=of.braid.turns,
+        rhombus=None if lattice is None else Lattice(**lattice._asdict()),
+    )
+
+
+def limit_notices(flags: Iterable[LimitFlag]) -> list[Notice]:
+    """Crossed limits, each once."""
+    unique = {(str(flag.code), flag.message): flag for flag in flags}
+    return [Notice(str(flag.code), flag.message, flag.field) for flag in unique.values()]
+
+
+def start_notices(start: StartModel) -> list[Notice]:
+    """What to know about the muscle itself.
+
+    Fields that were assumed, figures that nobody verified, a length that the maker does not sell.
+    """
+    preset = start.preset
+    found = [Notice("assumed", assumption(start.muscle, name), f"muscle.{name}") for name in start.assumed]
+    if preset is None:
+        return found
+    if preset.unverified:
+        why = "from general knowledge or estimated, not read in a source"
+        message = f"{preset.id}: {', '.join(preset.unverified)} {why}"
+        found.append(Notice("unverified", message, "muscle.preset"))
+    length, bound, word = start.muscle.nominal_length, None, ""
+    if preset.shortest is not None and length < preset.shortest * (1.0 - 1e-9):
+        bound, word = preset.shortest, "shorter"
+    if preset.longest is not None and length > preset.longest * (1.0 + 1e-9):
+        bound, word = preset.longest, "longer"
+    if bound is not None:
+        message = f"{length * 1e3:.4g} mm is {word} than the {bound * 1e3:.4g} mm {preset.id} is made in"
+        found.append(Notice("length_outside_range", message, "muscle.nominal_length"))
+    return found

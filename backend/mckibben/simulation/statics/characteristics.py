@@ -1,0 +1,272 @@
+"""Figures of a muscle at rest: blocked force, free contraction, work, operating points, and over pressure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.physics import ideal
+from mckibben.simulation.statics.inverse import contraction_at
+from mckibben.simulation.statics.limits import FlagCode, LimitFlag
+from mckibben.simulation.statics.model import StaticModel
+
+Array = NDArray[np.float64]
+
+# Gauss-Legendre: exact for polynomials up to degree 31, far above what a force curve needs.
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
+FILLING, VENTING = -1.0, 1.0  # sign of dL/dt
+
+
+@dataclass(frozen=True, slots=True)
+class Conditions:
+    """Under which conditions a muscle is looked at.
+
+    Attributes:
+        direction: sign of dL/dt, for friction.
+        temperature: of the elastomer [K].
+        dead_volume: gas volume besides the muscle [m^3], for the closed valve.
+        polytropic_exponent: of the gas behind a closed valve.
+    """
+
+    direction: float = 0.0
+    temperature: float = 293.15
+    dead_volume: float = 0.0
+    polytropic_exponent: float = 1.4
+
+
+@dataclass(frozen=True, slots=True)
+class Characteristics:
+    """Figures at one pressure.
+
+    Attributes:
+        pressure: gauge [Pa].
+        blocked_force: at the nominal length [N].
+        free_contraction: without load [-]; NaN when out of reach.
+        free_contraction_flag: code of the limit that it crosses, None for a plain figure.
+        max_work: of one stroke from the nominal length to the free contraction [J].
+        thread_tension_total: ideal tension of all threads at the nominal length [N].
+    """
+
+    pressure: float
+    blocked_force: float
+    free_contraction: float
+    free_contraction_flag: str | None
+    max_work: float
+    thread_tension_total: float
+
+
+@dataclass(frozen=True, slots=True)
+class OperatingPoint:
+    """Where a muscle holds a load at one pressure, in SI; NaN and None where it cannot.
+
+    Attributes:
+        flags: codes of the limits that are crossed there.
+    """
+
+    pressure: float
+    contraction: float
+    length: float
+    force: float | None
+    stiffness: float
+    stiffness_closed: float
+    diameter: float
+    flags: list[str]
+
+
+@dataclass(frozen=True, slots=True)
+class PressureBranch:
+    """Position under a constant load over the pressure, in one direction; NaN where it is not held."""
+
+    contraction: Array
+    length: Array
+    diameter: Array
+    outer_diameter: Array
+
+
+@dataclass(frozen=True, slots=True)
+class ForceBranches:
+    """Force at a fixed length over the pressure [N], while shortening and while lengthening."""
+
+    filling: Array
+    venting: Array
+
+
+class HeldContractions(NamedTuple):
+    """Contractions at which a muscle carries a load; NaN where it cannot."""
+
+    free: Array  # without load, at each pressure
+    loaded: Array  # under the load, at each pressure; empty without a load
+    filling: Array  # under the load over a grid of pressures, while shortening
+    venting: Array  # and while lengthening
+
+
+def held_contractions(
+    model: StaticModel, pressures: Array, grid: Array, load: float | None, conditions: Conditions
+) -> HeldContractions:
+    """All equilibria that curves need, in one vectorised search: the calls cost more than the rows.
+
+    Args:
+        model: the muscle.
+        pressures: of the curves, gauge [Pa].
+        grid: pressures of the curves over pressure [Pa].
+        load: [N], None without one.
+        conditions: direction and temperature.
+    """
+    here = np.full(len(pressures), float(conditions.direction))
+    parts = [(np.zeros(len(pressures)), pressures, here)]
+    if load is not None:
+        parts += [
+            (np.full(len(pressures), load), pressures, here),
+            (np.full(len(grid), load), grid, np.full(len(grid), FILLING)),
+            (np.full(len(grid), load), grid, np.full(len(grid), VENTING)),
+        ]
+    loads, at, direction = (np.concatenate(column) for column in zip(*parts, strict=True))
+    found = contraction_at(
+        model, load=loads, pressures=at, direction=direction, temperature=conditions.temperature
+    )
+    pieces = np.split(found, np.cumsum([len(part[0]) for part in parts])[:-1])
+    return HeldContractions(*pieces, *[np.empty(0)] * (4 - len(pieces)))
+
+
+def characteristics(
+    model: StaticModel, pressures: Array, free: Array, conditions: Conditions
+) -> list[Characteristics]:
+    r"""Blocked force, free contraction and work :math:`\int F\,dL` of each pressure.
+
+    Args:
+        model: the muscle.
+        pressures: gauge [Pa].
+        free: contraction without load at each of them; NaN when out of reach.
+        conditions: direction and temperature.
+    """
+    rest = model.muscle.nominal_length
+    stroke = np.where(np.isfinite(free) & (free > 0.0), free, 0.0)
+    # The first column is the nominal length itself, the others each pressure's own range.
+    at = np.concatenate([[0.0], (_NODES + 1.0) / 2.0]) * stroke[:, None]
+    force = model.force(
+        length=rest * (1.0 - at.ravel()),
+        pressure=np.repeat(pressures, at.shape[1]),
+        direction=conditions.direction,
+        temperature=conditions.temperature,
+    ).reshape(at.shape)
+    work = rest * stroke / 2.0 * (force[:, 1:] @ _WEIGHTS)
+    tension = ideal.thread_tension(braid=model.muscle.braid, pressure=pressures, length=rest)
+    return [
+        Characteristics(
+            pressure=float(pressure),
+            blocked_force=force[index, 0],
+            free_contraction=free[index],
+            free_contraction_flag=_free_flag(model, free[index]),
+            max_work=work[index],
+            thread_tension_total=tension[index],
+        )
+        for index, pressure in enumerate(pressures)
+    ]
+
+
+def _free_flag(model: StaticModel, contraction: float) -> str | None:
+    if not np.isfinite(contraction):
+        return str(FlagCode.OUT_OF_REACH)
+    crossed = model.limits.flags(contraction=contraction)
+    return str(crossed[0].code) if crossed else None
+
+
+def operating_points(
+    model: StaticModel, pressures: Array, load: float, held: Array, conditions: Conditions
+) -> tuple[list[OperatingPoint], list[LimitFlag]]:
+    """Where the muscle holds a load at each pressure, and every limit that is crossed there.
+
+    Args:
+        model: the muscle.
+        pressures: gauge [Pa].
+        load: [N].
+        held: contraction under the load at each pressure; NaN when out of reach.
+        conditions: direction, temperature, and what is behind a closed valve.
+    """
+    reached = np.flatnonzero(np.isfinite(held))
+    length = model.muscle.nominal_length * (1.0 - held)
+    stiffness, closed, diameter = (np.full(len(pressures), np.nan) for _ in range(3))
+    if reached.size:
+        there = model.curves(
+            pressures[reached],
+            length[reached],
+            direction=conditions.direction,
+            temperature=conditions.temperature,
+            dead_volume=conditions.dead_volume,
+            polytropic_exponent=conditions.polytropic_exponent,
+            clipped=False,  # in balance with the load, so never slack, not even at a load of zero
+        )
+        stiffness[reached] = np.diagonal(there.stiffness)
+        closed[reached] = np.diagonal(there.stiffness_closed)
+        diameter[reached] = np.diagonal(there.diameter)
+    points: list[OperatingPoint] = []
+    flags: list[LimitFlag] = []
+    for index, pressure in enumerate(pressures):
+        inside = bool(np.isfinite(held[index]))
+        if inside:
+            crossed = model.limits.flags(pressure=pressure, force=load, contraction=held[index])
+        else:
+            why = f"{load:.4g} N stretch the muscle to the braid lock at {pressure / 1e5:.3g} bar"
+            crossed = [LimitFlag(FlagCode.OUT_OF_REACH, why, "load")]
+        flags += crossed
+        points.append(
+            OperatingPoint(
+                pressure=float(pressure),
+                contraction=held[index],
+                length=length[index],
+                force=load if inside else None,
+                stiffness=stiffness[index],
+                stiffness_closed=closed[index],
+                diameter=diameter[index],
+                flags=[str(flag.code) for flag in crossed],
+            )
+        )
+    return points, flags
+
+
+def pressure_branch(
+    model: StaticModel, grid: Array, held: Array, *, direction: float, temperature: float
+) -> PressureBranch:
+    """Position under a load over a grid of pressures, in one direction.
+
+    Args:
+        model: the muscle.
+        grid: gauge pressures [Pa].
+        held: contraction at each of them; NaN where the load is not held.
+        direction: sign of dL/dt.
+        temperature: [K].
+    """
+    length = model.muscle.nominal_length * (1.0 - held)
+    reached = np.isfinite(length)
+    diameter, outer = np.full(len(grid), np.nan), np.full(len(grid), np.nan)
+    if reached.any():
+        there = model.outputs(
+            length=length[reached], pressure=grid[reached], direction=direction, temperature=temperature
+        )
+        diameter[reached], outer[reached] = there["diameter"], there["outer_diameter"]
+    return PressureBranch(held, length, diameter, outer)
+
+
+def force_at_length(model: StaticModel, grid: Array, length: float, *, temperature: float) -> ForceBranches:
+    """Force at a fixed length [m] over a grid of gauge pressures [Pa], both ways."""
+    both = model.force(
+        length=length,
+        pressure=np.tile(grid, 2),
+        direction=np.repeat([FILLING, VENTING], len(grid)),
+        temperature=temperature,
+    )
+    return ForceBranches(both[: len(grid)], both[len(grid) :])
+
+
+def ideal_contraction(model: StaticModel) -> float:
+    """Contraction at which the ideal force is zero."""
+    return float(ideal.max_contraction(braid_angle=model.muscle.braid_angle))
+
+
+def lock_forces(model: StaticModel, pressures: Sequence[float] | Array) -> Array:
+    """Ideal force of the fully stretched braid at each pressure [N]."""
+    return ideal.lock_force(braid=model.muscle.braid, pressure=np.asarray(pressures))
