@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from mckibben.application.runs import grid_of
-from mckibben.application.simulations import read_document, simulation_answer
+from mckibben.application.simulate import SimulationQuestion, simulate
+from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
@@ -104,20 +104,18 @@ def test_200_random_drives_end_with_a_name() -> None:
         began = time.monotonic()
         try:
             given = drive_of(read_document(document, "the drive"), studio)
-            duration = given.drive.duration
-            grid = grid_of(duration=duration, begin=0.0, end=duration, points=POINTS)
-            answer = simulation_answer(given, grid)
+            result = simulate(SimulationQuestion(given, points=POINTS))
         except InputError as error:
             # A load may really have no rest position, e.g. none that the lower stop could carry.
             assert error.field, f"drive {number}: {error}"  # noqa: PT017 - the run may also succeed
             outcomes["refused"] += 1
             continue
         assert time.monotonic() - began < SLOWEST, f"drive {number}: {document}"
-        outcomes[answer["outcome"]] += 1
-        if answer["outcome"] == "completed":
-            assert len(answer["time"]) == POINTS
+        outcomes[result.outcome] += 1
+        if result.outcome == "completed":
+            assert len(result.time) == POINTS
             for name in ("position", "velocity", "acceleration", "pressure", "force", "mass_flow", "volume"):
-                assert np.isfinite(answer[name]).all(), f"drive {number}, {name}: {document}"
+                assert np.isfinite(getattr(result, name)).all(), f"drive {number}, {name}: {document}"
     assert sum(outcomes.values()) == DRIVES
     # Hardly any of them is beyond the model.
     assert outcomes["completed"] >= 0.95 * DRIVES, outcomes

@@ -26,9 +26,9 @@ def test_there_is_a_preset_for_each_scenario_and_no_other() -> None:
 @pytest.mark.parametrize("name", SCENARIOS)
 def test_it_runs_to_the_end(scenarios: dict[str, Scenario], name: str) -> None:
     scenario = scenarios[name]
-    assert scenario.answer["outcome"] == "completed"
+    assert scenario.result.outcome == "completed"
     for column in ("position", "velocity", "pressure", "force", "mass_flow"):
-        assert np.isfinite(scenario.answer[column]).all(), column
+        assert np.isfinite(getattr(scenario.result, column)).all(), column
 
 
 @pytest.mark.parametrize("name", SCENARIOS)
@@ -56,25 +56,25 @@ def test_the_ramp_crosses_the_rest_length_when_the_load_is_the_blocked_force(
     scenarios: dict[str, Scenario],
 ) -> None:
     # 386.3 N of 1000 N in 7 s; the muscle leaves its stop at 192.8 N.
-    answer = scenarios["paper-ramp"].answer
-    position = np.asarray(answer["position"])
-    crossing = float(np.asarray(answer["time"])[np.argmax(position < 0.0)])
-    leaving = float(np.asarray(answer["time"])[np.argmax(position < 0.0399)])
+    ramp = scenarios["paper-ramp"].result
+    position = np.asarray(ramp.position)
+    crossing = float(np.asarray(ramp.time)[np.argmax(position < 0.0)])
+    leaving = float(np.asarray(ramp.time)[np.argmax(position < 0.0399)])
     assert crossing == pytest.approx(2.70, abs=0.02)
     assert leaving == pytest.approx(1.35, abs=0.05)
 
 
 @pytest.mark.parametrize("name", CONTROLLED)
 def test_the_position_follows_the_reference_with_a_delay(scenarios: dict[str, Scenario], name: str) -> None:
-    follows = scenarios[name].answer["tracking"]
-    reference = np.asarray(scenarios[name].answer["reference"])
-    assert 0.02 < follows["lag"] < 0.2
-    assert follows["rms"] < 0.35 * np.ptp(reference)
+    follows = scenarios[name].result.tracking
+    reference = np.asarray(scenarios[name].result.reference)
+    assert 0.02 < follows.lag < 0.2
+    assert follows.rms < 0.35 * np.ptp(reference)
 
 
 def test_sudden_transitions_swing_around_the_new_position(scenarios: dict[str, Scenario]) -> None:
-    jumps = scenarios["paper-pid-pulse"].answer["tracking"]["overshoot"]
-    assert all(0.05 < jump["overshoot"] < 0.6 for jump in jumps[:-1])
+    jumps = scenarios["paper-pid-pulse"].result.tracking.overshoot
+    assert all(0.05 < jump.overshoot < 0.6 for jump in jumps[:-1])
 
 
 def test_the_hysteresis_loop_has_a_width(scenarios: dict[str, Scenario]) -> None:

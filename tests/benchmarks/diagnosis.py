@@ -85,8 +85,8 @@ def diagnosed(case: Case) -> Line:
 
 def subject_and_start(case: Case, studio: Any) -> tuple[Any, Any]:
     """What a user would give of a case: measurement, muscle or drive, start model."""
-    from mckibben.application.simulations import read_document
     from mckibben.documents.convert import given_muscle
+    from mckibben.documents.drive_files import read_document
     from mckibben.documents.drive_reading import drive_of
     from mckibben.documents.muscle import MuscleInput
     from mckibben.identification.predict import predictor_of

@@ -32,7 +32,7 @@ from typing import Any
 import numpy as np
 from scipy.integrate import odeint, solve_ivp
 
-from mckibben.application.simulations import read_document
+from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.resources import presets_folder

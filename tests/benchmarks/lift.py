@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mckibben.application.simulations import read_document
+from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.simulation.drive.transient import parameters_of, segments_of, start_of

@@ -12,13 +12,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mckibben.application.runs import grid_of, trace_of
-from mckibben.application.simulations import answer_of, preset_document, run_drive
+from mckibben.application.simulate import SimulationResult, result_of, run_drive
+from mckibben.documents.drive_files import preset_document
 from mckibben.documents.drive_reading import GivenDrive, drive_of
 from mckibben.documents.studio import Studio
 from mckibben.presets import DrivePreset
 from mckibben.resources import presets_folder
 from mckibben.simulation.drive.transient import Run, dead_times
+from mckibben.simulation.timing.of_run import grid_of, trace_of
 from mckibben.simulation.timing.trace import Trace
 
 SCENARIOS = (
@@ -35,7 +36,7 @@ class Scenario:
     preset: DrivePreset
     given: GivenDrive
     run: Run
-    answer: dict
+    result: SimulationResult
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,7 @@ def run_scenario(studio: Studio, preset_id: str) -> Scenario:
     duration = given.drive.duration
     grid = grid_of(duration=duration, begin=0.0, end=duration, points=POINTS)
     run = run_drive(given, grid, engine="rodas")
-    return Scenario(preset, given, run, answer_of(given, grid, run))
+    return Scenario(preset, given, run, result_of(given, grid, run))
 
 
 def rows_of(scenario: Scenario) -> list[Row]:
@@ -90,13 +91,13 @@ def figure(scenario: Scenario, name: str) -> float | None:
     """A figure of the timing table, or one that only the paper uses."""
     phase, _, key = name.partition(".")
     if phase == "position":
-        return float(getattr(np, key)(scenario.answer["position"]))
-    table = scenario.answer["timing"][phase]
+        return float(getattr(np, key)(scenario.result.position))
+    table = getattr(scenario.result.timing, phase)
     if key == "motion_time":
-        return table["positioning_time"] - _leaves_stop(scenario, phase)
+        return table.positioning_time - _leaves_stop(scenario, phase)
     if key == "rise_and_dead_time":
-        return table["rise_time"] + dead_times(scenario.given.drive)[0 if phase == "extend" else 1]
-    return table[key]
+        return table.rise_time + dead_times(scenario.given.drive)[0 if phase == "extend" else 1]
+    return getattr(table, key)
 
 
 def _leaves_stop(scenario: Scenario, phase: str) -> float:
@@ -129,11 +130,11 @@ def table(scenarios: list[Scenario]) -> str:
                 f"| {scenario.preset.id} | {row.name} | {shown(row.ours, row.unit)} | "
                 f"{shown(row.paper, row.unit)} | {row.difference:+.1%} | {why} |"
             )
-        follows = scenario.answer["tracking"]
+        follows = scenario.result.tracking
         if follows is not None:
-            lag = shown(follows["lag"], "s")
+            lag = shown(follows.lag, "s")
             lines.append(
-                f"| {scenario.preset.id} | error rms, lag | {shown(follows['rms'], 'm')}, {lag} | – | – | "
+                f"| {scenario.preset.id} | error rms, lag | {shown(follows.rms, 'm')}, {lag} | – | – | "
                 "the paper prints curves only |"
             )
         elif not rows:

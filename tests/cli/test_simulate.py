@@ -26,18 +26,17 @@ def test_a_document_gives_one_json_object(run: Run) -> None:
 
 def test_it_agrees_with_the_kernel(run: Run) -> None:
     # One process per run answers by LSODA, the server by the kernel.
-    from mckibben.application.runs import grid_of
-    from mckibben.application.simulations import read_document, simulation_answer
+    from mckibben.application.simulate import SimulationQuestion, simulate
+    from mckibben.documents.drive_files import read_document
     from mckibben.documents.drive_reading import drive_of
     from mckibben.documents.studio import Studio
 
     answer = json.loads(run("simulate", write("lift.json", EXAMPLE), "--json")[1])
     given = drive_of(read_document(EXAMPLE, "the drive"), Studio(presets=presets_folder()))
-    grid = grid_of(duration=4.0, begin=0.0, end=4.0, points=2001)
-    other = simulation_answer(given, grid, engine="rodas")
+    other = simulate(SimulationQuestion(given, engine="rodas"))
     assert answer["engine"] == "lsoda"
-    assert other["engine"] == "rodas"
-    assert max(abs(a - b) for a, b in zip(answer["position"], other["position"], strict=True)) < 2e-5
+    assert other.engine == "rodas"
+    assert max(abs(a - b) for a, b in zip(answer["position"], other.position, strict=True)) < 2e-5
 
 
 def test_the_table_shows_both_phases_and_the_outcome(run: Run) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from mckibben.application.simulations import preset_document, read_document
+from mckibben.documents.drive_files import preset_document, read_document
 from mckibben.documents.drive_reading import GivenDrive, drive_of
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError

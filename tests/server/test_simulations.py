@@ -16,13 +16,14 @@ import pytest
 from fastapi import Request
 from fastapi.testclient import TestClient
 
-from mckibben.application.runs import choked_intervals, grid_of
-from mckibben.application.simulations import read_document, simulation_answer
+from mckibben.application.simulate import SimulationQuestion, simulate
+from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.server.long_work import events, finished
 from mckibben.server.schemas.simulations import SimulationAnswer
 from mckibben.simulation.integrate.engine import kernel
 from mckibben.simulation.outcome import Outcome, Watch
+from mckibben.simulation.timing.of_run import ChokedInterval, choked_intervals, grid_of
 from mckibben.simulation.timing.table import FIGURES
 from tests.running_server import RunningServer
 from tests.server.conftest import assert_error, post, run_async
@@ -130,7 +131,7 @@ def test_a_window_holds_the_same_run(shared_client: TestClient, lift: dict[str, 
 def test_choked_intervals() -> None:
     time = np.arange(7.0)
     found = choked_intervals(time, np.array([0, 1, 1, 0, 2, 2, 2]))
-    assert found == [{"from": 1.0, "to": 3.0, "side": "fill"}, {"from": 4.0, "to": 6.0, "side": "exhaust"}]
+    assert found == [ChokedInterval(1.0, 3.0, "fill"), ChokedInterval(4.0, 6.0, "exhaust")]
     assert choked_intervals(np.empty(0), np.empty(0)) == []
 
 
@@ -275,15 +276,15 @@ def test_a_run_that_is_stopped_ends_with_a_name_and_what_there_is(shared_client:
     # 400 000 samples take half a second at least.
     sampled = {**CONTROLLED, "controller": {**CONTROLLED["controller"], "sample_time": "10 us"}}
     given = drive_of(read_document(sampled, "the drive"), studio)
-    grid = grid_of(duration=4.0, begin=0.0, end=4.0, points=401)
     for limit in (0.0, 0.05):
-        answer = simulation_answer(given, grid, Watch(time_limit=limit))
-        assert answer["outcome"] == "timed_out"
-        assert "Shorten" in answer["message"]
-        assert len(answer["time"]) < 401
+        stopped = simulate(SimulationQuestion(given, points=401), Watch(time_limit=limit))
+        assert stopped.outcome == "timed_out"
+        assert stopped.message is not None
+        assert "Shorten" in stopped.message
+        assert len(stopped.time) < 401
     plain = drive_of(read_document(LIFT, "the drive"), studio)
-    answer = simulation_answer(plain, grid, Watch(time_limit=0.0), engine="lsoda")
-    assert answer["outcome"] == "timed_out"
+    stopped = simulate(SimulationQuestion(plain, points=401, engine="lsoda"), Watch(time_limit=0.0))
+    assert stopped.outcome == "timed_out"
 
 
 def until_cancelled(ends: list[Outcome]) -> Callable[[Watch], str]:

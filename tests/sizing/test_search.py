@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from mckibben.application.runs import grid_of
-from mckibben.application.simulations import read_document, simulation_answer
+from mckibben.application.simulate import SimulationQuestion, simulate
 from mckibben.application.sizings import drive_document, sizing_answer
+from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
@@ -57,18 +57,17 @@ def test_every_proposal_is_a_drive_that_runs_as_it_says(studio: Studio, name: st
     assert answer["proposals"]
     for proposal in answer["proposals"]:
         document = read_document(proposal["drive"], "the drive")
-        grid = grid_of(duration=document.duration, begin=0.0, end=document.duration, points=2001)
-        run = simulation_answer(drive_of(document, studio), grid, engine="rodas")
-        assert run["outcome"] == "completed"
-        up, down = run["timing"]["extend"], run["timing"]["retract"]
-        assert up["positioning_time"] == pytest.approx(proposal["time"], rel=2e-3)
+        run = simulate(SimulationQuestion(drive_of(document, studio), engine="rodas"))
+        assert run.outcome == "completed"
+        up, down = run.timing.extend, run.timing.retract
+        assert up.positioning_time == pytest.approx(proposal["time"], rel=2e-3)
         if proposal["time_down"] is not None:
-            assert down["positioning_time"] == pytest.approx(proposal["time_down"], rel=5e-3)
+            assert down.positioning_time == pytest.approx(proposal["time_down"], rel=5e-3)
         share = proposal["parallel"]
-        assert share * up["impact_energy"] == pytest.approx(proposal["impact_energy"], rel=0.02, abs=1e-3)
+        assert share * up.impact_energy == pytest.approx(proposal["impact_energy"], rel=0.02, abs=1e-3)
         if name != "pair":  # its second muscle takes air on the way back
             # The timing table sums rows, in which the jump of the flow at the begin is one row wide.
-            assert share * up["air_volume_anr"] == pytest.approx(proposal["air_volume_anr"], rel=0.02)
+            assert share * up.air_volume_anr == pytest.approx(proposal["air_volume_anr"], rel=0.02)
 
 
 @pytest.mark.parametrize("name", TASKS)

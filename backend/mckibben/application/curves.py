@@ -141,8 +141,8 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
     """The curves of a muscle.
 
     Raises:
-        InputError: the geometry cannot pull, a parameter is out of bounds, the range cannot be used; names the
-            field of the question.
+        InputError: the geometry cannot pull, a parameter is out of bounds, the range cannot be used;
+            names the field of the question.
     """
     start, conditions = question.start, question.conditions
     model = studio.static_model(start)

@@ -2,101 +2,169 @@
 
 from __future__ import annotations
 
-from typing import assert_never
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar, assert_never
 
-from mckibben.application.start import Json, flags_json, start_flags
-from mckibben.documents.convert import given_muscle
+from mckibben.application.muscle_summary import Notice, limit_notices, start_notices
+from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
-from mckibben.server.schemas.inverse import (
-    ContractionQuestion,
-    PressureQuestion,
-    StrokePressureQuestion,
-    WorkingRangeQuestion,
-)
 from mckibben.simulation.statics import inverse
 from mckibben.simulation.statics.model import StaticModel
 
-Question = PressureQuestion | ContractionQuestion | WorkingRangeQuestion | StrokePressureQuestion
+_LONGEST_STROKE = 0.95  # of the nominal length
+_SHORTEST = 0.05  # share of the nominal length; nothing contracts further
 
 
-def inverse_answer(request: Question, studio: Studio) -> Json:
-    """The answer to one question, with the limits it crosses.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _About:
+    """The muscle, the direction of motion (sign of dL/dt, for friction) and the temperature [K]."""
+
+    start: StartModel
+    direction: float = 0.0
+    temperature: float = 293.15
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PressureForForce(_About):
+    """Which pressure gives this force [N] at this length [m] or this contraction? One of the two is given."""
+
+    NAME: ClassVar = "pressure"
+
+    force: float
+    length: float | None = None
+    contraction: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContractionForForce(_About):
+    """How far is the muscle contracted at this force [N] and gauge pressure [Pa]?"""
+
+    NAME: ClassVar = "contraction"
+
+    force: float
+    pressure: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorkingRange(_About):
+    """Which stroke from the preload [N] without pressure to the load [N] at the highest pressure [Pa]?"""
+
+    NAME: ClassVar = "working_range"
+
+    load: float
+    pressure: float
+    preload: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PressureForStroke(_About):
+    """Which pressure lifts this load [N] by this stroke [m] from the nominal length?"""
+
+    NAME: ClassVar = "stroke_pressure"
+
+    load: float
+    stroke: float
+
+
+InverseQuestion = PressureForForce | ContractionForForce | WorkingRange | PressureForStroke
+
+
+@dataclass(frozen=True, slots=True)
+class InverseFinding:
+    """The answer to an inverse question.
+
+    Attributes:
+        question: which one.
+        value: the answer; NaN when there is none, and a flag says why.
+        unit: its SI unit.
+        details: further figures, SI.
+    """
+
+    question: str
+    value: float | None
+    unit: str
+    details: Mapping[str, float | None]
+    flags: list[Notice]
+
+
+def answer(question: InverseQuestion, studio: Studio) -> InverseFinding:
+    """The answer to one question, with the limits that it crosses.
 
     Raises:
-        InputError: the muscle, an effect or the question cannot be used.
+        InputError: the muscle, an effect or the question cannot be used; names the field of the question.
     """
-    start = studio.start_model(given_muscle(request.muscle), request.effects)
-    answer = _ask(request, studio.static_model(start))
-    return {
-        "question": request.question,
-        "value": answer.value,
-        "unit": answer.unit,
-        "details": answer.details,
-        "flags": [*start_flags(start), *flags_json(answer.flags)],
-    }
+    found = _ask(question, studio.static_model(question.start))
+    return InverseFinding(
+        question=question.NAME,
+        value=found.value,
+        unit=found.unit,
+        details=found.details,
+        flags=[*start_notices(question.start), *limit_notices(found.flags)],
+    )
 
 
-def _ask(request: Question, model: StaticModel) -> inverse.InverseResult:
-    temperature = request.temperature
-    match request:
-        case PressureQuestion():
+def _ask(question: InverseQuestion, model: StaticModel) -> inverse.InverseResult:
+    temperature = question.temperature
+    match question:
+        case PressureForForce():
             return inverse.pressure_for_force(
                 model,
-                force=request.force,
-                length=_length(request, model),
-                direction=request.direction,
+                force=question.force,
+                length=_length(question, model),
+                direction=question.direction,
                 temperature=temperature,
             )
-        case ContractionQuestion():
+        case ContractionForForce():
             return inverse.contraction_for_force(
                 model,
-                force=request.force,
-                pressure=request.pressure,
-                direction=request.direction,
+                force=question.force,
+                pressure=question.pressure,
+                direction=question.direction,
                 temperature=temperature,
             )
-        case WorkingRangeQuestion():
+        case WorkingRange():
             return inverse.working_range(
                 model,
-                load=request.load,
-                pressure=request.pressure,
-                preload=request.preload,
+                load=question.load,
+                pressure=question.pressure,
+                preload=question.preload,
                 temperature=temperature,
             )
-        case StrokePressureQuestion():
+        case PressureForStroke():
             rest = model.muscle.nominal_length
-            if request.stroke >= 0.95 * rest:
+            if question.stroke >= _LONGEST_STROKE * rest:
                 raise InputError(
-                    f"no muscle of {rest * 1e3:.4g} mm makes a stroke of {request.stroke * 1e3:.4g} mm",
+                    f"no muscle of {rest * 1e3:.4g} mm makes a stroke of {question.stroke * 1e3:.4g} mm",
                     field="stroke",
                     hint="muscles contract by up to about a quarter of their length",
                 )
             return inverse.stroke_pressure(
                 model,
-                load=request.load,
-                stroke=request.stroke,
-                direction=request.direction,
+                load=question.load,
+                stroke=question.stroke,
+                direction=question.direction,
                 temperature=temperature,
             )
         case _:
-            assert_never(request)
+            assert_never(question)
 
 
-def _length(request: PressureQuestion, model: StaticModel) -> float:
+def _length(question: PressureForForce, model: StaticModel) -> float:
     """The length asked about, given as such or as a contraction."""
     rest = model.muscle.nominal_length
-    if (request.length is None) == (request.contraction is None):
+    if question.length is not None and question.contraction is None:
+        field, length = "length", question.length
+    elif question.contraction is not None and question.length is None:
+        field, length = "contraction", rest * (1.0 - question.contraction)
+    else:
         raise InputError(
             "give either the length or the contraction",
             field="length",
             hint='e.g. "contraction": "10 %"',
         )
-    if request.length is not None:
-        field, length = "length", request.length
-    else:
-        field, length = "contraction", rest * (1.0 - (request.contraction or 0.0))
-    if length < 0.05 * rest:
+    if length < _SHORTEST * rest:
         raise InputError(
             f"no muscle of {rest * 1e3:.4g} mm contracts to {length * 1e3:.4g} mm",
             field=field,

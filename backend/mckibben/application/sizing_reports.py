@@ -11,20 +11,20 @@ from math import ceil
 
 from mckibben.application.json_text import to_json
 from mckibben.application.programs import versions
-from mckibben.application.runs import answer_of as run_answer
-from mckibben.application.runs import grid_of
-from mckibben.application.simulations import inside, read_document, run_drive
+from mckibben.application.simulate import result_of, run_drive
 from mckibben.application.sizing_chosen import curves_of, margins_of, spread_of
 from mckibben.application.sizing_entries import about_task, entries_of
 from mckibben.application.sizing_parts import effect_figures, parts_of
 from mckibben.application.sizings import Searched, prepare_search
 from mckibben.application.start import Json
+from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
-from mckibben.physics.errors import InputError
+from mckibben.physics.errors import InputError, fields_inside
 from mckibben.report.sizing import Chosen, Command, Material, sizing_report
 from mckibben.simulation.outcome import Outcome, Watch
+from mckibben.simulation.timing.of_run import grid_of
 from mckibben.sizing.catalogue import switch_on
 
 # Rows of the run: a stroke of some milliseconds is to be seen in a run of some seconds.
@@ -46,7 +46,7 @@ def prepare_report(
     Raises:
         InputError: the task cannot be used; its field begins with ``task``.
     """
-    with inside("task"):
+    with fields_inside("task"):
         search = prepare_search(document, studio)
 
     def work(watch: Watch) -> str:
@@ -109,7 +109,7 @@ def _chosen(search: Searched, studio: Studio, rank: int, watch: Watch) -> Chosen
     points = min(max(ceil(duration / _STEP), _FEWEST), _MOST) + 1
     grid = grid_of(duration=duration, begin=0.0, end=duration, points=points)
     # By the kernel as in the search, so that both show the same digits.
-    run = run_answer(given, grid, run_drive(given, grid, watch, "rodas"))
+    run = json.loads(to_json(result_of(given, grid, run_drive(given, grid, watch, "rodas"))))
     on = switch_on(task, group.duty)
     return Chosen(
         rank=rank,

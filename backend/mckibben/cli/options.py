@@ -171,7 +171,7 @@ def _drive_of(studio: Studio, path: str, start: StartModel) -> Drive | None:
     """The drive of a document that has a valve, with the muscle and effects of the start model."""
     from dataclasses import replace
 
-    from mckibben.application.simulations import read_document
+    from mckibben.documents.drive_files import read_document
     from mckibben.documents.drive_reading import drive_of
 
     document = _drive_document(path)

@@ -4,61 +4,72 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
 
-from mckibben.application.runs import grid_of
-from mckibben.application.simulations import POINTS, preset_document, read_document, simulation_answer
-from mckibben.application.start import Json
+import numpy as np
+
+from mckibben.application.simulate import SimulationQuestion, SimulationResult, simulate
 from mckibben.cli.options import located
 from mckibben.cli.output import figure, remark, write_json, write_table
 from mckibben.documents.drive import DriveDocument
+from mckibben.documents.drive_files import preset_document, read_document
 from mckibben.documents.drive_reading import GivenDrive, drive_of
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.presets import DrivePreset
 from mckibben.presets.reading import BadDocumentError, parse, read_file
 from mckibben.simulation.drive.transient import segments_of
+from mckibben.simulation.timing.table import PhaseFigures
 
 _FEW_SEGMENTS = 20
-# Figure of the timing table -> how it is shown: name, factor, unit.
-_SHOWN = {
-    "positioning_time": ("positioning time", 1e3, "ms"),
-    "rise_time": ("rise time 10-90 %", 1e3, "ms"),
-    "delay_time": ("delay time 50 %", 1e3, "ms"),
-    "settling_time": ("settling time", 1e3, "ms"),
-    "average_speed": ("average speed", 1.0, "m/s"),
-    "max_speed": ("largest speed", 1.0, "m/s"),
-    "max_speed_at": ("  at", 1e3, "ms"),
-    "max_acceleration": ("largest acceleration", 1.0, "m/s²"),
-    "max_acceleration_at": ("  at", 1e3, "ms"),
-    "min_acceleration": ("smallest acceleration", 1.0, "m/s²"),
-    "min_acceleration_at": ("  at", 1e3, "ms"),
-    "end_speed": ("end speed", 1.0, "m/s"),
-    "impact_energy": ("impact energy", 1.0, "J"),
-    "overshoot": ("overshoot", 100.0, "%"),
-    "pressure_rise_time": ("pressure rise time", 1e3, "ms"),
-    "pressure_delay_time": ("pressure delay time", 1e3, "ms"),
-    "pressure_settling_time": ("pressure settling time", 1e3, "ms"),
-    "air_mass": ("air", 1e3, "g"),
-    "air_volume_anr": ("air at ANR", 1e3, "l"),
-    "choked_share": ("valve choked", 100.0, "%"),
-}
-# Column of the file -> column of the answer; names as in measurement files, so a trace can be read back.
-_COLUMNS = {
-    "time_s": "time",
-    "command": "command",
-    "pressure_Pa": "pressure",
-    "displacement_m": "position",
-    "velocity_m/s": "velocity",
-    "acceleration_m/s2": "acceleration",
-    "force_N": "force",
-    "length_m": "length",
-    "diameter_m": "diameter",
-    "mass_flow_kg/s": "mass_flow",
-    "reference_m": "reference",
-}
+# Name of a figure, its field in the timing table, factor and unit.
+_SHOWN: tuple[tuple[str, Callable[[PhaseFigures], float | None], str, float, str], ...] = (
+    ("positioning time", lambda phase: phase.positioning_time, "positioning_time", 1e3, "ms"),
+    ("rise time 10-90 %", lambda phase: phase.rise_time, "rise_time", 1e3, "ms"),
+    ("delay time 50 %", lambda phase: phase.delay_time, "delay_time", 1e3, "ms"),
+    ("settling time", lambda phase: phase.settling_time, "settling_time", 1e3, "ms"),
+    ("average speed", lambda phase: phase.average_speed, "average_speed", 1.0, "m/s"),
+    ("largest speed", lambda phase: phase.max_speed, "max_speed", 1.0, "m/s"),
+    ("  at", lambda phase: phase.max_speed_at, "max_speed_at", 1e3, "ms"),
+    ("largest acceleration", lambda phase: phase.max_acceleration, "max_acceleration", 1.0, "m/s²"),
+    ("  at", lambda phase: phase.max_acceleration_at, "max_acceleration_at", 1e3, "ms"),
+    ("smallest acceleration", lambda phase: phase.min_acceleration, "min_acceleration", 1.0, "m/s²"),
+    ("  at", lambda phase: phase.min_acceleration_at, "min_acceleration_at", 1e3, "ms"),
+    ("end speed", lambda phase: phase.end_speed, "end_speed", 1.0, "m/s"),
+    ("impact energy", lambda phase: phase.impact_energy, "impact_energy", 1.0, "J"),
+    ("overshoot", lambda phase: phase.overshoot, "overshoot", 100.0, "%"),
+    ("pressure rise time", lambda phase: phase.pressure_rise_time, "pressure_rise_time", 1e3, "ms"),
+    ("pressure delay time", lambda phase: phase.pressure_delay_time, "pressure_delay_time", 1e3, "ms"),
+    (
+        "pressure settling time",
+        lambda phase: phase.pressure_settling_time,
+        "pressure_settling_time",
+        1e3,
+        "ms",
+    ),
+    ("air", lambda phase: phase.air_mass, "air_mass", 1e3, "g"),
+    ("air at ANR", lambda phase: phase.air_volume_anr, "air_volume_anr", 1e3, "l"),
+    ("valve choked", lambda phase: phase.choked_share, "choked_share", 100.0, "%"),
+)
+
+
+def _columns(result: SimulationResult) -> dict[str, np.ndarray]:
+    """Header -> column of a file; names as in measurement files, so that a trace can be read back."""
+    columns = {
+        "time_s": result.time,
+        "command": result.command,
+        "pressure_Pa": result.pressure,
+        "displacement_m": result.position,
+        "velocity_m/s": result.velocity,
+        "acceleration_m/s2": result.acceleration,
+        "force_N": result.force,
+        "length_m": result.length,
+        "diameter_m": result.diameter,
+        "mass_flow_kg/s": result.mass_flow,
+        "reference_m": result.reference,
+    }
+    return {header: column for header, column in columns.items() if column is not None}
 
 
 def run(studio: Studio, *, drive: str, out: Path | None, as_json: bool) -> None:
@@ -69,21 +80,20 @@ def run(studio: Studio, *, drive: str, out: Path | None, as_json: bool) -> None:
     """
     document = _document(drive, studio)
     try:
-        grid = grid_of(duration=document.duration, begin=0.0, end=document.duration, points=POINTS)
         given = drive_of(document, studio)
-        answer = simulation_answer(given, grid, engine=_engine(given))
+        result = simulate(SimulationQuestion(given, engine=_engine(given)))
     except InputError as error:
         raise InputError(f"{drive}: {located(error.field, error.message)}", hint=error.hint) from error
     if out is not None:
-        _write_trace(out, document, answer)
+        _write_trace(out, document, result)
     if as_json:
-        write_json(answer)
+        write_json(result)
     else:
-        _write_tables(drive, answer)
-    for item in answer["flags"]:
-        remark(item["message"])
-    if answer["message"] is not None:
-        remark(f"{answer['outcome']}: {answer['message']}")
+        _write_tables(drive, result)
+    for notice in result.flags:
+        remark(notice.message)
+    if result.message is not None:
+        remark(f"{result.outcome}: {result.message}")
 
 
 def _engine(given: GivenDrive) -> str:
@@ -116,27 +126,26 @@ def _document(name: str, studio: Studio) -> DriveDocument:
         raise InputError(f"{name}: {message}", hint=error.hint) from error
 
 
-def _write_tables(name: str, answer: Json) -> None:
-    timing = answer["timing"]
+def _write_tables(name: str, result: SimulationResult) -> None:
+    timing = result.timing
+    phases = (("extend", timing.extend), ("retract", timing.retract))
     rows: list[Sequence[str]] = []
-    for key, (label, factor, unit) in _SHOWN.items():
-        figures = [timing[phase].get(key) for phase in ("extend", "retract")]
+    reasons = set()
+    for label, figure_of, key, factor, unit in _SHOWN:
+        figures = [figure_of(phase) for _, phase in phases]
         rows.append([label, *(figure(_times(value, factor), unit=f" {unit}") for value in figures)])
-    write_table(f"{name}: {answer['outcome']}", ["", "extend (fill)", "retract (exhaust)"], rows)
-    reasons = {
-        f"{phase}: {why}"
-        for phase in ("extend", "retract")
-        for key in _SHOWN
-        if timing[phase].get(key) is None and (why := timing["notes"].get(f"{phase}.{key}"))
-    }
+        for (phase, _), value in zip(phases, figures, strict=True):
+            if value is None and (why := timing.notes.get(f"{phase}.{key}")):
+                reasons.add(f"{phase}: {why}")
+    write_table(f"{name}: {result.outcome}", ["", "extend (fill)", "retract (exhaust)"], rows)
     for reason in sorted(reasons):
         remark(f"– {reason}")
-    follows = answer["tracking"]
+    follows = result.tracking
     if follows is not None:
         rows = [
-            ["rms error", figure(follows["rms"] * 1e3, unit=" mm")],
-            ["largest error", figure(follows["max"] * 1e3, unit=" mm")],
-            ["lag", figure(_times(follows["lag"], 1e3), unit=" ms")],
+            ["rms error", figure(follows.rms * 1e3, unit=" mm")],
+            ["largest error", figure(follows.max * 1e3, unit=" mm")],
+            ["lag", figure(_times(follows.lag, 1e3), unit=" ms")],
         ]
         write_table("Following the reference", ["", ""], rows)
 
@@ -145,15 +154,13 @@ def _times(value: float | None, factor: float) -> float | None:
     return None if value is None else value * factor
 
 
-def _write_trace(path: Path, document: DriveDocument, answer: Json) -> None:
+def _write_trace(path: Path, document: DriveDocument, result: SimulationResult) -> None:
     """The columns as CSV, with the conditions a reader of measurements asks for."""
-    columns: dict[str, Any] = {
-        header: answer[name] for header, name in _COLUMNS.items() if answer[name] is not None
-    }
+    columns = _columns(result)
     text = io.StringIO()
     text.write("# kind: transient\n# pressure: gauge\n")
     if document.muscle.preset is not None:
-        text.write(f"# muscle: {document.muscle.preset}:{answer['geometry']['nominal_length'] * 1e3:g}mm\n")
+        text.write(f"# muscle: {document.muscle.preset}:{result.geometry.nominal_length * 1e3:g}mm\n")
     text.write(
         f"# supply_pressure: {document.supply.pressure:g} Pa\n# load_mass: {document.load.mass:g} kg\n"
     )

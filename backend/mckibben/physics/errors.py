@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from difflib import get_close_matches
 
 
@@ -25,6 +26,23 @@ class InputError(ValueError):
         self.field = field
         self.hint = hint
         self.code = code
+
+    def at(self, field: str | None, *, code: str | None = None) -> InputError:
+        """The same error at another field, with another code where one is given."""
+        return InputError(self.message, field=field, hint=self.hint, code=code or self.code)
+
+    def inside(self, part: str) -> InputError:
+        """The same error within a part of a whole: "valve.preset" inside "drive" is "drive.valve.preset"."""
+        return self.at(f"{part}.{self.field}" if self.field else part)
+
+
+@contextmanager
+def fields_inside(part: str) -> Iterator[None]:
+    """Errors in this block name their field within a part of a whole."""
+    try:
+        yield
+    except InputError as error:
+        raise error.inside(part) from error
 
 
 def did_you_mean(word: str, options: Iterable[str]) -> str | None:

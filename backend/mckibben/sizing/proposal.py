@@ -9,18 +9,16 @@ import numpy as np
 
 from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.gas import ANR_DENSITY
-from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import Run, simulate
 from mckibben.simulation.outcome import Outcome
-from mckibben.simulation.timing.table import Trace, timing
+from mckibben.simulation.timing.of_run import stops_of, time_step, trace_of
+from mckibben.simulation.timing.table import timing
 from mckibben.sizing.bench import Bench
 from mckibben.sizing.catalogue import Design, switch_on
 from mckibben.sizing.chance import Chance
 from mckibben.sizing.prepared import HELD_SHARE, ON_STOP, Figures
 from mckibben.sizing.trial import Trial, judged
 
-# As every run is read: at least so fine, so many rows.
-_FINEST, _FEWEST, _MOST = 1e-3, 2000, 20_000
 _MILLIMETRE, _PRESSURE_STEP = 1e-3, 1e3
 
 
@@ -81,16 +79,18 @@ def _measured(design: Design, bench: Bench) -> Proposal | None:
     task, group = bench.task, design.group
     drive = group.drive(task, design.length, design.pressure)
     bench.counted()
-    step = max(min(_FINEST, drive.duration / _FEWEST), drive.duration / _MOST)
+    step = time_step(drive.duration)
     grid = np.linspace(0.0, drive.duration, ceil(drive.duration / step) + 1)
     with np.errstate(all="ignore"):
         run = simulate(drive, grid=grid, engine="rodas")
     if run.outcome is not Outcome.COMPLETED or not np.isfinite(run.states["stroke"]).all():
         return None
-    lever, on = drive.load.lever_ratio, switch_on(task, group.duty)
+    on = switch_on(task, group.duty)
     off = on + task.fill_time
     trace = trace_of(run)
-    low, high = (stop / lever for stop in drive.stops)
+    if trace is None:
+        return None
+    low, high = stops_of(drive)
     table = timing(
         trace,
         fill=(on, off),
@@ -98,15 +98,15 @@ def _measured(design: Design, bench: Bench) -> Proposal | None:
         mass=group.duty.mass / group.parallel,
         stops=(low, high),
     )
-    up, down = table["extend"], table["retract"]
+    up, down = table.extend, table.retract
     end = int(np.searchsorted(run.time, off))
     begin = int(np.searchsorted(run.time, on))
     late = int(np.searchsorted(run.time, off - HELD_SHARE * task.fill_time))
     # Without an impact the table means 95 % of the stroke; here it is the stop.
-    time = up["positioning_time"] if trace.contact[late : end + 1].any() else None
+    time = up.positioning_time if trace.contact[late : end + 1].any() else None
     figures = Figures(
         time=time,
-        time_down=down["positioning_time"] if trace.contact[-1] else None,
+        time_down=down.positioning_time if trace.contact[-1] else None,
         held=bool(np.min(run.states["stroke"][late : end + 1]) >= drive.stops[1] - ON_STOP),
         air=_air(run, begin) * group.parallel,
         peak_force=float(np.max(run.outputs["force"])),
@@ -118,9 +118,9 @@ def _measured(design: Design, bench: Bench) -> Proposal | None:
     arrived = 0.0 if time is None else float(np.interp(on + time, run.time, run.pressure))
     return Proposal(
         judged(design, figures, task),
-        float(up["impact_energy"] or 0.0) * group.parallel,
-        float(up["end_speed"] or 0.0),
-        float(up["max_speed"] or 0.0),
+        float(up.impact_energy or 0.0) * group.parallel,
+        float(up.end_speed or 0.0),
+        float(up.max_speed or 0.0),
         float(pressures[left]),
         arrived,
     )
@@ -130,21 +130,3 @@ def _air(run: Run, begin: int) -> float:
     """Volume at ANR that one side's muscle, of a pair both, take in a cycle [m^3]."""
     names = [name for name in ("supplied", f"supplied{COUNTER}") if name in run.states]
     return sum(float(run.states[name][-1] - run.states[name][begin]) for name in names) / ANR_DENSITY
-
-
-def trace_of(run: Run) -> Trace:
-    """The run at the load."""
-    drive: Drive = run.drive
-    lever, out = drive.load.lever_ratio, run.outputs
-    return Trace(
-        time=run.time,
-        position=run.states["stroke"] / lever,
-        velocity=run.states["speed"] / lever,
-        acceleration=out["acceleration"] / lever,
-        pressure=run.pressure,
-        force=out["force"],
-        mass_flow=out["mass_flow"],
-        contact=out["penetration"] > 0.0,
-        supply_mass_flow=out["supply_flow"],
-        exhaust_mass_flow=out["exhaust_flow"],
-    )

@@ -8,7 +8,7 @@ from math import radians
 import numpy as np
 import pytest
 
-from mckibben.application.simulations import preset_document
+from mckibben.documents.drive_files import preset_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.physics.muscle import Muscle

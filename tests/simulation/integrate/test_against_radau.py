@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from mckibben.application.simulations import preset_document
+from mckibben.documents.drive_files import preset_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.physics.drive_terms import INPUTS, OUTPUTS

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mckibben.simulation.command.segments import Segments
-from mckibben.simulation.timing.table import FIGURES, Trace, phases, timing, tracking
+from mckibben.simulation.command.segments import Segments, phases
+from mckibben.simulation.timing.table import FIGURES, PhaseFigures, TimingTable, timing
+from mckibben.simulation.timing.trace import Trace
+from mckibben.simulation.timing.tracking import tracking
 
 GRAVITY = 9.80665
 
@@ -47,18 +51,19 @@ def lift(t: np.ndarray, *, a: float, stop: float, delay: float = 0.0, bounce: fl
     return trace(t, x, v, acceleration, contact=contact)
 
 
-def extend(run: Trace, **options) -> tuple[dict, dict]:
+def extend(run: Trace, **options) -> tuple[PhaseFigures, dict[str, str]]:
     table = timing(run, fill=(0.0, float(run.time[-1])), exhaust=None, **options)
-    return table["extend"], table["notes"]
+    return table.extend, table.notes
 
 
-def check_complete(table: dict) -> None:
+def check_complete(table: TimingTable) -> None:
     """Every figure is there, and every None has its reason."""
     for name in ("extend", "retract"):
-        assert tuple(table[name]) == FIGURES
-        for figure, value in table[name].items():
+        figures = asdict(getattr(table, name))
+        assert set(figures) == set(FIGURES)
+        for figure, value in figures.items():
             if value is None:
-                assert table["notes"][f"{name}.{figure}"]
+                assert table.notes[f"{name}.{figure}"]
             else:
                 assert np.isfinite(value)
 
@@ -74,27 +79,27 @@ def test_constant_acceleration_up_to_a_stop(uneven, stops):
     def at(share: float) -> float:
         return np.sqrt(2.0 * share * stop / a)
 
-    assert figures["positioning_time"] == pytest.approx(delay + at(1.0), abs=1e-6)
-    assert figures["rise_time"] == pytest.approx(at(0.9) - at(0.1), abs=1e-6)
-    assert figures["delay_time"] == pytest.approx(delay + at(0.5), abs=1e-6)
-    assert figures["settling_time"] == pytest.approx(delay + at(0.95), abs=1e-6)
-    assert figures["average_speed"] == pytest.approx(stop / (delay + at(1.0)), rel=1e-5)
-    assert figures["max_speed"] == figures["end_speed"] == pytest.approx(np.sqrt(2 * a * stop), rel=1e-5)
-    assert figures["max_speed_at"] == figures["positioning_time"]
-    assert figures["impact_energy"] == pytest.approx(mass * a * stop, rel=1e-5)
-    assert figures["max_acceleration"] == pytest.approx(a)
-    assert figures["min_acceleration"] == pytest.approx(a), "the spike of the stop does not count"
+    assert figures.positioning_time == pytest.approx(delay + at(1.0), abs=1e-6)
+    assert figures.rise_time == pytest.approx(at(0.9) - at(0.1), abs=1e-6)
+    assert figures.delay_time == pytest.approx(delay + at(0.5), abs=1e-6)
+    assert figures.settling_time == pytest.approx(delay + at(0.95), abs=1e-6)
+    assert figures.average_speed == pytest.approx(stop / (delay + at(1.0)), rel=1e-5)
+    assert figures.max_speed == figures.end_speed == pytest.approx(np.sqrt(2 * a * stop), rel=1e-5)
+    assert figures.max_speed_at == figures.positioning_time
+    assert figures.impact_energy == pytest.approx(mass * a * stop, rel=1e-5)
+    assert figures.max_acceleration == pytest.approx(a)
+    assert figures.min_acceleration == pytest.approx(a), "the spike of the stop does not count"
     assert "impact" in notes["extend.min_acceleration"]
-    assert figures["overshoot"] == 0.0
+    assert figures.overshoot == 0.0
 
 
 def test_a_dead_time_shifts_the_delay_and_leaves_the_rise():
     t = grid(0.6, 3001)
     early, _ = extend(lift(t, a=20.0, stop=0.2, delay=0.02))
     late, _ = extend(lift(t, a=20.0, stop=0.2, delay=0.07))
-    assert late["rise_time"] == pytest.approx(early["rise_time"], abs=1e-6)
+    assert late.rise_time == pytest.approx(early.rise_time, abs=1e-6)
     for figure in ("delay_time", "positioning_time", "settling_time", "max_speed_at"):
-        assert late[figure] - early[figure] == pytest.approx(0.05, abs=1e-6)
+        assert getattr(late, figure) - getattr(early, figure) == pytest.approx(0.05, abs=1e-6)
 
 
 def test_free_fall_of_the_retract_phase_counts_from_its_own_instant():
@@ -111,13 +116,13 @@ def test_free_fall_of_the_retract_phase_counts_from_its_own_instant():
     )
     table = timing(run, fill=(0.0, 2.0), exhaust=(2.0, 4.0), mass=5.0, stops=(0.0, 0.2))
     check_complete(table)
-    down = table["retract"]
-    assert down["positioning_time"] == pytest.approx(np.sqrt(0.4 / GRAVITY), abs=1e-5)
-    assert down["max_speed"] == pytest.approx(np.sqrt(0.4 * GRAVITY), rel=1e-4)
-    assert down["min_acceleration"] == pytest.approx(-GRAVITY)
-    assert down["impact_energy"] == pytest.approx(5.0 * GRAVITY * 0.2, rel=1e-4)
-    assert table["extend"]["rise_time"] is None
-    assert "stop" in table["notes"]["extend.rise_time"]
+    down = table.retract
+    assert down.positioning_time == pytest.approx(np.sqrt(0.4 / GRAVITY), abs=1e-5)
+    assert down.max_speed == pytest.approx(np.sqrt(0.4 * GRAVITY), rel=1e-4)
+    assert down.min_acceleration == pytest.approx(-GRAVITY)
+    assert down.impact_energy == pytest.approx(5.0 * GRAVITY * 0.2, rel=1e-4)
+    assert table.extend.rise_time is None
+    assert "stop" in table.notes["extend.rise_time"]
 
 
 @given(st.floats(0.05, 0.6), st.floats(5.0, 60.0))  # all bounces are over within the run
@@ -126,12 +131,12 @@ def test_bounces_move_the_settling_and_nothing_else(bounce, a):
     quiet, _ = extend(lift(t, a=a, stop=0.2), stops=(0.0, 0.2), mass=1.0)
     figures, _ = extend(lift(t, a=a, stop=0.2, bounce=bounce), stops=(0.0, 0.2), mass=1.0)
     for name in ("positioning_time", "rise_time", "delay_time", "max_speed", "end_speed", "impact_energy"):
-        assert figures[name] == pytest.approx(quiet[name], rel=1e-3)
+        assert getattr(figures, name) == pytest.approx(getattr(quiet, name), rel=1e-3)
     height = 0.2 * bounce**2
     if height > 0.05 * 0.2 * 1.05:
-        assert figures["settling_time"] > quiet["positioning_time"]
+        assert figures.settling_time > quiet.positioning_time
     elif height < 0.05 * 0.2 * 0.95:
-        assert figures["settling_time"] <= quiet["positioning_time"]
+        assert figures.settling_time <= quiet.positioning_time
 
 
 @pytest.mark.parametrize("uneven", [False, True])
@@ -142,15 +147,15 @@ def test_exponential_approach(uneven):
     pressure = 6e5 * (1.0 - e)
     run = trace(t, stroke * (1 - e), stroke / tau * e, -stroke / tau**2 * e, pressure=pressure)
     figures, notes = extend(run, mass=3.0)
-    assert figures["rise_time"] == pytest.approx(np.log(9.0) * tau, rel=1e-4)
-    assert figures["delay_time"] == pytest.approx(np.log(2.0) * tau, rel=1e-4)
-    assert figures["settling_time"] == pytest.approx(np.log(20.0) * tau, rel=1e-3)
-    assert figures["positioning_time"] == pytest.approx(figures["settling_time"])
-    assert figures["impact_energy"] == 0.0
+    assert figures.rise_time == pytest.approx(np.log(9.0) * tau, rel=1e-4)
+    assert figures.delay_time == pytest.approx(np.log(2.0) * tau, rel=1e-4)
+    assert figures.settling_time == pytest.approx(np.log(20.0) * tau, rel=1e-3)
+    assert figures.positioning_time == pytest.approx(figures.settling_time)
+    assert figures.impact_energy == 0.0
     assert "no stop" in notes["extend.impact_energy"]
-    assert figures["pressure_rise_time"] == pytest.approx(np.log(9.0) * tau, rel=1e-3)
-    assert figures["pressure_delay_time"] == pytest.approx(np.log(2.0) * tau, rel=1e-3)
-    assert figures["pressure_settling_time"] == pytest.approx(np.log(100.0) * tau, rel=1e-3)
+    assert figures.pressure_rise_time == pytest.approx(np.log(9.0) * tau, rel=1e-3)
+    assert figures.pressure_delay_time == pytest.approx(np.log(2.0) * tau, rel=1e-3)
+    assert figures.pressure_settling_time == pytest.approx(np.log(100.0) * tau, rel=1e-3)
 
 
 def test_overshoot_of_a_damped_oscillation():
@@ -160,10 +165,10 @@ def test_overshoot_of_a_damped_oscillation():
     y = 1.0 - e * (np.cos(w * t) + damping / w * np.sin(w * t))
     v = e * (w + damping**2 / w) * np.sin(w * t)
     figures, _ = extend(trace(t, stroke * y, stroke * v, stroke * np.gradient(v, t)))
-    assert figures["overshoot"] == pytest.approx(np.exp(-damping * np.pi / w), rel=1e-3)
-    assert figures["positioning_time"] < np.pi / w < figures["settling_time"]
+    assert figures.overshoot == pytest.approx(np.exp(-damping * np.pi / w), rel=1e-3)
+    assert figures.positioning_time < np.pi / w < figures.settling_time
     outside = t[np.abs(y - 1.0) > 0.05][-1]
-    assert figures["settling_time"] == pytest.approx(outside, abs=1.1e-3)
+    assert figures.settling_time == pytest.approx(outside, abs=1.1e-3)
 
 
 def test_a_swing_within_the_band_is_settled():
@@ -175,10 +180,10 @@ def test_a_swing_within_the_band_is_settled():
     v = np.where(late < 0.0, stroke / 0.2, -stroke * 0.015 * w * np.sin(w * late))
     run = trace(t, x, v, np.gradient(v, t))
     usual, _ = extend(run, stroke=stroke)
-    assert usual["settling_time"] == pytest.approx(0.95 * 0.2, abs=1e-3)
+    assert usual.settling_time == pytest.approx(0.95 * 0.2, abs=1e-3)
     narrow, _ = extend(run, stroke=stroke, band=0.02)
     # The last swing leaves 2 % at most one period before the end.
-    assert narrow["settling_time"] is None or narrow["settling_time"] > 2.0 - 2.0 * np.pi / w
+    assert narrow.settling_time is None or narrow.settling_time > 2.0 - 2.0 * np.pi / w
 
 
 def test_a_stroke_that_is_not_reached_has_no_arrival():
@@ -187,10 +192,10 @@ def test_a_stroke_that_is_not_reached_has_no_arrival():
     run = trace(t, 0.12 * (1 - e), 2.4 * e, -48.0 * e)
     table = timing(run, fill=(0.0, 1.0), exhaust=None, stroke=0.2)
     check_complete(table)
-    figures, notes = table["extend"], table["notes"]
-    assert figures["delay_time"] == pytest.approx(0.05 * np.log(6.0), rel=1e-4)
+    figures, notes = table.extend, table.notes
+    assert figures.delay_time == pytest.approx(0.05 * np.log(6.0), rel=1e-4)
     for name in ("positioning_time", "rise_time", "settling_time", "average_speed", "end_speed"):
-        assert figures[name] is None
+        assert getattr(figures, name) is None
         assert "120 mm of the 200 mm" in notes[f"extend.{name}"]
 
 
@@ -198,10 +203,10 @@ def test_still_moving_at_the_end():
     t = grid(1.0, 501)
     table = timing(trace(t, 0.1 * t, 0.1 + 0 * t, 0 * t), fill=(0.0, 1.0), exhaust=(1.0, 2.0))
     check_complete(table)
-    assert table["extend"]["rise_time"] == pytest.approx(0.8)
-    assert table["extend"]["settling_time"] is None
-    assert "still moving" in table["notes"]["extend.positioning_time"]
-    assert "ended before" in table["notes"]["retract.rise_time"]
+    assert table.extend.rise_time == pytest.approx(0.8)
+    assert table.extend.settling_time is None
+    assert "still moving" in table.notes["extend.positioning_time"]
+    assert "ended before" in table.notes["retract.rise_time"]
 
 
 @pytest.mark.parametrize(
@@ -213,15 +218,15 @@ def test_no_motion_in_the_direction_of_the_phase(position, contact, words):
     run = trace(t, position * t, position + 0 * t, 0 * t, contact=np.full(101, contact))
     table = timing(run, fill=(0.0, 1.0), exhaust=None)
     check_complete(table)
-    assert words in table["notes"]["extend.rise_time"]
-    assert "does not change" in table["notes"]["extend.pressure_rise_time"]
-    assert "no such phase" in table["notes"]["retract.air_mass"]
+    assert words in table.notes["extend.rise_time"]
+    assert "does not change" in table.notes["extend.pressure_rise_time"]
+    assert "no such phase" in table.notes["retract.air_mass"]
 
 
 def test_a_lifted_load_in_contact_before_it_moves():
     # Rest on the lower stop counts as contact: the lift-off is no impact.
     figures, notes = extend(lift(grid(0.15, 301), a=10.0, stop=0.2, delay=0.05))
-    assert figures["impact_energy"] == 0.0
+    assert figures.impact_energy == 0.0
     assert "extend.max_acceleration" not in notes
 
 
@@ -232,11 +237,11 @@ def test_air_and_choked_share():
     run = trace(t, x, np.gradient(x, t), 0 * t, mass_flow=inflow - outflow, choked=(t > 2.25) & (t < 2.75))
     table = timing(run, fill=(0.0, 2.0), exhaust=(2.0, 4.0))
     check_complete(table)
-    assert table["extend"]["air_mass"] == pytest.approx(1e-3, rel=2e-3)
-    assert table["extend"]["air_volume_anr"] == pytest.approx(1e-3 / 1.185, rel=2e-3)
-    assert table["extend"]["choked_share"] == 0.0
-    assert table["retract"]["air_mass"] == pytest.approx(1e-3, rel=2e-3)
-    assert table["retract"]["choked_share"] == pytest.approx(0.25, abs=1e-3)
+    assert table.extend.air_mass == pytest.approx(1e-3, rel=2e-3)
+    assert table.extend.air_volume_anr == pytest.approx(1e-3 / 1.185, rel=2e-3)
+    assert table.extend.choked_share == 0.0
+    assert table.retract.air_mass == pytest.approx(1e-3, rel=2e-3)
+    assert table.retract.choked_share == pytest.approx(0.25, abs=1e-3)
 
 
 @given(
@@ -287,16 +292,16 @@ def test_lag_of_a_sine_in_spite_of_gain_and_offset(lag, count):
     reference = 0.02 * np.sin(2.0 * np.pi * t)
     position = 0.002 + 0.015 * np.sin(2.0 * np.pi * (t - lag))
     found = tracking(t, reference, position)
-    assert found["lag"] == pytest.approx(lag, abs=2e-4)
-    assert found["overshoot"] == []
+    assert found.lag == pytest.approx(lag, abs=2e-4)
+    assert found.overshoot == []
     complex_error = 0.02 - 0.015 * np.exp(-2j * np.pi * lag)
-    assert found["rms"] == pytest.approx(np.hypot(0.002, abs(complex_error) / np.sqrt(2.0)), rel=1e-3)
+    assert found.rms == pytest.approx(np.hypot(0.002, abs(complex_error) / np.sqrt(2.0)), rel=1e-3)
 
 
 def test_a_short_period_does_not_make_a_later_lag():
     t = np.linspace(0.0, 4.0, 2001)
     reference, position = (np.sin(2.0 * np.pi * (t - shift) / 0.25) for shift in (0.0, 0.03))
-    assert tracking(t, reference, position)["lag"] == pytest.approx(0.03, abs=2e-4)
+    assert tracking(t, reference, position).lag == pytest.approx(0.03, abs=2e-4)
 
 
 def test_overshoot_of_every_step():
@@ -305,24 +310,24 @@ def test_overshoot_of_every_step():
     position = reference.copy()
     position[(t > 1.2) & (t < 1.3)] = 0.023
     position[(t > 2.6) & (t < 2.7)] = 0.009
-    first, second = tracking(t, reference, position)["overshoot"]
-    assert first["time"] == pytest.approx(1.0)
-    assert (first["size"], first["overshoot"]) == pytest.approx((0.02, 0.15))
-    assert (second["size"], second["overshoot"]) == pytest.approx((-0.01, 0.1))
+    first, second = tracking(t, reference, position).overshoot
+    assert first.time == pytest.approx(1.0)
+    assert (first.size, first.overshoot) == pytest.approx((0.02, 0.15))
+    assert (second.size, second.overshoot) == pytest.approx((-0.01, 0.1))
 
 
 def test_lag_of_a_step_behind_a_pure_dead_time():
     t = np.linspace(0.0, 4.0, 4001)
     found = tracking(t, np.where(t < 1.0, 0.0, 0.02), np.where(t < 1.2, 0.0, 0.02))
-    assert found["lag"] == pytest.approx(0.2, abs=0.005)
-    assert found["max"] == pytest.approx(0.02)
+    assert found.lag == pytest.approx(0.2, abs=0.005)
+    assert found.max == pytest.approx(0.02)
 
 
 def test_lag_that_does_not_exist_says_why():
     t = np.linspace(0.0, 1.0, 101)
-    assert "does not change" in tracking(t, 0 * t, t)["notes"]["lag"]
+    assert "does not change" in tracking(t, 0 * t, t).notes["lag"]
     away = tracking(t, t**2, -t)
-    assert away["lag"] is None
-    assert "fits" in away["notes"]["lag"]
+    assert away.lag is None
+    assert "fits" in away.notes["lag"]
     with pytest.raises(ValueError, match="same length"):
         tracking(t, t[1:], t)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from fastapi import APIRouter
 
-from mckibben.application.inverse import inverse_answer
+from mckibben.application.inverse import answer
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StudioDep
+from mckibben.server.questions.inverse import inverse_question
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.inverse import InverseAnswer, InverseRequest
 
@@ -16,4 +17,4 @@ router = APIRouter(prefix="/api/inverse", tags=["inverse"], route_class=StrictRo
 @router.post("", response_model=InverseAnswer, responses=errors(400, 413, 415, 422))
 def answer_question(body: InverseRequest, studio: StudioDep) -> JsonAnswer:
     """The pressure, contraction, working range or stroke pressure asked for, with the limits it crosses."""
-    return JsonAnswer(inverse_answer(body, studio))
+    return JsonAnswer(answer(inverse_question(body, studio), studio))

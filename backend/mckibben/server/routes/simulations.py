@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from fastapi import APIRouter, Request, Response
 
-from mckibben.application.simulations import prepare
-from mckibben.server.answer import JsonAnswer, StrictRoute, to_json
+from mckibben.application.json_text import to_json
+from mckibben.application.simulate import SimulationResult, prepare
+from mckibben.documents.studio import Studio
+from mckibben.physics.errors import fields_inside
+from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StudioDep
 from mckibben.server.long_work import events, finished, prepared, wants_events
+from mckibben.server.questions.simulations import simulation_question
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.simulations import SimulationAnswer, SimulationEvents, SimulationRequest
+from mckibben.simulation.outcome import Watch
 
 router = APIRouter(prefix="/api/simulations", tags=["simulations"], route_class=StrictRoute)
 
@@ -19,7 +26,17 @@ router = APIRouter(prefix="/api/simulations", tags=["simulations"], route_class=
 )
 async def simulate_drive(body: SimulationRequest, request: Request, studio: StudioDep) -> Response:
     """Position, speed, pressures, force, flows and the timing table of a drive; closing ends the run."""
-    work = await prepared(request, prepare, body, studio)
+    work = await prepared(request, _run_of, body, studio)
     if wants_events(request):
         return events(work)
     return JsonAnswer(await finished(request, work, to_json))
+
+
+def _run_of(body: SimulationRequest, studio: Studio) -> Callable[[Watch], SimulationResult]:
+    run = prepare(simulation_question(body, studio))
+
+    def work(watch: Watch) -> SimulationResult:
+        with fields_inside("drive"):
+            return run(watch)
+
+    return work

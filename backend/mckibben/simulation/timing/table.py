@@ -29,17 +29,14 @@ A figure that does not exist is None; ``notes`` says why under "extend.<figure>"
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.physics.gas import ANR_DENSITY
-from mckibben.simulation.command.segments import Interval, phases
+from mckibben.simulation.command.segments import Interval
 from mckibben.simulation.timing.trace import Trace
-from mckibben.simulation.timing.tracking import tracking
-
-__all__ = ["FIGURES", "Trace", "phases", "timing", "tracking"]
 
 MOTION_FIGURES = (
     "positioning_time", "rise_time", "delay_time", "settling_time", "average_speed", "max_speed",
@@ -59,6 +56,51 @@ _STILL_MOVING = 0.1
 Array = NDArray[np.float64]
 
 
+@dataclass(frozen=True, slots=True)
+class PhaseFigures:
+    """Figures of one phase, SI, as the module says; None where one does not exist."""
+
+    positioning_time: float | None = None
+    rise_time: float | None = None
+    delay_time: float | None = None
+    settling_time: float | None = None
+    average_speed: float | None = None
+    max_speed: float | None = None
+    max_speed_at: float | None = None
+    max_acceleration: float | None = None
+    max_acceleration_at: float | None = None
+    min_acceleration: float | None = None
+    min_acceleration_at: float | None = None
+    end_speed: float | None = None
+    impact_energy: float | None = None
+    overshoot: float | None = None
+    pressure_rise_time: float | None = None
+    pressure_delay_time: float | None = None
+    pressure_settling_time: float | None = None
+    air_mass: float | None = None
+    air_volume_anr: float | None = None
+    choked_share: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class TimingTable:
+    """Figures of the first fill and of the exhaust after it.
+
+    Attributes:
+        extend, retract: fill and exhaust.
+        notes: "extend.rise_time" -> why it is None, or what to know of it.
+    """
+
+    extend: PhaseFigures = field(default_factory=PhaseFigures)
+    retract: PhaseFigures = field(default_factory=PhaseFigures)
+    notes: dict[str, str] = field(default_factory=dict)
+
+    @classmethod
+    def missing(cls, why: str) -> TimingTable:
+        """A table without any figure, and why."""
+        return cls(notes={f"{phase}.{name}": why for phase in ("extend", "retract") for name in FIGURES})
+
+
 def timing(
     trace: Trace,
     *,
@@ -68,8 +110,8 @@ def timing(
     stops: Interval | None = None,
     stroke: float | None = None,
     band: float = 0.05,
-) -> dict[str, dict[str, Any]]:
-    """Figures of both phases: ``{"extend": {...}, "retract": {...}, "notes": {"extend.rise_time": why}}``.
+) -> TimingTable:
+    """Figures of both phases.
 
     Args:
         trace: the run.
@@ -80,7 +122,7 @@ def timing(
         band: settling band as a share of the stroke.
     """
     notes: dict[str, str] = {}
-    table: dict[str, dict[str, Any]] = {}
+    table: dict[str, PhaseFigures] = {}
     for name, interval, sign in (("extend", fill, 1.0), ("retract", exhaust, -1.0)):
         window = trace.window(*interval) if interval is not None else None
         if window is None:
@@ -93,9 +135,9 @@ def timing(
             for part, why in (phase.step(), phase.air()):
                 figures |= part
                 reasons |= why
-        table[name] = {figure: figures[figure] for figure in FIGURES}
+        table[name] = PhaseFigures(**figures)
         notes |= {f"{name}.{figure}": reason for figure, reason in reasons.items()}
-    return {**table, "notes": notes}
+    return TimingTable(table["extend"], table["retract"], notes)
 
 
 Figures = tuple[dict[str, float | None], dict[str, str]]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TypedDict
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,7 +13,8 @@ _SAMPLES = 1000
 _PEAK_MARGIN = 1e-3
 
 
-class StepOvershoot(TypedDict):
+@dataclass(frozen=True, slots=True)
+class StepOvershoot:
     """A step of the reference: when [s], its signed height [m], overshoot as a share of it."""
 
     time: float
@@ -21,7 +22,8 @@ class StepOvershoot(TypedDict):
     overshoot: float
 
 
-class Tracking(TypedDict):
+@dataclass(frozen=True, slots=True)
+class Tracking:
     """Figures of `tracking`; ``notes`` says why a figure is None."""
 
     rms: float
@@ -59,13 +61,7 @@ def tracking(time: ArrayLike, reference: ArrayLike, position: ArrayLike) -> Trac
         notes["lag"] = "the reference or the position does not change"
     elif (lag := _lag(t, r, y)) is None:
         notes["lag"] = f"no lag up to {0.25 * (t[-1] - t[0]):.3g} s fits"
-    return {
-        "rms": rms,
-        "max": float(np.abs(error).max()),
-        "lag": lag,
-        "overshoot": _overshoots(t, r, y),
-        "notes": notes,
-    }
+    return Tracking(rms, float(np.abs(error).max()), lag, _overshoots(t, r, y), notes)
 
 
 def _lag(t: Array, r: Array, y: Array) -> float | None:
@@ -127,5 +123,5 @@ def _overshoots(t: Array, r: Array, y: Array) -> list[StepOvershoot]:
         size, level = float(change[index]), float(r[index + 1])
         beyond = float(np.max(np.sign(size) * (y[index + 1 : end] - level)))
         at = float(t[index + 1])
-        found.append({"time": at, "size": size, "overshoot": max(0.0, beyond) / abs(size)})
+        found.append(StepOvershoot(at, size, max(0.0, beyond) / abs(size)))
     return found

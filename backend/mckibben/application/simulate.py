@@ -1,0 +1,354 @@
+"""A drive through time: columns on the grid asked for, timing from a finer one, limits, remarks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from mckibben.application.curves import EffectSettings
+from mckibben.application.muscle_summary import (
+    GeometrySummary,
+    Notice,
+    geometry_of,
+    limit_notices,
+    start_notices,
+)
+from mckibben.documents.drive_reading import GivenDrive
+from mckibben.physics.drive_terms import COUNTER
+from mckibben.physics.errors import InputError
+from mckibben.physics.model import Model
+from mckibben.simulation.drive.controlled import simulate_controlled
+from mckibben.simulation.drive.transient import Run
+from mckibben.simulation.drive.transient import simulate as run_by_command
+from mckibben.simulation.outcome import Outcome, Watch
+from mckibben.simulation.statics.limits import FlagCode, LimitFlag
+from mckibben.simulation.timing.of_run import (
+    ChokedInterval,
+    Grid,
+    choked_of,
+    grid_of,
+    stops_of,
+    timing_of,
+    trace_of,
+    tracking_of,
+)
+from mckibben.simulation.timing.table import TimingTable
+from mckibben.simulation.timing.tracking import Tracking
+
+Array = np.ndarray
+
+POINTS = 2001
+# A field of the document for each limit.
+_FIELDS = {FlagCode.OVER_PRESSURE: "supply.pressure", FlagCode.OVER_FORCE_LIMIT: "load"}
+_ABOVE = 1.001  # of a limit; less is the integrator's
+
+
+@dataclass(frozen=True, slots=True)
+class SimulationQuestion:
+    """A drive, and which part of its run is wanted.
+
+    Attributes:
+        given: the drive with what is known of its parts.
+        points: rows of the result, at least two.
+        begin, end: first and last row [s]; None: of the whole run.
+        engine: "rodas", "lsoda", or "auto": the kernel as soon as it is compiled.
+    """
+
+    given: GivenDrive
+    points: int = POINTS
+    begin: float | None = None
+    end: float | None = None
+    engine: str = "auto"
+
+
+@dataclass(frozen=True, slots=True)
+class SensorReadings:
+    """What the sensors say: gauge pressure [Pa], force [N], position of the load [m]."""
+
+    pressure: Array
+    force: Array
+    position: Array
+
+
+@dataclass(frozen=True, slots=True)
+class JointMotion:
+    """The pulley of an antagonist pair, and the muscle that pulls the other way.
+
+    Attributes:
+        angle: from the middle [rad]; positive as the first muscle pulls.
+        torque: of both muscles [N m].
+        stiffness: at constant pressures [N m/rad].
+        counter_force, counter_pressure: of the second muscle [N], [Pa].
+    """
+
+    angle: Array
+    torque: Array
+    stiffness: Array
+    counter_force: Array
+    counter_pressure: Array
+
+
+@dataclass(frozen=True, slots=True)
+class DriveBounds:
+    """What the maker allows (None = not known), and the end stops as positions of the load; SI."""
+
+    max_pressure: float | None
+    max_force: float | None
+    max_contraction: float | None
+    max_pretension: float | None
+    position_min: float
+    position_max: float
+
+
+@dataclass(frozen=True, slots=True)
+class SimulationResult:
+    """Columns over time, SI; pressures gauge, positions positive = muscle shorter.
+
+    Attributes:
+        time: instants of the rows; fewer than asked for when the run ended early.
+        command, opening: as given before dead times, and after all effects.
+        reference: set point of the controller, None without one.
+        tube_pressure, regulator_pressure: None without such a part.
+        load_force: external force on the load.
+        contact: whether an end stop is touched.
+        readings: None when no effect changes what the sensors say.
+        joint: of an antagonist pair.
+        choked: within the whole run, whatever rows are asked for.
+        tracking: of a controlled run.
+        outcome: how the run ended; message: what to do when it did not complete.
+        wall_ms: time of the integration; engine and steps: by what, in how many.
+        notes: where -> remark, with those of timing and tracking.
+        model: effects with their values.
+    """
+
+    time: Array
+    position: Array
+    velocity: Array
+    acceleration: Array
+    pressure: Array
+    force: Array
+    mass_flow: Array
+    command: Array
+    opening: Array
+    reference: Array | None
+    supply_flow: Array
+    exhaust_flow: Array
+    tube_pressure: Array | None
+    regulator_pressure: Array | None
+    volume: Array
+    diameter: Array
+    length: Array
+    contraction: Array
+    load_force: Array
+    temperature: Array
+    contact: Array
+    readings: SensorReadings | None
+    joint: JointMotion | None
+    choked: list[ChokedInterval]
+    timing: TimingTable
+    tracking: Tracking | None
+    outcome: str
+    message: str | None
+    wall_ms: float
+    engine: str
+    steps: int
+    flags: list[Notice]
+    notes: dict[str, str]
+    limits: DriveBounds
+    geometry: GeometrySummary
+    model: EffectSettings
+    duration: float
+
+
+def prepare(question: SimulationQuestion) -> Callable[[Watch], SimulationResult]:
+    """The run of a question, ready to start.
+
+    Raises:
+        InputError: the rows do not lie within the run; field "from" or "to".
+    """
+    duration = question.given.drive.duration
+    begin = 0.0 if question.begin is None else question.begin
+    end = duration if question.end is None else question.end
+    if not 0.0 <= begin < end <= duration:
+        raise InputError(
+            f"the rows from {begin:g} s to {end:g} s do not lie within the run",
+            field="from" if question.begin is not None else "to",
+            hint=f"0 to {duration:g} s",
+        )
+    grid = grid_of(duration=duration, begin=begin, end=end, points=question.points)
+
+    def work(watch: Watch) -> SimulationResult:
+        run = run_drive(question.given, grid, watch, question.engine)
+        return result_of(question.given, grid, run)
+
+    return work
+
+
+def simulate(question: SimulationQuestion, watch: Watch | None = None) -> SimulationResult:
+    """Run the drive and tell what happened.
+
+    Raises:
+        InputError: the rows do not lie within the run, or no rest can be found to start from.
+    """
+    return prepare(question)(watch or Watch())
+
+
+def run_drive(given: GivenDrive, grid: Grid, watch: Watch | None = None, engine: str = "auto") -> Run:
+    """The run on the fine grid; with a controller it waits for the kernel, whatever the engine."""
+    with np.errstate(all="ignore"):  # a diverging run ends with an outcome, not with warnings
+        if given.drive.controller is not None:
+            return simulate_controlled(given.drive, grid=grid.time, watch=watch)
+        return run_by_command(given.drive, grid=grid.time, watch=watch, engine=engine)
+
+
+def result_of(given: GivenDrive, grid: Grid, run: Run) -> SimulationResult:
+    """Everything there is to say about a run."""
+    drive, out, states = run.drive, run.outputs, run.states
+    rows = grid.rows[grid.rows < len(run.time)]
+    lever, rest = drive.load.lever_ratio, drive.muscle.nominal_length
+    contraction = states["stroke"] / rest + drive.precontraction
+    command = drive.command if drive.reference is None else run.command
+    reference = None if drive.reference is None else drive.reference.value(run.time)[rows]
+    trace = trace_of(run)
+    table, follows = timing_of(drive, trace), tracking_of(run, trace)
+
+    def gauge(name: str) -> Array | None:
+        return states[name][rows] - drive.ambient_pressure if name in states else None
+
+    notes = dict(given.notes) | {f"timing.{name}": why for name, why in table.notes.items()}
+    if follows is not None:
+        notes |= {f"tracking.{name}": why for name, why in follows.notes.items()}
+    return SimulationResult(
+        time=run.time[rows],
+        position=states["stroke"][rows] / lever,
+        velocity=states["speed"][rows] / lever,
+        acceleration=out["acceleration"][rows] / lever,
+        pressure=run.pressure[rows],
+        force=out["force"][rows],
+        mass_flow=out["mass_flow"][rows],
+        command=command.value(run.time)[rows],
+        opening=out["opening"][rows],
+        reference=reference,
+        supply_flow=out["supply_flow"][rows],
+        exhaust_flow=out["exhaust_flow"][rows],
+        tube_pressure=gauge("tube_pressure"),
+        regulator_pressure=gauge("regulator_pressure"),
+        volume=out["volume"][rows],
+        diameter=out["diameter"][rows],
+        length=rest * (1.0 - contraction[rows]),
+        contraction=contraction[rows],
+        load_force=out["external_force"][rows],
+        temperature=out["gas_temperature"][rows],
+        contact=out["penetration"][rows] > 0.0,
+        readings=_readings(run, rows),
+        joint=_joint(run, rows),
+        choked=choked_of(run),
+        timing=table,
+        tracking=follows,
+        outcome=run.outcome.label,
+        message=None if run.outcome is Outcome.COMPLETED else run.outcome.value,
+        wall_ms=run.wall_seconds * 1e3,
+        engine=run.engine,
+        steps=run.steps,
+        flags=[*start_notices(given.start), *_part_notices(given), *limit_notices(_crossed(run))],
+        notes=notes,
+        limits=_bounds(given),
+        geometry=geometry_of(given.start),
+        model=EffectSettings(drive.model.values),
+        duration=drive.duration,
+    )
+
+
+def _bounds(given: GivenDrive) -> DriveBounds:
+    limits, (low, high) = given.drive.model.limits, stops_of(given.drive)
+    return DriveBounds(
+        max_pressure=limits.max_pressure,
+        max_force=limits.max_force,
+        max_contraction=limits.max_contraction,
+        max_pretension=limits.max_pretension,
+        position_min=low,
+        position_max=high,
+    )
+
+
+def _readings(run: Run, rows: Array) -> SensorReadings | None:
+    model = Model(run.drive.model.effects)
+    slots = (
+        "pressure_sensor", "force_sensor", "length_sensor",
+        "pressure_reading", "force_reading", "stroke_reading",
+    )  # fmt: skip
+    if not any(model.has(slot) for slot in slots):
+        return None
+    return SensorReadings(
+        pressure=run.outputs["pressure_reading"][rows],
+        force=run.outputs["force_reading"][rows],
+        position=run.outputs["stroke_reading"][rows] / run.drive.load.lever_ratio,
+    )
+
+
+def _joint(run: Run, rows: Array) -> JointMotion | None:
+    """Angle, torque and stiffness of a pair's pulley; the stiffness at constant pressures."""
+    drive = run.drive
+    if drive.pulley_radius is None:
+        return None
+    radius, rest = drive.pulley_radius, drive.muscle.nominal_length
+    stroke = run.states["stroke"][rows]
+    pressures = [
+        run.states[name][rows] - drive.ambient_pressure for name in ("pressure", f"pressure{COUNTER}")
+    ]
+    middle = rest * (1.0 - drive.precontraction)
+    stiffness = np.zeros(len(rows))
+    for sense, pressure in zip((1.0, -1.0), pressures, strict=True):
+        seen = drive.model.outputs(
+            length=middle - sense * stroke, pressure=pressure, temperature=drive.temperature
+        )
+        stiffness += np.where(seen["tension"] > 0.0, seen["tension_by_length"], 0.0)
+    counter = run.outputs[f"force{COUNTER}"][rows]
+    return JointMotion(
+        angle=stroke / radius,
+        torque=radius * (run.outputs["force"][rows] - counter),
+        stiffness=radius**2 * stiffness,
+        counter_force=counter,
+        counter_pressure=pressures[1],
+    )
+
+
+def _part_notices(given: GivenDrive) -> list[Notice]:
+    why = "from general knowledge or estimated, not read in a source"
+    found = [
+        Notice("unverified", f"{part}: {', '.join(names)} {why}", "valve")
+        for part, names in given.unverified.items()
+    ]
+    if (text := given.drive.tube_assumption) is not None:
+        found.append(Notice("assumed", text, "tube"))
+    return found
+
+
+def _crossed(run: Run) -> Iterable[LimitFlag]:
+    """The limits that the run crosses anywhere; a stop that gives way by a hair is no contraction."""
+    if not len(run.time):
+        return
+    drive = run.drive
+    contraction = np.clip(
+        run.states["stroke"] / drive.muscle.nominal_length + drive.precontraction,
+        drive.min_contraction,
+        drive.max_contraction,
+    )
+    limits = drive.model.limits
+    # The longest muscle decides about stretch, the shortest about everything else.
+    for pick, stretch in ((np.nanmax, False), (np.nanmin, True)):
+        crossed = limits.flags(
+            pressure=_at_most(float(np.nanmax(run.pressure)), limits.max_pressure),
+            force=_at_most(float(np.nanmax(run.outputs["force"])), limits.max_force),
+            contraction=float(pick(contraction)),
+        )
+        for flag in crossed:
+            if (flag.code is FlagCode.OVER_PRETENSION_LIMIT) is stretch:
+                yield LimitFlag(flag.code, flag.message, _FIELDS.get(flag.code, "stops"))
+
+
+def _at_most(value: float, limit: float | None) -> float:
+    """A muscle that settles at a limit is not above it: the last digits are the integrator's."""
+    return value if limit is None or value > limit * _ABOVE else min(value, limit)

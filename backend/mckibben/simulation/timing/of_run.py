@@ -1,0 +1,156 @@
+"""The trace, phases, timing and choked times of a run, in coordinates of the load; once for everybody."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from mckibben.physics.model import Model
+from mckibben.simulation.command.segments import Interval, Segments, phases
+from mckibben.simulation.drive.parts import Drive
+from mckibben.simulation.drive.transient import Run
+from mckibben.simulation.timing.table import TimingTable, timing
+from mckibben.simulation.timing.trace import Trace
+from mckibben.simulation.timing.tracking import Tracking, tracking
+
+Array = np.ndarray
+
+# The timing table is read off a grid at least this fine; impacts are found between two of its rows.
+_FINEST, _FEWEST, _MOST = 1e-3, 2000, 20_000
+_FILL, _EXHAUST = 1, 2
+_FEWEST_TRACKED = 4  # rows
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """Times to integrate for, and which of them are rows of the result."""
+
+    time: Array
+    rows: Array
+
+
+@dataclass(frozen=True, slots=True)
+class ChokedInterval:
+    """A time in which the flow of the valve does not depend on the pressure behind it [s]."""
+
+    JSON_KEYS: ClassVar = {"begin": ("from",), "end": ("to",)}
+
+    begin: float
+    end: float
+    side: Literal["fill", "exhaust"]
+
+
+def time_step(duration: float) -> float:
+    """Step of a grid that is fine enough for the timing table [s]."""
+    return max(min(_FINEST, duration / _FEWEST), duration / _MOST)
+
+
+def grid_of(*, duration: float, begin: float, end: float, points: int) -> Grid:
+    """Evenly spaced rows from begin to end inside a finer grid of the whole run [s]."""
+    step = time_step(duration)
+    finer = max(1, ceil((end - begin) / (points - 1) / step - 1e-9))
+    inner = np.linspace(begin, end, finer * (points - 1) + 1)
+    before = np.linspace(0.0, begin, ceil(begin / step), endpoint=False)
+    after = np.linspace(end, duration, ceil((duration - end) / step) + 1)[1:]
+    rows = len(before) + finer * np.arange(points)
+    return Grid(np.concatenate([before, inner, after]), rows)
+
+
+def trace_of(run: Run) -> Trace | None:
+    """The run in coordinates of the load; None when it has no two rows of numbers."""
+    out, lever = run.outputs, run.drive.load.lever_ratio
+    columns = {
+        "time": run.time,
+        "position": run.states["stroke"] / lever,
+        "velocity": run.states["speed"] / lever,
+        "acceleration": out["acceleration"] / lever,
+        "pressure": run.pressure,
+        "force": out["force"],
+        "mass_flow": out["mass_flow"],
+        "contact": out["penetration"] > 0.0,
+        "choked": _choked_side(run),
+        "supply_mass_flow": out["supply_flow"],
+        "exhaust_mass_flow": out["exhaust_flow"],
+    }
+    usable = np.all([np.isfinite(column) for column in columns.values()], axis=0)
+    count = int(np.argmin(usable)) if not usable.all() else len(usable)
+    if count < 2:
+        return None
+    return Trace(**{name: column[:count] for name, column in columns.items()})
+
+
+def stops_of(drive: Drive) -> Interval:
+    """The end stops as positions of the load [m]."""
+    low, high = drive.stops
+    return low / drive.load.lever_ratio, high / drive.load.lever_ratio
+
+
+def moving_mass(drive: Drive) -> float:
+    """The mass that meets a stop, with what effects add [kg]."""
+    model, values = Model(drive.model.effects), drive.model.values
+    factor = float(model.product("load_factor", values, {}))
+    added = float(model.sum("inertia", values, {"muscle": drive.muscle}))
+    return factor * drive.load.mass + drive.own_mass + added
+
+
+def phases_of(drive: Drive) -> tuple[Interval | None, Interval | None]:
+    """The first fill and what follows it; under a controller the reference's first rise and fall."""
+    if drive.reference is None:
+        return phases(drive.command.segments(drive.duration))
+    reference = drive.reference.segments(drive.duration)
+    before = np.r_[drive.reference.before, reference.end_values[:-1]]
+    jump = reference.start_values - before
+    trend = np.sign(np.where(jump != 0.0, jump, reference.slopes))
+    return phases(Segments(reference.times, _last_trend(trend), np.zeros(len(trend))))
+
+
+def _last_trend(trend: Array) -> Array:
+    """A constant piece belongs to the phase that leads to it."""
+    moving = np.where(trend != 0.0, np.arange(len(trend)), -1)
+    last = np.maximum.accumulate(moving)
+    return np.where(last >= 0, trend[np.maximum(last, 0)], 0.0)
+
+
+def timing_of(drive: Drive, trace: Trace | None) -> TimingTable:
+    """The timing table of a run by the phases of its own command."""
+    if trace is None:
+        return TimingTable.missing("the run ended before this phase")
+    fill, exhaust = phases_of(drive)
+    return timing(trace, fill=fill, exhaust=exhaust, mass=moving_mass(drive), stops=stops_of(drive))
+
+
+def tracking_of(run: Run, trace: Trace | None) -> Tracking | None:
+    """How a controlled run follows its reference; None without a reference, or with too few rows."""
+    reference = run.drive.reference
+    if reference is None or trace is None or len(trace.time) < _FEWEST_TRACKED:
+        return None
+    return tracking(trace.time, reference.value(run.time)[: len(trace.time)], trace.position)
+
+
+def choked_intervals(time: Array, side: Array) -> list[ChokedInterval]:
+    """Where the valve is choked; side: 1 filling, 2 venting, 0 not, at each time."""
+    if not len(time):
+        return []
+    edges = np.flatnonzero(np.diff(side)) + 1
+    starts, ends = np.r_[0, edges], np.r_[edges, len(time) - 1]
+    return [
+        ChokedInterval(float(time[a]), float(time[b]), "fill" if side[a] == _FILL else "exhaust")
+        for a, b in zip(starts, ends, strict=True)
+        if side[a] and b > a
+    ]
+
+
+def choked_of(run: Run) -> list[ChokedInterval]:
+    """Where the valve of a run is choked."""
+    return choked_intervals(run.time, _choked_side(run))
+
+
+def _choked_side(run: Run) -> Array:
+    """1 while filling is choked, 2 while venting is, else 0."""
+    out, valve = run.outputs, run.drive.valve
+    fill = (out["supply_flow"] > 0.0) & (out["fill_pressure_ratio"] < valve.fill_ratio)
+    exhaust = (out["exhaust_flow"] > 0.0) & (out["exhaust_pressure_ratio"] < valve.exhaust_ratio)
+    return np.where(fill, _FILL, np.where(exhaust, _EXHAUST, 0))
