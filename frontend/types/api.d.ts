@@ -72,7 +72,9 @@ export interface components {
       rmse: number;
       holdout_rmse: number;
       gain_percent: number;
-      /** Change of the Bayes-type score; negative is better. */
+      /** Change of the score of the search; negative is better. */
+      score_change: number;
+      /** Older name of score_change, for this version only. */
       delta_bic: number;
       parameters: { [key: string]: components["schemas"]["FittedParameter"] };
       /** Candidates that these data cannot tell from it. */
@@ -2035,6 +2037,8 @@ export interface components {
     /** The answer. */
     Verdict: {
       status: "adequate" | "missing_effects" | "ambiguous" | "unknown_effect";
+      /** The status in words. */
+      title: string;
       effects: string[];
       indistinguishable: string[][];
       unexplained_share: number;

@@ -59,7 +59,8 @@ def test_the_json_has_the_promised_shape(run: Run) -> None:
     assert answer["candidates"]
     for candidate in answer["candidates"]:
         assert {
-            "effect", "rmse", "holdout_rmse", "gain_percent", "delta_bic", "parameters", "twins", "why"
+            "effect", "rmse", "holdout_rmse", "gain_percent", "delta_bic", "score_change",
+            "parameters", "twins", "why"
         } <= candidate.keys()  # fmt: skip
         for parameter in candidate["parameters"].values():
             assert {"value", "stderr", "unit", "at_bound"} <= parameter.keys()

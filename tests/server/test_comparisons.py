@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.application.comparisons import MAX_POINTS_PER_SERIES
+from mckibben.application.compared_series import MAX_POINTS_PER_SERIES
 from mckibben.server.schemas.comparisons import ComparisonAnswer
 from tests.identification.synthetic import CYCLE_HEADER, cycle_rows, text
 from tests.server.conftest import CSV, assert_error, post

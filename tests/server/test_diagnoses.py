@@ -12,11 +12,11 @@ import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
-from mckibben.application.asked import asked
-from mckibben.application.diagnoses import prepare
+from mckibben.application.diagnose import prepare
 from mckibben.physics.errors import InputError
 from mckibben.server.app import create_app
 from mckibben.server.long_work import events
+from mckibben.server.questions.models import model_question
 from mckibben.server.schemas.diagnoses import Candidate, DiagnosisAnswer, DiagnosisRequest
 from mckibben.server.settings import Settings
 from mckibben.simulation.outcome import Outcome, Watch
@@ -140,7 +140,7 @@ def test_the_path_falls_and_ends_at_the_verdict(answer: dict[str, Any]) -> None:
 
 def test_candidates_are_best_first_and_say_why(answer: dict[str, Any]) -> None:
     candidates = answer["candidates"]
-    scores = [c["delta_bic"] for c in candidates]
+    scores = [c["score_change"] for c in candidates]
     assert scores == sorted(scores)
     assert candidates[0]["effect"] == "bladder_elasticity"
     for c in candidates:
@@ -388,7 +388,7 @@ def test_refusals_come_before_a_stream_begins(client: TestClient, rubbing: str) 
 def work_of(app: FastAPI, measurement: str):
     request = DiagnosisRequest.model_validate({"muscle": BRAID, "measurement": measurement})
     studio = app.state.studio
-    return prepare(asked(request, studio, app.state.store), studio)
+    return prepare(model_question(request, studio, app.state.store), studio)
 
 
 def test_closing_the_stream_ends_the_search(app: FastAPI, client: TestClient, rubbing: str) -> None:

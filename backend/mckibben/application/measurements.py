@@ -1,13 +1,14 @@
-"""A measurement as JSON, and the preview of a file."""
+"""How a measurement was understood, and what a file would be read as."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import asdict
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
 
-from mckibben.application.start import Json
+from numpy.typing import NDArray
+
 from mckibben.measurement.measurement import CHANNEL_UNITS, KINDS, Measurement
-from mckibben.measurement.read.preview import MissingCondition, Preview, missing_conditions
+from mckibben.measurement.read.preview import MissingCondition, Preview, PreviewColumn, missing_conditions
 
 #: Units a form offers for each channel.
 _USUAL_UNITS = {
@@ -18,91 +19,210 @@ _USUAL_UNITS = {
 }  # fmt: skip
 
 
-def measurement_answer(measurement: Measurement, *, columns: bool = False) -> Json:
-    """How a measurement was understood; on request with its columns in SI."""
-    segments = measurement.segments
-    answer: Json = {
-        "id": measurement.id,
-        "name": measurement.name,
-        "kind": measurement.kind,
-        "kind_detected": measurement.kind_detected,
-        "kind_reason": measurement.kind_reason,
-        "rows": measurement.rows,
-        "usable_rows": int(measurement.usable.sum()),
-        "excluded": dict(measurement.exclusions),
-        "skipped": dict(measurement.skipped),
-        "channels": [
-            {
-                "name": channel.name,
-                "column": channel.column,
-                "unit": channel.source_unit,
-                "si_unit": channel.unit,
-                "minimum": channel.minimum,
-                "maximum": channel.maximum,
-            }
+@dataclass(frozen=True, slots=True)
+class ChannelSummary:
+    """A channel: its name, column and unit in the file, SI unit, extremes in SI."""
+
+    name: str
+    column: str
+    unit: str
+    si_unit: str
+    minimum: float
+    maximum: float
+
+
+@dataclass(frozen=True, slots=True)
+class SweepSummary:
+    """What moves: the signal, number of sweeps and cycles, rows at rest, speeds that occur."""
+
+    signal: str | None
+    sweeps: int
+    cycles: int
+    held_rows: int
+    speeds: list[float]
+
+
+@dataclass(frozen=True)
+class MeasurementSummary:
+    """How a measurement was understood.
+
+    Attributes:
+        id: SHA-256 of the content.
+        kind, kind_detected, kind_reason: of the measurement; whether the file did not state it; why then.
+        rows, usable_rows: read, and those that may be compared.
+        excluded, skipped: rows that may not, and rows that could not be read: why -> how many.
+        ignored: columns that are not used.
+        conditions: of the test, SI.
+        missing: conditions that a comparison needs and the file does not state.
+        groups: number of groups of rows.
+        messages: what was assumed.
+    """
+
+    id: str
+    name: str
+    kind: str
+    kind_detected: bool
+    kind_reason: str
+    rows: int
+    usable_rows: int
+    excluded: dict[str, int]
+    skipped: dict[str, int]
+    channels: list[ChannelSummary]
+    ignored: list[str]
+    conditions: Mapping[str, float | str]
+    missing: list[MissingCondition]
+    groups: int
+    segments: SweepSummary
+    messages: list[str]
+
+
+@dataclass(frozen=True)
+class MeasurementDetails(MeasurementSummary):
+    """A measurement with its columns in SI."""
+
+    columns: dict[str, NDArray] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class SkippedSummary:
+    """Rows that could not be read: why, how many, the first one."""
+
+    reason: str
+    rows: int
+    first: str
+
+
+@dataclass(frozen=True, slots=True)
+class FileProblem:
+    """Why a file gives no measurement."""
+
+    code: str
+    message: str
+    field: str | None
+    hint: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class ChannelOption:
+    """A channel that a column may be, its SI unit, and units that a form offers."""
+
+    name: str
+    si_unit: str
+    units: list[str]
+
+
+@dataclass(frozen=True, slots=True)
+class PreviewResult:
+    """What a file would be read as.
+
+    Attributes:
+        columns: how each column is understood; sample: first rows as they stand in the file.
+        rows, valid_rows, skipped: of the table.
+        kind, kind_detected, kind_reason: None where no measurement comes about.
+        conditions, missing: of the test, and what is to be asked.
+        measurement: what would be kept; problem: why nothing would be.
+        only_bad_rows: whether leaving out the bad rows would help.
+        channel_choices, kind_choices: what the user may say instead.
+    """
+
+    name: str
+    format: str
+    columns: list[PreviewColumn]
+    sample: list[list[str]]
+    rows: int
+    valid_rows: int
+    skipped: list[SkippedSummary]
+    kind: str | None
+    kind_detected: bool
+    kind_reason: str
+    conditions: Mapping[str, float | str]
+    missing: list[MissingCondition]
+    measurement: MeasurementSummary | None
+    problem: FileProblem | None
+    only_bad_rows: bool
+    messages: list[str]
+    channel_choices: list[ChannelOption]
+    kind_choices: list[str]
+
+
+def summary_of(measurement: Measurement) -> MeasurementSummary:
+    """How a measurement was understood."""
+    sweeps = measurement.segments
+    return MeasurementSummary(
+        id=measurement.id,
+        name=measurement.name,
+        kind=measurement.kind,
+        kind_detected=measurement.kind_detected,
+        kind_reason=measurement.kind_reason,
+        rows=measurement.rows,
+        usable_rows=int(measurement.usable.sum()),
+        excluded=dict(measurement.exclusions),
+        skipped=dict(measurement.skipped),
+        channels=[
+            ChannelSummary(
+                name=channel.name,
+                column=channel.column,
+                unit=channel.source_unit,
+                si_unit=channel.unit,
+                minimum=channel.minimum,
+                maximum=channel.maximum,
+            )
             for channel in measurement.channels
         ],
-        "ignored": list(measurement.ignored),
-        "conditions": dict(measurement.conditions),
-        "missing": _asked(missing_conditions(measurement.kind, measurement.columns, measurement.conditions)),
-        "groups": measurement.groups,
-        "segments": {
-            "signal": segments.signal,
-            "sweeps": segments.sweeps,
-            "cycles": segments.cycles,
-            "held_rows": segments.held_rows,
-            "speeds": list(segments.speeds),
-        },
-        "messages": list(measurement.messages),
+        ignored=list(measurement.ignored),
+        conditions=dict(measurement.conditions),
+        missing=list(missing_conditions(measurement.kind, measurement.columns, measurement.conditions)),
+        groups=measurement.groups,
+        segments=SweepSummary(
+            signal=sweeps.signal,
+            sweeps=sweeps.sweeps,
+            cycles=sweeps.cycles,
+            held_rows=sweeps.held_rows,
+            speeds=list(sweeps.speeds),
+        ),
+        messages=list(measurement.messages),
+    )
+
+
+def details_of(measurement: Measurement) -> MeasurementDetails:
+    """A measurement with its columns, and what was found out about each row."""
+    summary, sweeps = summary_of(measurement), measurement.segments
+    own = {item.name: getattr(summary, item.name) for item in fields(summary)}
+    found = {
+        "slack": measurement.slack,
+        "usable": measurement.usable,
+        "sweep": sweeps.sweep,
+        "cycle": sweeps.cycle,
+        "motion": sweeps.direction,
     }
-    if columns:
-        answer["columns"] = dict(measurement.columns) | {
-            "slack": measurement.slack,
-            "usable": measurement.usable,
-            "sweep": segments.sweep,
-            "cycle": segments.cycle,
-            "motion": segments.direction,
-        }
-    return answer
+    return MeasurementDetails(**own, columns=dict(measurement.columns) | found)
 
 
-def preview_answer(found: Preview) -> Json:
+def preview_of(preview: Preview) -> PreviewResult:
     """What a file would be read as."""
-    measurement, problem = found.measurement, found.problem
-    return {
-        "name": found.name,
-        "format": found.format,
-        "columns": [asdict(column) for column in found.columns],
-        "sample": [list(row) for row in found.sample],
-        "rows": found.rows,
-        "valid_rows": found.valid,
-        "skipped": [
-            {"reason": reason, "rows": skip.rows, "first": skip.first}
-            for reason, skip in found.skipped.items()
-        ],
-        "kind": measurement.kind if measurement else None,
-        "kind_detected": measurement.kind_detected if measurement else False,
-        "kind_reason": measurement.kind_reason if measurement else "",
-        "conditions": dict(found.conditions),
-        "missing": _asked(found.missing),
-        "measurement": measurement_answer(measurement) if measurement else None,
-        "problem": None
+    measurement, problem = preview.measurement, preview.problem
+    return PreviewResult(
+        name=preview.name,
+        format=preview.format,
+        columns=list(preview.columns),
+        sample=[list(row) for row in preview.sample],
+        rows=preview.rows,
+        valid_rows=preview.valid,
+        skipped=[SkippedSummary(reason, skip.rows, skip.first) for reason, skip in preview.skipped.items()],
+        kind=measurement.kind if measurement else None,
+        kind_detected=measurement.kind_detected if measurement else False,
+        kind_reason=measurement.kind_reason if measurement else "",
+        conditions=dict(preview.conditions),
+        missing=list(preview.missing),
+        measurement=summary_of(measurement) if measurement else None,
+        problem=None
         if problem is None
-        else {
-            "code": problem.code,
-            "message": problem.message,
-            "field": problem.field,
-            "hint": problem.hint,
-        },
-        "only_bad_rows": found.refused,
-        "messages": list(found.messages),
-        "channel_choices": [
-            {"name": name, "si_unit": unit, "units": list(_USUAL_UNITS.get(name, (unit,)))}
+        else FileProblem(problem.code, problem.message, problem.field, problem.hint),
+        only_bad_rows=preview.refused,
+        messages=list(preview.messages),
+        channel_choices=[
+            ChannelOption(name, unit, list(_USUAL_UNITS.get(name, (unit,))))
             for name, unit in CHANNEL_UNITS.items()
         ],
-        "kind_choices": list(KINDS),
-    }
-
-
-def _asked(conditions: Iterable[MissingCondition]) -> list[Json]:
-    return [asdict(condition) | {"alternatives": list(condition.alternatives)} for condition in conditions]
+        kind_choices=list(KINDS),
+    )

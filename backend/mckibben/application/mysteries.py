@@ -1,34 +1,67 @@
-"""Mysteries as JSON, and a diagnosis held against what is hidden."""
+"""Mysteries, and a diagnosis held against what is hidden."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import cast
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, cast
 
-from mckibben.application.start import Json
 from mckibben.presets import MysteryPreset, PresetLibrary
 
 
-def mysteries_answer(library: PresetLibrary) -> list[Json]:
+@dataclass(frozen=True, slots=True)
+class MysterySummary:
+    """A mystery without its answer: story, kind, start model, id of its measurement."""
+
+    id: str
+    title: str
+    story: str
+    kind: str
+    muscle: Mapping[str, Any] | None
+    drive: Mapping[str, Any] | None
+    effects: Mapping[str, Any]
+    measurement: str
+
+
+@dataclass(frozen=True, slots=True)
+class HiddenTruth:
+    """A hidden effect: its name, what it does, and ids of the effects that are right answers."""
+
+    title: str
+    what: str
+    effects: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Reveal:
+    """What is hidden, which of it was named, what was named besides, and the story behind it."""
+
+    hidden: list[HiddenTruth]
+    found: list[bool]
+    surplus: list[str]
+    text: str
+
+
+def mysteries(library: PresetLibrary) -> list[MysterySummary]:
     """All mysteries without their answers."""
-    return [_told(cast(MysteryPreset, preset)) for preset in library.list("mysteries")]
+    return [_summary(cast(MysteryPreset, preset)) for preset in library.list("mysteries")]
 
 
-def _told(preset: MysteryPreset) -> Json:
-    return {
-        "id": preset.id,
-        "title": preset.title,
-        "story": preset.story,
-        "kind": preset.measurement_kind,
-        "muscle": preset.muscle,
-        "drive": preset.drive,
-        "effects": preset.effects,
-        "measurement": preset.id,
-    }
+def _summary(preset: MysteryPreset) -> MysterySummary:
+    return MysterySummary(
+        id=preset.id,
+        title=preset.title,
+        story=preset.story,
+        kind=preset.measurement_kind,
+        muscle=preset.muscle,
+        drive=preset.drive,
+        effects=preset.effects,
+        measurement=preset.id,
+    )
 
 
-def reveal_answer(library: PresetLibrary, mystery_id: str, given: Sequence[str]) -> Json:
-    """What is hidden, and which of it is among the given effects.
+def reveal(library: PresetLibrary, mystery_id: str, named_effects: Sequence[str]) -> Reveal:
+    """What is hidden, and which of it is among the named effects.
 
     Raises:
         InputError: code ``not_found``, there is no such mystery.
@@ -36,14 +69,14 @@ def reveal_answer(library: PresetLibrary, mystery_id: str, given: Sequence[str])
     preset = cast(MysteryPreset, library.get("mysteries", mystery_id))
     sealed = preset.answer()
     # What the start model has was no discovery.
-    named = [effect for effect in dict.fromkeys(given) if effect not in preset.effects]
+    named = [effect for effect in dict.fromkeys(named_effects) if effect not in preset.effects]
     taken = matched(named, [hidden.effects for hidden in sealed.hidden])
-    return {
-        "hidden": [hidden.model_dump() for hidden in sealed.hidden],
-        "found": [name is not None for name in taken],
-        "surplus": [name for name in named if name not in taken],
-        "text": sealed.text,
-    }
+    return Reveal(
+        hidden=[HiddenTruth(hidden.title, hidden.what, tuple(hidden.effects)) for hidden in sealed.hidden],
+        found=[name is not None for name in taken],
+        surplus=[name for name in named if name not in taken],
+        text=sealed.text,
+    )
 
 
 def matched(named: Sequence[str], accepted: Sequence[Sequence[str]]) -> list[str | None]:

@@ -10,7 +10,6 @@ from datetime import datetime
 from math import ceil
 
 from mckibben.application.json_text import to_json
-from mckibben.application.programs import versions
 from mckibben.application.simulate import result_of, run_drive
 from mckibben.application.sizing_chosen import curves_of, margins_of, spread_of
 from mckibben.application.sizing_entries import about_task, entries_of
@@ -23,6 +22,7 @@ from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.physics.errors import InputError, fields_inside
 from mckibben.report.sizing import Chosen, Command, Material, sizing_report
+from mckibben.report.versions import versions
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.timing.of_run import grid_of
 from mckibben.sizing.catalogue import switch_on

@@ -12,7 +12,7 @@ import typer
 from mckibben.physics.errors import InputError, did_you_mean
 
 if TYPE_CHECKING:
-    from mckibben.application.asked import Asked
+    from mckibben.application.model_question import ModelQuestion
     from mckibben.documents.start_model import StartModel
     from mckibben.documents.studio import Studio
     from mckibben.measurement.points import Points
@@ -136,7 +136,7 @@ def start_model(
     return _start_of_input(studio, document, chosen, f"--muscle {muscle}")
 
 
-def asked_of(
+def model_question(
     studio: Studio,
     points: Points,
     *,
@@ -146,7 +146,7 @@ def asked_of(
     drive: str,
     free: Sequence[str],
     noise: float | None = None,
-) -> Asked:
+) -> ModelQuestion:
     """The question that the options of ``compare`` and ``diagnose`` make of measurements.
 
     A drive document with a valve is the drive of transient measurements.
@@ -154,7 +154,7 @@ def asked_of(
     Raises:
         InputError: names the file or option, what is wrong and what would be right.
     """
-    from mckibben.application.asked import Asked
+    from mckibben.application.model_question import question_of
     from mckibben.physics.muscle import GEOMETRY
 
     for name in free:
@@ -164,7 +164,7 @@ def asked_of(
     named = str(measurement.conditions.get("muscle", ""))
     start = start_model(studio, muscle, ideal=ideal, effects=effects, drive=drive, named=named)
     given = _drive_of(studio, drive, start) if drive and measurement.kind == "transient" else None
-    return Asked(start, points, given, free=tuple(free), noise=noise)
+    return question_of(start, studio, points, drive=given, free=tuple(free), noise=noise)
 
 
 def _drive_of(studio: Studio, path: str, start: StartModel) -> Drive | None:

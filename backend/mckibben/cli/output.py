@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from typing import Protocol
 
 import typer
 from rich.box import SIMPLE_HEAD
@@ -12,7 +13,7 @@ from rich.console import Console
 from rich.table import Table
 
 from mckibben.application.json_text import to_json
-from mckibben.application.start import Json
+from mckibben.identification.fit.comparison import ParameterTable
 from mckibben.simulation.outcome import Watch
 
 
@@ -56,12 +57,53 @@ def remark(text: str) -> None:
     typer.echo(text, err=True)
 
 
-def rows_of(answer: Json) -> str:
+class CountedRows(Protocol):
+    """A result that counts the rows of its data."""
+
+    @property
+    def rows(self) -> int:
+        """Of the data."""
+        ...
+
+    @property
+    def rows_used(self) -> int:
+        """That count."""
+        ...
+
+    @property
+    def excluded(self) -> Mapping[str, int]:
+        """Why others do not -> how many."""
+        ...
+
+
+def rows_of(result: CountedRows) -> str:
     """How many rows of the data a comparison or diagnosis uses, and why not the others."""
-    if answer["rows_used"] == answer["rows"]:
-        return f"{answer['rows']} rows"
-    reasons = "".join(f", {count} left out: {reason}" for reason, count in answer["excluded"].items())
-    return f"{answer['rows_used']} of {answer['rows']} rows{reasons}"
+    if result.rows_used == result.rows:
+        return f"{result.rows} rows"
+    reasons = "".join(f", {count} left out: {reason}" for reason, count in result.excluded.items())
+    return f"{result.rows_used} of {result.rows} rows{reasons}"
+
+
+def error_unit(unit: str) -> tuple[str, float]:
+    """Unit in which an error is shown, and how many of it make one SI unit."""
+    return ("mm", 1e3) if unit == "m" else (unit.replace("1", "x noise"), 1.0)
+
+
+def write_parameters(parameters: ParameterTable) -> None:
+    """The table of a model's parameters; nothing without any."""
+    rows = [
+        [
+            f"{effect}.{name}",
+            figure(item.value, 5),
+            figure(item.stderr, 2) if item.fitted else "given",
+            item.unit,
+            "at its bound" if item.at_bound else "",
+        ]
+        for effect, own in parameters.items()
+        for name, item in own.items()
+    ]
+    if rows:
+        write_table("Parameters", ["parameter", "value", "± standard error", "unit", ""], rows)
 
 
 def figure(value: float | None, digits: int = 4, unit: str = "") -> str:

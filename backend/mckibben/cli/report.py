@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from mckibben.application.asked import Asked
-from mckibben.application.reports import Told, report_of
-from mckibben.application.start import Json
+from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.application.model_question import ModelQuestion
 from mckibben.cli.output import remark
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
+from mckibben.report.diagnosis.gather import ReportOptions, report_of
 
 
-def write(path: Path, studio: Studio, question: Asked, diagnosis: Json) -> None:
+def write(path: Path, studio: Studio, question: ModelQuestion, diagnosis: DiagnosisResult) -> None:
     """Write the report of a diagnosis.
 
     Raises:
         InputError: the file cannot be written.
     """
-    save(path, report_of(question, studio, Told(), diagnosis))
+    save(path, report_of(question, studio, ReportOptions(), diagnosis))
 
 
 def save(path: Path, text: str) -> None:

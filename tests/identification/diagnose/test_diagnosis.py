@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mckibben.application.wording import sentence_of
 from mckibben.documents.studio import Studio
 from mckibben.identification.diagnose.diagnosis import Diagnosis, diagnose
+from mckibben.identification.diagnose.words import sentence_of
 from mckibben.identification.fit.fitter import CancelledError
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel, free_geometry

@@ -33,7 +33,7 @@ DATA = Path(__file__).parents[4] / "shared" / "data"
 def test_the_right_model_has_no_error():
     result = compare(force_map(), MUSCLE, {}, catalogue=CATALOGUE)
     assert result.rmse < 1e-9
-    assert result.report()["rows_used"] == 60
+    assert result.predictor.rows_used == 60
 
 
 def test_error_figures_are_those_of_the_definition():
@@ -49,23 +49,23 @@ def test_error_figures_are_those_of_the_definition():
     assert result.rmse == pytest.approx(float(np.sqrt(np.mean((measured - ideal) ** 2))), rel=1e-9)
     assert result.nrmse_percent == pytest.approx(100 * result.rmse / np.max(measured), rel=1e-9)
     assert result.holdout_rmse == result.rmse  # nothing was fitted
-    assert result.report()["residual_mean"] == pytest.approx(float(np.mean(measured - ideal)), rel=1e-9)
-    assert result.report()["channels"] == {}
+    assert result.residual_mean == pytest.approx(float(np.mean(measured - ideal)), rel=1e-9)
+    assert result.channels == {}
 
 
 def test_fit_recovers_the_hidden_constants_within_their_errors():
     measurement = force_map(noise=2.0, angle=26.0, c10=0.52e6, prestress=40.0)
     effects = {"bladder_elasticity": {}, "prestress": {}}
     result = compare(measurement, MUSCLE, effects, catalogue=CATALOGUE, fit=True, free=["braid_angle"])
-    table = result.report()["parameters"]
+    table = result.parameters
     for got, expected in (
         (table["bladder_elasticity"]["shear_modulus"], 0.52e6),
         (table["prestress"]["force"], 40.0),
         (table["geometry"]["braid_angle"], radians(26.0)),
     ):
-        assert abs(got["value"] - expected) < 4 * got["stderr"]
-        assert not got["at_bound"]
-        assert got["fitted"]
+        assert abs(got.value - expected) < 4 * got.stderr
+        assert not got.at_bound
+        assert got.fitted
     assert result.rmse == pytest.approx(2.0, rel=0.25)
     assert result.noise == pytest.approx(2.0, rel=0.35)
     assert result.holdout_rmse is not None
@@ -96,8 +96,8 @@ def test_left_out_groups_are_those_of_refits():
 def test_zeros_of_a_clipped_map_are_not_measurements():
     rows = ["1,255,0", "1,270,0", "3,255,100", "3,270,210", "3,285,330"]
     result = compare(csv(rows, "pressure_bar,length_mm,force_N"), MUSCLE, {}, catalogue=CATALOGUE)
-    assert result.report()["rows_used"] == 3
-    assert result.report()["excluded"] == {"slack": 2}
+    assert result.predictor.rows_used == 3
+    assert result.excluded == {"slack": 2}
 
 
 def test_friction_of_a_known_direction_is_found():
@@ -110,9 +110,7 @@ def test_friction_of_a_known_direction_is_found():
     measurement = csv(rows, "pressure_bar,length_mm,force_N,direction", "kind: isobaric")
     effect = {"coulomb_friction": {}}
     result = compare(measurement, MUSCLE, effect, catalogue=CATALOGUE, fit=True)
-    assert result.report()["parameters"]["coulomb_friction"]["force"]["value"] == pytest.approx(
-        17.0, rel=1e-6
-    )
+    assert result.parameters["coulomb_friction"]["force"].value == pytest.approx(17.0, rel=1e-6)
 
 
 def test_friction_with_memory_follows_the_record():
@@ -135,12 +133,12 @@ def test_friction_with_memory_follows_the_record():
     fitted = compare(
         measurement, MUSCLE, {"dahl": {}}, catalogue=CATALOGUE, fit=True, freed=["dahl.break_strain"]
     )
-    table = fitted.report()["parameters"]["dahl"]
-    assert table["force"]["value"] == pytest.approx(amount, rel=1e-3)
-    assert table["break_strain"]["value"] == pytest.approx(0.01, rel=1e-2)
-    assert table["break_strain"]["fitted"]
+    table = fitted.parameters["dahl"]
+    assert table["force"].value == pytest.approx(amount, rel=1e-3)
+    assert table["break_strain"].value == pytest.approx(0.01, rel=1e-2)
+    assert table["break_strain"].fitted
     alone = compare(measurement, MUSCLE, {"dahl": {}}, catalogue=CATALOGUE, fit=True)
-    assert not alone.report()["parameters"]["dahl"]["break_strain"]["fitted"]
+    assert not alone.parameters["dahl"]["break_strain"].fitted
     assert alone.rmse > 10 * fitted.rmse
 
 
@@ -160,7 +158,7 @@ def test_isotonic_fit_finds_the_prestress():
     rows = [f"{p / 1e5},{1e3 * length_under(250.0, p, prestress=60.0)}" for p in np.linspace(3e5, 6e5, 9)]
     measurement = csv(rows, "pressure_bar,length_mm", "kind: isotonic", "load_force: 250 N")
     result = compare(measurement, MUSCLE, {"prestress": {}}, catalogue=CATALOGUE, fit=True)
-    assert result.report()["parameters"]["prestress"]["force"]["value"] == pytest.approx(60.0, rel=1e-4)
+    assert result.parameters["prestress"]["force"].value == pytest.approx(60.0, rel=1e-4)
 
 
 def test_isotonic_without_a_load_fits_it_and_says_so():
@@ -168,9 +166,9 @@ def test_isotonic_without_a_load_fits_it_and_says_so():
     measurement = csv(rows, "pressure_bar,length_mm", "kind: isotonic")
     result = compare(measurement, MUSCLE, {}, catalogue=CATALOGUE, fit=True)
     assert any("load is not stated" in message for message in result.messages)
-    load = result.report()["parameters"]["geometry"]["load_force"]
-    assert load["value"] == pytest.approx(250.0, rel=1e-5)
-    assert load["unit"] == "N"
+    load = result.parameters["geometry"]["load_force"]
+    assert load.value == pytest.approx(250.0, rel=1e-5)
+    assert load.unit == "N"
     assert result.rmse < 1e-8
     given = compare(measurement, MUSCLE, {}, catalogue=CATALOGUE)
     assert given.rmse > 1e-3  # without a fit the load is zero
@@ -218,11 +216,11 @@ def test_a_fit_leaves_geometry_within_its_tolerance():
         measurement, MUSCLE, {}, catalogue=CATALOGUE, fit=True, free=["braid_angle"],
         tolerance={"braid_angle": limit},
     )  # fmt: skip
-    angle = result.report()["parameters"]["geometry"]["braid_angle"]
-    assert angle["value"] == pytest.approx(radians(26.5) - limit, abs=1e-4)
-    assert angle["at_bound"]
-    assert angle["stderr"] is None
-    assert any("braid_angle ends at its bound" in message for message in result.report()["messages"])
+    angle = result.parameters["geometry"]["braid_angle"]
+    assert angle.value == pytest.approx(radians(26.5) - limit, abs=1e-4)
+    assert angle.at_bound
+    assert angle.stderr is None
+    assert any("braid_angle ends at its bound" in message for message in result.messages)
 
 
 def test_what_a_fit_cannot_do_is_said():
@@ -279,7 +277,7 @@ def test_force_maps_of_martens_and_boblan(sample, nominal_length, bore, shear_co
     # Independent fit of the same three parameters: 1.26 % and 1.23 % of full scale.
     assert fitted.nrmse_percent <= 1.3
     assert ideal.nrmse_percent > 15.0
-    shear = fitted.report()["parameters"]["bladder_elasticity"]["shear_modulus"]["value"]
+    shear = fitted.parameters["bladder_elasticity"]["shear_modulus"].value
     assert shear == pytest.approx(shear_constant, rel=0.01)
     assert fitted.holdout_rmse is not None
     assert fitted.holdout_rmse < 0.016 * fitted.full_scale

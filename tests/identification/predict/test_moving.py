@@ -129,26 +129,25 @@ def test_a_comparison_of_several_channels_tells_each():
     noise = {"pressure": 800.0, "displacement": 2e-4}
     measurement = measured(drive(), noise=noise)
     result = compare(measurement, MUSCLE, HIDDEN, catalogue=CATALOGUE, drive=drive({}))
-    report = result.report()
-    assert (report["unit"], report["noise_floor"]) == ("1", 1.0)
+    assert (result.predictor.unit, result.noise) == ("1", 1.0)
     assert result.noise_how == "third differences of each channel"
     for name, sigma in noise.items():
-        assert report["channels"][name]["rmse"] == pytest.approx(sigma, rel=0.1)
-    squares = [(c["rmse"] / c["noise_floor"]) ** 2 for c in report["channels"].values()]
-    assert report["rmse"] == pytest.approx(np.sqrt(np.mean(squares)))
-    assert report["channels"]["pressure"]["unit"] == "Pa"
-    assert report["channels"]["displacement"]["unit"] == "m"
+        assert result.channels[name].rmse == pytest.approx(sigma, rel=0.1)
+    squares = [(c.rmse / c.noise_floor) ** 2 for c in result.channels.values()]
+    assert result.rmse == pytest.approx(np.sqrt(np.mean(squares)))
+    assert result.channels["pressure"].unit == "Pa"
+    assert result.channels["displacement"].unit == "m"
 
 
 def test_a_fit_of_a_transient_finds_the_hidden_numbers():
     measurement = measured(drive(), noise={"pressure": 800.0, "displacement": 2e-4})
     effects = {"bladder_elasticity": {"shear_modulus": 0.8e6}, "viscous_damping": {"coefficient": 60.0}}
     result = compare(measurement, MUSCLE, effects, catalogue=CATALOGUE, drive=drive({}), fit=True)
-    table = result.report()["parameters"]
+    table = result.parameters
     for effect, own in HIDDEN.items():
         for name, value in own.items():
             got = table[effect][name]
-            assert abs(got["value"] - value) < 5 * got["stderr"] + 1e-3 * value
+            assert abs(got.value - value) < 5 * got.stderr + 1e-3 * value
     assert result.holdout_rmse == pytest.approx(result.rmse, rel=0.1)
 
 

@@ -26,7 +26,8 @@ LEAST_SCORE = 8.0
 LEAST_GAIN = 0.02
 #: The same where the error is within 15 % of the noise: what is left there may be the form of a right effect.
 LEAST_GAIN_AT_FLOOR = 0.05
-_AT_FLOOR = 1.15  # of the noise
+#: An error of at most this many times the noise has reached it: the noise itself is an estimate.
+AT_FLOOR = 1.15
 _ORDER = {"static": 0, "rate": 1, "dynamic": 1, "hysteretic": 2, "measurement": 3}
 _SIMPLER = 1e-2  # of the score for each step of this order: decides ties only
 _BELOW_FLOOR = 0.5  # errors below this share of the noise are luck
@@ -80,6 +81,6 @@ def better(after: FittedModel, before: FittedModel, *, rows: float, noise: float
     if after.implausible > before.implausible:
         return False
     gain = 1.0 - after.rmse / before.rmse if before.rmse > 0.0 else 0.0
-    least = LEAST_GAIN_AT_FLOOR if before.rmse < _AT_FLOOR * (noise or 0.0) else LEAST_GAIN
+    least = LEAST_GAIN_AT_FLOOR if before.rmse < AT_FLOOR * (noise or 0.0) else LEAST_GAIN
     drop = score(before, rows=rows, noise=noise) - score(after, rows=rows, noise=noise)
     return gain > least and drop > LEAST_SCORE

@@ -22,7 +22,7 @@ _TRIED = 8  # candidates fitted per model, by what they promise to first order
 _PATIENCE = 2  # rounds without a better model
 _ALIKE = 0.02  # of the mean square: models whose residuals differ by less go on as one
 _DEEPEST = 7  # effects added
-_AT_FLOOR = 1.05  # of the noise: below, nothing more can be learnt
+_NOTHING_LEFT = 1.05  # of the noise: below, a search can learn nothing more
 _WITHIN = 1.15  # of the best error, near the floor
 
 
@@ -192,4 +192,4 @@ def _rows(fitter: Fitter, fitted_model: FittedModel) -> float:
 
 
 def _at_floor(fitter: Fitter, fitted_model: FittedModel) -> bool:
-    return fitter.noise is not None and fitted_model.rmse <= _AT_FLOOR * fitter.noise
+    return fitter.noise is not None and fitted_model.rmse <= _NOTHING_LEFT * fitter.noise

@@ -13,6 +13,7 @@ from mckibben.identification.diagnose.next_measurement import (
     separation,
 )
 from mckibben.identification.diagnose.other_geometry import geometry_instead
+from mckibben.identification.diagnose.score import AT_FLOOR
 from mckibben.identification.diagnose.twins import Alternative
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
@@ -23,7 +24,6 @@ from mckibben.identification.residual.structure import ResidualStructure, struct
 from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import assumption
 
-_AT_FLOOR = 1.15  # of the noise: nothing more is asked for
 _FAR = 2.0  # of the noise: something is left that is not known, whatever was explained before
 _STRUCTURED = 0.3  # share of the residual a regression predicts, from which it is structure
 _EXPLAINED = 0.98  # of the excess over the noise
@@ -74,7 +74,7 @@ def status_of(
         return "unknown_effect"
     excess = max(start.mean_square - floor**2, 1e-300)
     explained = 1.0 - max(best.mean_square - floor**2, 0.0) / excess
-    above = best.rmse > _AT_FLOOR * floor and rest.share > _STRUCTURED
+    above = best.rmse > AT_FLOOR * floor and rest.share > _STRUCTURED
     if above and explained < _EXPLAINED:
         return "unknown_effect"
     if not added:

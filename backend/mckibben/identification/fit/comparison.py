@@ -19,7 +19,7 @@ from mckibben.measurement.measurement import Measurement
 from mckibben.physics.custom import CUSTOM, TERM
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
-from mckibben.physics.muscle import GEOMETRY, Muscle
+from mckibben.physics.muscle import Muscle
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.statics.model import EffectValues, checked_values
 
@@ -69,71 +69,107 @@ class Comparison:
         """rmse in percent of the largest measured magnitude."""
         return 100.0 * self.rmse / self.full_scale if self.full_scale > 0.0 else float("nan")
 
-    def report(self) -> dict:
-        """The figures as `mckibben compare --json` prints them."""
-        predictor = self.predictor
-        several = len(predictor.channels) > 1
-        mean = float(np.mean(self.residual / predictor.scale))
-        return {
-            "kind": predictor.kind,
-            "rows": self.rows,
-            "rows_used": predictor.rows_used,
-            "excluded": dict(self.excluded),
-            "predicted": predictor.predicted,
-            "unit": predictor.unit,
-            "rmse": self.rmse,
-            "nrmse_percent": self.nrmse_percent,
-            "full_scale": self.full_scale,
-            "holdout_rmse": self.holdout_rmse,
-            "noise_floor": self.noise,
-            "residual_mean": mean,
-            "channels": self._channels() if several else {},
-            "parameters": parameter_table(self.fit_model, self.fit),
-            "correlations": [
-                {"a": a, "b": b, "value": value}
-                for a, b, value in (self.fit.correlations if self.fit else ())
-            ],
-            "geometry": {name: float(getattr(self.fit_model.muscle, name)) for name in GEOMETRY},
-            "messages": [*self.messages, *(self.fit.messages if self.fit else ())],
-        }
+    @property
+    def residual_mean(self) -> float:
+        """Mean of the residual over its scale."""
+        return float(np.mean(self.residual / self.predictor.scale))
 
-    def _channels(self) -> dict[str, dict]:
-        return {
-            channel.name: {
-                "rmse": float(np.sqrt(np.mean(self.residual[channel.rows] ** 2))),
-                "unit": channel.unit,
-                "noise_floor": channel.noise,
-                "full_scale": channel.full_scale,
-            }
-            for channel in self.predictor.channels
-        }
+    @property
+    def parameters(self) -> ParameterTable:
+        """Every parameter as used or fitted."""
+        return parameter_table(self.fit_model, self.fit)
+
+    @property
+    def channels(self) -> dict[str, ChannelMisfit]:
+        """Misfit of each channel where there are several; empty for one."""
+        return channel_misfits(self.predictor, self.residual)
 
 
-def parameter_table(fit_model: FitModel, fit: FitResult | None) -> dict[str, dict[str, dict]]:
-    """Effect -> parameter -> value, standard error, unit, whether it was fitted and ended at a bound."""
+@dataclass(frozen=True, slots=True)
+class ParameterValue:
+    """A parameter as used or fitted.
+
+    Attributes:
+        value: SI.
+        stderr: standard error; None when it was not fitted or is not determined.
+        unit: SI unit.
+        at_bound: whether the fit ended at a bound.
+        fitted: whether the fit was free to change it.
+    """
+
+    value: float
+    stderr: float | None
+    unit: str
+    at_bound: bool
+    fitted: bool
+
+
+#: Effect id, or "geometry" for what is no parameter of an effect -> name -> value.
+ParameterTable = dict[str, dict[str, ParameterValue]]
+
+
+@dataclass(frozen=True, slots=True)
+class ChannelMisfit:
+    """Error of one of several predicted channels, SI."""
+
+    rmse: float
+    unit: str
+    noise_floor: float
+    full_scale: float
+
+
+@dataclass(frozen=True, slots=True)
+class Correlation:
+    """How strongly two fitted parameters are correlated."""
+
+    a: str
+    b: str
+    value: float
+
+
+def correlations_of(fit: FitResult | None) -> list[Correlation]:
+    """The strong correlations of a fit."""
+    return [] if fit is None else [Correlation(a, b, value) for a, b, value in fit.correlations]
+
+
+def channel_misfits(predictor: Predictor, residual: np.ndarray) -> dict[str, ChannelMisfit]:
+    """Misfit of each channel where there are several; empty for one.
+
+    Args:
+        predictor: the data.
+        residual: measured minus predicted, shape (values,).
+    """
+    if len(predictor.channels) < 2:
+        return {}
+    return {
+        channel.name: ChannelMisfit(
+            rmse=float(np.sqrt(np.mean(residual[channel.rows] ** 2))),
+            unit=channel.unit,
+            noise_floor=channel.noise,
+            full_scale=channel.full_scale,
+        )
+        for channel in predictor.channels
+    }
+
+
+def parameter_table(fit_model: FitModel, fit: FitResult | None) -> ParameterTable:
+    """Every parameter of a model as used or fitted."""
     fitted = {parameter.name: parameter for parameter in fit.parameters} if fit else {}
-    table: dict[str, dict[str, dict]] = {}
+    table: ParameterTable = {}
     for effect in fit_model.effects:
         for p in effect.parameters:
             own = fitted.get(f"{effect.id}.{p.name}")
-            table.setdefault(effect.id, {})[p.name] = {
-                "value": fit_model.values[effect.id][p.name],
-                "stderr": own.stderr if own else None,
-                "unit": p.unit,
-                "at_bound": own.at_bound if own else False,
-                "fitted": own is not None,
-            }
+            table.setdefault(effect.id, {})[p.name] = ParameterValue(
+                value=fit_model.values[effect.id][p.name],
+                stderr=own.stderr if own else None,
+                unit=p.unit,
+                at_bound=own.at_bound if own else False,
+                fitted=own is not None,
+            )
     others = [parameter for parameter in fitted.values() if "." not in parameter.name]
     if others:
         table["geometry"] = {
-            p.name: {
-                "value": p.value,
-                "stderr": p.stderr,
-                "unit": p.unit,
-                "at_bound": p.at_bound,
-                "fitted": True,
-            }
-            for p in others
+            p.name: ParameterValue(p.value, p.stderr, p.unit, p.at_bound, fitted=True) for p in others
         }
     return table
 
@@ -170,12 +206,45 @@ def compare(
     """
     values = checked_values(effects, catalogue)
     fit_model = FitModel(muscle.checked(), tuple(catalogue[name] for name in values), values)
-    predictor = predictor_of(measurement, muscle, drive)
+    return compared(
+        predictor_of(measurement, muscle, drive),
+        fit_model,
+        rows=measurement.rows,
+        fit=fit,
+        geometry=free_geometry(muscle, free, tolerance or {}),
+        freed=freed,
+        noise=noise,
+    )
+
+
+def compared(
+    predictor: Predictor,
+    fit_model: FitModel,
+    *,
+    rows: int,
+    fit: bool = False,
+    geometry: Sequence[Free] = (),
+    freed: Sequence[str] = (),
+    noise: float | None = None,
+) -> Comparison:
+    """Compare data that are ready with a model.
+
+    Args:
+        predictor: the data.
+        fit_model: the model.
+        rows: of the measurement.
+        fit: fit the parameters that the effects declare as fitted.
+        geometry: geometry fields to fit as well.
+        freed: further constants to fit, as "effect.parameter".
+        noise: standard deviation of the predicted channel, when it is known.
+
+    Raises:
+        InputError: the model has no finite value at some row.
+    """
     check_finite(predictor, fit_model)
-    geometry = free_geometry(muscle, free, tolerance or {})
     messages = list(predictor.messages)
     choice = free_numbers(fit_model, geometry, freed, load=predictor.unknown_load) if fit else ()
-    if free and not fit:
+    if geometry and not fit:
         messages.append("a freed geometry only matters to a fit")
     if fit and not choice:
         messages.append("nothing to fit: the model has no effects and no geometry was freed")
@@ -194,17 +263,17 @@ def compare(
     if floor is None:
         messages.append("sweeps are too short to estimate the noise")
     return Comparison(
-        predictor,
-        fit_model,
-        predicted,
-        rmse,
-        holdout,
-        floor,
-        how,
-        result,
-        measurement.rows,
-        predictor.excluded,
-        tuple(messages),
+        predictor=predictor,
+        fit_model=fit_model,
+        predicted=predicted,
+        rmse=rmse,
+        holdout_rmse=holdout,
+        noise=floor,
+        noise_how=how,
+        fit=result,
+        rows=rows,
+        excluded=predictor.excluded,
+        messages=tuple(messages) + (result.messages if result else ()),
     )
 
 

@@ -49,19 +49,6 @@ class Profile:
     rms: np.ndarray
     count: np.ndarray
 
-    def report(self) -> dict:
-        """As JSON."""
-        return {
-            "over": self.over,
-            "share_explained": self.share_explained,
-            "worst": self.worst,
-            "rmse": self.rmse,
-            "edges": self.edges,
-            "mean": self.mean,
-            "rms": self.rms,
-            "count": self.count,
-        }
-
 
 def variables_of(
     predictor: Predictor, nominal_length: float, groups: np.ndarray | None = None
@@ -133,10 +120,6 @@ class ResidualMap:
     rms: np.ndarray
     count: np.ndarray
 
-    def report(self) -> dict:
-        """As JSON."""
-        return {name: getattr(self, name) for name in self.__dataclass_fields__}
-
 
 def heat_map(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> ResidualMap | None:
     """The residual over pressure and contraction, or the first two variables; None with fewer than two."""
@@ -183,10 +166,6 @@ class Whiteness:
     runs: float
     white: bool
 
-    def report(self) -> dict:
-        """As JSON."""
-        return {name: getattr(self, name) for name in self.__dataclass_fields__}
-
 
 def whiteness(residual: np.ndarray, sweeps: Sequence[np.ndarray]) -> Whiteness:
     """Autocorrelation and runs of a residual within its sweeps."""
@@ -209,7 +188,16 @@ def whiteness(residual: np.ndarray, sweeps: Sequence[np.ndarray]) -> Whiteness:
     return Whiteness(np.array(rho), float(band), outside, runs, bool(outside <= 0.15 and steady))
 
 
-def loops(force: np.ndarray, length: np.ndarray, groups: np.ndarray) -> list[dict]:
+@dataclass(frozen=True, slots=True)
+class ResidualLoop:
+    """A group that returns to where it began: area of its force residual [J], way between the turns [m]."""
+
+    group: int
+    area: float
+    span: float
+
+
+def loops(force: np.ndarray, length: np.ndarray, groups: np.ndarray) -> list[ResidualLoop]:
     r"""Area :math:`\oint r\,dL` of the force residual over each group that returns to where it began [J].
 
     Positive areas take energy out of the motion, as friction does; negative ones cannot come from friction.
@@ -227,7 +215,6 @@ def loops(force: np.ndarray, length: np.ndarray, groups: np.ndarray) -> list[dic
         if len(rows) < 8 or span < 0.5 * whole:
             continue
         middle = 0.5 * (force[rows][1:] + force[rows][:-1])
-        found.append(
-            {"group": int(label), "area": float(np.sum(middle * np.diff(length[rows]))), "span": span}
-        )
+        area = float(np.sum(middle * np.diff(length[rows])))
+        found.append(ResidualLoop(int(label), area, span))
     return found

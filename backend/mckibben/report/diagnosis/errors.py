@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mckibben.report.diagnosis.material import Json
+from mckibben.application.compare import ComparisonResult
+from mckibben.application.diagnosis_result import DiagnosisResult
 from mckibben.report.document import Column, bullets, figure_of, paragraph, table
 from mckibben.report.figures import Scale, figure, percent, variable
 from mckibben.report.heat import heat
@@ -18,70 +19,73 @@ _TOLD, _TELLING = 3, 0.05  # variables that are told in words: how many, from wh
 TIMES_NOISE = Scale("× noise")
 
 
-def error_scale(answer: Json) -> Scale:
+def error_scale(answer: ComparisonResult | DiagnosisResult) -> Scale:
     """What errors of a comparison or diagnosis are shown in."""
-    if answer["unit"] == "1" and "," in answer["predicted"]:
+    if answer.unit == "1" and "," in answer.predicted:
         return TIMES_NOISE
-    return variable(answer["predicted"])[1] if answer["unit"] != "1" else Scale("")
+    return variable(answer.predicted)[1] if answer.unit != "1" else Scale("")
 
 
-def error_table(columns: Sequence[tuple[str, Json]]) -> Html:
+def error_table(columns: Sequence[tuple[str, ComparisonResult]]) -> Html:
     """Error figures of one or more comparisons side by side."""
     first = columns[0][1]
     scale = error_scale(first)
     rows: list[list[Child]] = [
-        ["RMS error", *(figure(answer["rmse"], scale) for _, answer in columns)],
-        ["… of the largest measured value", *(_percent(answer["nrmse_percent"]) for _, answer in columns)],
+        ["RMS error", *(figure(answer.rmse, scale) for _, answer in columns)],
+        ["… of the largest measured value", *(_percent(answer.nrmse_percent) for _, answer in columns)],
         [
             "RMS error with whole groups left out of the fit",
-            *(figure(answer["holdout_rmse"], scale) for _, answer in columns),
+            *(figure(answer.holdout_rmse, scale) for _, answer in columns),
         ],
-        ["mean of the residual", *(figure(answer["residual_mean"], scale) for _, answer in columns)],
+        ["mean of the residual", *(figure(answer.residual_mean, scale) for _, answer in columns)],
         [
-            f"noise of the data ({first['noise_how']})",
-            *(figure(answer["noise_floor"], scale) for _, answer in columns),
+            f"noise of the data ({first.noise_how})",
+            *(figure(answer.noise_floor, scale) for _, answer in columns),
         ],
         ["rows used", *(_rows(answer) for _, answer in columns)],
         [
             "does the residual look like noise?",
-            *("yes" if answer["whiteness"]["white"] else "no, it has structure" for _, answer in columns),
+            *("yes" if answer.whiteness.white else "no, it has structure" for _, answer in columns),
         ],
     ]
-    for name in first["channels"]:
+    for name in first.channels:
         words, own = variable(name)
         rows.append(
             [
                 f"RMS error of {words}",
-                *(figure(answer["channels"][name]["rmse"], own) for _, answer in columns),
+                *(figure(answer.channels[name].rmse, own) for _, answer in columns),
             ]
         )
         rows.append(
             [
                 f"noise of {words}",
-                *(figure(answer["channels"][name]["noise_floor"], own) for _, answer in columns),
+                *(figure(answer.channels[name].noise_floor, own) for _, answer in columns),
             ]
         )
-    if any(answer["validation"] for _, answer in columns):
-        checks = [answer["validation"] or {} for _, answer in columns]
-        rows.append(["RMS error on the validation data", *(figure(c.get("rmse"), scale) for c in checks)])
+    if any(answer.validation for _, answer in columns):
+        checks = [answer.validation for _, answer in columns]
+        rows.append(
+            [
+                "RMS error on the validation data",
+                *(figure(None if check is None else check.rmse, scale) for check in checks),
+            ]
+        )
         rows.append(
             [
                 "… of the largest measured value",
-                *(_percent(check.get("nrmse_percent")) for check in checks),
+                *(_percent(None if check is None else check.nrmse_percent) for check in checks),
             ]
         )
     names = [Column("", False), *(Column(name, number=True) for name, _ in columns)]
-    parts: list[Child] = [
-        table(names, rows, caption=f"Error of the predicted {words_of(first['predicted'])}.")
-    ]
-    if first["rows_used"] < first["rows"]:
-        reasons = "; ".join(f"{number} {reason}" for reason, number in first["excluded"].items())
+    parts: list[Child] = [table(names, rows, caption=f"Error of the predicted {words_of(first.predicted)}.")]
+    if first.rows_used < first.rows:
+        reasons = "; ".join(f"{number} {reason}" for reason, number in first.excluded.items())
         parts.append(paragraph(f"Rows left out: {reasons}.", note=True))
     return html(parts)
 
 
-def _rows(answer: Json) -> str:
-    used, rows = answer["rows_used"], answer["rows"]
+def _rows(answer: ComparisonResult) -> str:
+    used, rows = answer.rows_used, answer.rows
     return str(rows) if used == rows else f"{used} of {rows}"
 
 
@@ -94,17 +98,17 @@ def _percent(value: float | None) -> Html:
     return percent(None if value is None else value / 100.0, 3)
 
 
-def where_it_fails(answer: Json) -> Html:
+def where_it_fails(answer: ComparisonResult) -> Html:
     """The residual over each variable as a table, over two of them as a map, and in words."""
     scale = error_scale(answer)
     rows = [
         [
-            variable(profile["over"])[0],
-            percent(profile["share_explained"]),
-            profile["worst"],
-            figure(profile["rmse"], scale, 3),
+            variable(profile.over)[0],
+            percent(profile.share_explained),
+            profile.worst,
+            figure(profile.rmse, scale, 3),
         ]
-        for profile in answer["where"]
+        for profile in answer.where
     ]
     columns = [
         Column("Variable"), Column("Share of the squared error that it alone predicts", number=True),
@@ -112,22 +116,22 @@ def where_it_fails(answer: Json) -> Html:
     ]  # fmt: skip
     words: list[Child] = [
         html(
-            f"{profile['worst']}: ", figure(profile["rmse"], scale, 3), " rms; this variable alone predicts ",
-            percent(profile["share_explained"]), " of the squared error.",
+            f"{profile.worst}: ", figure(profile.rmse, scale, 3), " rms; this variable alone predicts ",
+            percent(profile.share_explained), " of the squared error.",
         )
-        for profile in answer["where"][:_TOLD]
-        if profile["share_explained"] > _TELLING
+        for profile in answer.where[:_TOLD]
+        if profile.share_explained > _TELLING
     ]  # fmt: skip
-    parts: list[Child] = [bullets([*words, f"{answer['sentences'][-1]}."])]
+    parts: list[Child] = [bullets([*words, f"{answer.sentences[-1]}."])]
     if rows:
         parts.append(table(columns, rows))
-    found = answer["heat_map"]
+    found = answer.heat_map
     if found is not None:
-        (across, x_scale), (up, y_scale) = variable(found["x"]), variable(found["y"])
-        mean = [scale.all(row) for row in found["mean"]]
+        (across, x_scale), (up, y_scale) = variable(found.x), variable(found.y)
+        mean = [scale.all(row) for row in found.mean]
         drawing = heat(
             Axis(across.capitalize(), x_scale.unit), Axis(up.capitalize(), y_scale.unit),
-            x_scale.all(found["x_edges"]), y_scale.all(found["y_edges"]), mean,
+            x_scale.all(found.x_edges), y_scale.all(found.y_edges), mean,
             title=f"Mean residual over {across} and {up}",
         )  # fmt: skip
         unit = f" in {scale.unit}" if scale.unit else ""
@@ -138,7 +142,7 @@ def where_it_fails(answer: Json) -> Html:
                 drawing, f"Mean residual{unit} over {across} and {up}; red: more was measured than modelled."
             )
         )
-    areas = [loop["area"] for loop in answer["loops"]]
+    areas = [loop.area for loop in answer.loops]
     if areas:
         parts.append(
             paragraph(

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
 
-from mckibben.report.diagnosis.material import Json, Material, Source
+from mckibben.application.measurements import ChannelSummary
+from mckibben.report.diagnosis.material import Material, Source
 from mckibben.report.diagnosis.model import named
 from mckibben.report.document import Column, bullets, facts, heading, paragraph, table
 from mckibben.report.figures import Scale, figure, pretty, scale_of, variable, with_error
@@ -20,10 +20,10 @@ def data_section(material: Material) -> Html:
 
 def _measurement(source: Source) -> Html:
     about = source.about
-    left_out = dict(source.left_out) | dict(about["excluded"])
-    rows = about["rows"] + sum(source.left_out.values())
-    used = about["usable_rows"]
-    kind = about["kind"] + (f" (detected: {about['kind_reason']})" if about["kind_detected"] else "")
+    left_out = dict(source.left_out) | dict(about.excluded)
+    rows = about.rows + sum(source.left_out.values())
+    used = about.usable_rows
+    kind = about.kind + (f" (detected: {about.kind_reason})" if about.kind_detected else "")
     pairs: list[tuple[Child, Child]] = [
         ("Kind", kind),
         ("Used to", "fit the model" if source.use == "fit" else "judge the model only (validation)"),
@@ -36,21 +36,21 @@ def _measurement(source: Source) -> Html:
         pairs.append(("SHA-256", tag("code", source.identity, class_="hash")))
     if source.origin:
         pairs.append(("Source", source.origin))
-    conditions = [_condition(name, value) for name, value in about["conditions"].items()]
+    conditions = [_condition(name, value) for name, value in about.conditions.items()]
     if conditions:
         pairs.append(("Conditions", "; ".join(conditions)))
     columns = [Column("Channel"), Column("Smallest", number=True), Column("Largest", number=True)]
-    channels = [_channel(channel) for channel in about["channels"]]
+    channels = [_channel(channel) for channel in about.channels]
     if source.identity:  # a built-in measurement has no columns of a file
         columns += [Column("Column of the file"), Column("Its unit")]
-        for row, channel in zip(channels, about["channels"], strict=True):
-            row += [channel["column"], pretty(channel["unit"]) if channel["unit"] != "1" else "–"]
+        for row, channel in zip(channels, about.channels, strict=True):
+            row += [channel.column, pretty(channel.unit) if channel.unit != "1" else "–"]
     return html(heading(source.name), facts(pairs), table(columns, channels))
 
 
-def _channel(channel: Json) -> list[Child]:
-    words, scale = variable(channel["name"])
-    low, high = (figure(channel[end], scale, exact=True) for end in ("minimum", "maximum"))
+def _channel(channel: ChannelSummary) -> list[Child]:
+    words, scale = variable(channel.name)
+    low, high = (figure(getattr(channel, end), scale, exact=True) for end in ("minimum", "maximum"))
     return [words, low, high]
 
 
@@ -74,25 +74,25 @@ _GEOMETRY = (
 def muscle_section(material: Material) -> Html:
     """Geometry at rest with its sources, limits, and the drive around the muscle."""
     known = material.muscle
-    geometry = material.comparison["geometry"]
-    fitted = material.comparison["parameters"].get("geometry", {})
+    geometry = material.comparison.geometry
+    fitted = material.comparison.parameters.get("geometry", {})
     rows = []
     for name, words, unit in _GEOMETRY:
         if name in fitted:
             value, origin = (
-                with_error(geometry[name], fitted[name]["stderr"], scale_of(unit)),
+                with_error(getattr(geometry, name), fitted[name].stderr, scale_of(unit)),
                 html("fitted to these data"),
             )
         elif name in ("thread_length", "turns"):
             value, origin = (
-                figure(geometry[name], scale_of(unit), 5, exact=True),
+                figure(getattr(geometry, name), scale_of(unit), 5, exact=True),
                 html("follows from the above"),
             )
-        elif not geometry[name]:
+        elif not getattr(geometry, name):
             value, origin = html("not known"), html("")
         else:
             found = known.figures.get(name)
-            value = figure(geometry[name], scale_of(unit), 5, exact=True)
+            value = figure(getattr(geometry, name), scale_of(unit), 5, exact=True)
             origin = html("given") if found is None else source_text(found)
         rows.append([words, value, origin])
     parts: list[Child] = []
@@ -131,11 +131,10 @@ def _in_words(message: str, material: Material) -> str:
 def assumptions_section(material: Material) -> Html:
     """What was assumed, and what nobody verified."""
     lines: list[str] = []
-    answers: Iterable[Json | None] = (material.comparison, material.diagnosis)
-    for answer in answers:
-        lines += [] if answer is None else answer["messages"]
+    for answer in (material.comparison, material.diagnosis):
+        lines += [] if answer is None else answer.messages
     for source in material.sources:
-        lines += [f"{source.name}: {message}" for message in source.about["messages"]]
+        lines += [f"{source.name}: {message}" for message in source.about.messages]
     found = list(dict.fromkeys(_in_words(line, material) for line in lines))
     own = {line.partition(": ")[2] for line in found}
     found = [line for line in found if line not in own]  # said once with the name of the file

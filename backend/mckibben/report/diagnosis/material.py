@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
+from mckibben.application.compare import ComparisonResult
+from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.application.measurements import MeasurementSummary
 from mckibben.physics.effect import Effect
 from mckibben.report.command import Command
 from mckibben.report.sources import Figure
-
-Json = Mapping[str, Any]
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,7 @@ class Source:
         identity: SHA-256 of an uploaded file, "" of a built-in measurement.
         origin: who measured a built-in one.
         use: "fit" or "validation".
-        about: the measurement as `/api/measurements` tells it.
+        about: how the measurement was understood.
         left_out: why rows were left out -> how many.
     """
 
@@ -31,7 +32,7 @@ class Source:
     identity: str
     origin: str
     use: str
-    about: Json
+    about: MeasurementSummary
     left_out: Mapping[str, int]
 
 
@@ -55,7 +56,7 @@ class PastModel(NamedTuple):
 
     label: str
     effects: Sequence[str]
-    comparison: Json
+    comparison: ComparisonResult
 
 
 @dataclass(frozen=True)
@@ -69,9 +70,9 @@ class Material:
         sources: the measurements.
         muscle: what is known of it.
         catalogue: effect id -> declaration, of all that are named.
-        comparison: the model as given beside the data, as `/api/comparisons` answers.
+        comparison: the model as given beside the data.
         figures: "effect.parameter" -> where the given value comes from.
-        diagnosis: as `/api/diagnoses` answers, None when none was asked for.
+        diagnosis: None when none was asked for.
         proposed: comparison of the model that the diagnosis ends with, None without one.
         history: models on the way to the given one.
         drive: valve, tube, load and the like in words, of transient measurements.
@@ -85,11 +86,11 @@ class Material:
     sources: Sequence[Source]
     muscle: MuscleFacts
     catalogue: Mapping[str, Effect]
-    comparison: Json
+    comparison: ComparisonResult
     figures: Mapping[str, Figure]
     command: Command
-    diagnosis: Json | None = None
-    proposed: Json | None = None
+    diagnosis: DiagnosisResult | None = None
+    proposed: ComparisonResult | None = None
     history: Sequence[PastModel] = ()
     drive: Sequence[tuple[str, str]] = ()
     unverified: Sequence[str] = ()

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from mckibben.application.compare import ComparisonResult
+from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.identification.fit.comparison import ParameterTable, ParameterValue
 from mckibben.physics.effect import Effect
 from mckibben.physics.parameter import Parameter
-from mckibben.report.diagnosis.material import Json, Material
+from mckibben.report.diagnosis.material import Material
 from mckibben.report.document import Column, bullets, heading, mark, paragraph, table
 from mckibben.report.figures import Scale, figure, scale_of, with_error
 from mckibben.report.formula import formula
@@ -20,7 +23,7 @@ _NOTHING = 1e-6  # of the bounds
 
 
 def model_cards(
-    parameters: Mapping[str, Mapping[str, Json]],
+    parameters: ParameterTable,
     material: Material,
     *,
     figures: Mapping[str, Figure] | None = None,
@@ -30,7 +33,7 @@ def model_cards(
     """Every effect with its equation and parameters.
 
     Args:
-        parameters: as comparisons and diagnoses answer them.
+        parameters: every parameter as used or fitted.
         figures: where given values come from; the others were fitted.
         added: effects that the diagnosis added.
         terms: effects as a request takes them; a typed term stands in there.
@@ -48,11 +51,11 @@ def model_cards(
 
 def _card(
     name: str,
-    own: Mapping[str, Json],
+    own: Mapping[str, ParameterValue],
     material: Material,
     figures: Mapping[str, Figure],
     new: bool,
-    given: Json,
+    given: Mapping[str, Any],
 ) -> Html:
     effect = material.catalogue.get(name)
     declared = {p.name: p for p in effect.parameters} if effect else {}
@@ -60,7 +63,7 @@ def _card(
         [
             _symbol(declared.get(key), key),
             html(_words(declared.get(key), key)),
-            with_error(_settled(declared.get(key), item), item["stderr"], _scale(declared.get(key), item)),
+            with_error(_settled(declared.get(key), item), item.stderr, _scale(declared.get(key), item)),
             _bounds(declared.get(key), item),
             _origin(item, figures.get(f"{name}.{key}")),
         ]
@@ -81,7 +84,7 @@ def _card(
     )
 
 
-def _equation(effect: Effect, given: Json) -> Html:
+def _equation(effect: Effect, given: Mapping[str, Any]) -> Html:
     term = given.get("term")
     if isinstance(term, str):  # as it was typed: it is no LaTeX
         return html("F = ", tag("code", term))
@@ -96,25 +99,25 @@ def _words(parameter: Parameter | None, key: str) -> str:
     return parameter.description if parameter else key.replace("_", " ")
 
 
-def _scale(parameter: Parameter | None, item: Json) -> Scale:
+def _scale(parameter: Parameter | None, item: ParameterValue) -> Scale:
     """A unit for the value and its bounds; a value of nearly nothing goes by its bounds."""
-    size = abs(item["value"])
+    size = abs(item.value)
     if parameter is not None and size < _NOTHING * abs(parameter.upper):
         size = abs(parameter.upper)
-    return scale_of(item["unit"], size)
+    return scale_of(item.unit, size)
 
 
-def _settled(parameter: Parameter | None, item: Json) -> float:
+def _settled(parameter: Parameter | None, item: ParameterValue) -> float:
     """The value; exactly the bound where a fit stopped a hair beside it."""
-    value = item["value"]
-    if parameter is not None and item["at_bound"]:
+    value = item.value
+    if parameter is not None and item.at_bound:
         nearest = min((parameter.lower, parameter.upper), key=lambda bound: abs(bound - value))
         if abs(nearest - value) < _NOTHING * (parameter.upper - parameter.lower):
             return nearest
     return value
 
 
-def _bounds(parameter: Parameter | None, item: Json) -> Html:
+def _bounds(parameter: Parameter | None, item: ParameterValue) -> Html:
     if parameter is None:
         return html("–")
     scale = _scale(parameter, item)
@@ -122,28 +125,28 @@ def _bounds(parameter: Parameter | None, item: Json) -> Html:
     return html(low, " to ", figure(parameter.upper, scale, 3, exact=True))
 
 
-def _origin(item: Json, found: Figure | None) -> Html:
-    if not item["fitted"]:
+def _origin(item: ParameterValue, found: Figure | None) -> Html:
+    if not item.fitted:
         return html("given") if found is None or found.grade == "user" else source_text(found)
     said: list[Child] = ["fitted to these data"]
-    if item["at_bound"]:
+    if item.at_bound:
         said += ["; ", mark("stopped at its bound")]
-    if item["stderr"] is None:
+    if item.stderr is None:
         said += ["; ", mark("not determined by these data")]
-    elif item["stderr"] > _VAGUE * abs(item["value"]):
+    elif item.stderr > _VAGUE * abs(item.value):
         said += ["; ", mark("hardly determined: the error is of its size")]
     return html(said)
 
 
-def correlations(answer: Json, material: Material) -> Html:
+def correlations(answer: ComparisonResult | DiagnosisResult, material: Material) -> Html:
     """Fitted numbers that can stand in for each other."""
-    found = [item for item in answer["correlations"] if abs(item["value"]) > 0.9]
+    found = [item for item in answer.correlations if abs(item.value) > 0.9]
     if not found:
         return html()
     lines = [
-        f"{named(item['a'], material)} and {named(item['b'], material)}: "
-        f"correlation {item['value']:.3f}; only a combination of the two is determined"
-        for item in sorted(found, key=lambda item: -abs(item["value"]))
+        f"{named(item.a, material)} and {named(item.b, material)}: "
+        f"correlation {item.value:.3f}; only a combination of the two is determined"
+        for item in sorted(found, key=lambda item: -abs(item.value))
     ]
     return html(heading("Fitted numbers that cannot be told apart"), bullets(lines))
 

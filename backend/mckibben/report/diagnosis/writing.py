@@ -32,11 +32,9 @@ def _sections(material: Material) -> Iterator[Section]:
     yield Section("Verdict" if found else "Result", verdict_section(material))
     yield Section("Data", data_section(material))
     yield Section("Muscle", muscle_section(material))
-    cards = model_cards(
-        answer["parameters"], material, figures=material.figures, terms=answer["model"]["effects"]
-    )
+    cards = model_cards(answer.parameters, material, figures=material.figures, terms=answer.model.effects)
     yield Section("Model", html(cards, correlations(answer, material)))
-    fitted = any(item["fitted"] for own in answer["parameters"].values() for item in own.values())
+    fitted = any(item.fitted for own in answer.parameters.values() for item in own.values())
     name = "fitted model" if fitted else "model as given"
     columns = [(f"the {name}", answer), *([("the proposed model", proposed)] if proposed else [])]
     yield Section("Error", html(error_table(columns), pictures(answer, name)))
@@ -54,15 +52,13 @@ def _sections(material: Material) -> Iterator[Section]:
 def _proposed(material: Material) -> Html:
     found = material.diagnosis
     assert found is not None  # noqa: S101 - of a section that only a diagnosis has
-    cards = model_cards(
-        found["parameters"], material, added=found["verdict"]["effects"], terms=found["model"]["effects"]
-    )
+    cards = model_cards(found.parameters, material, added=found.verdict.effects, terms=found.model.effects)
     parts: list[Child] = [cards, correlations(found, material)]
     if material.proposed is not None:
         parts += [
             heading("Beside the data"),
             pictures(material.proposed, "proposed model"),
-            bullets(f"{sentence}." for sentence in material.proposed["sentences"]),
+            bullets(f"{sentence}." for sentence in material.proposed.sentences),
         ]
     return html(parts)
 
@@ -73,7 +69,7 @@ def _history(material: Material) -> Html:
         [
             past.label,
             ", ".join(material.title_of(name) for name in past.effects) or "ideal model",
-            figure(past.comparison["rmse"], scale),
+            figure(past.comparison.rmse, scale),
         ]
         for past in material.history
     ]

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from fastapi import APIRouter
 
-from mckibben.application.asked import asked
-from mckibben.application.comparisons import comparison_answer
+from mckibben.application.compare import compare
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
+from mckibben.server.questions.models import model_question
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.comparisons import ComparisonAnswer, ComparisonRequest
 
@@ -18,4 +18,4 @@ router = APIRouter(prefix="/api/comparisons", tags=["comparisons"], route_class=
 @router.post("", response_model=ComparisonAnswer, responses=errors(400, 404, 413, 415, 422))
 def compare_with_measurement(body: ComparisonRequest, studio: StudioDep, store: StoreDep) -> JsonAnswer:
     """The model's error on measurements, with or without a fit: numbers, where it fails, the points."""
-    return JsonAnswer(comparison_answer(asked(body, studio, store), fit=body.fit))
+    return JsonAnswer(compare(model_question(body, studio, store), fit=body.fit))

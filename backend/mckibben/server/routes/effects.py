@@ -7,10 +7,10 @@ import threading
 
 from fastapi import APIRouter, Request, Response
 
-from mckibben.application.effects import effects_answer
 from mckibben.application.json_text import to_json
 from mckibben.physics.catalogue import EffectCatalogue
 from mckibben.server.answer import JsonAnswer, StrictRoute
+from mckibben.server.effects_json import effects_answer
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.effects import EffectsAnswer
 

@@ -8,7 +8,7 @@ from fastapi import APIRouter, Path, Query, Request
 from fastapi.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 
-from mckibben.application.measurements import measurement_answer, preview_answer
+from mckibben.application.measurements import details_of, preview_of, summary_of
 from mckibben.measurement.read import Correction, preview, read_correction
 from mckibben.measurement.read.correction import MAX_LENGTH
 from mckibben.measurement.store import MAX_NAME, clean_name
@@ -72,9 +72,7 @@ async def upload_measurement(
     With a mapping the measurement has an id of its own: both readings of a file can be compared.
     """
     content, correction = await _file(request, mapping)
-    return await run_in_threadpool(
-        lambda: JsonAnswer(measurement_answer(store.put(content, name, correction)))
-    )
+    return await run_in_threadpool(lambda: JsonAnswer(summary_of(store.put(content, name, correction))))
 
 
 @router.post(
@@ -87,7 +85,7 @@ async def preview_measurement(request: Request, name: _Name, mapping: _Mapping =
     """How a file would be understood: columns, units, rows, kind, conditions. Nothing is kept."""
     content, correction = await _file(request, mapping)
     return await run_in_threadpool(
-        lambda: JsonAnswer(preview_answer(preview(content, clean_name(name), correction)))
+        lambda: JsonAnswer(preview_of(preview(content, clean_name(name), correction)))
     )
 
 
@@ -107,4 +105,4 @@ def read_measurement(
     store: StoreDep,
 ) -> JsonAnswer:
     """A measurement with its columns in SI."""
-    return JsonAnswer(measurement_answer(store.get(measurement_id), columns=True))
+    return JsonAnswer(details_of(store.get(measurement_id)))

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Path
 
-from mckibben.application.mysteries import mysteries_answer, reveal_answer
+from mckibben.application.mysteries import mysteries, reveal
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StudioDep
 from mckibben.server.schemas.common import errors
@@ -19,7 +19,7 @@ router = APIRouter(prefix="/api/mysteries", tags=["mysteries"], route_class=Stri
 @router.get("", response_model=list[Mystery], responses=errors())
 def list_mysteries(studio: StudioDep) -> JsonAnswer:
     """Every mystery with its story and the start model; comparisons take its measurement by the id."""
-    return JsonAnswer(mysteries_answer(studio.library))
+    return JsonAnswer(mysteries(studio.library))
 
 
 @router.post("/{mystery_id}/reveal", response_model=RevealAnswer, responses=errors(400, 404, 413, 415, 422))
@@ -29,4 +29,4 @@ def reveal_mystery(
     studio: StudioDep,
 ) -> JsonAnswer:
     """What is hidden in a mystery, held against one's own diagnosis."""
-    return JsonAnswer(reveal_answer(studio.library, mystery_id, body.effects))
+    return JsonAnswer(reveal(studio.library, mystery_id, body.effects))

@@ -51,7 +51,10 @@ class Candidate(Strict):
     rmse: float
     holdout_rmse: float
     gain_percent: float
-    delta_bic: float = Field(description="Change of the Bayes-type score; negative is better.")
+    score_change: float = Field(description="Change of the score of the search; negative is better.")
+    delta_bic: float = Field(
+        description="Older name of score_change, for this version only.", deprecated=True
+    )
     parameters: dict[str, FittedParameter]
     twins: list[str] = Field(description="Candidates that these data cannot tell from it.")
     why: str
@@ -103,6 +106,7 @@ class Verdict(Strict):
     """The answer."""
 
     status: Literal["adequate", "missing_effects", "ambiguous", "unknown_effect"]
+    title: str = Field(description="The status in words.")
     effects: list[str]
     indistinguishable: list[list[str]]
     unexplained_share: float

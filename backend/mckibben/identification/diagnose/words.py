@@ -1,15 +1,28 @@
-"""The verdict of a diagnosis in words."""
+"""What a verdict means, in words: the one place for page, report and command line."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
 from mckibben.identification.diagnose.diagnosis import Diagnosis
+from mckibben.identification.diagnose.score import AT_FLOOR
 
-_AT_FLOOR = 1.15  # of the noise: the error has reached it
 _REFITTED = 0.98  # of the error before: the fit of the start model is worth telling
 _WORTH_TELLING = 0.15  # share of the residual that follows something
 _UNKNOWN_NOISE = "These data do not tell their noise: state it to know whether the error is more than that."
+
+
+_TITLES = {
+    "adequate": "The model is adequate",
+    "missing_effects": "Effects are missing",
+    "ambiguous": "Effects are missing, and the data cannot tell all of them apart",
+    "unknown_effect": "Something is missing that no catalogued effect explains",
+}
+
+
+def title_of(status: str) -> str:
+    """A status in words."""
+    return _TITLES[status]
 
 
 def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
@@ -35,7 +48,7 @@ def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
             return f"No catalogued effect lowers {error}. {_UNKNOWN_NOISE}"
         of_noise = f"is of the size of the noise ({level})" if level else "is noise"
         return f"Nothing is missing: {error} {of_noise}."
-    at_floor = noise is not None and after <= _AT_FLOOR * noise
+    at_floor = noise is not None and after <= AT_FLOOR * noise
     # Over the noise of each channel the error says it by itself.
     floor = (
         "" if not level else f", the noise of the data ({level})" if at_floor else f"; the noise is {level}"

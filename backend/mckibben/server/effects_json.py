@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from mckibben.application.start import Json
+from typing import Any
+
 from mckibben.physics.catalogue import EffectCatalogue
 from mckibben.physics.effect import Effect
 from mckibben.physics.parameter import Parameter, Source
 
 
-def effects_answer(catalogue: EffectCatalogue) -> Json:
+def effects_answer(catalogue: EffectCatalogue) -> dict[str, Any]:
     """Every effect with all it declares, and the effect files that could not be loaded."""
     return {
         "effects": [_effect(effect) for effect in catalogue.values()],
@@ -22,11 +23,11 @@ def _mathml(latex: str) -> str:
     return convert(latex)
 
 
-def _source(source: Source) -> Json:
+def _source(source: Source) -> dict[str, Any]:
     return {"text": source.text, "grade": source.grade}
 
 
-def _parameter(parameter: Parameter) -> Json:
+def _parameter(parameter: Parameter) -> dict[str, Any]:
     return {
         "name": parameter.name,
         "symbol": parameter.symbol,
@@ -42,7 +43,7 @@ def _parameter(parameter: Parameter) -> Json:
     }
 
 
-def _effect(effect: Effect) -> Json:
+def _effect(effect: Effect) -> dict[str, Any]:
     signature = effect.signature
     return {
         "id": effect.id,

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from mckibben.application.wording import sentence_of
+from mckibben.identification.diagnose.words import sentence_of
 from mckibben.identification.residual.structure import ResidualStructure
 
 TITLES = {"creep": "Creep", "leak": "Leak"}

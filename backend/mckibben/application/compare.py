@@ -1,0 +1,216 @@
+"""A model beside measurements: the error in numbers, where it fails, and the points for the plots."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.application.compared_series import (
+    MAX_POINTS_PER_SERIES,
+    MAX_SERIES,
+    ComparedSeries,
+    series_of,
+)
+from mckibben.application.model_question import EffectDocument, ModelQuestion
+from mckibben.application.muscle_summary import GeometrySummary, Notice, geometry_of, start_notices
+from mckibben.identification.fit.comparison import (
+    ChannelMisfit,
+    Comparison,
+    Correlation,
+    ParameterTable,
+    compared,
+    correlations_of,
+)
+from mckibben.identification.predict import predictor_of
+from mckibben.identification.residual.profiles import (
+    Profile,
+    ResidualLoop,
+    ResidualMap,
+    Whiteness,
+    heat_map,
+    loops,
+    profiles,
+    variables_of,
+    whiteness,
+)
+from mckibben.measurement.points import Points
+
+# A sample this much longer or shorter than the muscle is another muscle.
+_OTHER_LENGTH = 0.05
+_TELLING = 0.05  # share of the error from which a variable is worth a sentence
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class ModelDocument:
+    """A model as a caller gives it."""
+
+    effects: EffectDocument
+
+
+@dataclass(frozen=True, slots=True)
+class ValidationResult:
+    """The model on measurements it was not fitted to."""
+
+    rmse: float
+    nrmse_percent: float
+    rows_used: int
+    series: list[ComparedSeries]
+
+
+@dataclass(frozen=True, slots=True)
+class ComparisonResult:
+    """The model's error, where it fails, and the points; SI.
+
+    Attributes:
+        kind: of the measurement.
+        rows, rows_used, excluded: of the data, those compared, why not the others -> how many.
+        predicted, unit: names of the predicted channels; unit of the error, "1": over each channel's noise.
+        rmse, nrmse_percent, full_scale: root mean square of the residual; over the largest measured one.
+        holdout_rmse: with whole groups left out of the fit; None with one group.
+        noise_floor, noise_how: noise of the data, None when it cannot be told; from what.
+        residual_mean: mean of the residual over its scale.
+        channels: each channel where there are several.
+        parameters, correlations: of the model; of its fit.
+        geometry: of the muscle, fitted where it was freed.
+        where, heat_map, whiteness, loops, sentences: where the model fails, in figures and words.
+        series: the points, at most 400 a curve; validation: on other data.
+        model: effects and values as a caller gives them.
+        messages, flags: what has to be said of the data; of the muscle.
+    """
+
+    kind: str
+    rows: int
+    rows_used: int
+    excluded: dict[str, int]
+    predicted: str
+    unit: str
+    rmse: float
+    nrmse_percent: float
+    full_scale: float
+    holdout_rmse: float | None
+    noise_floor: float | None
+    noise_how: str
+    residual_mean: float
+    channels: dict[str, ChannelMisfit]
+    parameters: ParameterTable
+    correlations: list[Correlation]
+    geometry: GeometrySummary
+    where: list[Profile]
+    heat_map: ResidualMap | None
+    whiteness: Whiteness
+    loops: list[ResidualLoop]
+    sentences: list[str]
+    series: list[ComparedSeries]
+    validation: ValidationResult | None
+    model: ModelDocument
+    messages: list[str]
+    flags: list[Notice]
+
+
+def compare(question: ModelQuestion, *, fit: bool = False) -> ComparisonResult:
+    """Compare a model with measurements.
+
+    Args:
+        question: the model and the measurements.
+        fit: fit the parameters that the effects declare as fitted, and what the question frees.
+
+    Raises:
+        InputError: the measurement does not allow the comparison, or a geometry field cannot be freed.
+    """
+    start, points = question.start, question.points
+    found = compared(
+        question.predictor,
+        question.fit_model(),
+        rows=points.measurement.rows,
+        fit=fit,
+        geometry=question.free_geometry(),
+        freed=question.freed,
+        noise=question.noise,
+    )
+    predictor, left_out = found.predictor, sum(points.left_out.values())
+    series, thinned = series_of(found, "fit")
+    messages = [*found.messages, *_length_messages(question)]
+    validation = None
+    if question.validation is not None:
+        validation, thin = _validation(question, question.validation, found)
+        thinned = thinned or thin
+    if thinned:
+        messages.append(f"curves show at most {MAX_POINTS_PER_SERIES} points each; the figures use all rows")
+    residual = found.residual / predictor.scale
+    variables = variables_of(predictor, found.fit_model.muscle.nominal_length)
+    where = profiles(residual, variables, predictor.folds[0])
+    white = whiteness(residual, predictor.sweeps)
+    return ComparisonResult(
+        kind=predictor.kind,
+        rows=found.rows + left_out,
+        rows_used=predictor.rows_used,
+        excluded=points.left_out | dict(found.excluded),
+        predicted=predictor.predicted,
+        unit=predictor.unit,
+        rmse=found.rmse,
+        nrmse_percent=found.nrmse_percent,
+        full_scale=found.full_scale,
+        holdout_rmse=found.holdout_rmse,
+        noise_floor=found.noise,
+        noise_how=found.noise_how,
+        residual_mean=found.residual_mean,
+        channels=found.channels,
+        parameters=found.parameters,
+        correlations=correlations_of(found.fit),
+        geometry=geometry_of(start, found.fit_model.muscle),
+        where=where,
+        heat_map=heat_map(residual, variables),
+        whiteness=white,
+        loops=_loops(found, residual),
+        sentences=_sentences(where, white, predictor.unit),
+        series=series,
+        validation=validation,
+        model=ModelDocument(question.effect_document(found.fit_model)),
+        messages=messages,
+        flags=start_notices(start),
+    )
+
+
+def _loops(found: Comparison, residual: Array) -> list[ResidualLoop]:
+    """Areas of the residual of a force that was measured in time."""
+    predictor = found.predictor
+    if predictor.predicted != "force" or not {"length", "time"} <= predictor.inputs.keys():
+        return []
+    return loops(residual, predictor.inputs["length"], predictor.groups)[:MAX_SERIES]
+
+
+def _sentences(where: list[Profile], white: Whiteness, unit: str) -> list[str]:
+    """Where the model fails, in words; and whether the rest is noise."""
+    shown = "" if unit == "1" else f" {unit}"
+    words = [
+        f"{profile.worst}: {profile.rmse:.3g}{shown} rms; this variable alone predicts "
+        f"{100.0 * profile.share_explained:.0f} % of the error"
+        for profile in where[:3]
+        if profile.share_explained > _TELLING
+    ]
+    words.append(
+        "the residual looks like noise" if white.white else "the residual is not noise: it has structure"
+    )
+    return words
+
+
+def _validation(question: ModelQuestion, points: Points, fitted: Comparison) -> tuple[ValidationResult, bool]:
+    """The fitted model on what it has not seen, and whether its curves were thinned."""
+    predictor = predictor_of(points.measurement, fitted.fit_model.muscle, question.drive)
+    found = compared(predictor, fitted.fit_model, rows=points.measurement.rows, noise=question.noise)
+    series, thinned = series_of(found, "validation")
+    return ValidationResult(found.rmse, found.nrmse_percent, predictor.rows_used, series), thinned
+
+
+def _length_messages(question: ModelQuestion) -> list[str]:
+    sample, muscle = question.points.nominal_length, question.start.muscle.nominal_length
+    if sample is None or abs(muscle / sample - 1.0) <= _OTHER_LENGTH:
+        return []
+    return [
+        f"the measured sample is {sample * 1e3:.4g} mm long, the muscle {muscle * 1e3:.4g} mm: "
+        "the lengths do not belong together"
+    ]

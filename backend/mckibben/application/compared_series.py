@@ -1,0 +1,107 @@
+"""The points of a comparison as curves for a plot, thinned for the screen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.identification.fit.comparison import Comparison
+
+MAX_POINTS_PER_SERIES = 400
+MAX_SERIES = 200
+_HELD = 0.03  # of its level: a quantity that changes by less is held
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class ComparedSeries:
+    """One curve, e.g. all points of one pressure; SI, shape (points,).
+
+    Attributes:
+        label: in words, e.g. "3 bar".
+        channel, unit: what was predicted, and its SI unit.
+        use: "fit" or "validation".
+        pressure: of the series, where it is held.
+        x_pressure: of each point.
+        velocity: dL/dt; direction: its sign; NaN where not known.
+        residual: measured minus predicted.
+    """
+
+    label: str
+    channel: str
+    unit: str
+    use: str
+    pressure: float | None
+    time: Array | None
+    contraction: Array
+    length: Array
+    x_pressure: Array
+    velocity: Array
+    direction: Array
+    measured: Array
+    predicted: Array
+    residual: Array
+
+
+def series_of(found: Comparison, use: str) -> tuple[list[ComparedSeries], bool]:
+    """One curve per channel and group of rows, thinned for the screen; and whether any was."""
+    predictor, rest = found.predictor, found.fit_model.muscle.nominal_length
+    inputs = predictor.inputs
+    count = len(predictor.measured)
+    unknown = np.full(count, np.nan)
+    length = inputs.get("length", unknown)
+    if predictor.predicted == "length":
+        length = predictor.measured
+    elif "displacement" in inputs:
+        length = rest - inputs["displacement"]
+    pressure = inputs.get("pressure", unknown)
+    place = np.arange(count)
+    series: list[ComparedSeries] = []
+    thinned = False
+    for channel in predictor.channels:
+        inside = place[channel.rows]
+        labels = np.unique(predictor.groups[inside])
+        if len(labels) > MAX_SERIES:
+            labels, thinned = labels[:MAX_SERIES], True
+        for number, label in enumerate(labels, 1):
+            rows = inside[predictor.groups[inside] == label]
+            held = _held(pressure[rows])
+            name = _label(number, held, _held(length[rows]), timed=predictor.kind == "transient")
+            if len(rows) > MAX_POINTS_PER_SERIES:
+                rows, thinned = rows[np.linspace(0, len(rows) - 1, MAX_POINTS_PER_SERIES).astype(int)], True
+            series.append(
+                ComparedSeries(
+                    label=name,
+                    channel=channel.name,
+                    unit=channel.unit,
+                    use=use,
+                    pressure=held,
+                    time=inputs["time"][rows] if "time" in inputs else None,
+                    contraction=1.0 - length[rows] / rest,
+                    length=length[rows],
+                    x_pressure=pressure[rows],
+                    velocity=inputs.get("velocity", unknown)[rows],
+                    direction=inputs.get("direction", unknown)[rows],
+                    measured=predictor.measured[rows],
+                    predicted=found.predicted[rows],
+                    residual=found.residual[rows],
+                )
+            )
+    return series, thinned
+
+
+def _held(values: Array) -> float | None:
+    """The level of a quantity that stays the same, else None."""
+    level = float(np.mean(values))
+    return level if np.ptp(values) <= _HELD * abs(level) else None
+
+
+def _label(number: int, pressure: float | None, length: float | None, *, timed: bool) -> str:
+    if timed:
+        return f"run {number}"
+    if pressure is not None:
+        return f"{pressure / 1e5:.3g} bar"
+    return f"sweep {number}" if length is None else f"{length * 1e3:.4g} mm"

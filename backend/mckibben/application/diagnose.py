@@ -1,0 +1,293 @@
+"""Which physical effect a model is missing: candidates, path, verdict, and models that can be sent back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.application.compare import ModelDocument
+from mckibben.application.diagnosis_result import (
+    Baseline,
+    CandidateResult,
+    DiagnosedModel,
+    DiagnosisResult,
+    ExperimentProposal,
+    NoiseFloor,
+    PathPoint,
+    TermCurve,
+    TermProposal,
+    Verdict,
+)
+from mckibben.application.model_question import ModelQuestion
+from mckibben.application.muscle_summary import geometry_of
+from mckibben.documents.studio import Studio
+from mckibben.identification.diagnose.diagnosis import (
+    FEWEST_VALUES,
+    Diagnosis,
+    SingleAddition,
+)
+from mckibben.identification.diagnose.diagnosis import diagnose as search_effects
+from mckibben.identification.diagnose.next_measurement import declared
+from mckibben.identification.diagnose.words import sentence_of, title_of
+from mckibben.identification.fit.comparison import (
+    ParameterValue,
+    channel_misfits,
+    check_finite,
+    correlations_of,
+    parameter_table,
+)
+from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.fit.fitter import CancelledError
+from mckibben.identification.predict import Predictor, predictor_of
+from mckibben.identification.residual.profiles import variables_of
+from mckibben.identification.residual.structure import SYMBOLS
+from mckibben.measurement.reduction import reduced
+from mckibben.physics.custom import CUSTOM, TERM
+from mckibben.physics.effect import Effect
+from mckibben.physics.errors import InputError
+from mckibben.simulation.outcome import Watch
+
+_MOST_ROWS = 3000
+_CURVE = 200
+
+#: A diagnosis that takes longer is stopped [s].
+TIME_LIMIT = 300.0
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class _Data:
+    """What is diagnosed: the predictor of all rows or of fewer with the same information."""
+
+    predictor: Predictor
+    rows: int
+    excluded: dict[str, int]
+    notes: list[str] = field(default_factory=list)
+
+
+def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], DiagnosisResult]:
+    """The diagnosis of a question, ready to start; the watch is told each candidate as it is tried.
+
+    Raises:
+        InputError: the measurement does not allow it.
+    """
+    start = question.fit_model()
+    data = _data(question)
+    check_finite(data.predictor, start)
+    if len(data.predictor.measured) < FEWEST_VALUES:
+        name = question.points.measurement.name
+        raise InputError(
+            f"{name}: {len(data.predictor.measured)} values are too few for a diagnosis",
+            field="measurement",
+            hint=f"measure at least {FEWEST_VALUES}, at several pressures or lengths; 'compare' takes fewer",
+        )
+    geometry = question.free_geometry()
+    if question.noise is not None and len(data.predictor.channels) > 1:
+        raise InputError(
+            "one noise cannot be stated for several predicted channels", field="noise", hint="leave it out"
+        )
+    # A typed term is not a candidate, but stays in the model that has it.
+    catalogue = {**studio.catalogue, **question.start.catalogue}
+
+    def work(watch: Watch) -> DiagnosisResult:
+        def tell(candidate: SingleAddition) -> None:
+            if watch.found is not None:
+                watch.found(_candidate(question, candidate, catalogue))
+
+        try:
+            found = search_effects(
+                data.predictor,
+                start,
+                catalogue=catalogue,
+                geometry=geometry,
+                freed=question.freed,
+                noise=question.noise,
+                watch=watch,
+                found=tell,
+            )
+        except CancelledError as stop:
+            raise InputError(
+                "the diagnosis was stopped before it was done", hint="fewer rows or effects", code="stopped"
+            ) from stop
+        return _result(question, data, found, catalogue)
+
+    return work
+
+
+def _data(question: ModelQuestion) -> _Data:
+    """The data of a question; long measurements are reduced."""
+    measurement, notes = question.points.measurement, []
+    excluded = dict(question.points.left_out)
+    if measurement.kind != "transient" and measurement.rows > _MOST_ROWS:
+        less = reduced(measurement, _MOST_ROWS)
+        predictor = predictor_of(less.measurement, question.start.muscle, question.drive)
+        excluded |= measurement.exclusions
+        notes.append(less.message)
+    else:
+        predictor = question.predictor
+    rows = measurement.rows + sum(question.points.left_out.values())
+    excluded |= predictor.excluded
+    if averaged := rows - predictor.rows_used - sum(excluded.values()):
+        excluded["averaged into the others"] = averaged
+    return _Data(predictor, rows, excluded, notes)
+
+
+def _result(
+    question: ModelQuestion, data: _Data, found: Diagnosis, catalogue: Mapping[str, Effect]
+) -> DiagnosisResult:
+    predictor, best, start = found.predictor, found.best, question.start
+    full_scale = float(np.max(np.abs(predictor.measured / predictor.scale)))
+    muscle = best.fit_model.muscle
+    return DiagnosisResult(
+        rows=data.rows,
+        rows_used=predictor.rows_used,
+        excluded=data.excluded,
+        kind=predictor.kind,
+        predicted=predictor.predicted,
+        unit=predictor.unit,
+        baseline=Baseline(
+            rmse=found.start.rmse,
+            nrmse_percent=100.0 * found.start.rmse / full_scale if full_scale else None,
+            holdout_rmse=found.start.holdout_rmse,
+        ),
+        noise_floor=NoiseFloor(found.noise, found.noise_how),
+        channels=channel_misfits(predictor, best.residual * predictor.scale),
+        where=list(found.where),
+        candidates=[_candidate(question, candidate, catalogue) for candidate in found.candidates],
+        path=[
+            PathPoint(
+                added=step.added,
+                rmse=step.fitted_model.rmse,
+                holdout_rmse=step.fitted_model.holdout_rmse,
+                model=_model(question, step.fitted_model),
+                freed=sorted(step.fitted_model.freed),
+            )
+            for step in found.path
+        ],
+        verdict=_verdict(question, found, catalogue),
+        parameters=parameter_table(best.fit_model, found.fit),
+        correlations=correlations_of(found.fit),
+        geometry=geometry_of(start, muscle),
+        model=DiagnosedModel(
+            muscle={name: float(value) for name, value in muscle._asdict().items() if value},
+            effects=question.effect_document(best.fit_model),
+        ),
+        freed=sorted(best.freed),
+        not_tried=list(found.not_tried),
+        messages=[*question.points.measurement.messages, *data.notes, *found.messages],
+    )
+
+
+def _model(question: ModelQuestion, fitted: FittedModel) -> ModelDocument:
+    return ModelDocument(question.effect_document(fitted.fit_model))
+
+
+def _verdict(question: ModelQuestion, found: Diagnosis, catalogue: Mapping[str, Effect]) -> Verdict:
+    titles = {name: effect.title for name, effect in catalogue.items()}
+    nexts = [proposal.sentence(titles) for proposal in found.proposals]
+    return Verdict(
+        status=found.status,
+        title=title_of(found.status),
+        effects=list(found.added),
+        indistinguishable=groups_of(found),
+        unexplained_share=found.structure.share,
+        unexplained_in=[name for name, _ in found.structure.variables],
+        proposed_term=_term(question, found),
+        next_measurement="; ".join(nexts[:3]) or None,
+        experiments=[
+            ExperimentProposal([p.first, p.second], p.declared, p.protocol, p.separation)
+            for p in found.proposals
+        ],
+        sentence=sentence_of(found, titles),
+    )
+
+
+def groups_of(found: Diagnosis) -> list[list[str]]:
+    """Effects that these data cannot tell apart: each added effect with what could stand in for it."""
+    groups = []
+    for added in found.added:
+        others = [other.effect for other in found.alternatives if other.of == added]
+        if others:
+            groups.append([added, *others])
+    return groups
+
+
+def _candidate(
+    question: ModelQuestion, candidate: SingleAddition, catalogue: Mapping[str, Effect]
+) -> CandidateResult:
+    fitted, effect = candidate.fitted_model, candidate.effect
+    twin = catalogue.get(candidate.twins[0]) if candidate.twins else None
+    return CandidateResult(
+        effect=effect.id,
+        title=effect.title,
+        rmse=fitted.rmse,
+        holdout_rmse=fitted.holdout_rmse,
+        gain_percent=100.0 * candidate.gain,
+        score_change=candidate.score,
+        parameters=_parameters(fitted, effect),
+        twins=list(candidate.twins),
+        why=candidate.why,
+        equation=effect.equation,
+        freed=sorted(fitted.freed),
+        next_measurement=None if twin is None else declared(effect, twin) or None,
+        model=_model(question, fitted),
+    )
+
+
+def _parameters(fitted: FittedModel, effect: Effect) -> dict[str, ParameterValue]:
+    errors = fitted.standard_errors
+    places = {p.name: number for number, p in enumerate(fitted.free)}
+    values = {}
+    for p in effect.parameters:
+        place = places.get(f"{effect.id}.{p.name}")
+        values[p.name] = ParameterValue(
+            value=fitted.fit_model.values[effect.id][p.name],
+            stderr=None if place is None else errors[place],
+            unit=p.unit,
+            at_bound=place is not None and bool(fitted.at_bound[place]),
+            fitted=place is not None,
+        )
+    return values
+
+
+def _term(question: ModelQuestion, found: Diagnosis) -> TermProposal | None:
+    """The proposed term with a model that has it and a curve over what it mostly depends on."""
+    term = found.term
+    if term is None:
+        return None
+    effects = question.effect_document(found.best.fit_model)
+    formula, coefficients = term.formula, dict(term.coefficients)
+    if CUSTOM in effects:  # one typed term at a time: the new one goes on where it ends
+        formula, coefficients = _joined(effects[CUSTOM], formula, coefficients)
+    variables = variables_of(found.predictor, found.best.fit_model.muscle.nominal_length)
+    name = next(
+        (n for n, _ in found.structure.variables if n in SYMBOLS.values()),
+        next(n for n in SYMBOLS.values() if n in variables),
+    )
+    x = variables[name]
+    rows = np.argsort(x, kind="stable")
+    rows = rows[np.unique(np.linspace(0, len(rows) - 1, _CURVE).astype(int))]
+    return TermProposal(
+        formula=formula,
+        coefficients=coefficients,
+        share=term.share,
+        model=ModelDocument({**effects, CUSTOM: {TERM: formula, **coefficients}}),
+        curve=TermCurve(name, x[rows], term.values[rows], found.best.residual[rows]),
+    )
+
+
+def _joined(
+    old: Mapping[str, Any], formula: str, coefficients: Mapping[str, float]
+) -> tuple[str, dict[str, float]]:
+    """A typed term and a proposed one as one term; the coefficients of the new one are renamed."""
+    renamed = {name: f"d{name[1:]}" for name in coefficients}
+    for name, other in renamed.items():
+        formula = formula.replace(f"{name}*", f"{other}*")
+    values = {renamed[name]: value for name, value in coefficients.items()}
+    values |= {name: float(value) for name, value in old.items() if name != TERM}
+    return f"{old[TERM]} + {formula}", values

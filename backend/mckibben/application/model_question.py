@@ -1,0 +1,150 @@
+"""A model beside measurements: what comparisons, diagnoses and their reports are asked about."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from mckibben.documents.start_model import GivenMuscle, StartModel
+from mckibben.documents.studio import Studio
+from mckibben.identification.predict import Predictor, predictor_of
+from mckibben.identification.predict.fit_model import FitModel, free_geometry
+from mckibben.identification.predict.free import Free
+from mckibben.measurement.points import Points
+from mckibben.physics.custom import CUSTOM, TERM
+from mckibben.physics.errors import InputError, did_you_mean
+from mckibben.simulation.drive.parts import Drive
+
+#: Effects as a caller gives them: effect id -> parameter -> value; a typed term with its text.
+EffectDocument = dict[str, dict[str, float | str]]
+
+
+@dataclass(frozen=True)
+class ModelQuestion:
+    """A start model and the measurements that it is held against.
+
+    Attributes:
+        start: muscle and effects.
+        points: what models are fitted to.
+        drive: of transient measurements.
+        validation: what they are only judged by.
+        free: geometry fields that fits may change too, within their tolerance.
+        freed: further constants that fits may change, as "effect.parameter".
+        noise: standard deviation of the predicted channel, when it is known [SI].
+
+    Raises:
+        InputError: a geometry field is to be fitted that nobody stated.
+    """
+
+    start: StartModel
+    points: Points
+    drive: Drive | None = None
+    validation: Points | None = None
+    free: Sequence[str] = ()
+    freed: Sequence[str] = ()
+    noise: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in self.free:
+            if name in self.start.assumed:
+                raise InputError(
+                    f"the muscle's {name.replace('_', ' ')} is not known, so no fit can start from it",
+                    field=f"muscle.{name}",
+                    hint=f"state {name}, or leave it out of 'free'",
+                )
+
+    @cached_property
+    def predictor(self) -> Predictor:
+        """The data to fit to, read once for comparison, diagnosis and report.
+
+        Raises:
+            InputError: the measurement does not allow it.
+        """
+        return predictor_of(self.points.measurement, self.start.muscle, self.drive)
+
+    @property
+    def tolerance(self) -> Mapping[str, float]:
+        """Geometry field -> how far a fit may free it, by the preset."""
+        return {} if self.start.preset is None else self.start.preset.tolerance
+
+    def fit_model(self) -> FitModel:
+        """The start model as fits take it."""
+        start = self.start
+        effects = tuple(start.catalogue[name] for name in start.effects)
+        return FitModel(start.muscle.checked(), effects, start.effects, assumed=frozenset(start.assumed))
+
+    def free_geometry(self) -> tuple[Free, ...]:
+        """The freed geometry with its bounds.
+
+        Raises:
+            InputError: not a field of the geometry, or the muscle does not have it.
+        """
+        return free_geometry(self.start.muscle, self.free, self.tolerance)
+
+    def effect_document(self, fit_model: FitModel) -> EffectDocument:
+        """The effects of a model as a caller gives them, a typed term with its text."""
+        found: EffectDocument = {name: dict(own) for name, own in fit_model.values.items()}
+        if CUSTOM in found and self.start.term is not None:
+            found[CUSTOM] = {TERM: self.start.term, **found[CUSTOM]}
+        return found
+
+    def with_data_of(self, other: ModelQuestion) -> ModelQuestion:
+        """This question, with the data of another one about the same sample where they are the same.
+
+        Rows depend on the length and braid of the muscle; which effects a model has does not matter.
+        """
+        mine, theirs = self.start.muscle, other.start.muscle
+        if (
+            self.points is other.points
+            and mine[:3] == theirs[:3]
+            and (self.drive is None) == (other.drive is None)
+        ):
+            self.__dict__["predictor"] = other.predictor
+        return self
+
+
+def question_of(
+    start: StartModel,
+    studio: Studio,
+    points: Points,
+    *,
+    drive: Drive | None = None,
+    validation: Points | None = None,
+    free: Sequence[str] = (),
+    freed: Sequence[str] = (),
+    noise: float | None = None,
+) -> ModelQuestion:
+    """A checked question.
+
+    Raises:
+        InputError: a value out of bounds, a geometry that cannot pull, or a constant that does not exist.
+    """
+    studio.static_model(start)
+    known = {f"{effect.id}.{p.name}" for effect in start.catalogue.values() for p in effect.parameters}
+    for place, name in enumerate(freed):
+        if name not in known:
+            own = {each for each in known if each.startswith(name.partition(".")[0])} or known
+            raise InputError(
+                f"there is no constant '{name}'", field=f"freed.{place}", hint=did_you_mean(name, own)
+            )
+    return ModelQuestion(start, points, drive, validation, free, freed, noise)
+
+
+def with_model(
+    question: ModelQuestion,
+    studio: Studio,
+    muscle: GivenMuscle,
+    effects: Mapping[str, Mapping[str, float | str]],
+    *,
+    freed: Sequence[str] = (),
+) -> ModelQuestion:
+    """The same question about another model of the same sample, with no geometry freed.
+
+    Raises:
+        InputError: a geometry, effect or value that cannot be used.
+    """
+    start = replace(studio.start_model(muscle, effects), preset=question.start.preset)
+    drive = None if question.drive is None else replace(question.drive, model=studio.static_model(start))
+    other = replace(question, start=start, drive=drive, free=(), freed=freed)
+    return other.with_data_of(question)
