@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from datetime import UTC, datetime
 from typing import Any
 from xml.etree import ElementTree
 
 import pytest
 
+from mckibben.application.size import RejectedParts, SizingResult
 from mckibben.report.sizing import Command, Entry, Margin, Material, Spread, sizing_report
 from mckibben.report.sizing.given import task_section
 from mckibben.report.sizing.others import rejected_section
@@ -16,10 +18,14 @@ from mckibben.report.sizing.safety import margins_section, uncertainty_section
 from mckibben.report.sizing.words import entry_value
 
 NASTY = "<script>alert(1)</script>\"'&</title>"
-REJECTED = {
-    "muscle": "A", "parallel": 1, "valve": None, "tube": None, "why": "one A is too weak", "binding": "force",
-    "would_work_if": "half the load", "combinations": 3,
-}  # fmt: skip
+REJECTED = RejectedParts(
+    muscle="A", parallel=1, valve=None, tube=None, why="one A is too weak", binding="force",
+    would_work_if="half the load", combinations=3,
+)  # fmt: skip
+NOTHING = SizingResult(
+    proposals=[], rejected=[REJECTED], explored=[], combinations=3, pruned=3, simulated=0, specimens=0,
+    outcome="completed", message=None, flags=[], wall_ms=1.0,
+)  # fmt: skip
 
 
 def material(**changes: Any) -> Material:
@@ -27,10 +33,7 @@ def material(**changes: Any) -> Material:
     given: dict[str, Any] = {
         "title": "A title", "made": datetime(2026, 1, 2, tzinfo=UTC), "versions": {"mckibben": "1"},
         "about": "Lift 1 kg", "entries": [], "pair": False, "profile": ((), ()), "considered": {},
-        "answer": {
-            "proposals": [], "rejected": [REJECTED], "explored": [], "combinations": 3, "pruned": 3,
-            "simulated": 0, "specimens": 0, "message": None,
-        },
+        "result": NOTHING,
         "chosen": None, "catalogue": {}, "hashes": {"task.json": "ab" * 32},
         "command": Command(["mckibben size task.json"], {"task.json": "{}"}),
     }  # fmt: skip
@@ -108,7 +111,7 @@ def test_margins_are_drawn_to_scale_and_the_nearest_is_named() -> None:
 
 def test_a_probability_says_what_it_is_a_share_of() -> None:
     spread = Spread(0.1, 0.004, None, 0.0, 0.03, ["arrives"])
-    proposal = {"probability": 0.9, "probability_error": 0.03, "specimens": 100}
+    proposal = Picked(probability=0.9, probability_error=0.03, specimens=100)
     section = uncertainty_section(Picked(proposal=proposal, spread=spread))  # pyright: ignore[reportArgumentType]
     words = text_of(section).replace("\xa0", " ")
     assert "90 % of 100 simulated specimens do the task" in words
@@ -122,11 +125,10 @@ def test_a_probability_says_what_it_is_a_share_of() -> None:
 
 def test_rejections_of_the_same_muscles_are_told_once_and_counted() -> None:
     many = [
-        {**REJECTED, "valve": valve, "binding": "time", "why": f"{valve} is slow"}
-        for valve in ("V1", "V2", "V3")
+        replace(REJECTED, valve=valve, binding="time", why=f"{valve} is slow") for valve in ("V1", "V2", "V3")
     ]
-    answer = {**material().answer, "rejected": [*many, REJECTED]}
-    rows = cells(rejected_section(material(answer=answer)))
+    result = replace(NOTHING, rejected=[*many, REJECTED])
+    rows = cells(rejected_section(material(result=result)))
     assert [row[0] for row in rows] == [
         "V1 is slow. And 2 more with other valves and tubes.",
         "one A is too weak.",
@@ -136,10 +138,10 @@ def test_rejections_of_the_same_muscles_are_told_once_and_counted() -> None:
 
 def test_a_report_without_a_drive_is_well_formed_and_takes_texts_as_texts() -> None:
     entry = Entry("load.mass", NASTY, "", True, NASTY)
-    rejected = {**REJECTED, "why": NASTY, "would_work_if": NASTY}
-    answer = {**material().answer, "rejected": [rejected], "message": NASTY}
+    rejected = replace(REJECTED, why=NASTY, would_work_if=NASTY)
+    result = replace(NOTHING, rejected=[rejected], message=NASTY)
     command = Command([NASTY], {NASTY: NASTY}, [NASTY])
-    page = sizing_report(material(title=NASTY, about=NASTY, entries=[entry], answer=answer, command=command))
+    page = sizing_report(material(title=NASTY, about=NASTY, entries=[entry], result=result, command=command))
     root = ElementTree.fromstring(page.removeprefix("<!DOCTYPE html>\n"))
     assert "script" not in {element.tag for element in root.iter()}
     assert root.findtext("head/title") == f"{NASTY} – sizing report"

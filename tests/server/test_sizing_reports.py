@@ -13,10 +13,10 @@ import pytest
 from fastapi.testclient import TestClient
 
 from mckibben import cli
-from mckibben.application.sizing_reports import prepare_report
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.physics.errors import InputError
+from mckibben.report.sizing.gather import prepare_report
 from mckibben.report.sizing.words import limit_name
 from mckibben.resources import presets_folder
 from mckibben.simulation.outcome import Watch

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import pytest
 
-from mckibben.application.sizing_task import catalogue_of, task_of
+from mckibben.application.json_text import to_json
+from mckibben.application.size import size, sizing_question
+from mckibben.application.task_reading import catalogue_of, task_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.resources import presets_folder
@@ -33,3 +36,8 @@ def understood(document: dict[str, Any], studio: Studio) -> tuple[Task, PartsCat
     """Task and catalogue of a document."""
     given = SizingTask.model_validate(document)
     return task_of(given), catalogue_of(given, studio)
+
+
+def sized(document: dict[str, Any], studio: Studio) -> dict[str, Any]:
+    """The answer to a task, as JSON tells it."""
+    return json.loads(to_json(size(sizing_question(SizingTask.model_validate(document), studio))))

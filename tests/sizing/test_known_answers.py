@@ -22,10 +22,9 @@ from typing import Any
 
 import pytest
 
-from mckibben.application.sizings import sizing_answer
 from mckibben.documents.studio import Studio
-from mckibben.documents.task import SizingTask
 from mckibben.resources import presets_folder
+from tests.sizing.conftest import sized
 
 SIZES = ["DMSP-10", "DMSP-20", "DMSP-40"]
 # 45 kg are 441 N, with the reserve 485 N: at 15 % size 10 pulls 105 N (never more than 473 N), size 20 584 N.
@@ -255,7 +254,7 @@ def test_the_answer_and_the_limit_are_the_known_ones(studio: Studio, name: str) 
         **task.get("catalogue", {}),
     }
     task = {**task, "catalogue": catalogue, "uncertainty": {"specimens": 0}}
-    answer = sizing_answer(SizingTask.model_validate(task), studio)
+    answer = sized(task, studio)
     assert answer["outcome"] == "completed"
     assert {(item["muscle"], item["parallel"]) for item in answer["proposals"]} == works
     # Of several numbers in parallel the one that comes nearest.

@@ -7,19 +7,18 @@ from typing import Any
 
 import pytest
 
+from mckibben.application.drive_of_design import drive_document
 from mckibben.application.simulate import SimulationQuestion, simulate
-from mckibben.application.sizings import drive_document, sizing_answer
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
-from mckibben.documents.task import SizingTask
 from mckibben.physics.errors import InputError
 from mckibben.server.schemas.sizing_answer import SizingAnswer
 from mckibben.simulation.drive.transient import parameters_of
 from mckibben.simulation.integrate.engine import compiled_drive
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.sizing import size
-from tests.sizing.conftest import LIFT, understood
+from tests.sizing.conftest import LIFT, sized, understood
 
 PAIR: dict[str, Any] = {
     **LIFT,
@@ -48,7 +47,7 @@ TASKS: dict[str, dict[str, Any]] = {
 
 
 def answer_of(task: dict[str, Any], studio: Studio) -> dict[str, Any]:
-    return sizing_answer(SizingTask.model_validate(task), studio)
+    return sized(task, studio)
 
 
 @pytest.mark.parametrize("name", TASKS)

@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mckibben.application.sizings import Searched, searched
-from mckibben.application.start import Json
+from mckibben.application.size import Searched, SizingResult, prepare_search, sizing_question
 from mckibben.cli.options import located
 from mckibben.cli.output import figure, remark, write_json, write_table
 from mckibben.documents.studio import Studio
@@ -38,29 +37,30 @@ def run(studio: Studio, *, task: str, as_json: bool, report: Wanted | None = Non
     """
     try:
         document = read_task(_content(Path(task), studio))
-        search = searched(document, studio, Watch(progress=_show if sys.stderr.isatty() else None))
+        watch = Watch(progress=_show if sys.stderr.isatty() else None)
+        search = prepare_search(sizing_question(document, studio))(watch)
     except BadDocumentError as bad:
         finding = bad.findings[0]
         raise InputError(f"{task}: {located(finding.field, finding.message)}", hint=finding.hint) from bad
     except InputError as error:
         message = located(error.field, error.message).removesuffix(".")
         raise InputError(f"{task}: {message}", hint=error.hint) from error
-    answer = search.answer
+    result = search.result
     if report is not None:
         _write_report(search, studio, report)
     if as_json:
-        write_json(answer)
+        write_json(result)
     else:
-        _write_tables(task, answer)
-    for item in answer["flags"]:
-        remark(item["message"])
-    if answer["message"] is not None:
-        remark(answer["message"])
+        _write_tables(task, result)
+    for notice in result.flags:
+        remark(notice.message)
+    if result.message is not None:
+        remark(result.message)
 
 
 def _write_report(search: Searched, studio: Studio, wanted: Wanted) -> None:
-    from mckibben.application.sizing_reports import report_of
     from mckibben.cli.report import save
+    from mckibben.report.sizing.gather import report_of
 
     try:
         text = report_of(search, studio, proposal=wanted.proposal, title=wanted.title)
@@ -107,37 +107,35 @@ def read_task(document: object) -> SizingTask:
         ) from error
 
 
-def _write_tables(name: str, answer: Json) -> None:
+def _write_tables(name: str, result: SizingResult) -> None:
     rows: list[Sequence[str]] = [
         [
-            f"{item['parallel']} × {item['muscle']}" if item["parallel"] > 1 else item["muscle"],
-            figure(item["nominal_length"] * 1e3, unit=" mm"),
-            item["valve"],
-            item["tube"] or "–",
-            figure(item["pressure"] / 1e5, 3, " bar"),
-            figure(item["time"], 3, " s"),
-            figure(item["contraction"] * 100.0, 3, " %"),
-            figure(item["force_reserve"] * 100.0, 3, " %"),
-            figure(item["air_volume_anr"] * 1e3, 3, " l"),
-            figure(item["impact_energy"], 3, " J"),
-            "–" if item["probability"] is None else figure(item["probability"] * 100.0, 3, " %"),
-            item["binding"].replace("_", " "),
+            f"{item.parallel} × {item.muscle}" if item.parallel > 1 else item.muscle,
+            figure(item.nominal_length * 1e3, unit=" mm"),
+            item.valve,
+            item.tube or "–",
+            figure(item.pressure / 1e5, 3, " bar"),
+            figure(item.time, 3, " s"),
+            figure(item.contraction * 100.0, 3, " %"),
+            figure(item.force_reserve * 100.0, 3, " %"),
+            figure(item.air_volume_anr * 1e3, 3, " l"),
+            figure(item.impact_energy, 3, " J"),
+            "–" if item.probability is None else figure(item.probability * 100.0, 3, " %"),
+            item.binding.replace("_", " "),
         ]
-        for item in answer["proposals"]
+        for item in result.proposals
     ]
     header = [
         "muscle", "length", "valve", "tube", "supply", "time", "contraction", "force reserve", "air a cycle",
         "impact", "does it", "nearest limit",
     ]  # fmt: skip
-    counted = f"{answer['combinations']} combinations, {answer['simulated']} simulated"
+    counted = f"{result.combinations} combinations, {result.simulated} simulated"
     if rows:
         write_table(f"{name}: drives, best first ({counted})", header, rows)
     else:
         write_table(f"{name}: nothing in the catalogue does this ({counted})", ["no drive"], [])
-    shown = answer["rejected"][:_REJECTED_SHOWN]
+    shown = result.rejected[:_REJECTED_SHOWN]
     for item in shown:
-        remark(
-            f"– {item['why']} [{item['binding'].replace('_', ' ')}]; it would do with {item['would_work_if']}"
-        )
-    if len(answer["rejected"]) > len(shown):
-        remark(f"– and {len(answer['rejected']) - len(shown)} further choices of parts")
+        remark(f"– {item.why} [{item.binding.replace('_', ' ')}]; it would do with {item.would_work_if}")
+    if len(result.rejected) > len(shown):
+        remark(f"– and {len(result.rejected) - len(shown)} further choices of parts")

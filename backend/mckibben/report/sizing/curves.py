@@ -21,7 +21,7 @@ _ROOM = 0.1  # of the highest force: room for a name below a point
 
 def curves_section(material: Material, chosen: Chosen) -> Html:
     """The curves of one muscle, what it carries, and the operating points as a table."""
-    single = chosen.proposal["muscles"] == 1
+    single = chosen.proposal.muscles == 1
     who = "the muscle" if single else "one muscle"
     told = (
         f"Force of {who} at rest over its contraction at the pressures named (gauge, while it shortens), the "
@@ -35,16 +35,16 @@ def curves_section(material: Material, chosen: Chosen) -> Html:
         _table(material, chosen, who),
         paragraph(
             "Stiffness at the end of the stroke, at the load: ",
-            figure(chosen.proposal["stiffness"], PER_MILLIMETRE, 3),
+            figure(chosen.proposal.stiffness, PER_MILLIMETRE, 3),
             " with the valve open, ",
-            figure(chosen.proposal["stiffness_closed"], PER_MILLIMETRE, 3),
+            figure(chosen.proposal.stiffness_closed, PER_MILLIMETRE, 3),
             " with it closed.",
         ),
     )
 
 
 def _drawing(chosen: Chosen) -> Html:
-    curves, reach = chosen.curves, chosen.proposal["contraction"]
+    curves, reach = chosen.curves, chosen.proposal.contraction
     across = SHARE.all(curves.contraction)
     marks: list[Mark] = []
     colours = family(len(curves.pressures))
@@ -78,14 +78,12 @@ def _drawing(chosen: Chosen) -> Html:
 def _way(chosen: Chosen) -> Line:
     """Tension over contraction from the begin of the fill to the end stop."""
     run, (on, off) = chosen.run, chosen.fill
-    time = np.asarray(run["time"], dtype=float)
-    arrived = run["timing"]["extend"]["positioning_time"]
+    time = np.asarray(run.time, dtype=float)
+    arrived = run.timing.extend.positioning_time
     rows = np.flatnonzero((time >= on) & (time <= (off if arrived is None else on + arrived)))
     rows = rows[np.unique(np.linspace(0, len(rows) - 1, min(len(rows), _FEW_ROWS)).astype(int))]
-    contraction = np.asarray(run["contraction"], dtype=float)[rows]
-    return Line(
-        SHARE.all(contraction), np.asarray(run["force"], dtype=float)[rows], "the run", EDGE, width=1.2
-    )
+    contraction = np.asarray(run.contraction, dtype=float)[rows]
+    return Line(SHARE.all(contraction), np.asarray(run.force, dtype=float)[rows], "the run", EDGE, width=1.2)
 
 
 def _table(material: Material, chosen: Chosen, who: str) -> Html:
@@ -99,7 +97,7 @@ def _table(material: Material, chosen: Chosen, who: str) -> Html:
     ratios = [
         _ratio(force / load if load > 0.0 else math.inf) for force, load in zip(supply, demand, strict=True)
     ]
-    length = found["nominal_length"]
+    length = found.nominal_length
     rows: list[list[Child]] = [
         ["Contraction", *(figure(curves.places[end], SHARE, 3) for end in (0, -1))],
         ["Length between the fittings", *(_length(length, curves.places[end]) for end in (0, -1))],
@@ -113,12 +111,12 @@ def _table(material: Material, chosen: Chosen, who: str) -> Html:
         ["Pressure that just carries it, at rest", *(figure(value, BAR, 3) for value in curves.carrying)],
         [
             "Pressure in the run, load leaves and arrives",
-            figure(found["pressure_start"], BAR, 3),
-            figure(found["pressure_end"], BAR, 3),
+            figure(found.pressure_start, BAR, 3),
+            figure(found.pressure_end, BAR, 3),
         ],
     ]
     columns = [Column("At rest"), Column("Begin of the stroke", number=True), Column("End", number=True)]
-    ratio = 1.0 + found["force_reserve"]
+    ratio = 1.0 + found.force_reserve
     least = f"The least force over load on the whole stroke is {_ratio(ratio)}"
     return table(columns, rows, caption=f"Operating points. {least}.")
 

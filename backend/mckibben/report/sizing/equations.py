@@ -103,7 +103,7 @@ _SIZING = (
 
 def equations_section(material: Material, chosen: Chosen) -> Html:
     """All equations, then each effect with the values of this drive."""
-    laws = [*_BASE, *([_TUBE] if chosen.proposal["tube"] else []), *_SIZING]
+    laws = [*_BASE, *([_TUBE] if chosen.proposal.tube else []), *_SIZING]
     parts: list[Child] = [_law(law) for law in laws]
     parts.append(heading("Effects in the model of this drive"))
     if not chosen.effects:

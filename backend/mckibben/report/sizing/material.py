@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
+from mckibben.application.simulate import SimulationResult
+from mckibben.application.size import ProposedDrive, SizingResult
 from mckibben.physics.effect import Effect
 from mckibben.report.command import Command
 from mckibben.report.sources import Figure
-
-Json = Mapping[str, Any]
 
 
 class Entry(NamedTuple):
@@ -129,8 +129,8 @@ class Chosen:
 
     Attributes:
         rank: of it, 1 the best.
-        proposal: as `/api/sizings` answers it.
-        run: its run as `/api/simulations` answers it; columns are arrays.
+        proposal: the drive.
+        run: its run.
         fill: when the valve begins and stops to fill [s].
         count: muscles on one side; the run is that of one of them.
         lever: stroke of the muscle per stroke of the load.
@@ -144,8 +144,8 @@ class Chosen:
     """
 
     rank: int
-    proposal: Json
-    run: Json
+    proposal: ProposedDrive
+    run: SimulationResult
     fill: tuple[float, float]
     count: int
     lever: float
@@ -168,7 +168,7 @@ class Material:
         versions: program -> version.
         about: the task in one sentence.
         entries: every field of the task that applies.
-        answer: the search as `/api/sizings` answers it.
+        result: of the search.
         pair: whether the drive is an antagonist pair.
         profile: strokes [m] and forces [N] of a force over the stroke; empty without one.
         considered: kind of part -> ids that were tried.
@@ -183,7 +183,7 @@ class Material:
     versions: Mapping[str, str]
     about: str
     entries: Sequence[Entry]
-    answer: Json
+    result: SizingResult
     pair: bool
     profile: tuple[Sequence[float], Sequence[float]]
     considered: Mapping[str, Sequence[str]]

@@ -9,13 +9,15 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.application.simulate import SimulationResult
 from mckibben.report.document import Column, figure_of, mark, paragraph, table
 from mckibben.report.figures import Scale, figure
 from mckibben.report.html import Child, Html, html
 from mckibben.report.marks import ACCENT, EDGE, INK, SECOND, Axis, Line, Mark, Rule
-from mckibben.report.sizing.material import Chosen, Json, Material
+from mckibben.report.sizing.material import Chosen, Material
 from mckibben.report.sizing.words import BAR, JOULE, LITRES, MILLIMETRES, SHARE
 from mckibben.report.stack import Panel, stack
+from mckibben.simulation.timing.table import PhaseFigures, TimingTable
 
 _MOST_ROWS = 420
 _AFTER, _LEAST_AFTER = 1.2, 0.02  # how much longer than the motion is shown, share and s
@@ -61,17 +63,17 @@ def motion_section(material: Material, chosen: Chosen) -> Html:
         "The way back, from the instant the valve begins to vent",
         "retract",
         off,
-        chosen.run["duration"],
+        chosen.run.duration,
         -1.0,
     )
     parts: list[Child] = []
-    if chosen.run["message"] is not None:
-        parts.append(paragraph(f"The run did not complete: {chosen.run['message']}"))
+    if chosen.run.message is not None:
+        parts.append(paragraph(f"The run did not complete: {chosen.run.message}"))
     for phase in (up, back):
         drawing = _drawing(material, chosen, phase)
         if drawing is not None:
             parts.append(figure_of(drawing, f"{phase.name}."))
-    if not chosen.proposal["drive"]["load"]["mass"]:
+    if not chosen.proposal.drive["load"]["mass"]:
         parts.append(
             paragraph(
                 mark("No mass is moved"), " in this task: speeds, accelerations and energies are those of a "
@@ -84,9 +86,9 @@ def motion_section(material: Material, chosen: Chosen) -> Html:
 
 def _drawing(material: Material, chosen: Chosen, phase: _Phase) -> Html | None:
     run = chosen.run
-    time = np.asarray(run["time"], dtype=float)
-    table_ = run["timing"][phase.key]
-    moved = [table_[name] for name in ("positioning_time", "settling_time") if table_[name] is not None]
+    time = np.asarray(run.time, dtype=float)
+    figures = _of_phase(run.timing, phase.key)
+    moved = [time for time in (figures.positioning_time, figures.settling_time) if time is not None]
     whole = phase.end - phase.begin
     shown = min(whole, max(_AFTER * max(moved), max(moved) + _LEAST_AFTER)) if moved else whole
     rows = np.flatnonzero((time >= phase.begin - 1e-12) & (time <= phase.begin + shown))
@@ -96,27 +98,29 @@ def _drawing(material: Material, chosen: Chosen, phase: _Phase) -> Html | None:
     since = _MILLISECONDS.all((time[rows] - phase.begin).tolist())
     rules = _rules(run, phase, rows)
 
-    def column(name: str, scale: Scale, source: Json = run) -> list[float]:
-        return scale.all(np.asarray(source[name], dtype=float)[rows].tolist())
+    def column(values: NDArray, scale: Scale) -> list[float]:
+        return scale.all(np.asarray(values, dtype=float)[rows].tolist())
 
-    def line(name: str, scale: Scale, label: str = "", colour: str = ACCENT, **more: Any) -> Line:
-        return Line(since, column(name, scale), label, colour, **more)
+    def line(values: NDArray, scale: Scale, label: str = "", colour: str = ACCENT, **more: Any) -> Line:
+        return Line(since, column(values, scale), label, colour, **more)
 
-    if material.pair:
+    joint = run.joint
+
+    if joint is not None:
         place = (
             Axis("Angle", "°"),
-            Line(since, column("angle", Scale("°", math.pi / 180.0), run["joint"]), ""),
+            Line(since, column(joint.angle, Scale("°", math.pi / 180.0)), ""),
         )
     else:
-        place = Axis("Position", "mm"), line("position", MILLIMETRES)
-    pressures: list[Mark] = [line("pressure", BAR, "muscle", ACCENT)]
-    if run["tube_pressure"] is not None:
-        pressures.append(line("tube_pressure", BAR, "tube", EDGE, width=1.2))
-    if material.pair:
-        second = column("counter_pressure", BAR, run["joint"])
+        place = Axis("Position", "mm"), line(run.position, MILLIMETRES)
+    pressures: list[Mark] = [line(run.pressure, BAR, "muscle", ACCENT)]
+    if run.tube_pressure is not None:
+        pressures.append(line(run.tube_pressure, BAR, "tube", EDGE, width=1.2))
+    if joint is not None:
+        second = column(joint.counter_pressure, BAR)
         pressures.append(Line(since, second, "second muscle", SECOND))
     pressures.append(
-        Line([since[0], since[-1]], [BAR.of(chosen.proposal["pressure"])] * 2, "supply", INK, "2 3")
+        Line([since[0], since[-1]], [BAR.of(chosen.proposal.pressure)] * 2, "supply", INK, "2 3")
     )
     bare = [Rule(rule.x, "", rule.colour, rule.dash) for rule in rules]
     return stack(
@@ -124,18 +128,22 @@ def _drawing(material: Material, chosen: Chosen, phase: _Phase) -> Html | None:
         [
             Panel(place[0], [*rules, place[1]], f"{place[0].title} of the load over time"),
             Panel(Axis("Pressure", "bar", zero=True), [*bare, *pressures], "Gauge pressures over time"),
-            Panel(Axis("Speed", "mm/s"), [*bare, line("velocity", _SPEED)], "Speed of the load over time"),
-            Panel(Axis("Air flow", "g/s"), [*bare, line("mass_flow", _FLOW)], "Mass flow into a muscle"),
+            Panel(Axis("Speed", "mm/s"), [*bare, line(run.velocity, _SPEED)], "Speed of the load over time"),
+            Panel(Axis("Air flow", "g/s"), [*bare, line(run.mass_flow, _FLOW)], "Mass flow into a muscle"),
         ],
     )  # fmt: skip
 
 
-def _rules(run: Json, phase: _Phase, rows: NDArray) -> list[Rule]:
+def _of_phase(timing: TimingTable, key: str) -> PhaseFigures:
+    return timing.extend if key == "extend" else timing.retract
+
+
+def _rules(run: SimulationResult, phase: _Phase, rows: NDArray) -> list[Rule]:
     """When the load leaves, is at 10, 50 and 90 % of its stroke, and arrives."""
-    time = np.asarray(run["time"], dtype=float)[rows] - phase.begin
-    position = np.asarray(run["position"], dtype=float)[rows]
-    figures = run["timing"][phase.key]
-    begin, end = (run["limits"]["position_min"], run["limits"]["position_max"])[:: int(phase.sign)]
+    time = np.asarray(run.time, dtype=float)[rows] - phase.begin
+    position = np.asarray(run.position, dtype=float)[rows]
+    figures = _of_phase(run.timing, phase.key)
+    begin, end = (run.limits.position_min, run.limits.position_max)[:: int(phase.sign)]
     stroke = abs(end - begin)
     travel = phase.sign * (position - begin)
     found: list[Rule] = []
@@ -148,9 +156,9 @@ def _rules(run: Json, phase: _Phase, rows: NDArray) -> list[Rule]:
     at(_passes(time, travel, min(_LEAVES, 0.01 * stroke)), "leaves", EDGE, "2 3")
     rise = [_passes(time, travel, share * stroke) for share in (0.1, 0.9)]
     at(rise[0], "10 %", EDGE, "6 3")
-    at(figures["delay_time"], "50 %, delay", INK, "6 3")
+    at(figures.delay_time, "50 %, delay", INK, "6 3")
     at(rise[1], "90 %", EDGE, "6 3")
-    at(figures["positioning_time"], "arrives", SECOND, "6 3")
+    at(figures.positioning_time, "arrives", SECOND, "6 3")
     return found
 
 
@@ -167,10 +175,10 @@ def _passes(time: NDArray, travel: NDArray, level: float) -> float | None:
 
 
 def _table(chosen: Chosen) -> Html:
-    timing = chosen.run["timing"]
+    timing = chosen.run.timing
     rows: list[list[Child]] = []
     for name, (words, scale, together) in _FIGURES.items():
-        values = [timing[phase][name] for phase in ("extend", "retract")]
+        values = [getattr(_of_phase(timing, phase), name) for phase in ("extend", "retract")]
         if all(value is None for value in values):
             continue
         times = chosen.count if together else 1
@@ -192,10 +200,10 @@ def _figure(value: float | None, times: int, scale: Scale) -> Html:
     return figure(None if value is None else value * times, scale, 3 if scale is SHARE else 4)
 
 
-def _notes(timing: Json) -> list[str]:
+def _notes(timing: TimingTable) -> list[str]:
     """What to know of a figure, or why it is missing; of equal reasons one."""
     about: dict[str, list[str]] = {}
-    for place, why in timing["notes"].items():
+    for place, why in timing.notes.items():
         phase, _, name = place.partition(".")
         if name in _FIGURES:
             way = "stroke" if phase == "extend" else "way back"

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from mckibben.application.size import ExploredDrive, ProposedDrive, RejectedParts
 from mckibben.report.chart import chart
 from mckibben.report.document import Column, figure_of, paragraph, table
 from mckibben.report.figures import figure, percent, plain
 from mckibben.report.html import Child, Html, html, tag
 from mckibben.report.marks import ACCENT, EDGE, INK, SECOND, Axis, Dots, Mark
-from mckibben.report.sizing.material import Chosen, Json, Material
+from mckibben.report.sizing.material import Chosen, Material
 from mckibben.report.sizing.words import (
     BAR,
     LITRES,
@@ -25,7 +28,7 @@ _FAR = 2.0  # times the air of the proposals: what takes more is counted only
 
 def alternatives_section(material: Material, chosen: Chosen) -> Html:
     """Air over time of every design that does the task, and the proposals as a table."""
-    explored = material.answer["explored"]
+    explored = material.result.explored
     beyond = len(explored) - len(_near(material))
     told = (
         f"{len(explored)} choices of parts that do the task, each at its best length and pressure of a first "
@@ -34,9 +37,9 @@ def alternatives_section(material: Material, chosen: Chosen) -> Html:
         + (f" {beyond} that take more air are not drawn." if beyond else "")
     )
     counted = (
-        f"{material.answer['combinations']} combinations of muscle, length, number, pressure, valve and tube "
-        f"lie within the limits of room and pressure; {material.answer['pruned']} were sorted out in closed "
-        f"form, {material.answer['simulated']} transients and {material.answer['specimens']} specimens "
+        f"{material.result.combinations} combinations of muscle, length, number, pressure, valve and tube "
+        f"lie within the limits of room and pressure; {material.result.pruned} were sorted out in closed "
+        f"form, {material.result.simulated} transients and {material.result.specimens} specimens "
         "simulated."
     )
     parts: list[Child] = [
@@ -44,15 +47,15 @@ def alternatives_section(material: Material, chosen: Chosen) -> Html:
         figure_of(_picture(material, chosen), told),
         _proposals(material, chosen),
     ]
-    if material.answer["message"]:
-        parts.append(paragraph(material.answer["message"], note=True))
+    if material.result.message:
+        parts.append(paragraph(material.result.message, note=True))
     return html(parts)
 
 
 def _picture(material: Material, chosen: Chosen) -> Html:
-    proposals, explored = material.answer["proposals"], _near(material)
-    front = [item for item in explored if item["front"]]
-    rest = [item for item in explored if not item["front"]]
+    proposals, explored = material.result.proposals, _near(material)
+    front = [item for item in explored if item.front]
+    rest = [item for item in explored if not item.front]
     marks: list[Mark] = []
     if rest:
         marks.append(Dots(*_places(rest), "does the task", EDGE, 5.0))
@@ -72,7 +75,7 @@ def _picture(material: Material, chosen: Chosen) -> Html:
     )  # fmt: skip
 
 
-def _names(proposals: list[Json], explored: list[Json], rank: int) -> dict[int, str]:
+def _names(proposals: list[ProposedDrive], explored: list[ExploredDrive], rank: int) -> dict[int, str]:
     """Rank -> what stands beside its dot; of dots on each other one tells them all, the chosen one first."""
     x, y = _places(proposals)
     wide, high = (_TOUCHING * max(values) for values in _places([*proposals, *explored]))
@@ -86,16 +89,16 @@ def _names(proposals: list[Json], explored: list[Json], rank: int) -> dict[int, 
     return names
 
 
-def _near(material: Material) -> list[Json]:
+def _near(material: Material) -> list[ExploredDrive]:
     """Explored designs that do not take many times the air of the proposals."""
-    most = _FAR * max(item["air_volume_anr"] for item in material.answer["proposals"])
-    return [item for item in material.answer["explored"] if item["air_volume_anr"] <= most]
+    most = _FAR * max(item.air_volume_anr for item in material.result.proposals)
+    return [item for item in material.result.explored if item.air_volume_anr <= most]
 
 
-def _places(items: list[Json]) -> tuple[list[float], list[float]]:
+def _places(items: Sequence[ProposedDrive | ExploredDrive]) -> tuple[list[float], list[float]]:
     return (
-        LITRES.all([item["air_volume_anr"] for item in items]),
-        SECONDS.all([item["time"] for item in items]),
+        LITRES.all([item.air_volume_anr for item in items]),
+        SECONDS.all([item.time for item in items if item.time is not None]),
     )
 
 
@@ -106,15 +109,15 @@ def _proposals(material: Material, chosen: Chosen) -> Html:
         Column("Why it stands there", wide=True),
     ]  # fmt: skip
     rows: list[list[Child]] = []
-    for number, item in enumerate(material.answer["proposals"], 1):
+    for number, item in enumerate(material.result.proposals, 1):
         words: list[Child] = [drive_words(item), tag("br"), parts_words(item)]
         rows.append(
             [
                 tag("b", f"{number}") if number == chosen.rank else f"{number}",
                 tag("b", words) if number == chosen.rank else html(words),
-                figure(item["pressure"], BAR, 3),
-                figure(item["time"], SECONDS, 3),
-                figure(item["air_volume_anr"], LITRES, 3),
+                figure(item.pressure, BAR, 3),
+                figure(item.time, SECONDS, 3),
+                figure(item.air_volume_anr, LITRES, 3),
                 _likely(item),
                 _reason(item),
             ]
@@ -122,38 +125,38 @@ def _proposals(material: Material, chosen: Chosen) -> Html:
     return table(columns, rows, caption="Proposals, best first; the one of this report in bold.")
 
 
-def _reason(item: Json) -> str:
+def _reason(item: ProposedDrive) -> str:
     """Without the probability, which has a column of its own."""
-    return "; ".join(part for part in item["reason"].split("; ") if not part.startswith("does the task"))
+    return "; ".join(part for part in item.reason.split("; ") if not part.startswith("does the task"))
 
 
-def _likely(item: Json) -> Child:
-    if item["probability"] is None:
+def _likely(item: ProposedDrive) -> Child:
+    if item.probability is None or item.probability_error is None:
         return "–"
-    return html(percent(item["probability"], 3), f" ± {plain(100.0 * item['probability_error'], 2)}")
+    return html(percent(item.probability, 3), f" ± {plain(100.0 * item.probability_error, 2)}")
 
 
 def rejected_section(material: Material) -> Html:
     """What does not do the task: why, the limit in the way, what would help; one row for each muscle."""
-    rejected = material.answer["rejected"]
+    rejected = material.result.rejected
     if not rejected:
         return paragraph("Every choice of parts that was tried does the task.")
-    groups: dict[tuple[str, int, str], list[Json]] = {}
+    groups: dict[tuple[str, int, str], list[RejectedParts]] = {}
     for item in rejected:
-        groups.setdefault((item["muscle"], item["parallel"], item["binding"]), []).append(item)
+        groups.setdefault((item.muscle, item.parallel, item.binding), []).append(item)
     columns = [
         Column("Why not", wide=True),
         Column("Limit in the way"),
         Column("It would do with", wide=True),
     ]
     rows = [
-        [_why(items), limit_name(binding).lower(), items[0]["would_work_if"]]
+        [_why(items), limit_name(binding).lower(), items[0].would_work_if]
         for (_, _, binding), items in groups.items()
     ]
     return table(columns, rows, caption=f"{_ORDER} {_GROUPED}")
 
 
-def _why(items: list[Json]) -> Html:
+def _why(items: list[RejectedParts]) -> Html:
     more = len(items) - 1
     told = f" And {more} more with other valves and tubes." if more else ""
-    return html(f"{items[0]['why']}.{told}")
+    return html(f"{items[0].why}.{told}")

@@ -61,16 +61,16 @@ def _besides(material: Material, chosen: Chosen) -> list[Child]:
     found = chosen.proposal
     supply = next(entry.value for entry in material.entries if entry.path == "supply_pressure")
     parts: list[Child] = []
-    if isinstance(supply, float) and found["pressure"] < supply * (1.0 - _HAIR):
+    if isinstance(supply, float) and found.pressure < supply * (1.0 - _HAIR):
         parts.append(
             "A pressure regulator before the valve, set to "
-            f"{plain(BAR.of(found['pressure']), 4, exact=True)} bar: the supply has "
+            f"{plain(BAR.of(found.pressure), 4, exact=True)} bar: the supply has "
             f"{plain(BAR.of(supply), 4, exact=True)} bar."
         )
-    energy = plain(JOULE.of(found["impact_energy"]), 3)
-    back = chosen.run["timing"]["retract"]["impact_energy"]
+    energy = plain(JOULE.of(found.impact_energy), 3)
+    back = chosen.run.timing.retract.impact_energy
     lower = "" if back is None else f", on the way back the lower one with {plain(back * chosen.count, 3)} J"
-    end = MILLIMETRES.of(found["nominal_length"] * (1.0 - found["contraction"]))
+    end = MILLIMETRES.of(found.nominal_length * (1.0 - found.contraction))
     parts += [
         f"End stops: the load meets the upper one with {energy} J, where each pulling muscle is {end:.4g} mm "
         f"long{lower}.",
@@ -78,10 +78,10 @@ def _besides(material: Material, chosen: Chosen) -> list[Child]:
         "the run.",
         "End fittings and joints of the muscle, guide of the load, electrics of the valve.",
     ]
-    if found["tube"] is None:
+    if found.tube is None:
         parts.append("No tube: the valve sits on the muscle.")
-    if material.pair:
-        radius = MILLIMETRES.of(found["pulley_radius"])
+    if found.pulley_radius is not None:
+        radius = MILLIMETRES.of(found.pulley_radius)
         parts.append(f"The pulley: {radius:.4g} mm of radius, both muscles on it.")
     return parts
 

@@ -31,25 +31,25 @@ def result_section(material: Material) -> Html:
 
 def _proposal(material: Material, chosen: Chosen) -> Html:
     found = chosen.proposal
-    likely = found["probability"]
+    likely = found.probability
     tone: Tone = "plain"
     if likely is not None:
         tone = "good" if likely >= _LIKELY else "warn" if likely >= _EVEN else "bad"
-    count = len(material.answer["proposals"])
+    count = len(material.result.proposals)
     rank = f"Proposal {chosen.rank} of {count}" if count > 1 else "The only proposal"
     parts: list[Child] = [
         paragraph(f"Task: {material.about}."),
         callout(
-            f"{drive_words(found)}, with {parts_words(found)} at {plain(BAR.of(found['pressure']), 3)} bar",
-            f"{rank}: {found['reason']}.",
+            f"{drive_words(found)}, with {parts_words(found)} at {plain(BAR.of(found.pressure), 3)} bar",
+            f"{rank}: {found.reason}.",
             _chance_words(chosen),
             tone=tone,
         ),
         tiles(_tiles(chosen)),
     ]
-    remarks = [*found["notes"], *_crossed(chosen)]
-    if material.answer["message"]:
-        remarks.append(material.answer["message"])
+    remarks = [*found.notes, *_crossed(chosen)]
+    if material.result.message:
+        remarks.append(material.result.message)
     if remarks:
         parts.append(bullets(remarks))
     parts.append(_unverified(chosen))
@@ -60,20 +60,20 @@ def _tiles(chosen: Chosen) -> list[tuple[Child, Child]]:
     found = chosen.proposal
     nearest = chosen.margins[0]
     pairs: list[tuple[Child, Child]] = [
-        ("Time for the stroke", figure(found["time"], SECONDS, 3)),
-        ("Way back", figure(found["time_down"], SECONDS, 3)),
-        ("Supply pressure", figure(found["pressure"], BAR, 3)),
-        ("Air a cycle (ANR)", figure(found["air_volume_anr"], LITRES, 3)),
+        ("Time for the stroke", figure(found.time, SECONDS, 3)),
+        ("Way back", figure(found.time_down, SECONDS, 3)),
+        ("Supply pressure", figure(found.pressure, BAR, 3)),
+        ("Air a cycle (ANR)", figure(found.air_volume_anr, LITRES, 3)),
         (
             "Force reserve at rest",
-            "ample" if found["force_reserve"] > AMPLE else percent(found["force_reserve"], 3),
+            "ample" if found.force_reserve > AMPLE else percent(found.force_reserve, 3),
         ),
-        ("Energy on the end stop", figure(found["impact_energy"], JOULE, 3)),
-        ("Installed length", figure(found["installed_length"], MILLIMETRES, 4)),
-        ("Outer diameter", figure(found["diameter"], MILLIMETRES, 3)),
+        ("Energy on the end stop", figure(found.impact_energy, JOULE, 3)),
+        ("Installed length", figure(found.installed_length, MILLIMETRES, 4)),
+        ("Outer diameter", figure(found.diameter, MILLIMETRES, 3)),
     ]
-    if found["probability"] is not None:
-        pairs.insert(0, ("Does the task", percent(found["probability"], 3)))
+    if found.probability is not None:
+        pairs.insert(0, ("Does the task", percent(found.probability, 3)))
     left = percent(max(nearest.share, 0.0)) if nearest.share > _NONE_LEFT else "used up"
     pairs.append((f"Nearest limit: {limit_name(nearest.name).lower()}", left))
     return pairs
@@ -81,11 +81,11 @@ def _tiles(chosen: Chosen) -> list[tuple[Child, Child]]:
 
 def _chance_words(chosen: Chosen) -> str:
     found = chosen.proposal
-    if found["probability"] is None:
+    if found.probability is None or found.probability_error is None:
         return "No specimens were asked for: how likely it does the task when it is built is not known."
-    share, error = 100.0 * found["probability"], 100.0 * found["probability_error"]
+    share, error = 100.0 * found.probability, 100.0 * found.probability_error
     return (
-        f"Of {found['specimens']} simulated specimens {share:.3g} % do the task (standard error {error:.2g} "
+        f"Of {found.specimens} simulated specimens {share:.3g} % do the task (standard error {error:.2g} "
         "%); section “Uncertainty” says what varies between them and what does not."
     )
 
@@ -93,9 +93,9 @@ def _chance_words(chosen: Chosen) -> str:
 def _crossed(chosen: Chosen) -> list[str]:
     """Limits that the run crosses anywhere."""
     return [
-        f"The run crosses a limit: {flag['message']}."
-        for flag in chosen.run["flags"]
-        if flag["code"].startswith("over_")
+        f"The run crosses a limit: {flag.message}."
+        for flag in chosen.run.flags
+        if flag.code.startswith("over_")
     ]
 
 
@@ -119,24 +119,24 @@ def _unverified(chosen: Chosen) -> Html:
 
 
 def _nothing(material: Material) -> Html:
-    rejected = material.answer["rejected"]
+    rejected = material.result.rejected
     words: list[Child] = []
     if rejected:
         nearest = rejected[0]
-        if nearest["would_work_if"].startswith("nothing"):
+        if nearest.would_work_if.startswith("nothing"):
             words = ["No limit moved by itself, and no other part of the catalogue, would make it do."]
         else:
-            words = [f"Nearest: {nearest['why']}.", f"It would do with {nearest['would_work_if']}."]
+            words = [f"Nearest: {nearest.why}.", f"It would do with {nearest.would_work_if}."]
     parts: list[Child] = [
         paragraph(f"Task: {material.about}."),
         callout("Nothing in the catalogue does this task", *words, tone="bad"),
     ]
     tiles_: list[tuple[Child, Child]] = [
-        ("Combinations", f"{material.answer['combinations']}"),
-        ("Sorted out in closed form", f"{material.answer['pruned']}"),
-        ("Simulated", f"{material.answer['simulated']}"),
+        ("Combinations", f"{material.result.combinations}"),
+        ("Sorted out in closed form", f"{material.result.pruned}"),
+        ("Simulated", f"{material.result.simulated}"),
     ]
     parts.append(tiles(tiles_))
-    if material.answer["message"]:
-        parts.append(callout(material.answer["message"], tone="warn"))
+    if material.result.message:
+        parts.append(callout(material.result.message, tone="warn"))
     return html(parts)

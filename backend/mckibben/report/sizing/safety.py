@@ -66,16 +66,16 @@ def _value(margin: Margin, value: float) -> Html:
 def uncertainty_section(chosen: Chosen) -> Html:
     """The probability, what it is a share of, what varies and what does not."""
     found, spread = chosen.proposal, chosen.spread
-    if spread is None:
+    if spread is None or found.probability is None or found.probability_error is None:
         return paragraph(
             "No specimens were simulated, because the task asks for none: how likely the drive does the task "
             "when it is built is not known."
         )
-    share, error = 100.0 * found["probability"], 100.0 * found["probability_error"]
+    share, error = 100.0 * found.probability, 100.0 * found.probability_error
     low, high = (max(share - 2.0 * error, 0.0), min(share + 2.0 * error, 100.0))
     parts: list[Child] = [
         callout(
-            f"{share:.3g} % of {found['specimens']} simulated specimens do the task",
+            f"{share:.3g} % of {found.specimens} simulated specimens do the task",
             f"Standard error {error:.2g} %: more specimens of the same kind would show between {low:.3g} and "
             f"{high:.3g} % (two standard errors).",
         ),

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from mckibben.application.size import ProposedDrive, RejectedParts
 from mckibben.report.figures import Scale, figure, plain, scale_of, variable
 from mckibben.report.html import Html, html, tag
-from mckibben.report.sizing.material import Entry, Json
+from mckibben.report.sizing.material import Entry
 
 LITRES, SECONDS, NEWTON, JOULE = Scale("l", 1e-3), Scale("s"), Scale("N"), Scale("J")
 MILLIMETRES, BAR, SHARE = Scale("mm", 1e-3), Scale("bar", 1e5), Scale("%", 0.01)
@@ -97,13 +98,13 @@ def in_unit(value: float, unit: str, digits: int = 4) -> Html:
     return figure(value, scale, digits, exact=True)
 
 
-def drive_words(proposal: Json) -> str:
+def drive_words(proposal: ProposedDrive) -> str:
     """The muscles of a proposal in words."""
-    number = f"{proposal['muscles']} × " if proposal["muscles"] > 1 else ""
-    return f"{number}{proposal['muscle']}, {variable('length')[1].of(proposal['nominal_length']):.4g} mm"
+    number = f"{proposal.muscles} × " if proposal.muscles > 1 else ""
+    return f"{number}{proposal.muscle}, {variable('length')[1].of(proposal.nominal_length):.4g} mm"
 
 
-def parts_words(item: Json) -> str:
+def parts_words(item: ProposedDrive | RejectedParts) -> str:
     """Valve and tube of a proposal or rejected choice in words."""
-    named = [item["valve"], item["tube"]]
+    named = [item.valve, item.tube]
     return ", ".join(name for name in named if name) or "whatever the valve and tube"

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from fastapi import APIRouter, Request, Response
 from fastapi.responses import HTMLResponse
 
-from mckibben.application.sizing_reports import prepare_report
-from mckibben.application.sizings import prepare_sizing
+from mckibben.application.json_text import to_json
+from mckibben.application.size import SizingResult, prepare, sizing_question
+from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
-from mckibben.server.answer import JsonAnswer, StrictRoute, to_json
+from mckibben.report.sizing.gather import prepare_report
+from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StudioDep
 from mckibben.server.long_work import events, finished, prepared, wants_events
 from mckibben.server.schemas.common import errors
@@ -18,6 +21,7 @@ from mckibben.server.schemas.reports import ReportAnswer
 from mckibben.server.schemas.simulations import SimulationEvents
 from mckibben.server.schemas.sizing_answer import SizingAnswer
 from mckibben.server.schemas.sizing_reports import SizingReportRequest
+from mckibben.simulation.outcome import Watch
 
 router = APIRouter(prefix="/api/sizings", tags=["sizings"], route_class=StrictRoute)
 _RESPONSES: dict[int | str, dict[str, Any]] = {**errors(400, 413, 415, 422), **SimulationEvents}
@@ -26,10 +30,14 @@ _RESPONSES: dict[int | str, dict[str, Any]] = {**errors(400, 413, 415, 422), **S
 @router.post("", response_model=SizingAnswer, responses=_RESPONSES)
 async def size_drives(body: SizingTask, request: Request, studio: StudioDep) -> Response:
     """Ranked drives of the catalogue for a task, and why not the others; closing ends the search."""
-    work = await prepared(request, prepare_sizing, body, studio)
+    work = await prepared(request, _search_of, body, studio)
     if wants_events(request):
         return events(work)
     return JsonAnswer(await finished(request, work, to_json))
+
+
+def _search_of(body: SizingTask, studio: Studio) -> Callable[[Watch], SizingResult]:
+    return prepare(sizing_question(body, studio))
 
 
 @router.post(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mckibben.report.sizing import Curves, Margin, Spread
+from mckibben.report.sizing.material import Curves, Margin, Spread
 from mckibben.sizing import Design, Proposal, Task
 from mckibben.sizing.spread import deviation_of
 from mckibben.sizing.statics import contraction_limit, outputs

@@ -11,7 +11,7 @@ from pydantic.fields import FieldInfo
 from mckibben.documents.quantity import Quantity
 from mckibben.documents.task import ForceOverStroke, SizingTask
 from mckibben.report.figures import scale_of
-from mckibben.report.sizing import Entry
+from mckibben.report.sizing.material import Entry
 
 _NOT_TOLD = frozenset({"schema_version", "title"})
 # What a task of one kind does not have.

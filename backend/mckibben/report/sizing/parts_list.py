@@ -9,7 +9,8 @@ from mckibben.documents.studio import Studio
 from mckibben.physics.effect import Effect
 from mckibben.presets import Preset
 from mckibben.presets.quantity import Quantity, quantities
-from mckibben.report.sizing import Figure, KnownFigure, Part
+from mckibben.report.sizing.material import KnownFigure, Part
+from mckibben.report.sources import Figure
 from mckibben.sizing import Design
 
 # What a muscle's preset brings into a sizing; the nominal length is the search's own.

@@ -145,7 +145,7 @@ def _parts(
             part = convert(studio.library.get(kind, name))
         except InputError as error:
             code = "unknown_preset" if error.code == "not_found" else error.code
-            raise InputError(error.message, field=field, hint=error.hint, code=code) from error
+            raise error.at(field, code=code) from error
         found[part.id] = part
     return tuple(found.values())
 

@@ -8,20 +8,22 @@ import shlex
 from collections.abc import Callable, Mapping
 from datetime import datetime
 from math import ceil
+from typing import Any
 
 from mckibben.application.json_text import to_json
 from mckibben.application.simulate import result_of, run_drive
-from mckibben.application.sizing_chosen import curves_of, margins_of, spread_of
-from mckibben.application.sizing_entries import about_task, entries_of
-from mckibben.application.sizing_parts import effect_figures, parts_of
-from mckibben.application.sizings import Searched, prepare_search
-from mckibben.application.start import Json
+from mckibben.application.size import Searched, prepare_search, sizing_question
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.physics.errors import InputError, fields_inside
-from mckibben.report.sizing import Chosen, Command, Material, sizing_report
+from mckibben.report.command import Command
+from mckibben.report.sizing.chosen import curves_of, margins_of, spread_of
+from mckibben.report.sizing.entries import about_task, entries_of
+from mckibben.report.sizing.material import Chosen, Material
+from mckibben.report.sizing.parts_list import effect_figures, parts_of
+from mckibben.report.sizing.writing import sizing_report
 from mckibben.report.versions import versions
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.timing.of_run import grid_of
@@ -47,7 +49,7 @@ def prepare_report(
         InputError: the task cannot be used; its field begins with ``task``.
     """
     with fields_inside("task"):
-        search = prepare_search(document, studio)
+        search = prepare_search(sizing_question(document, studio))
 
     def work(watch: Watch) -> str:
         return report_of(search(watch), studio, proposal=proposal, title=title, watch=watch)
@@ -63,10 +65,10 @@ def report_of(
     Raises:
         InputError: there are fewer proposals, or the search did not complete.
     """
-    answer, document = search.answer, search.document
+    result, document = search.result, search.question.document
     if search.found.outcome is not Outcome.COMPLETED:
-        raise InputError(f"there is nothing to report: {answer['message']}", field="task")
-    count = len(answer["proposals"])
+        raise InputError(f"there is nothing to report: {result.message}", field="task")
+    count = len(result.proposals)
     if 0 < count < proposal:  # a task that nothing does has a report too
         there = "is 1 proposal" if count == 1 else f"are {count} proposals"
         most = "1" if count == 1 else f"1 to {count}"
@@ -76,11 +78,11 @@ def report_of(
     task = canonical(task_document(document))
     files = {_TASK_FILE: task}
     if chosen is not None:
-        files[_DRIVE_FILE] = canonical(chosen.proposal["drive"])
+        files[_DRIVE_FILE] = canonical(chosen.proposal.drive)
     considered = {
-        "muscles": [part.id for part in search.catalogue.muscles],
-        "valves": [part.id for part in search.catalogue.valves],
-        "tubes": [part.id for part in search.catalogue.tubes if part.id],
+        "muscles": [part.id for part in search.question.catalogue.muscles],
+        "valves": [part.id for part in search.question.catalogue.valves],
+        "tubes": [part.id for part in search.question.catalogue.tubes if part.id],
     }
     return sizing_report(
         Material(
@@ -89,9 +91,9 @@ def report_of(
             versions=versions(),
             about=about,
             entries=entries_of(document, considered),
-            answer=answer,
-            pair=search.task.pair is not None,
-            profile=search.task.force_over_stroke,
+            result=result,
+            pair=search.question.task.pair is not None,
+            profile=search.question.task.force_over_stroke,
             considered=considered,
             chosen=chosen,
             catalogue=studio.catalogue,
@@ -102,14 +104,14 @@ def report_of(
 
 
 def _chosen(search: Searched, studio: Studio, rank: int, watch: Watch) -> Chosen:
-    proposal, answer = search.found.proposals[rank - 1], search.answer["proposals"][rank - 1]
-    task, group = search.task, proposal.design.group
-    given = drive_of(read_document(answer["drive"], "the drive of the proposal"), studio)
+    proposal, answer = search.found.proposals[rank - 1], search.result.proposals[rank - 1]
+    task, group = search.question.task, proposal.design.group
+    given = drive_of(read_document(answer.drive, "the drive of the proposal"), studio)
     duration = given.drive.duration
     points = min(max(ceil(duration / _STEP), _FEWEST), _MOST) + 1
     grid = grid_of(duration=duration, begin=0.0, end=duration, points=points)
     # By the kernel as in the search, so that both show the same digits.
-    run = json.loads(to_json(result_of(given, grid, run_drive(given, grid, watch, "rodas"))))
+    run = result_of(given, grid, run_drive(given, grid, watch, "rodas"))
     on = switch_on(task, group.duty)
     return Chosen(
         rank=rank,
@@ -128,7 +130,7 @@ def _chosen(search: Searched, studio: Studio, rank: int, watch: Watch) -> Chosen
     )
 
 
-def task_document(document: SizingTask) -> Json:
+def task_document(document: SizingTask) -> dict[str, Any]:
     """The task with everything that was assumed, in SI; reading it again gives the same search."""
     whole = document.model_dump(mode="json", by_alias=True, exclude_none=True)
     if document.load.pair is not None:  # a pair takes no other field of the load
