@@ -46,8 +46,8 @@ ALSO_NAMES = {
     "dead_volume": "the field of a curves request",
 }
 
-MODULE_LINES = 300
-EFFECT_LINES = 150
+MODULE_LINES = 400  # a module ends where its subject ends; this is a reason to look for two subjects
+EFFECT_LINES = 170
 # Files that are one thing and longer all the same: path -> why.
 LONGER: dict[str, str] = {}
 

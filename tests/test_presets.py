@@ -382,9 +382,25 @@ def drop(path: str) -> Callable[[dict[str, Any]], None]:
 QUANTITY = {"value": 1, "unit": "mm", "source": "test", "grade": "user"}
 EFFECTS = {
     "bladder_elasticity": {
-        "shear_modulus": Parameter("shear_modulus", "C", "Pa", 1e5, 0.0, 3e6, Source("test", "E"), "test"),
+        "shear_modulus": Parameter(
+            "shear_modulus",
+            "C",
+            "Pa",
+            default=1e5,
+            lower=0.0,
+            upper=3e6,
+            source=Source("test", "E"),
+            description="test",
+        ),
         "mooney_constant": Parameter(
-            "mooney_constant", "C", "Pa", 0.0, 0.0, 2e6, Source("test", "E"), "test"
+            "mooney_constant",
+            "C",
+            "Pa",
+            default=0.0,
+            lower=0.0,
+            upper=2e6,
+            source=Source("test", "E"),
+            description="test",
         ),
     },
     "prestress": {"force"},

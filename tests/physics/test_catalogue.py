@@ -88,8 +88,8 @@ def test_a_new_file_appears_and_works(tmp_path: Path) -> None:
         ('zero_at=("no_motion",)', 'zero_at=("standstill",)', "unknown zero_at ['standstill']"),
         ("references=(_CHOU,)", "references=()", "must not be empty"),
         (
-            "            10.0,\n            0.0,",
-            "            -10.0,\n            0.0,",
+            "default=10.0",
+            "default=-10.0",
             "default -10.0 is outside",
         ),
         ("return force * direction", "return force *", "SyntaxError"),

@@ -82,7 +82,7 @@ def test_ids_are_known() -> None:
 
 def test_files_stay_small() -> None:
     for path in BUILT_IN_FOLDER.glob("*.py"):
-        assert len(path.read_text(encoding="utf-8").splitlines()) <= 150, path.name
+        assert len(path.read_text(encoding="utf-8").splitlines()) <= 170, path.name
 
 
 def test_effect_of_a_further_folder_is_held_to_the_same(tmp_path: Path) -> None:

@@ -151,7 +151,18 @@ def muscle_side(
         for own, rate in zip(effect.states, given, strict=True):
             rates[f"{effect.id}.{own.name}"] = rate
     readings = {name: model.chain(name, value, values, {}, name="reading") for name, value in instant.items()}
-    return Side(force, volume, temperature, gauge, inflow, stroke, flows, state, rates, readings)
+    return Side(
+        force=force,
+        volume=volume,
+        temperature=temperature,
+        gauge=gauge,
+        inflow=inflow,
+        stroke=stroke,
+        flows=flows,
+        state=state,
+        rates=rates,
+        readings=readings,
+    )
 
 
 def _readings(

@@ -207,7 +207,17 @@ def blamed_on_the_term(effects: Sequence[Effect]) -> Iterator[None]:
 
 def _parameter(name: str, value: float, source: Source) -> Parameter:
     reach = min(_REACH * abs(value), _LARGEST) or 1.0
-    return Parameter(name, name, "SI", value, -reach, reach, source, "Of the typed term.", off=0.0)
+    return Parameter(
+        name,
+        name,
+        "SI",
+        default=value,
+        lower=-reach,
+        upper=reach,
+        source=source,
+        description="Of the typed term.",
+        off=0.0,
+    )
 
 
 def _declare(function: Callable[..., Value], names: list[str]) -> None:

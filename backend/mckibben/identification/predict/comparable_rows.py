@@ -138,19 +138,19 @@ def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
     )
     turning |= unseen
     return ComparableRows(
-        kind,
-        channel,
-        unit,
-        np.asarray(measured, dtype=float)[keep],
-        {name: np.asarray(values, dtype=float)[keep] for name, values in state.items()},
-        columns["time"][keep] if ordered else None,
-        records[keep],
-        columns["group"][keep],
-        turning[keep],
-        np.flatnonzero(keep),
-        {reason: number for reason, number in excluded.items() if number},
-        unknown_load,
-        tuple(messages),
+        kind=kind,
+        channel=channel,
+        unit=unit,
+        measured=np.asarray(measured, dtype=float)[keep],
+        state={name: np.asarray(values, dtype=float)[keep] for name, values in state.items()},
+        time=columns["time"][keep] if ordered else None,
+        records=records[keep],
+        groups=columns["group"][keep],
+        turning=turning[keep],
+        rows=np.flatnonzero(keep),
+        excluded={reason: number for reason, number in excluded.items() if number},
+        unknown_load=unknown_load,
+        messages=tuple(messages),
     )
 
 

@@ -136,7 +136,16 @@ def _free(effect: str, p: Parameter, value: float) -> Free:
     usual = abs(p.default) if p.off is None else abs(p.default - p.off)
     if not usual and p.natural:
         usual = p.upper - p.lower  # a share that is 0 by default
-    return Free(f"{effect}.{p.name}", value, p.lower, p.upper, p.unit, p.off, usual or None, p.natural)
+    return Free(
+        name=f"{effect}.{p.name}",
+        start=value,
+        lower=p.lower,
+        upper=p.upper,
+        unit=p.unit,
+        off=p.off,
+        usual=usual or None,
+        natural=p.natural,
+    )
 
 
 def free_geometry(muscle: Muscle, names: Iterable[str], tolerance: Mapping[str, float]) -> tuple[Free, ...]:

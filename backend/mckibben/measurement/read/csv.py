@@ -56,7 +56,14 @@ def open_csv(data: bytes, name: str) -> RawTable:
         )
 
     return RawTable(
-        name, "csv", headers, read, first_rows(body, separator, SAMPLE_ROWS), notes, messages, row
+        place=name,
+        format="csv",
+        headers=headers,
+        read=read,
+        sample=first_rows(body, separator, SAMPLE_ROWS),
+        notes=notes,
+        messages=messages,
+        header_row=row,
     )
 
 

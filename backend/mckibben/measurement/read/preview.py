@@ -116,11 +116,20 @@ def preview(data: bytes, name: str, correction: Correction | None = None) -> Pre
     measurement = None if read is None or (problem is not None and not refused) else read.measurement
     kind = None if measurement is None else measurement.kind
     return Preview(
-        name, source.format, _columns(source, meaning, read), tuple(tuple(row) for row in source.sample),
-        valid + sum(skip.rows for skip in skipped.values()), valid, skipped, measurement, conditions,
-        missing_conditions(kind, {} if measurement is None else measurement.columns, conditions),
-        problem, refused, tuple(messages),
-    )  # fmt: skip
+        name=name,
+        format=source.format,
+        columns=_columns(source, meaning, read),
+        sample=tuple(tuple(row) for row in source.sample),
+        rows=valid + sum(skip.rows for skip in skipped.values()),
+        valid=valid,
+        skipped=skipped,
+        measurement=measurement,
+        conditions=conditions,
+        missing=missing_conditions(kind, {} if measurement is None else measurement.columns, conditions),
+        problem=problem,
+        refused=refused,
+        messages=tuple(messages),
+    )
 
 
 def missing_conditions(
@@ -165,14 +174,14 @@ def _columns(source: RawTable, meaning: Meaning, read: Read | None) -> tuple[Pre
         span = ranges.get(column.use) if column else None
         result.append(
             PreviewColumn(
-                header.strip() or f"column {index + 1}",
-                column.use if column else None,
-                column.unit if column else None,
-                index in guessed and guessed[index].unit is not None,
-                column.absolute if column else None,
-                span.minimum if span else None,
-                span.maximum if span else None,
-                problem.message if problem else None,
+                header=header.strip() or f"column {index + 1}",
+                channel=column.use if column else None,
+                unit=column.unit if column else None,
+                unit_given=index in guessed and guessed[index].unit is not None,
+                absolute=column.absolute if column else None,
+                minimum=span.minimum if span else None,
+                maximum=span.maximum if span else None,
+                why=problem.message if problem else None,
             )
         )
     return tuple(result)

@@ -97,7 +97,17 @@ def array_source(
         )
 
     sample = [[_shown(column[row]) for column in values] for row in range(min(SAMPLE_ROWS, _length(values)))]
-    return RawTable(place, format, headers, read, sample, notes, messages, None, noun)
+    return RawTable(
+        place=place,
+        format=format,
+        headers=headers,
+        read=read,
+        sample=sample,
+        notes=notes,
+        messages=messages,
+        header_row=None,
+        noun=noun,
+    )
 
 
 def _length(values: Sequence[Column]) -> int:

@@ -197,4 +197,13 @@ def _below(rows: Rows, headers: list[str], place: str, number: int, notes: list[
         )
 
     sample = [["" if cell is None else str(cell) for cell in cells] for _, cells in rows[:SAMPLE_ROWS]]
-    return RawTable(place, "xlsx", headers, read, sample, notes, [], number)
+    return RawTable(
+        place=place,
+        format="xlsx",
+        headers=headers,
+        read=read,
+        sample=sample,
+        notes=notes,
+        messages=[],
+        header_row=number,
+    )

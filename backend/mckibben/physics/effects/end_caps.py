@@ -49,12 +49,12 @@ EFFECT = Effect(
             "cone_factor",
             r"\chi",
             "1",
-            1.0,
-            0.0,
-            2.0,
-            _CONE,
-            "Length of a cone over its step in radius; 1 is a cone of 45 degrees. The fitting has the inside "
-            "diameter of the muscle, or its braid diameter when that is not given.",
+            default=1.0,
+            lower=0.0,
+            upper=2.0,
+            source=_CONE,
+            description="Length of a cone over its step in radius; 1 is a cone of 45 degrees. The fitting "
+            "has the inside diameter of the muscle, or its braid diameter when that is not given.",
             off=0.0,
         ),
     ),

@@ -22,7 +22,15 @@ EFFECT = Effect(
     equation=r"C' = f_C\,C",
     parameters=(
         Parameter(
-            "factor", "f_C", "1", 0.85, 0.1, 3.0, _RANGE, "Conductance over that of the data sheet.", off=1.0
+            "factor",
+            "f_C",
+            "1",
+            default=0.85,
+            lower=0.1,
+            upper=3.0,
+            source=_RANGE,
+            description="Conductance over that of the data sheet.",
+            off=1.0,
         ),
     ),
     slots={"fill_conductance": conductance, "exhaust_conductance": conductance},

@@ -20,7 +20,19 @@ EFFECT = Effect(
     cause="Hooks, cords and the real inclination make the load heavier or lighter than noted. The muscle "
     "then rests at another length and moves with another acceleration.",
     equation=r"M' = f_M M,\quad F_{ext}' = f_M F_{ext}",
-    parameters=(Parameter("factor", "f_M", "1", 1.05, 0.2, 5.0, _RANGE, "True over stated load.", off=1.0),),
+    parameters=(
+        Parameter(
+            "factor",
+            "f_M",
+            "1",
+            default=1.05,
+            lower=0.2,
+            upper=5.0,
+            source=_RANGE,
+            description="True over stated load.",
+            off=1.0,
+        ),
+    ),
     slots={"load_factor": load_factor},
     kinds=frozenset({"transient"}),
     signature=Signature(

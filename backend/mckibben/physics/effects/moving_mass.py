@@ -21,7 +21,17 @@ EFFECT = Effect(
     "the muscle holds at rest, but it starts and stops more slowly and rings lower.",
     equation=r"(M+M_x)\,\ddot s = \dots",
     parameters=(
-        Parameter("mass", "M_x", "kg", 0.5, 0.0, 100.0, _RANGE, "Mass that moves besides the load.", off=0.0),
+        Parameter(
+            "mass",
+            "M_x",
+            "kg",
+            default=0.5,
+            lower=0.0,
+            upper=100.0,
+            source=_RANGE,
+            description="Mass that moves besides the load.",
+            off=0.0,
+        ),
     ),
     slots={"inertia": inertia},
     kinds=frozenset({"transient"}),

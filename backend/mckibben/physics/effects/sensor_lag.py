@@ -85,7 +85,16 @@ _CHANNELS = (("force", "F", "N", 100.0), ("pressure", "P", "Pa", 1e5), ("stroke"
 def _time(channel: str, symbol: str, default: float) -> Parameter:
     meaning = f"Time constant of the {channel} channel; 5 ms is a filter of 32 Hz."
     return Parameter(
-        f"{channel}_time", symbol, "s", default, 0.0, 1.0, _RANGE, meaning, off=0.0, fitted=default > 0.0
+        f"{channel}_time",
+        symbol,
+        "s",
+        default=default,
+        lower=0.0,
+        upper=1.0,
+        source=_RANGE,
+        description=meaning,
+        off=0.0,
+        fitted=default > 0.0,
     )
 
 
@@ -114,7 +123,16 @@ EFFECT = Effect(
         _time("pressure", r"\tau_P", 0.0),
         _time("stroke", r"\tau_s", 0.0),
         Parameter(
-            "second_share", r"\varsigma", "1", 0.0, 0.0, 1.0, _ORDER, _SHARE, fitted=False, natural=True
+            "second_share",
+            r"\varsigma",
+            "1",
+            default=0.0,
+            lower=0.0,
+            upper=1.0,
+            source=_ORDER,
+            description=_SHARE,
+            fitted=False,
+            natural=True,
         ),
     ),
     slots={

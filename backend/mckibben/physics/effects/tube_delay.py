@@ -24,7 +24,17 @@ EFFECT = Effect(
     "later, in proportion to the length of the tube.",
     equation=r"t_t = f\,\frac{l}{c_s}",
     parameters=(
-        Parameter("factor", "f", "1", 1.0, 0.0, 3.0, _RANGE, "Travelling time over that of sound.", off=0.0),
+        Parameter(
+            "factor",
+            "f",
+            "1",
+            default=1.0,
+            lower=0.0,
+            upper=3.0,
+            source=_RANGE,
+            description="Travelling time over that of sound.",
+            off=0.0,
+        ),
     ),
     slots={"command_delay": command_delay},
     kinds=frozenset({"transient"}),

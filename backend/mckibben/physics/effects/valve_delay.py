@@ -25,10 +25,26 @@ EFFECT = Effect(
     equation=r"u_v(t) = u(t-t_{on})\ \text{or}\ u(t-t_{off})",
     parameters=(
         Parameter(
-            "opening_time", "t_{on}", "s", 0.005, 0.0, 0.1, _PAPER, "Dead time of switching on.", off=0.0
+            "opening_time",
+            "t_{on}",
+            "s",
+            default=0.005,
+            lower=0.0,
+            upper=0.1,
+            source=_PAPER,
+            description="Dead time of switching on.",
+            off=0.0,
         ),
         Parameter(
-            "closing_time", "t_{off}", "s", 0.0075, 0.0, 0.1, _PAPER, "Dead time of switching off.", off=0.0
+            "closing_time",
+            "t_{off}",
+            "s",
+            default=0.0075,
+            lower=0.0,
+            upper=0.1,
+            source=_PAPER,
+            description="Dead time of switching off.",
+            off=0.0,
         ),
     ),
     slots={"command_delay": command_delay},

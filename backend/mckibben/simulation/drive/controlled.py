@@ -107,16 +107,18 @@ def simulate_controlled(
     external = external_force(drive)
     begin = _inputs(0.0, drive.counter(0.0), external, 0.0)[0]
     loop = ControlLoop(
-        drive,
-        compiled,
-        controller,
-        external,
-        reference.value(np.arange(samples) * period),
-        parameters,
-        start_of(drive, compiled, parameters, begin),
-        np.linspace(0.0, drive.duration, points) if grid is None else np.ascontiguousarray(grid, dtype=float),
-        tolerance,
-        watch or Watch(),
+        drive=drive,
+        compiled=compiled,
+        controller=controller,
+        external=external,
+        set_points=reference.value(np.arange(samples) * period),
+        parameters=parameters,
+        start=start_of(drive, compiled, parameters, begin),
+        grid=np.linspace(0.0, drive.duration, points)
+        if grid is None
+        else np.ascontiguousarray(grid, dtype=float),
+        tolerance=tolerance,
+        watch=watch or Watch(),
     )
     if engine == "rodas":
         kernel.warm().join()

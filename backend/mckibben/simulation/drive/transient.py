@@ -212,15 +212,15 @@ def run_of(
     outputs = {name: solution.rows[:, size + index] for index, name in enumerate(names)}
     outputs["force_reading"] = skewed(drive.model, time_axis, outputs["force_reading"])
     return Run(
-        time_axis,
-        {state.name: solution.rows[:, index] for index, state in enumerate(compiled.model.states)},
-        outputs,
-        solution.outcome,
-        command,
-        drive,
-        solution.steps,
-        solution.engine,
-        wall_seconds,
+        time=time_axis,
+        states={state.name: solution.rows[:, index] for index, state in enumerate(compiled.model.states)},
+        outputs=outputs,
+        outcome=solution.outcome,
+        command=command,
+        drive=drive,
+        steps=solution.steps,
+        engine=solution.engine,
+        wall_seconds=wall_seconds,
     )
 
 

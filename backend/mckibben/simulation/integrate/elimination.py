@@ -91,14 +91,14 @@ def plan_of(size: int, entries: Iterable[tuple[int, int]], *, without: int = -1)
     one = len(position)
     table = [(*row, one if factor is None else position[factor]) for *row, factor in rows]
     return Plan(
-        np.array([position[entry] for entry in given], np.int64),
-        np.array(list(diagonal.values()), np.int64),
-        np.array(pivots, np.int64).reshape(-1, 5),
-        np.array(lower, np.int64),
-        np.array(updates, np.int64).reshape(-1, 3),
-        np.array(table, np.int64).reshape(-1, 4),
-        np.array(terms, np.int64).reshape(-1, 2),
-        one + 1,
+        places=np.array([position[entry] for entry in given], np.int64),
+        diagonal=np.array(list(diagonal.values()), np.int64),
+        pivots=np.array(pivots, np.int64).reshape(-1, 5),
+        lower=np.array(lower, np.int64),
+        updates=np.array(updates, np.int64).reshape(-1, 3),
+        rows=np.array(table, np.int64).reshape(-1, 4),
+        terms=np.array(terms, np.int64).reshape(-1, 2),
+        size=one + 1,
     )
 
 
