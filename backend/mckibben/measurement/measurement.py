@@ -213,10 +213,21 @@ def build(
     for values in (*table.values(), slack, *excluded_rows.values()):
         values.flags.writeable = False  # a cached measurement is shared between requests
     return Measurement(
-        name=name, id=id, kind=kind, kind_detected=detected, columns=MappingProxyType(table), channels=tuple(channels), ignored=tuple(ignored),
-        conditions=MappingProxyType(conditions), slack=slack, messages=tuple(notes), excluded_rows=MappingProxyType(dict(excluded_rows)),
-        skipped=MappingProxyType(dict(skipped or {})), starts=starts, kind_reason=why,
-    )  # fmt: skip
+        name=name,
+        id=id,
+        kind=kind,
+        kind_detected=detected,
+        columns=MappingProxyType(table),
+        channels=tuple(channels),
+        ignored=tuple(ignored),
+        conditions=MappingProxyType(conditions),
+        slack=slack,
+        messages=tuple(notes),
+        excluded_rows=MappingProxyType(dict(excluded_rows)),
+        skipped=MappingProxyType(dict(skipped or {})),
+        starts=starts,
+        kind_reason=why,
+    )
 
 
 def lengths(measurement: Measurement, nominal_length: float) -> Array:

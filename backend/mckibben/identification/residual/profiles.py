@@ -94,9 +94,15 @@ def _profile(name: str, residual: np.ndarray, values: np.ndarray, folds: np.ndar
     worst = int(np.argmax(np.where(count >= 3, rms, 0.0)))
     low, high = (edges[worst], edges[worst + 1]) if len(levels) > 3 else (edges[worst], edges[worst])
     return Profile(
-        over=name, share_explained=max(share, 0.0), worst=_range(name, float(low), float(high)), rmse=float(rms[worst]), edges=edges,
-        mean=sums / np.maximum(count, 1), rms=rms, count=count,
-    )  # fmt: skip
+        over=name,
+        share_explained=max(share, 0.0),
+        worst=_range(name, float(low), float(high)),
+        rmse=float(rms[worst]),
+        edges=edges,
+        mean=sums / np.maximum(count, 1),
+        rms=rms,
+        count=count,
+    )
 
 
 def _range(name: str, low: float, high: float) -> str:
