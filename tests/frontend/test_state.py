@@ -181,7 +181,7 @@ def test_one_request_in_flight_and_the_latest_wins(blank: Page) -> None:
     result = run(
         blank,
         """
-        const { latest } = await import("/js/api.js");
+        const { latest } = await import("/js/server/client.js");
         const asked = [], done = [];
         let most = 0, now = 0;
         const ask = latest(async (body) => {

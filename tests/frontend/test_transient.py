@@ -137,7 +137,7 @@ def test_units_of_drive_documents_are_read_and_every_scenario_runs(page: Page) -
     read = run(
         page,
         """
-        const { siNumber } = await import("/js/views/transient/units.js");
+        const { siNumber } = await import("/js/quantities.js");
         return argument.map(siNumber);
         """,
         texts,
@@ -444,7 +444,7 @@ def test_a_table_comes_from_a_file(page: Page, tmp_path: Path) -> None:
 
 
 READ = """
-const { readTable } = await import("/js/views/transient/table-file.js");
+const { readTable } = await import("/js/views/transient/inputs/table-file.js");
 return argument[0].map((text) => {
   const { times, values, words } = readTable(text, argument[1], "bar", { header: true });
   return { times, values, words };
@@ -587,7 +587,7 @@ def test_a_window_never_outlasts_the_run(page: Page) -> None:
 
 
 RESTING = """
-const { resting } = await import("/js/views/transient/phase.js");
+const { resting } = await import("/js/views/transient/plots/phase.js");
 // F = p A (1 - k / k_max): straight, so that the balance has a closed form.
 const contraction = [...Array(51).keys()].map((i) => 0.005 * i), pressure = [0, 2e5, 4e5, 6e5];
 const force = pressure.map((p) => contraction.map((k) => p * argument.area * (1 - k / 0.25)));

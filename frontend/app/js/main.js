@@ -4,9 +4,9 @@ import { effect } from "./reactive.js";
 import { append, h } from "./dom.js";
 import { doc } from "./state.js";
 import { fromHash, toHash } from "./link.js";
-import { get } from "./api.js";
+import { get } from "./server/client.js";
 import { loadAll, status } from "./store.js";
-import { control, listenToKeys, plain, showShortcuts } from "./shortcuts.js";
+import { control, listenToKeys, plain, showShortcuts } from "./ui/shortcuts.js";
 import { goTo, redoAndTell, shell, undoAndTell } from "./shell.js";
 import { designView } from "./views/design/index.js";
 import { plotlyReady } from "./views/design/charts.js";
@@ -23,7 +23,7 @@ const VIEWS = [
   { id: "catalogue", title: "Catalogue", build: catalogueView },
 ];
 
-/** @type {import("./shortcuts.js").Shortcut[]} */
+/** @type {import("./ui/shortcuts.js").Shortcut[]} */
 const KEYS = [
   { keys: "?", what: "This list", match: plain("?"), run: () => showShortcuts(KEYS) },
   ...VIEWS.map((v, i) => ({

@@ -1,7 +1,7 @@
 // @ts-check
 // What the server knows and does not change while the page is open: effects, presets, version.
 import { computed, effect, signal } from "./reactive.js";
-import { ApiError, get } from "./api.js";
+import { ApiError, get } from "./server/client.js";
 
 /** @typedef {import("./types.js").Effect} Effect */
 /** @typedef {import("./types.js").Preset} Preset */

@@ -5,7 +5,7 @@ import { h, icon } from "../../dom.js";
 import { effect } from "../../reactive.js";
 import { units } from "../../state.js";
 import { effectsById } from "../../store.js";
-import { latest, post } from "../../api.js";
+import { latest, post } from "../../server/client.js";
 import { siOf } from "../../format.js";
 import { Chart } from "../../plots/chart.js";
 import { writeLabels } from "../../plots/overlay.js";
@@ -107,7 +107,7 @@ function smallPlot() {
   let shown = null;
   const draw = () => {
     if (!shown) return;
-    /** @type {import("../design/axes.js").View} */
+    /** @type {import("../../plots/axes.js").View} */
     const view = {
       place: "catalogue",
       curves: shown,

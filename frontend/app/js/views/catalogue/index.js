@@ -1,5 +1,5 @@
 // @ts-check
 // The Catalogue view as the shell sees it: its page is fetched when it is first shown.
-import { later } from "../../later.js";
+import { later } from "../../ui/later.js";
 
 export const catalogueView = later(async () => (await import("./page.js")).cataloguePage);

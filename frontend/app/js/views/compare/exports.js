@@ -1,18 +1,18 @@
 // @ts-check
 // What leaves this view: data with residuals, plots, the report, the model for the Design view.
 import { edit, units } from "../../state.js";
-import { ApiError, postForText } from "../../api.js";
+import { ApiError, postForText } from "../../server/client.js";
 import { goTo } from "../../shell.js";
 import { scaleOf, toShown } from "../../format.js";
 import { status } from "../../store.js";
 import { saveSheet } from "../../plots/export.js";
 import { downloadText, toCsv } from "../../ui/table.js";
-import { answer, compare, files, preset } from "./model.js";
+import { answer, compare, files, preset } from "./answers.js";
 import { presetValues } from "./muscle-values.js";
-import { overlays } from "./overlay.js";
-import { allSeries } from "./pictures.js";
+import { overlays } from "./error/overlay.js";
+import { allSeries } from "./error/pictures.js";
 import { modelBody, used } from "./request.js";
-import { chart as residual, TITLE } from "./residual.js";
+import { chart as residual, TITLE } from "./error/residual.js";
 import { channelScale, VARIABLES } from "./words.js";
 
 const stamp = () => new Date().toISOString().slice(0, 10);

@@ -1,7 +1,7 @@
 // @ts-check
 // What a muscle preset says, in SI; and which preset a measurement was taken on. Pure functions.
 import { siOf } from "../../format.js";
-import { siNumber } from "../transient/units.js";
+import { siNumber } from "../../quantities.js";
 
 /** @typedef {import("../../types.js").Preset} Preset */
 /** @typedef {import("../../types.js").Muscle} Muscle */

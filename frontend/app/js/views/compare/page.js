@@ -2,23 +2,23 @@
 // The page of the Compare & diagnose view: data and model, overlay and residual, error and missing effects.
 import { h, icon } from "../../dom.js";
 import { computed, effect } from "../../reactive.js";
-import { candidatesCard } from "./candidates.js";
-import { emptyCard, guide } from "./empty.js";
-import { errorCard } from "./error.js";
-import { dropping } from "./drop.js";
-import { followFiles } from "./files.js";
-import { whereCard } from "./heat.js";
-import { measurementsCard } from "./measurements.js";
-import { again, answer, chosen, diagnosis, fault, files, stage, startComparing } from "./model.js";
-import { modelCard } from "./model-card.js";
-import { fetchMysteries, mysteryCard } from "./mysteries.js";
-import { overlayCards } from "./overlay.js";
-import { pathCard } from "./path.js";
-import { residualCard } from "./residual.js";
-import { rigCard } from "./rig.js";
-import { setupCard } from "./setup.js";
-import { unknownCard } from "./unknown.js";
-import { verdictCard } from "./verdict.js";
+import { candidatesCard } from "./verdict/candidates.js";
+import { emptyCard, guide } from "./measurement/empty.js";
+import { errorCard } from "./error/card.js";
+import { dropping } from "./measurement/drop.js";
+import { followFiles } from "./measurement/files.js";
+import { whereCard } from "./error/heat.js";
+import { measurementsCard } from "./measurement/card.js";
+import { again, answer, chosen, diagnosis, fault, files, stage, startComparing } from "./answers.js";
+import { modelCard } from "./model/card.js";
+import { fetchMysteries, mysteryCard } from "./measurement/mysteries.js";
+import { overlayCards } from "./error/overlay.js";
+import { pathCard } from "./error/path.js";
+import { residualCard } from "./error/residual.js";
+import { rigCard } from "./model/rig.js";
+import { setupCard } from "./model/setup.js";
+import { unknownCard } from "./verdict/unknown.js";
+import { verdictCard } from "./verdict/card.js";
 
 /** @param {string} path */
 function goToField(path) {

@@ -10,11 +10,11 @@ import { palette, pressureColour } from "../../plots/theme.js";
 import { menuButton } from "../../ui/menu.js";
 import { chartMenu } from "../../plots/export.js";
 import { curves, fault, fieldOf, reference, retry } from "./model.js";
-import { ACROSS, forgetRanges, OVER, pressureName, shareOf } from "./axes.js";
+import { ACROSS, forgetRanges, OVER, pressureName, shareOf } from "../../plots/axes.js";
 import { cursor, readout } from "./readout.js";
 import { forceSpec, overPressureSpec, stiffnessSpec, volumeSpec } from "./specs.js";
 
-/** @typedef {import("./axes.js").View} View */
+/** @typedef {import("../../plots/axes.js").View} View */
 
 const across = computed(() => design.value.across);
 const overWhat = computed(() => design.value.over);

@@ -3,7 +3,7 @@
 import { h } from "../../dom.js";
 import { muscleCard } from "./muscle.js";
 import { operationCard } from "./operation.js";
-import { effectsCard } from "./effects.js";
+import { effectsCard } from "../../muscle/effects.js";
 import { chartColumn } from "./charts.js";
 import { resultCards } from "./results.js";
 import { inverseCard } from "./inverse.js";

@@ -4,7 +4,7 @@ import { h, icon } from "../../dom.js";
 import { effect, signal } from "../../reactive.js";
 import { design, units } from "../../state.js";
 import { scaleOf, withUnit } from "../../format.js";
-import { latest, post } from "../../api.js";
+import { latest, post } from "../../server/client.js";
 import { quantityField } from "../../ui/field.js";
 import { curves, modelInput } from "./model.js";
 

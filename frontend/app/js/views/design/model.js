@@ -3,7 +3,7 @@
 // which field.
 import { batch, computed, effect, signal } from "../../reactive.js";
 import { design } from "../../state.js";
-import { latest, post } from "../../api.js";
+import { latest, post } from "../../server/client.js";
 import { musclesById, references } from "../../store.js";
 import { siOf } from "../../format.js";
 
@@ -28,7 +28,7 @@ export const preset = computed(() => musclesById.value.get(muscle.value.preset ?
 
 export const curves = signal(/** @type {Curves | null} */ (null));
 /** Why there are no new curves: the plots keep the last ones, dimmed. */
-export const fault = signal(/** @type {import("../../api.js").ApiError | null} */ (null));
+export const fault = signal(/** @type {import("../../server/client.js").ApiError | null} */ (null));
 
 /** The muscle as a request gives it. @param {Muscle} m */
 export function muscleInput({ preset: id, form, values }) {

@@ -4,7 +4,7 @@ import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { design, units } from "../../state.js";
 import { aligned, number, scaleOf, withUnit } from "../../format.js";
-import { shown } from "./axes.js";
+import { shown } from "../../plots/axes.js";
 import { curves, fault } from "./model.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */

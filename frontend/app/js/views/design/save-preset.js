@@ -2,7 +2,7 @@
 // "Save as my preset": the muscle with its effects as it is now, with the sources that were not changed.
 import { h } from "../../dom.js";
 import { signal } from "../../reactive.js";
-import { ApiError, post } from "../../api.js";
+import { ApiError, post } from "../../server/client.js";
 import { design, editDesign } from "../../state.js";
 import { effectsById, loadKind, status } from "../../store.js";
 import { openDialog } from "../../ui/dialog.js";

@@ -16,14 +16,14 @@ import {
   steadyX,
   xAxis,
   xColumn,
-} from "./axes.js";
+} from "../../plots/axes.js";
 
 /** @typedef {import("../../plots/chart.js").Spec} Spec */
 /** @typedef {import("../../plots/chart.js").Trace} Trace */
 /** @typedef {import("../../plots/chart.js").Zone} Zone */
 /** @typedef {import("../../plots/theme.js").Palette} Palette */
 /** @typedef {import("../../format.js").Quantity} Quantity */
-/** @typedef {import("./axes.js").View} View */
+/** @typedef {import("../../plots/axes.js").View} View */
 
 /** Contractions the maker does not allow. @param {View} v @param {[number, number]} range
  * @returns {Zone[]} */

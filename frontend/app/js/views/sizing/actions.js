@@ -2,7 +2,7 @@
 // What becomes of a proposal: a muscle in the Design view, a run in the Transient view, a report, a table.
 import { signal } from "../../reactive.js";
 import { edit, units } from "../../state.js";
-import { ApiError, postForText } from "../../api.js";
+import { ApiError, postForText } from "../../server/client.js";
 import { scaleOf, toShown } from "../../format.js";
 import { musclesById, status } from "../../store.js";
 import { downloadText, toCsv } from "../../ui/table.js";

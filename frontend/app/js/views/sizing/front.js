@@ -8,7 +8,7 @@ import { Chart } from "../../plots/chart.js";
 import { chartMenu } from "../../plots/export.js";
 import { palette } from "../../plots/theme.js";
 import { menuButton } from "../../ui/menu.js";
-import { axisTitle, extent } from "../design/axes.js";
+import { axisTitle, extent } from "../../plots/axes.js";
 import { plotlyReady } from "../design/charts.js";
 import { AIM_NAMES } from "./document.js";
 import { answer, answeredTask, chosenIndex, lookSizing, proposals, sizing } from "./model.js";

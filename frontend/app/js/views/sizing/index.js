@@ -3,7 +3,7 @@
 // which is fetched when it is first shown, and its keys.
 import { h } from "../../dom.js";
 import { apart, computed, effect } from "../../reactive.js";
-import { later } from "../../later.js";
+import { later } from "../../ui/later.js";
 import { doc, edit, look, view } from "../../state.js";
 
 /** @typedef {import("./document.js").Sizing["mode"]} Mode */
@@ -48,7 +48,7 @@ export function taskSide() {
   return place;
 }
 
-/** @type {import("../../shortcuts.js").Shortcut[]} */
+/** @type {import("../../ui/shortcuts.js").Shortcut[]} */
 export const TASK_KEYS = [{
   keys: "Ctrl Enter",
   what: "Design, Task: propose drives",

@@ -2,7 +2,7 @@
 // From the task to the server's search and its answer. The search goes on while another view is shown.
 import { batch, computed, effect, signal } from "../../reactive.js";
 import { doc, edit, look } from "../../state.js";
-import { ApiError, follow } from "../../api.js";
+import { ApiError, follow } from "../../server/client.js";
 import { status } from "../../store.js";
 import { at, opened, put, requestOf } from "./document.js";
 import { driveWords } from "./words.js";

@@ -1,7 +1,7 @@
 // @ts-check
 // The Transient view's part of the document: the drive as a drive document has it, without the muscle and its
 // effects, which belong to the Design view. Pure functions; the server checks what the numbers mean.
-import { siNumber } from "./units.js";
+import { siNumber } from "../../quantities.js";
 
 /** @typedef {string | number | boolean | null} Leaf */
 /** Supply, valve, tube, load, command, controller, …; numbers in SI. @typedef {Record<string, any>} Drive */

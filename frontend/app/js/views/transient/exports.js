@@ -1,12 +1,12 @@
 // @ts-check
 // What leaves this view: the run as CSV, the plots, the drive document.
 import { units } from "../../state.js";
-import { ApiError } from "../../api.js";
+import { ApiError } from "../../server/client.js";
 import { scaleOf, toShown } from "../../format.js";
 import { status } from "../../store.js";
 import { saveSheet } from "../../plots/export.js";
 import { downloadText, toCsv } from "../../ui/table.js";
-import { shownCharts } from "./charts.js";
+import { shownCharts } from "./plots/charts.js";
 import { documentNow, simulate } from "./model.js";
 
 /** @typedef {import("../../types.js").Run} Run */

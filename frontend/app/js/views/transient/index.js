@@ -1,6 +1,6 @@
 // @ts-check
 // The Transient view as the shell sees it: its page is fetched when it is first shown.
-import { later } from "../../later.js";
+import { later } from "../../ui/later.js";
 import { view } from "../../state.js";
 
 /** A focused control keeps the space bar for itself. @param {KeyboardEvent} e */
@@ -8,19 +8,19 @@ const free = (e) =>
   view.peek() === "transient" && !e.ctrlKey && !e.metaKey && !e.altKey &&
   !(/** @type {HTMLElement} */ (e.target)).closest?.("button, summary, a, input, label");
 
-/** @type {import("../../shortcuts.js").Shortcut[]} */
+/** @type {import("../../ui/shortcuts.js").Shortcut[]} */
 export const TRANSIENT_KEYS = [
   {
     keys: "Space",
     what: "Transient: play or pause the run",
     match: (e) => e.key === " " && free(e),
-    run: async () => (await import("./animation.js")).togglePlay(),
+    run: async () => (await import("./motion/animation.js")).togglePlay(),
   },
   {
     keys: "P",
     what: "Transient: pin this run",
     match: (e) => e.key.toLowerCase() === "p" && free(e),
-    run: async () => (await import("./pins.js")).pin(),
+    run: async () => (await import("./pinned/card.js")).pin(),
   },
 ];
 

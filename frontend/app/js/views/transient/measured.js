@@ -3,7 +3,7 @@
 import { h, icon } from "../../dom.js";
 import { computed, effect, signal } from "../../reactive.js";
 import { view } from "../../state.js";
-import { ApiError, get } from "../../api.js";
+import { ApiError, get } from "../../server/client.js";
 import { editTransient, transient } from "./model.js";
 
 /** @typedef {import("../../types.js").Measured} Measured */

@@ -2,7 +2,7 @@
 // From the document to the server's run.
 import { batch, computed, effect, signal } from "../../reactive.js";
 import { commit, design, doc, edit, look, preview, view } from "../../state.js";
-import { latest, post } from "../../api.js";
+import { latest, post } from "../../server/client.js";
 import { presets, status } from "../../store.js";
 import { muscleInput, preset, presetEffects } from "../design/model.js";
 import {
@@ -15,7 +15,7 @@ import {
   put,
   takenApart,
 } from "./document.js";
-import { siNumber } from "./units.js";
+import { siNumber } from "../../quantities.js";
 
 /** @typedef {import("../../types.js").Run} Run */
 /** @typedef {import("../../types.js").Preset} Preset */
@@ -30,7 +30,7 @@ export const mode = computed(() => transient.value.mode);
 
 export const run = signal(/** @type {Run | null} */ (null));
 /** Why there is no new run: the plots keep the last one, dimmed. */
-export const fault = signal(/** @type {import("../../api.js").ApiError | null} */ (null));
+export const fault = signal(/** @type {import("../../server/client.js").ApiError | null} */ (null));
 /** From the request to its answer [ms]. */
 export const roundTrip = signal(0);
 

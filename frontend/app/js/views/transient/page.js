@@ -2,14 +2,14 @@
 // The page of the Transient view: inputs, motion and plots, figures.
 import { append, h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
-import { stageCard } from "./animation.js";
-import { paired, plotCards } from "./charts.js";
-import { figureCards } from "./figures.js";
+import { stageCard } from "./motion/animation.js";
+import { paired, plotCards } from "./plots/charts.js";
+import { figureCards } from "./figures/figures.js";
 import { measuredCard } from "./measured.js";
 import { fault, fieldOf, retry, run, startRuns } from "./model.js";
-import { inputCards } from "./panel.js";
-import { startPins } from "./pin-runs.js";
-import { compareCard } from "./pins.js";
+import { inputCards } from "./inputs/panel.js";
+import { startPins } from "./pinned-runs.js";
+import { compareCard } from "./pinned/card.js";
 import { startStatics } from "./statics.js";
 
 /** @param {string} path */

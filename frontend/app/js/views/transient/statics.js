@@ -2,7 +2,7 @@
 // The muscle at rest, behind the phase plot: its curves while filling and while venting.
 import { computed, effect, signal } from "../../reactive.js";
 import { design } from "../../state.js";
-import { latest, post } from "../../api.js";
+import { latest, post } from "../../server/client.js";
 import { muscleInput } from "../design/model.js";
 import { numberAt, shownNow } from "./model.js";
 

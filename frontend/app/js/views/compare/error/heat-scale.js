@@ -1,0 +1,85 @@
+// @ts-check
+// What the colours of the map span: the error of the first model, by which before and after compare, or the
+// largest cell, so that what a fix leaves over still shows its shape. Pure functions but for the switch.
+import { h } from "../../../dom.js";
+import { units } from "../../../state.js";
+import { compare, lookCompare, shown, steps } from "../answers.js";
+import { errorText, rangeText } from "../words.js";
+
+/** @typedef {import("../types.js").HeatMap} HeatMap */
+/** @typedef {import("../types.js").Comparison} Comparison */
+/** @typedef {import("../document.js").Heat} Heat */
+/** `most`: at the full colour; `start`: what the first model's scale has there; `largest`: of all cells,
+ * `at`: where it is. @typedef {{kind: "start" | "own", most: number, start: number, largest: number,
+ *   at: [number, number]}} HeatScale */
+
+/** Largest cell over the first scale, below which a map in that scale looks empty. */
+const PALE = 1 / 5;
+
+/** @param {(number | null)[]} edges @param {number} i @returns {[number, number]} */
+export const bin = (edges, i) => [edges[i] ?? 0, edges[i + 1] ?? edges[i] ?? 0];
+
+/** @param {HeatMap} map @param {number} first error of the first model @param {Heat} choice
+ * @returns {HeatScale} */
+export function heatScale(map, first, choice) {
+  const start = 2 * first || 1;
+  let largest = 0, at = /** @type {[number, number]} */ ([0, 0]);
+  map.mean.forEach((row, iy) =>
+    row.forEach((mean, ix) => {
+      if (mean == null || !map.count[iy]?.[ix] || Math.abs(mean) <= Math.abs(largest)) return;
+      [largest, at] = [mean, [ix, iy]];
+    })
+  );
+  const pale = Math.abs(largest) < PALE * start;
+  const kind = choice === "auto" ? (pale ? "own" : "start") : choice;
+  const own = Math.abs(largest) || start;
+  return { kind, most: kind === "own" ? own : start, start, largest, at };
+}
+
+/** @param {Comparison} a @param {HeatMap} map */
+export const scaleOf = (a, map) => heatScale(map, steps.value[0]?.rmse ?? a.rmse ?? 1, compare.value.heat);
+
+/** What the colours span, and what that hides. @param {Comparison} a @param {HeatMap} map
+ * @param {HeatScale} s */
+export function scaleNote(a, map, s) {
+  const system = units.value;
+  const say = (/** @type {number} */ si) => errorText(si, a.unit, a.predicted, system);
+  if (!s.largest) return "The mean residual is zero everywhere.";
+  const signed = (s.largest > 0 ? "+" : "−") + say(Math.abs(s.largest));
+  const where = `${rangeText(map.y, bin(map.y_edges, s.at[1]), system)}, ${
+    rangeText(map.x, bin(map.x_edges, s.at[0]), system)
+  }`;
+  const size = Math.abs(s.largest);
+  const calm = a.noise_floor && size < a.noise_floor ? `, less than the noise of one reading` : "";
+  const largest = `Largest cell ${signed} at ${where}${calm}.`;
+  if (!steps.value.length) return largest;
+  return s.kind === "own"
+    ? `${largest} Colours up to ${say(s.most)}; at the start up to ${say(s.start)}.`
+    : `${largest} Colours up to ${say(s.most)}, as at the start.`;
+}
+
+/** Which of both; there once the model is another than the first. */
+export const scaleSwitch = () =>
+  h(
+    "div",
+    {
+      class: "group",
+      role: "group",
+      "aria-label": "Colours of the map span",
+      hidden: () => !steps.value.length || !shown.value?.heat_map,
+    },
+    ...[
+      { id: /** @type {const} */ ("start"), label: "First scale", title: "As at the first model" },
+      { id: /** @type {const} */ ("own"), label: "Own scale", title: "Up to the largest cell" },
+    ].map(({ id, label, title }) =>
+      h("button", {
+        type: "button",
+        title: `Colours: ${title.toLowerCase()}`,
+        "aria-pressed": () => {
+          const a = shown.value;
+          return String(!!a?.heat_map && scaleOf(a, a.heat_map).kind === id);
+        },
+        onclick: () => lookCompare({ heat: id }),
+      }, label)
+    ),
+  );

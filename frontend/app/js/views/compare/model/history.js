@@ -1,0 +1,184 @@
+// @ts-check
+// The ways a model changes: an effect added or taken out, a fit, a step back. Each is one step of undo.
+import { signal } from "../../../reactive.js";
+import { edit } from "../../../state.js";
+import { ApiError } from "../../../server/client.js";
+import { effectsById, status } from "../../../store.js";
+import { answer, compare, diagnosis, fitWith, preset } from "../answers.js";
+import { fitOf, IDEAL, stepOf, withStep } from "../document.js";
+import { keyOf, valuesOf } from "../request.js";
+import { presetValues } from "../muscle-values.js";
+import { OWN_TERM } from "../words.js";
+
+/** @typedef {import("../document.js").Compare} Compare */
+/** @typedef {import("../document.js").Step} Step */
+/** @typedef {import("../types.js").Candidate} Candidate */
+/** @typedef {import("../types.js").Comparison} Comparison */
+/** @typedef {import("../types.js").Effects} Effects */
+/** @typedef {import("../types.js").Model} Model */
+
+/** A fit on request is under way. */
+export const fitting = signal(false);
+
+/** @param {string} id */
+export const titleOf = (id) =>
+  id === OWN_TERM ? "Own term" : effectsById.value.get(id)?.title ?? id.replaceAll("_", " ");
+
+/** The model of now with its error, as a step of the history. */
+export const here = () =>
+  stepOf(compare.value, answer.value?.rmse ?? null, diagnosis.value?.baseline.holdout_rmse ?? null);
+
+/** Geometry that a fit changed. @param {Model} model */
+const geometryOf = (model) => ({ ...compare.peek().muscle.values, ...valuesOf(model.muscle) });
+
+/** @param {Step[]} walked steps after the one of now; the last is the new model @param {string} label */
+function go(walked, label) {
+  const all = [...compare.peek().history, here(), ...walked];
+  const last = /** @type {Step} */ (all.pop());
+  edit((d) => ({ ...d, compare: withStep(d.compare, last, all) }), label);
+}
+
+/** @param {Candidate} c */
+export function add(c) {
+  const title = titleOf(c.effect);
+  go([{
+    label: `+ ${title}`,
+    effects: c.model.effects,
+    freed: c.freed,
+    values: geometryOf(c.model),
+    fit: fitOf({ [c.effect]: c.parameters }),
+    rmse: c.rmse,
+    holdout: c.holdout_rmse,
+  }], `add ${title}`);
+}
+
+/** Every effect the diagnosis found missing, in its order; one step of undo. */
+export function addAll() {
+  const told = diagnosis.peek();
+  const path = told?.path.slice(1) ?? [];
+  if (!told || !path.length) return;
+  const names = path.map((s) => s.added ? titleOf(s.added) : "Values fitted");
+  go(
+    path.map((s, i) => ({
+      label: `+ ${names[i]}`,
+      effects: s.model.effects,
+      freed: s.freed,
+      values: geometryOf(s.model),
+      fit: i === path.length - 1 ? fitOf(told.parameters) : {},
+      rmse: s.rmse,
+      holdout: s.holdout_rmse,
+    })),
+    path.length === 1 ? `add ${names[0]}` : `add ${path.length} effects`,
+  );
+}
+
+/** A model with a formula of the user's. @param {Model} model @param {string} label */
+export const addModel = (model, label) =>
+  go([{
+    label: `+ ${label}`,
+    effects: model.effects,
+    freed: compare.peek().freed,
+    values: geometryOf(model),
+    fit: compare.peek().fit,
+    rmse: null,
+    holdout: null,
+  }], `add ${label}`);
+
+/** The values of a model after a fit. @param {Effects} effects @param {Comparison} got @returns {Effects} */
+const fittedValues = (effects, got) =>
+  Object.fromEntries(
+    Object.entries(got.parameters).map(([id, parameters]) => {
+      const numbers = Object.entries(parameters).map(([name, p]) => [name, p.value]);
+      return [id, { ...effects[id], ...Object.fromEntries(numbers) }];
+    }),
+  );
+
+const MOST_FITS = 4;
+
+/** Fits the parameters of a model and takes it.
+ * @param {Effects | null} effects @param {string} label of undo @param {string} step of the history
+ * @throws {ApiError} the server's reason why there is no fit */
+export async function takeFitted(effects, label, step) {
+  const c = compare.peek();
+  const freed = effects === null ? c.freed : c.freed.filter((name) => name.split(".")[0] in effects);
+  const start = { freed, values: c.muscle.values };
+  if (!keyOf(c, { effects, ...start })) return;
+  fitting.value = true;
+  try {
+    let values = effects, tries = 0, stuck = true;
+    let got = /** @type {Comparison | null} */ (null);
+    // The range of a typed term's constant follows from where it starts: at its end, the fit goes on from there.
+    while (stuck && tries++ < MOST_FITS) {
+      got = await fitWith(keyOf(c, { effects: values, ...start }) ?? "");
+      if (compare.peek() !== c && keyOf(compare.peek()) !== keyOf(c)) return;
+      values = fittedValues(values ?? {}, got);
+      stuck = Object.values(got.parameters[OWN_TERM] ?? {}).some((p) => p.at_bound);
+    }
+    if (!got) return;
+    const free = Object.fromEntries(
+      Object.entries(valuesOf(got.geometry)).filter(([name]) => c.free.includes(name)),
+    );
+    go([{
+      label: step,
+      effects: values,
+      freed,
+      values: { ...c.muscle.values, ...free },
+      fit: fitOf(got.parameters),
+      rmse: got.rmse,
+      holdout: got.holdout_rmse,
+    }], label);
+  } finally {
+    fitting.value = false;
+  }
+}
+
+/** As takeFitted; a failure is told in the status line.
+ * @param {Effects | null} effects @param {string} label @param {string} step */
+async function fitted(effects, label, step) {
+  try {
+    await takeFitted(effects, label, step);
+  } catch (error) {
+    if (!(error instanceof ApiError)) throw error;
+    status.value = `The fit did not succeed: ${error.words}`;
+  }
+}
+
+/** Fits every parameter of the model again. */
+export const refit = () => fitted(compare.peek().effects, "refit", "Refit");
+export const refitByKey = () => {
+  if (answer.peek() && !fitting.peek()) refit();
+};
+
+/** Takes an effect out and fits the others again. @param {string} id */
+export function remove(id) {
+  const title = titleOf(id);
+  const all = compare.peek().effects ?? presetValues(preset.peek());
+  const effects = Object.fromEntries(Object.entries(all).filter(([name]) => name !== id));
+  return fitted(effects, `remove ${title}`, `− ${title}`);
+}
+
+/** Back to a model of the history; the way from there is forgotten, until undo. @param {number} index */
+export function goBack(index) {
+  const { history } = compare.peek();
+  const step = history[index];
+  edit(
+    (d) => ({ ...d, compare: withStep(d.compare, step, history.slice(0, index)) }),
+    `back to ${step.label}`,
+  );
+}
+
+/** A fresh start: without effects, or with those of the preset.
+ * @param {Compare} c @param {"ideal" | "preset"} start @returns {Compare} */
+export const fresh = (c, start = c.start) => ({
+  ...c,
+  start,
+  effects: start === "ideal" ? {} : null,
+  freed: [],
+  fit: {},
+  label: start === "ideal" ? IDEAL : "Effects of the preset",
+  holdout: null,
+  history: [],
+  heat: "auto",
+  brush: null,
+  before: false,
+});

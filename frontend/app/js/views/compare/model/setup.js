@@ -1,0 +1,236 @@
+// @ts-check
+// Which model the measurement is laid beside: muscle, start model, what the fit may change, noise of the data.
+import { h, icon } from "../../../dom.js";
+import { computed } from "../../../reactive.js";
+import { commit, edit, preview, units } from "../../../state.js";
+import { muscles } from "../../../store.js";
+import { plainScale, quantityOf, scaleOf, siOf } from "../../../format.js";
+import { quantityField } from "../../../ui/field.js";
+import { openPopover } from "../../../ui/dialog.js";
+import { unverifiedNote } from "../../../ui/sources.js";
+import { infos, unknownMuscle } from "../measurement/files.js";
+import { GIVEN } from "../document.js";
+import { fresh } from "./history.js";
+import { answer, chosen, compare, editCompare, messageFor, patchCompare, preset, steps } from "../answers.js";
+
+/** @typedef {import("../../../format.js").Quantity} Quantity */
+
+const DEG = Math.PI / 180;
+/** @type {Record<string, {label: string, quantity: Quantity, bounds: [number, number]}>} */
+const GEOMETRY = {
+  nominal_length: { label: "Length", quantity: "length", bounds: [0.02, 10] },
+  braid_angle: { label: "Braid angle", quantity: "angle", bounds: [5 * DEG, 80 * DEG] },
+  braid_diameter: { label: "Braid diameter", quantity: "length", bounds: [1e-3, 0.2] },
+  inside_diameter: { label: "Inside diameter", quantity: "length", bounds: [1e-3, 0.2] },
+  wall_thickness: { label: "Wall thickness", quantity: "length", bounds: [0, 0.02] },
+};
+/** What a fit may change. */
+const FREE = ["braid_angle", "braid_diameter"];
+
+/** @param {string} key */
+function valueOf(key) {
+  const own = compare.value.muscle.values[key];
+  if (own !== undefined) return own;
+  const given = preset.value?.geometry?.[key];
+  return given ? siOf(given) : /** @type {any} */ (answer.value?.geometry)?.[key] ?? null;
+}
+
+/** @param {string} key */
+function isChanged(key) {
+  const own = compare.value.muscle.values[key], given = preset.value?.geometry?.[key];
+  return own !== undefined && given !== undefined && Math.abs(own - siOf(given)) > 1e-9;
+}
+
+/** @param {string} key @param {number | null} si null = the preset's @param {boolean} [done] */
+function put(key, si, done = true) {
+  const { muscle } = compare.peek();
+  const values = { ...muscle.values };
+  if (si === null) delete values[key];
+  else values[key] = si;
+  preview(patchCompare({ muscle: { ...muscle, values } }));
+  if (done) commit(GEOMETRY[key].label.toLowerCase());
+}
+
+/** @param {string} key */
+const field = (key) =>
+  quantityField({
+    key: `compare.${key}`,
+    label: GEOMETRY[key].label,
+    quantity: GEOMETRY[key].quantity,
+    slider: false,
+    scale: () => scaleOf(GEOMETRY[key].quantity, units.value),
+    bounds: () => GEOMETRY[key].bounds,
+    get: () => valueOf(key),
+    put: (si, done) => put(key, si, done),
+    changed: () => isChanged(key),
+    reset: () => put(key, null),
+    message: () => messageFor(`muscle.${key}`),
+  });
+
+/** @param {string} key */
+const freeBox = (key) =>
+  h(
+    "label",
+    { class: "check" },
+    h("input", {
+      type: "checkbox",
+      checked: () => compare.value.free.includes(key),
+      onchange: (/** @type {Event} */ e) => {
+        const on = /** @type {HTMLInputElement} */ (e.target).checked;
+        const free = compare.peek().free.filter((k) => k !== key);
+        const name = GEOMETRY[key].label.toLowerCase();
+        editCompare({ free: on ? [...free, key] : free }, `${on ? "fit" : "keep"} ${name}`);
+      },
+    }),
+    h("span", null, `Fit the ${GEOMETRY[key].label.toLowerCase()} too`),
+  );
+
+/** Another muscle is another question: the model starts afresh. @param {string} id "" = own geometry */
+function choose(id) {
+  const { muscle } = compare.peek();
+  const length = muscle.values.nominal_length;
+  if (id) {
+    const values = /** @type {Record<string, number>} */ (length ? { nominal_length: length } : {});
+    return edit((d) => ({
+      ...d,
+      compare: { ...fresh(d.compare), muscle: { preset: id, form: "braid", values } },
+    }), `muscle ${id}`);
+  }
+  const own = Object.keys(GEOMETRY).flatMap((key) => {
+    const value = valueOf(key);
+    return value === null ? [] : [[key, value]];
+  });
+  edit((d) => ({
+    ...d,
+    compare: {
+      ...fresh(d.compare, "ideal"),
+      muscle: { preset: null, form: "braid", values: Object.fromEntries(own) },
+    },
+  }), "own geometry");
+}
+
+function presetSelect() {
+  return h("select", {
+    id: "compare-preset",
+    "aria-label": "Muscle that was measured",
+    onchange: (/** @type {Event} */ e) => choose(/** @type {HTMLSelectElement} */ (e.target).value),
+  }, () => [
+    h("option", { value: "", selected: compare.value.muscle.preset === null }, "Own geometry"),
+    ...muscles.value.map((m) =>
+      h("option", { value: m.id, selected: m.id === compare.value.muscle.preset }, m.title)
+    ),
+  ]);
+}
+
+function badge() {
+  const p = preset.value;
+  if (!p || p.verified) return null;
+  const button = h(
+    "button",
+    {
+      type: "button",
+      class: "badge warn",
+      "aria-expanded": "false",
+      onclick: () => openPopover(button, "Unverified values", () => unverifiedNote(p)),
+    },
+    icon("warn"),
+    "unverified",
+  );
+  return button;
+}
+
+/** The muscle a file names but this page does not know. */
+const stranger = computed(() => {
+  for (const { id } of chosen.value) {
+    const info = infos.value.get(id);
+    const name = info && unknownMuscle(info);
+    if (name) return name;
+  }
+  return null;
+});
+
+/** @type {["ideal" | "preset", string, string][]} */
+const STARTS = [
+  ["ideal", "Ideal", "Force from pressure and braid alone"],
+  ["preset", "Preset’s effects", "With the effects the preset brings along"],
+];
+
+/** A mystery or a drive document may say what the start model is. */
+const broughtAlong = () => (steps.value[0] ?? compare.value).label === GIVEN;
+
+function startChoice() {
+  return h(
+    "div",
+    { class: "segments", role: "radiogroup", "aria-label": "Start model" },
+    ...STARTS.map(([id, label, title]) =>
+      h("button", {
+        type: "button",
+        role: "radio",
+        title,
+        "aria-checked": () => String(compare.value.start === id && !(id === "ideal" && broughtAlong())),
+        onclick: () =>
+          edit((d) => ({ ...d, compare: fresh(d.compare, id) }), `start from ${label.toLowerCase()}`),
+      }, label)
+    ),
+  );
+}
+
+const noiseScale = () => {
+  const unit = answer.value?.unit ?? "N";
+  const quantity = quantityOf(unit);
+  return quantity ? scaleOf(quantity, units.value) : plainScale(unit);
+};
+
+const noiseField = () =>
+  quantityField({
+    key: "noise",
+    label: "Noise of the data (σ)",
+    quantity: "force",
+    slider: false,
+    empty: "estimated",
+    scale: noiseScale,
+    get: () => compare.value.noise,
+    put: (si) => editCompare({ noise: si }, "noise"),
+    clear: () => editCompare({ noise: null }, "noise estimated"),
+    message: () => messageFor("noise"),
+  });
+
+export function setupCard() {
+  return h(
+    "section",
+    { class: "card", "aria-label": "Muscle and start model" },
+    h("div", { class: "card-head" }, h("h2", null, "Muscle"), badge),
+    presetSelect(),
+    h("p", { class: "error" }, () => messageFor("muscle.preset") ?? messageFor("measurement") ?? ""),
+    () =>
+      stranger.value
+        ? h(
+          "p",
+          { class: "flag note" },
+          icon("info"),
+          h(
+            "span",
+            null,
+            `The file names “${stranger.value}”, which is not in the catalogue: check the muscle.`,
+          ),
+        )
+        : null,
+    field("nominal_length"),
+    h(
+      "details",
+      null,
+      h("summary", null, () => `Geometry${compare.value.free.length ? ": fitted too" : ""}`),
+      ...["braid_angle", "braid_diameter", "inside_diameter", "wall_thickness"].map(field),
+      ...FREE.map(freeBox),
+    ),
+    h("p", { class: "label" }, "Start model"),
+    startChoice(),
+    noiseField(),
+    h(
+      "p",
+      { class: "hint" },
+      () =>
+        compare.value.noise === null && answer.value?.noise_how ? `Noise: ${answer.value.noise_how}.` : "",
+    ),
+  );
+}

@@ -1,0 +1,216 @@
+// @ts-check
+// What the diagnosis concludes: a sentence, all effects at once, what to measure next; while it runs, how far.
+import { h, icon } from "../../../dom.js";
+import { units } from "../../../state.js";
+import { brief } from "../../../format.js";
+import { spoken } from "../../../ui/sources.js";
+import { addAll, titleOf } from "../model/history.js";
+import {
+  again,
+  answer,
+  cancel,
+  diagnosis,
+  fault,
+  found,
+  progress,
+  stage,
+  stale,
+  trouble,
+} from "../answers.js";
+import { errorText, whatIsLeft } from "../words.js";
+
+/** @typedef {import("../types.js").Status} Status */
+/** @typedef {import("../types.js").Diagnosis} Diagnosis */
+
+/** @type {Record<Status, [string, string]>} */
+const BADGES = {
+  adequate: ["good", "Adequate"],
+  missing_effects: ["warn", "Effects are missing"],
+  ambiguous: ["warn", "Effects are missing, not all decidable"],
+  unknown_effect: ["bad", "Unknown effect"],
+};
+
+function running() {
+  const { share } = progress.value, tried = found.value.length;
+  return [
+    h(
+      "div",
+      {
+        class: "bar",
+        role: "progressbar",
+        "aria-label": "Diagnosis",
+        "aria-valuenow": Math.round(100 * share),
+      },
+      h("i", { style: `width:${Math.max(3, 100 * share)}%` }),
+    ),
+    h(
+      "div",
+      { class: "running" },
+      h(
+        "span",
+        { class: "muted" },
+        tried ? `${tried} effects tried…` : "Trying every effect of the catalogue…",
+      ),
+      h("button", { type: "button", class: "link", onclick: cancel }, "Cancel"),
+    ),
+  ];
+}
+
+/** @param {string} words @param {string} button */
+const halted = (words, button) =>
+  h(
+    "div",
+    { class: "notice" },
+    h("span", null, words),
+    h("button", { type: "button", onclick: again }, button),
+  );
+
+/** Every effect found missing, in one click. */
+function allButton() {
+  const path = diagnosis.value?.path.slice(1) ?? [], a = answer.value;
+  if (path.length < 2) return null;
+  const last = path[path.length - 1];
+  const error = errorText(last.rmse, a?.unit ?? "N", a?.predicted ?? "force", units.value);
+  return h("button", {
+    type: "button",
+    class: "primary block",
+    id: "add-all",
+    disabled: () => stale.value,
+    onclick: addAll,
+    title: path.map((s) => titleOf(s.added ?? "")).join(", "),
+  }, `Add all ${path.length} effects: error ${error}`);
+}
+
+const AT_FLOOR = 1.15;
+
+/** "127 N → 3.09 N, which is the noise" @param {Diagnosis} told */
+function fall(told) {
+  const say = (/** @type {number | null} */ si) => errorText(si, told.unit, told.predicted, units.value);
+  const scaled = Object.keys(told.channels).length > 1;
+  const floor = scaled ? 1 : told.noise_floor.rmse, end = told.path.at(-1)?.rmse ?? null;
+  const there = floor !== null && end !== null && end <= AT_FLOOR * floor;
+  return h(
+    "p",
+    { class: "verdict-fall", id: "verdict-fall" },
+    `With ${told.verdict.effects.length > 1 ? "them" : "it"} the error falls `,
+    h("b", null, `${say(told.baseline.rmse)} → ${say(end)}`),
+    there
+      ? `: the noise of the data${scaled ? "" : ` (${say(floor)})`}.`
+      : floor === null || scaled
+      ? "."
+      : `; the noise is ${say(floor)}.`,
+  );
+}
+
+/** Each effect found missing, and what else it could be. @param {Diagnosis["verdict"]} verdict */
+function missing({ effects, indistinguishable }) {
+  return h(
+    "ul",
+    { class: "plain found-missing" },
+    ...effects.map((id) => {
+      const twins = indistinguishable.find(([one]) => one === id)?.slice(1) ?? [];
+      return h(
+        "li",
+        { class: twins.length ? "unsure" : "sure" },
+        icon(twins.length ? "info" : "check"),
+        h(
+          "span",
+          null,
+          h("b", null, titleOf(id)),
+          twins.length
+            ? h("small", null, `or ${twins.map(titleOf).join(", ")}: these data cannot tell`)
+            : h("small", null, "nothing else fits as well"),
+        ),
+      );
+    }),
+  );
+}
+
+/** @param {string} text */
+const sentence = (text) => `${text.replace(/^./, (c) => c.toUpperCase()).replace(/\.$/, "")}.`;
+
+const FEW = 2;
+
+/** What would decide between effects that look alike. @param {Diagnosis["verdict"]} verdict */
+function next({ experiments, next_measurement: told }) {
+  if (!experiments.length) {
+    return told ? h("p", { class: "next" }, h("b", null, "Measure next: "), told) : null;
+  }
+  const items = experiments.map((e) =>
+    h(
+      "li",
+      null,
+      h("b", null, e.pair.map(titleOf).join(" or ")),
+      e.declared ? h("p", null, sentence(e.declared)) : null,
+      h(
+        "p",
+        { class: "muted" },
+        e.protocol
+          ? `Best of the simulated tests: ${e.protocol}, ${brief(e.separation)}\u00a0σ apart.`
+          : "No simulated test of the force separates them.",
+      ),
+    )
+  );
+  return h(
+    "details",
+    { class: "next", open: items.length <= FEW },
+    h("summary", null, `Measure next: ${items.length} ${items.length > 1 ? "tests" : "test"} would decide`),
+    h("ol", { class: "experiments" }, ...items),
+  );
+}
+
+/** @param {Diagnosis} told */
+function conclusion(told) {
+  const { verdict } = told;
+  const [tone, label] = BADGES[verdict.status] ?? ["warn", spoken(verdict.status)];
+  const some = verdict.effects.length > 0, unknown = verdict.status === "unknown_effect";
+  const rest = `No catalogued effect explains the rest: ${whatIsLeft(verdict)}.`;
+  return h(
+    "div",
+    { class: `verdict ${tone}` },
+    icon(tone === "good" ? "check" : "warn"),
+    h(
+      "div",
+      null,
+      h("b", { id: "verdict-status" }, some && unknown ? "Effects are missing, the rest is unknown" : label),
+      ...some
+        ? [missing(verdict), fall(told), unknown ? h("p", null, rest) : null]
+        : [h("p", null, verdict.sentence)],
+    ),
+  );
+}
+
+export function verdictCard() {
+  const body = () => {
+    if (stage.value === "failed") return halted(trouble.value?.words ?? "The diagnosis failed.", "Try again");
+    if (stage.value === "cancelled") return halted("The diagnosis was cancelled.", "Diagnose");
+    const told = diagnosis.value;
+    if (!told) {
+      return fault.value ? h("p", { class: "muted" }, "There is no comparison to diagnose.") : running();
+    }
+    const { messages } = told;
+    return [
+      conclusion(told),
+      allButton(),
+      next(told.verdict),
+      messages.length
+        ? h(
+          "details",
+          null,
+          h("summary", null, "Notes"),
+          h("ul", { class: "plain muted" }, ...messages.map((m) => h("li", null, m))),
+        )
+        : null,
+    ];
+  };
+  return h(
+    "section",
+    {
+      class: "card verdict-card",
+      "aria-label": "Verdict",
+      "aria-busy": () => String(stage.value === "running"),
+    },
+    h("div", { class: "card-head" }, h("h2", null, "Verdict")),
+    body,
+  );
+}
