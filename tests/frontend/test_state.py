@@ -61,7 +61,8 @@ def test_a_drag_is_one_undo_step_with_a_name(blank: Page) -> None:
         blank,
         """
         const s = await import("/js/state.js");
-        for (const load of [510, 520, 530]) s.preview(s.patchDesign({ load }));
+        const { patchDesign } = await import("/js/muscle/document.js");
+        for (const load of [510, 520, 530]) s.preview(patchDesign({ load }));
         s.commit("load");
         const steps = s.past.peek().map((step) => step.label), moved = s.doc.peek().design.load;
         s.undo();
@@ -78,14 +79,42 @@ def test_a_new_change_ends_the_redo_branch(blank: Page) -> None:
         blank,
         """
         const s = await import("/js/state.js");
-        s.editDesign({ load: 1 }, "a");
-        s.editDesign({ load: 2 }, "b");
+        const { editDesign } = await import("/js/muscle/document.js");
+        editDesign({ load: 1 }, "a");
+        editDesign({ load: 2 }, "b");
         s.undo();
-        s.editDesign({ load: 3 }, "c");
+        editDesign({ load: 3 }, "c");
         return [s.future.peek().length, s.past.peek().map((step) => step.label), s.redo()];
         """,
     )
     assert left == [0, ["a", "c"], None]
+
+
+def test_a_part_of_the_document_is_registered_with_its_start_and_its_reader(blank: Page) -> None:
+    outcome = run(
+        blank,
+        """
+        const s = await import("/js/state.js");
+        const read = (raw) => {
+          if (raw === undefined) return { size: 1 };
+          if (typeof raw.size !== "number") throw new Error("the size of the part is no number");
+          return { size: raw.size };
+        };
+        s.addPart("part", { start: () => ({ size: 1 }), read });
+        const wrong = () => s.readDoc({ schema: 1, part: { size: "much" } });
+        let message = "";
+        try { wrong(); } catch (error) { message = error.message; }
+        return [s.doc.peek().part, s.defaultDoc().part, s.readDoc({ schema: 1 }).part,
+          s.readDoc({ schema: 1, part: { size: 3, more: 4 } }).part, message];
+        """,
+    )
+    assert outcome == [
+        {"size": 1},
+        {"size": 1},
+        {"size": 1},
+        {"size": 3},
+        "the size of the part is no number",
+    ]
 
 
 def test_what_is_looked_at_is_no_step(blank: Page) -> None:
@@ -201,6 +230,11 @@ def test_one_request_in_flight_and_the_latest_wins(blank: Page) -> None:
 
 # ---- links
 
+PARTS = [
+    "/js/muscle/document.js",
+    *(f"/js/views/{view}/document.js" for view in ("sizing", "transient", "compare", "catalogue")),
+]
+
 
 def packed(text: str) -> str:
     """A link made by hand: raw deflate, base64url."""
@@ -214,6 +248,7 @@ def test_a_link_holds_the_whole_document(blank: Page) -> None:
         blank,
         """
         const { toHash, fromHash } = await import("/js/link.js");
+        for (const part of argument) await import(part);
         const { defaultDoc } = await import("/js/state.js");
         const doc = defaultDoc();
         doc.units = "us";
@@ -222,6 +257,7 @@ def test_a_link_holds_the_whole_document(blank: Page) -> None:
         const hash = await toHash(doc);
         return [hash.startsWith("#v1."), JSON.stringify(await fromHash(hash)) === JSON.stringify(doc)];
         """,
+        PARTS,
     )
     assert same == [True, True]
 
@@ -250,6 +286,7 @@ def test_wrong_documents_are_refused_in_words(blank: Page) -> None:
         blank,
         """
         const { fromHash } = await import("/js/link.js");
+        await import("/js/muscle/document.js");
         return Promise.all(argument.map((hash) => fromHash(hash).then(() => "", (error) => error.message)));
         """,
         [packed(text) for text in WRONG_DOCUMENTS],
@@ -272,6 +309,7 @@ def test_damaged_links_never_break_the_reader(blank: Page) -> None:
         blank,
         """
         const { fromHash } = await import("/js/link.js");
+        await import("/js/muscle/document.js");
         const outcome = (hash) => fromHash(hash).then(
           (doc) => doc === null || Array.isArray(doc.design.pressures) ? "read" : "broken",
           (error) => error instanceof Error && error.message.length > 10 ? "refused" : "mute");

@@ -7,6 +7,8 @@
  * @typedef {{unit: string, factor: number, offset?: number, digits: number}} Scale */
 /** @typedef {keyof typeof SCALES} Quantity */
 
+/** [Pa] */
+export const BAR = 1e5;
 const DEG = Math.PI / 180;
 const INCH = 0.0254, LBF = 4.4482216152605, PSI = 6894.757293168, POUND = 0.45359237;
 

@@ -3,13 +3,12 @@
 // parameters.
 import { h, icon, mathml } from "../dom.js";
 import { computed, signal } from "../reactive.js";
-import { commit, design, editDesign, patchDesign, preview, units } from "../state.js";
+import { commit, preview, units } from "../state.js";
+import { design, editDesign, patchDesign } from "./document.js";
 import { effects } from "../store.js";
 import { number, plainScale, quantityOf, scaleOf, toShown } from "../format.js";
 import { quantityField } from "../ui/field.js";
 import { openPopover } from "../ui/dialog.js";
-import { effectNote } from "./effect-note.js";
-import { activeEffects, curves, messageFor, presetEffects } from "../views/design/model.js";
 
 /** @typedef {import("../types.js").Effect} Effect */
 /** @typedef {import("../types.js").Parameter} Parameter */
@@ -78,17 +77,25 @@ function summary(c, e) {
   });
 }
 
-/** @param {Panel} c @param {Effect} e */
-function row(c, e) {
-  const on = computed(() => e.id in c.chosen.value);
-  const open = signal(false);
-  const info = h("button", {
+/** Opens what there is to know about an effect. @param {Effect} e */
+export function aboutButton(e) {
+  const button = h("button", {
     type: "button",
     class: "mini",
     "aria-label": `About ${e.title}`,
     "aria-expanded": "false",
-    onclick: () => openPopover(info, e.title, () => effectNote(e), { kind: "about" }),
+    onclick: async () => {
+      const { effectNote } = await import("./effect-note.js");
+      openPopover(button, e.title, () => effectNote(e), { kind: "about" });
+    },
   }, icon("info"));
+  return button;
+}
+
+/** @param {Panel} c @param {Effect} e */
+function row(c, e) {
+  const on = computed(() => e.id in c.chosen.value);
+  const open = signal(false);
   const matches = () => {
     const words = c.wanted.value.trim().toLowerCase();
     return !words || [e.title, e.family, e.cause, e.id].some((text) => text.toLowerCase().includes(words));
@@ -140,7 +147,7 @@ function row(c, e) {
             onclick: () => (open.value = !open.peek()),
           }, icon("down"))
           : null,
-      info,
+      aboutButton(e),
     ),
     body,
     () => {
@@ -181,30 +188,8 @@ function group(c, family, list) {
 /** A static test shows it. @param {Effect} e */
 export const isStatic = (e) => e.kinds.some((kind) => kind === "static" || kind === "diameter");
 
-const LATER = "Only over time";
-
-/** What moves nothing in static curves stands last, under one heading. @param {Effect[]} all */
-function byFamily(all) {
-  /** @type {Map<string, Effect[]>} */
-  const families = new Map();
-  for (const e of [...all].sort((a, b) => Number(isStatic(b)) - Number(isStatic(a)))) {
-    const name = isStatic(e) ? e.family : LATER;
-    families.set(name, [...families.get(name) ?? [], e]);
-  }
-  return families;
-}
-
-/** @type {Omit<Panel, "wanted">} */
-const OF_DESIGN = {
-  own: presetEffects,
-  chosen: computed(activeEffects),
-  count: () => Object.keys(curves.value?.model.effects ?? activeEffects()).length,
-  message: messageFor,
-  families: byFamily,
-  hints: { [LATER]: "These act while the muscle moves or fills; the curves here do not show them." },
-};
-
-export function effectsCard(panel = OF_DESIGN) {
+/** @param {Omit<Panel, "wanted">} panel */
+export function effectsCard(panel) {
   /** @type {Panel} */
   const c = { ...panel, wanted: signal("") };
   const own = () => Object.keys(c.own.value).length > 0;

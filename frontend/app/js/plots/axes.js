@@ -1,24 +1,9 @@
 // @ts-check
-// Axes of the plots: columns in shown units, ranges that stand still while a slider moves, names and colours.
-import { niceStep, number, scaleOf, toShown } from "../format.js";
+// Axes of plots: columns in shown units, titles, ranges that stay the same while a slider moves.
+import { niceStep, scaleOf } from "../format.js";
 
-/** @typedef {import("../types.js").Curves} Curves */
-/** @typedef {import("../types.js").Across} Across */
-/** @typedef {import("../types.js").Over} Over */
-/** @typedef {import("../types.js").Preset} Preset */
 /** @typedef {import("../format.js").System} System */
 /** @typedef {import("../format.js").Quantity} Quantity */
-/** What a plot needs; `place` keeps the ranges of one place apart from those of another.
- * @typedef {{place: string, curves: Curves, across: Across, over: Over, system: System,
- *   reference: Preset | null}} View */
-
-/** @type {Record<Across, {title: string, quantity: Quantity}>} */
-export const ACROSS = {
-  contraction: { title: "Contraction", quantity: "ratio" },
-  length: { title: "Length", quantity: "length" },
-  braid_angle: { title: "Braid angle", quantity: "angle" },
-};
-
 /** @param {(number | null)[]} values @param {Quantity} quantity @param {System} system */
 export function shown(values, quantity, system) {
   const s = scaleOf(quantity, system), offset = s.offset ?? 0;
@@ -66,26 +51,6 @@ export function extent(rows) {
   return low <= high ? [low, high] : [0, 1];
 }
 
-/** Value at a contraction, read off the answer's own columns. @param {Curves} c @param {Across} across
- * @param {number} k */
-export function acrossAt(c, across, k) {
-  if (across === "contraction") return k;
-  if (across === "length") return c.geometry.nominal_length * (1 - k);
-  const cosine = (1 - k) * Math.cos(c.geometry.braid_angle);
-  return Math.acos(Math.min(1, Math.max(-1, cosine)));
-}
-
-/** @param {View} v the x columns of the curves, in shown units */
-export const xColumn = ({ curves, across, system }) => shown(curves[across], ACROSS[across].quantity, system);
-
-/** @param {View} v @param {string} key */
-export function xAxis(v, key) {
-  const { title, quantity } = ACROSS[v.across];
-  const [low, high] = extent([xColumn(v)]);
-  const range = steadyX(`${v.place}${key}${v.across}${v.system}`, low, high);
-  return { title: axisTitle(title, quantity, v.system), range };
-}
-
 /** As steadyRange, but close to the data on both sides. @param {string} key @param {number} low
  * @param {number} high @returns {[number, number]} */
 export function steadyX(key, low, high) {
@@ -99,24 +64,3 @@ export function steadyX(key, low, high) {
   kept.set(`x${key}`, range);
   return range;
 }
-
-/** @param {number} p @param {Curves} c 0 at the lowest pressure of the family, 1 at the highest */
-export function shareOf(p, c) {
-  const low = Math.min(...c.pressure), high = Math.max(...c.pressure);
-  return high > low ? (p - low) / (high - low) : 0.6;
-}
-
-/** @param {View} v @param {number} p */
-export function pressureName({ system }, p) {
-  const s = scaleOf("pressure", system);
-  return `${number(toShown(p, s), 2)} ${s.unit}`;
-}
-
-/** @type {Record<Over, {title: string, quantity: Quantity}>} */
-export const OVER = {
-  contraction: { title: "Contraction", quantity: "ratio" },
-  length: { title: "Length", quantity: "length" },
-  diameter: { title: "Braid diameter", quantity: "length" },
-  outer_diameter: { title: "Outer diameter", quantity: "length" },
-  force: { title: "Force", quantity: "force" },
-};

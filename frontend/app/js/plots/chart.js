@@ -2,6 +2,7 @@
 // One plot: a specification drawn by Plotly; when only data changed, its lines are moved in place (patch.js).
 import { palette } from "./theme.js";
 import { canPatch, patch } from "./patch.js";
+import { plotly } from "./library.js";
 
 /** @typedef {import("./theme.js").Palette} Palette */
 /** @typedef {{title: string, range: [number, number], right?: boolean}} Axis */
@@ -22,9 +23,6 @@ import { canPatch, patch } from "./patch.js";
  *   table?: import("../ui/table.js").Table}} Spec */
 
 const SETTLE_MS = 300;
-
-/** The Plotly global once its script has arrived. @returns {any} */
-export const plotly = () => /** @type {any} */ (globalThis).Plotly;
 
 /** @param {Axis} axis @param {Palette} p */
 const axisLayout = (axis, p) => ({

@@ -1,6 +1,7 @@
 // @ts-check
 // Plots as PNG, SVG, CSV or table: always on white, whatever the theme, and with the whole data.
-import { figure, plotly } from "./chart.js";
+import { figure } from "./chart.js";
+import { plotly } from "./library.js";
 import { LIGHT } from "./theme.js";
 import { openDialog } from "../ui/dialog.js";
 import { dataTable, download, downloadText, toCsv } from "../ui/table.js";

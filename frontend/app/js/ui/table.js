@@ -61,6 +61,13 @@ export function toCsv({ columns, rows }) {
   return [head.join(","), ...rows.map((row) => row.map(write).join(","))].join("\n") + "\n";
 }
 
+/** The name of a saved file with the date of today: "mckibben-run-2024-05-01.csv".
+ * @param {string} what "": the whole document @param {string} [ending] */
+export function fileName(what, ending) {
+  const name = ["mckibben", what, new Date().toISOString().slice(0, 10)].filter(Boolean).join("-");
+  return ending ? `${name}.${ending}` : name;
+}
+
 /** @param {string} name @param {Blob} blob */
 export function download(name, blob) {
   const url = URL.createObjectURL(blob);

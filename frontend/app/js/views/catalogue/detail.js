@@ -12,10 +12,10 @@ import { writeLabels } from "../../plots/overlay.js";
 import { palette } from "../../plots/theme.js";
 import { openPopover } from "../../ui/dialog.js";
 import { gradeTag, spoken, unverifiedNote } from "../../ui/sources.js";
-import { plotlyReady } from "../design/charts.js";
-import { usePreset } from "../design/muscle.js";
-import { forceSpec } from "../design/specs.js";
-import { showMuscle } from "../sizing/index.js";
+import { plotlyReady } from "../../plots/library.js";
+import { usePreset } from "../../muscle/preset.js";
+import { forceSpec } from "../../muscle/force-plot.js";
+import { showMuscle } from "../../muscle/document.js";
 import { shownValue } from "./columns.js";
 import { selected } from "./table.js";
 
@@ -107,7 +107,7 @@ function smallPlot() {
   let shown = null;
   const draw = () => {
     if (!shown) return;
-    /** @type {import("../../plots/axes.js").View} */
+    /** @type {import("../../muscle/curve-axes.js").View} */
     const view = {
       place: "catalogue",
       curves: shown,

@@ -1,5 +1,6 @@
 // @ts-check
 // The Catalogue view as the shell sees it: its page is fetched when it is first shown.
 import { later } from "../../ui/later.js";
+import "./document.js";
 
 export const catalogueView = later(async () => (await import("./page.js")).cataloguePage);

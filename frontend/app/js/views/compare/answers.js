@@ -6,7 +6,7 @@ import { ApiError, follow, post } from "../../server/client.js";
 import { musclesById } from "../../store.js";
 import { keyOf, used } from "./request.js";
 
-/** @typedef {import("./document.js").Compare} Compare */
+/** @typedef {import("../../types.js").Compare} Compare */
 /** @typedef {import("./types.js").Comparison} Comparison */
 /** @typedef {import("./types.js").Candidate} Candidate */
 /** @typedef {import("./types.js").Diagnosis} Diagnosis */

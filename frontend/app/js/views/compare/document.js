@@ -2,28 +2,15 @@
 // The Compare view's part of the document: which measurements, which model, how it came about, what is looked
 // at. Pure functions; the server checks what the numbers mean.
 
-/** @typedef {import("./types.js").Effects} Effects */
-/** @typedef {import("../../types.js").Muscle} Muscle */
-/** @typedef {import("../transient/document.js").Drive} Drive */
-/** @typedef {"fit" | "validation" | "off"} Use */
-/** A file or preset measurement. @typedef {{id: string, name: string, use: Use}} Chosen */
-/** Errors of fitted values: effect -> parameter -> what the fit said of it.
- * @typedef {Record<string, Record<string, {stderr: number | null, at_bound: boolean}>>} Fit */
-/** A model and its error; `values`: of the geometry. `label` says how it came about.
- * @typedef {{label: string, effects: Effects | null, freed: string[], values: Record<string, number>,
- *   fit: Fit, rmse: number | null, holdout: number | null}} Step */
-/** “auto”: what the overlay is drawn over. @typedef {typeof TABS[number]} Tab */
-/** What the colours of the map span: “auto” = the error of the first model as long as that shows anything.
- * @typedef {typeof HEATS[number]} Heat */
-/** Ranges of variables in SI. @typedef {Record<string, [number, number]>} Brush */
-/** `effects`: null = those of the preset. `history`: the models before this one, the start first.
- * @typedef {{files: Chosen[], muscle: Muscle, start: "ideal" | "preset", effects: Effects | null,
- *   freed: string[], free: string[], fit: Fit, label: string, holdout: number | null, history: Step[],
- *   drive: Drive | null, noise: number | null, mystery: string | null, guided: boolean,
- *   tab: Tab, over: string | null, channel: string | null, heat: Heat, brush: Brush | null,
- *   before: boolean}} Compare */
+import { isObject } from "../../paths.js";
+import { addPart } from "../../state.js";
 
-export const TABS = /** @type {const} */ ([
+/** @typedef {import("../../types.js").Compare} Compare */
+/** @typedef {import("../../types.js").Fit} Fit */
+/** @typedef {import("../../types.js").Step} Step */
+
+/** @type {import("../../types.js").Tab[]} */
+const TABS = [
   "auto",
   "contraction",
   "pressure",
@@ -32,14 +19,15 @@ export const TABS = /** @type {const} */ ([
   "histogram",
   "autocorrelation",
   "loops",
-]);
-export const HEATS = /** @type {const} */ (["auto", "start", "own"]);
+];
+/** @type {import("../../types.js").Heat[]} */
+const HEATS = ["auto", "start", "own"];
 export const MOST_FILES = 16;
 const MOST_STEPS = 40;
 export const IDEAL = "Ideal muscle", GIVEN = "Start model";
 
 /** @returns {Compare} */
-export const defaultCompare = () => ({
+const defaultCompare = () => ({
   files: [],
   muscle: { preset: "DMSP-20", form: "braid", values: { nominal_length: 0.3 } },
   start: "ideal",
@@ -62,8 +50,6 @@ export const defaultCompare = () => ({
   before: false,
 });
 
-/** @param {unknown} x @returns {x is Record<string, any>} */
-const isObject = (x) => typeof x === "object" && x !== null && !Array.isArray(x);
 /** @param {unknown} x @returns {x is number} */
 const isNumber = (x) => typeof x === "number" && Number.isFinite(x);
 /** @param {unknown} x */
@@ -125,7 +111,7 @@ const CHECKS = {
 
 /** Reads the Compare part of a link or file; a missing part takes its default.
  * @param {unknown} raw @returns {Compare} @throws {Error} names the part that makes no sense */
-export function readCompare(raw) {
+function readCompare(raw) {
   const start = defaultCompare();
   if (raw === undefined) return start;
   if (!isObject(raw)) throw new Error("“compare” is not an object");
@@ -137,6 +123,8 @@ export function readCompare(raw) {
   }
   return { ...start, ...Object.fromEntries(known) };
 }
+
+addPart("compare", { start: defaultCompare, read: readCompare });
 
 /** The model as it is now, as one step of the history. @param {Compare} c @param {number | null} rmse
  * @param {number | null} holdout @returns {Step} */
@@ -161,6 +149,22 @@ export const withStep = (c, step, history) => ({
   fit: step.fit,
   holdout: step.holdout,
   history: history.slice(-MOST_STEPS),
+  before: false,
+});
+
+/** A fresh start: without effects, or with those of the preset.
+ * @param {Compare} c @param {"ideal" | "preset"} start @returns {Compare} */
+export const fresh = (c, start = c.start) => ({
+  ...c,
+  start,
+  effects: start === "ideal" ? {} : null,
+  freed: [],
+  fit: {},
+  label: start === "ideal" ? IDEAL : "Effects of the preset",
+  holdout: null,
+  history: [],
+  heat: "auto",
+  brush: null,
   before: false,
 });
 

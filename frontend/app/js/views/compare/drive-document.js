@@ -1,8 +1,8 @@
 // @ts-check
 // The rig of a transient measurement: valve, tube, supply, load, without the muscle. Pure functions.
-import { isDriveDocument, takenApart } from "../transient/document.js";
+import { isDriveDocument, takenApart } from "../../drive/document.js";
 
-/** @typedef {import("../transient/document.js").Drive} Drive */
+/** @typedef {import("../../types.js").Drive} Drive */
 /** @typedef {import("./types.js").FileInfo} FileInfo */
 
 /** Parts a measurement replaces: what was commanded is in the file. */
@@ -45,7 +45,7 @@ export function startOf(column) {
 /** Reads a drive document that was pasted or opened; `effects`: null = it says nothing of them.
  * @param {string} text
  * @returns {{drive: Drive, muscle: import("../../types.js").Muscle,
- *   effects: import("./types.js").Effects | null}}
+ *   effects: import("../../types.js").Effects | null}}
  * @throws {Error} says what is wrong with it */
 export function readDrive(text) {
   let raw;

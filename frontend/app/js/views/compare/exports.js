@@ -1,21 +1,19 @@
 // @ts-check
 // What leaves this view: data with residuals, plots, the report, the model for the Design view.
-import { edit, units } from "../../state.js";
+import { units } from "../../state.js";
+import { openDesign } from "../../muscle/document.js";
 import { ApiError, postForText } from "../../server/client.js";
-import { goTo } from "../../shell.js";
 import { scaleOf, toShown } from "../../format.js";
 import { status } from "../../store.js";
 import { saveSheet } from "../../plots/export.js";
-import { downloadText, toCsv } from "../../ui/table.js";
+import { downloadText, fileName, toCsv } from "../../ui/table.js";
 import { answer, compare, files, preset } from "./answers.js";
-import { presetValues } from "./muscle-values.js";
+import { effectValues } from "../../muscle/preset.js";
 import { overlays } from "./error/overlay.js";
 import { allSeries } from "./error/pictures.js";
 import { modelBody, used } from "./request.js";
 import { chart as residual, TITLE } from "./error/residual.js";
 import { channelScale, VARIABLES } from "./words.js";
-
-const stamp = () => new Date().toISOString().slice(0, 10);
 
 /** Every point with its residual, in shown units. @param {import("./types.js").Comparison} a
  * @returns {import("../../ui/table.js").Table} */
@@ -56,12 +54,12 @@ export function residualTable(a) {
 export function saveCsv() {
   const a = answer.peek();
   if (!a) return void (status.value = "There is no comparison to save.");
-  downloadText(`mckibben-residuals-${stamp()}.csv`, toCsv(residualTable(a)), "text/csv");
+  downloadText(fileName("residuals", "csv"), toCsv(residualTable(a)), "text/csv");
 }
 
 /** @param {"png" | "svg"} format */
 export const savePlots = (format) =>
-  saveSheet([...overlays, { title: TITLE, chart: residual }], format, `mckibben-compare-${stamp()}`).catch(
+  saveSheet([...overlays, { title: TITLE, chart: residual }], format, fileName("compare")).catch(
     (error) => {
       status.value = `The plots could not be saved: ${error.message}`;
     },
@@ -77,7 +75,7 @@ export async function saveReport() {
       history: c.history.map(({ effects, freed, label }) => ({ effects, freed, label })),
       title,
     });
-    downloadText(`mckibben-report-${stamp()}.html`, text, "text/html");
+    downloadText(fileName("report", "html"), text, "text/html");
     status.value = "The report is saved.";
   } catch (error) {
     if (!(error instanceof ApiError)) throw error;
@@ -88,20 +86,12 @@ export async function saveReport() {
 /** The muscle and the effects found become those of the Design view. */
 export function useInDesign() {
   const c = compare.peek();
-  const all = c.effects ?? presetValues(preset.peek());
+  const all = c.effects ?? effectValues(preset.peek());
   const effects = Object.fromEntries(
     Object.entries(all).flatMap(([id, values]) => {
       const numbers = Object.entries(values).filter(([, v]) => typeof v === "number");
       return numbers.length === Object.keys(values).length ? [[id, /** @type {any} */ (values)]] : [];
     }),
   );
-  edit(
-    (d) => ({
-      ...d,
-      design: { ...d.design, muscle: c.muscle, effects, reference: "auto" },
-      sizing: { ...d.sizing, mode: "muscle" },
-    }),
-    "model of the comparison",
-  );
-  goTo("design");
+  openDesign({ muscle: c.muscle, effects, reference: "auto" }, "model of the comparison");
 }

@@ -2,6 +2,7 @@
 // The Compare & diagnose view as the shell sees it: its page is fetched when it is first shown.
 import { later } from "../../ui/later.js";
 import { view } from "../../state.js";
+import "./document.js";
 
 export { listenToDrops } from "./measurement/drop.js";
 

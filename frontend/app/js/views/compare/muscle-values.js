@@ -1,19 +1,9 @@
 // @ts-check
-// What a muscle preset says, in SI; and which preset a measurement was taken on. Pure functions.
-import { siOf } from "../../format.js";
+// Which muscle a measurement was taken on. Pure functions.
 import { siNumber } from "../../quantities.js";
 
 /** @typedef {import("../../types.js").Preset} Preset */
 /** @typedef {import("../../types.js").Muscle} Muscle */
-
-/** @param {Preset | null} preset @returns {Record<string, Record<string, number>>} */
-export const presetValues = (preset) =>
-  Object.fromEntries(
-    Object.entries(preset?.effects ?? {}).map(([id, values]) => [
-      id,
-      Object.fromEntries(Object.entries(values).map(([key, q]) => [key, siOf(q)])),
-    ]),
-  );
 
 /** The preset a file names, by id, title or the type code of a sample ("DMSP-20-300").
  * @param {Preset[]} muscles @param {unknown} name

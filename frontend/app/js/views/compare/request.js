@@ -1,9 +1,9 @@
 // @ts-check
 // From the document to the body of a request. Pure functions.
-import { muscleInput } from "../design/model.js";
+import { muscleInput } from "../../muscle/document.js";
 
-/** @typedef {import("./document.js").Compare} Compare */
-/** @typedef {import("./document.js").Step} Step */
+/** @typedef {import("../../types.js").Compare} Compare */
+/** @typedef {import("../../types.js").Step} Step */
 
 /** Which files take part. @param {Compare} c */
 export const used = (c) => c.files.filter((file) => file.use !== "off");

@@ -2,8 +2,7 @@
 // Names for what the server answers in this view.
 
 /** @typedef {import("../../types.js").S} S */
-/** Effect -> parameter -> SI value, or the text of a formula.
- * @typedef {Record<string, Record<string, number | string>>} Effects */
+/** @typedef {import("../../types.js").Effects} Effects */
 /** A model as the next request takes it.
  * @typedef {{effects: Effects, muscle?: Record<string, any> | null}} Model */
 /** @typedef {S["FittedParameter"]} Fitted */

@@ -1,5 +1,6 @@
 // @ts-check
 // Errors and ranges as the page writes them.
+import { effectsById } from "../../store.js";
 import { brief, number, plainScale, quantityOf, scaleOf, toShown } from "../../format.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
@@ -8,6 +9,10 @@ import { brief, number, plainScale, quantityOf, scaleOf, toShown } from "../../f
 
 /** The effect that is a typed formula, and the parameter that holds its text. */
 export const OWN_TERM = "custom", FORMULA = "term";
+
+/** @param {string} id */
+export const titleOf = (id) =>
+  id === OWN_TERM ? "Own term" : effectsById.value.get(id)?.title ?? id.replaceAll("_", " ");
 
 /** "62 % of it follows contraction and pressure" @param {import("./types.js").Diagnosis["verdict"]} verdict */
 export function whatIsLeft({ unexplained_share: share, unexplained_in: names }) {
@@ -73,7 +78,7 @@ export function rangeText(name, [from, to], system) {
   return `${v.title.toLowerCase()} ${say(from)} to ${say(to)} ${s.unit}`.trim();
 }
 
-/** @param {Series} s @param {number} i @param {import("./document.js").Brush | null} brush */
+/** @param {Series} s @param {number} i @param {import("../../types.js").Brush | null} brush */
 export function isInside(s, i, brush) {
   if (!brush) return true;
   return Object.entries(brush).every(([name, [from, to]]) => {
@@ -84,7 +89,7 @@ export function isInside(s, i, brush) {
 }
 
 /** Root mean square and number of the residuals inside a brush.
- * @param {Series[]} all @param {import("./document.js").Brush | null} brush */
+ * @param {Series[]} all @param {import("../../types.js").Brush | null} brush */
 export function rmsInside(all, brush) {
   let sum = 0, rows = 0;
   for (const s of all) {

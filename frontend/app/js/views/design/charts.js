@@ -1,20 +1,23 @@
 // @ts-check
 // The four plots: cards with title, legend and menu; one drawing of all of them when an answer arrives.
 import { h, icon } from "../../dom.js";
-import { computed, effect, signal } from "../../reactive.js";
-import { commit, design, editDesign, look, patchDesign, preview, units } from "../../state.js";
+import { computed, effect } from "../../reactive.js";
+import { commit, look, preview, units } from "../../state.js";
+import { design, editDesign, patchDesign } from "../../muscle/document.js";
 import { brief, niceStep, scaleOf, toShown, toSi, withUnit } from "../../format.js";
 import { Chart } from "../../plots/chart.js";
+import { plotlyReady } from "../../plots/library.js";
 import { dragLine, linkCursor, writeLabels } from "../../plots/overlay.js";
 import { palette, pressureColour } from "../../plots/theme.js";
 import { menuButton } from "../../ui/menu.js";
-import { chartMenu } from "../../plots/export.js";
 import { curves, fault, fieldOf, reference, retry } from "./model.js";
-import { ACROSS, forgetRanges, OVER, pressureName, shareOf } from "../../plots/axes.js";
+import { forgetRanges } from "../../plots/axes.js";
+import { ACROSS, OVER, pressureName, shareOf } from "../../muscle/curve-axes.js";
 import { cursor, readout } from "./readout.js";
-import { forceSpec, overPressureSpec, stiffnessSpec, volumeSpec } from "./specs.js";
+import { overPressureSpec, stiffnessSpec, volumeSpec } from "./specs.js";
+import { forceSpec } from "../../muscle/force-plot.js";
 
-/** @typedef {import("../../plots/axes.js").View} View */
+/** @typedef {import("../../muscle/curve-axes.js").View} View */
 
 const across = computed(() => design.value.across);
 const overWhat = computed(() => design.value.over);
@@ -65,7 +68,7 @@ function frame(card, ...head) {
         label: icon("more"),
         name: `${card.title}: save or show as table`,
         class: "mini",
-        items: () => chartMenu(card.chart, card.title),
+        items: async () => (await import("../../plots/export.js")).chartMenu(card.chart, card.title),
       }),
     ),
     card.host,
@@ -208,9 +211,6 @@ function drawAll() {
   performance.measure("draw", "draw-start");
   document.documentElement.dataset.drawn = String(++drawings);
 }
-
-/** Draws when Plotly has arrived; before, the page is usable and says so. */
-export const plotlyReady = signal(false);
 
 export function chartColumn() {
   const acrossOptions = /** @type {[import("../../types.js").Across, string][]} */ (

@@ -2,7 +2,7 @@
 // The answer of the server as one long table: what "Curves as CSV" writes.
 import { units } from "../../state.js";
 import { scaleOf, toShown } from "../../format.js";
-import { acrossAt } from "../../plots/axes.js";
+import { acrossAt } from "../../muscle/curve-axes.js";
 import { curves } from "./model.js";
 
 /** Every number behind the plots, one row per pressure and contraction.

@@ -2,11 +2,12 @@
 // The model's error: against which points, in newtons and in % of full scale, beside the ideal braid.
 import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
-import { design, editDesign, units } from "../../state.js";
+import { units } from "../../state.js";
+import { design, editDesign } from "../../muscle/document.js";
 import { presets, references } from "../../store.js";
 import { brief, siOf, withUnit } from "../../format.js";
-import { saveDialog } from "./save-preset.js";
-import { curves, errors, errorsOutdated, fault, preset, reference, referenceId } from "./model.js";
+import { curves, errors, errorsOutdated, fault, reference, referenceId } from "./model.js";
+import { preset } from "../../muscle/preset.js";
 
 /** @typedef {import("../../types.js").Comparison} Comparison */
 
@@ -129,7 +130,7 @@ export function errorCard() {
       h("button", {
         type: "button",
         disabled: () => !curves.value || Boolean(fault.value) || !presets.value.muscles,
-        onclick: saveDialog,
+        onclick: async () => (await import("./save-preset.js")).saveDialog(),
       }, "Save as my preset…"),
     ),
   );

@@ -2,11 +2,12 @@
 // Inverse questions: what pressure, what contraction, what range. Asked again whenever the model changes.
 import { h, icon } from "../../dom.js";
 import { effect, signal } from "../../reactive.js";
-import { design, units } from "../../state.js";
+import { units } from "../../state.js";
+import { design, modelInput } from "../../muscle/document.js";
 import { scaleOf, withUnit } from "../../format.js";
 import { latest, post } from "../../server/client.js";
 import { quantityField } from "../../ui/field.js";
-import { curves, modelInput } from "./model.js";
+import { curves } from "./model.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** @typedef {import("../../types.js").Answer} Answer */

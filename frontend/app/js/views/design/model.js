@@ -2,9 +2,10 @@
 // From the document to the server's answers: curves, errors against points, and which message belongs to
 // which field.
 import { batch, computed, effect, signal } from "../../reactive.js";
-import { design } from "../../state.js";
+import { design, modelInput, muscleInput } from "../../muscle/document.js";
 import { latest, post } from "../../server/client.js";
-import { musclesById, references } from "../../store.js";
+import { references } from "../../store.js";
+import { muscle, preset } from "../../muscle/preset.js";
 import { siOf } from "../../format.js";
 
 /** @typedef {import("../../types.js").Curves} Curves */
@@ -23,30 +24,9 @@ export const FORM_KEYS = {
   rhombus: ["side", "along", "around"],
 };
 
-export const muscle = computed(() => design.value.muscle);
-export const preset = computed(() => musclesById.value.get(muscle.value.preset ?? "") ?? null);
-
 export const curves = signal(/** @type {Curves | null} */ (null));
 /** Why there are no new curves: the plots keep the last ones, dimmed. */
 export const fault = signal(/** @type {import("../../server/client.js").ApiError | null} */ (null));
-
-/** The muscle as a request gives it. @param {Muscle} m */
-export function muscleInput({ preset: id, form, values }) {
-  const { side, along, around, ...rest } = values;
-  /** @type {Record<string, unknown>} */
-  const input = { ...rest };
-  if (id) input.preset = id;
-  if (form === "rhombus" && side) input.rhombus = { side, along, around };
-  return input;
-}
-
-/** What every question about the model needs. @param {Design} d */
-export const modelInput = (d) => ({
-  muscle: muscleInput(d.muscle),
-  effects: d.effects,
-  direction: d.direction,
-  temperature: d.temperature,
-});
 
 /** @param {Design} d */
 export const curvesRequest = (d) => ({
@@ -134,20 +114,6 @@ export function inForm(m, form) {
   }
   return { ...m, form, values };
 }
-
-/** The effects of the model now: the user's choice, or the preset's own.
- * @returns {Record<string, Record<string, number>>} */
-export const activeEffects = () => design.value.effects ?? presetEffects.value;
-
-export const presetEffects = computed(() => {
-  const own = preset.value?.effects ?? {};
-  return Object.fromEntries(
-    Object.entries(own).map(([id, values]) => [
-      id,
-      Object.fromEntries(Object.entries(values).map(([key, q]) => [key, siOf(q)])),
-    ]),
-  );
-});
 
 /** Message for a field of the page, by its key. @param {string} key */
 export function messageFor(key) {

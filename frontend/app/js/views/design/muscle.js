@@ -2,22 +2,15 @@
 // The muscle card: preset, three forms of geometry, each value with slider, typed units and reset.
 import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
-import { commit, design, editDesign, patchDesign, preview, units } from "../../state.js";
+import { commit, preview, units } from "../../state.js";
+import { design, editDesign, patchDesign } from "../../muscle/document.js";
 import { muscles } from "../../store.js";
 import { scaleOf, siOf } from "../../format.js";
 import { quantityField } from "../../ui/field.js";
 import { openPopover } from "../../ui/dialog.js";
 import { unverifiedNote } from "../../ui/sources.js";
-import {
-  curves,
-  FORM_KEYS,
-  geometryValue,
-  inForm,
-  messageFor,
-  muscle,
-  preset,
-  presetValue,
-} from "./model.js";
+import { curves, FORM_KEYS, geometryValue, inForm, messageFor, presetValue } from "./model.js";
+import { muscle, preset, usePreset } from "../../muscle/preset.js";
 
 /** @typedef {import("../../types.js").Form} Form */
 /** @typedef {{label: string, symbol: string, quantity: import("../../format.js").Quantity,
@@ -117,18 +110,6 @@ function sliderBounds(key, spec) {
     return spec.bounds;
   }
   return [siOf(limits.min_nominal_length), siOf(limits.max_nominal_length)];
-}
-
-/** The preset with its own effects and points; a length that was set stays. @param {string} id */
-export function usePreset(id) {
-  const length = design.peek().muscle.values.nominal_length;
-  /** @type {Record<string, number>} */
-  const values = {};
-  if (length !== undefined) values.nominal_length = length;
-  editDesign(
-    { muscle: { preset: id, form: "braid", values }, effects: null, reference: "auto" },
-    `preset ${id}`,
-  );
 }
 
 /** @param {string} id "" = own geometry: the muscle as it is now, free of its preset */

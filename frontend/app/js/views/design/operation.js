@@ -2,11 +2,13 @@
 // The operation card: pressures of the family, load, direction of motion, temperature and what else is held.
 import { h, icon } from "../../dom.js";
 import { computed, signal } from "../../reactive.js";
-import { BAR, commit, design, editDesign, patchDesign, preview, units } from "../../state.js";
-import { number, parse, scaleOf, toShown } from "../../format.js";
+import { commit, preview, units } from "../../state.js";
+import { design, editDesign, patchDesign } from "../../muscle/document.js";
+import { BAR, number, parse, scaleOf, toShown } from "../../format.js";
 import { quantityField } from "../../ui/field.js";
 import { openPopover } from "../../ui/dialog.js";
-import { curves, messageFor, preset } from "./model.js";
+import { curves, messageFor } from "./model.js";
+import { preset } from "../../muscle/preset.js";
 import { siOf } from "../../format.js";
 
 /** @typedef {import("../../types.js").Design} Design */

@@ -5,9 +5,9 @@ import { signal } from "../../reactive.js";
 import { units } from "../../state.js";
 import { withUnit } from "../../format.js";
 import { palette, pressureColour } from "../../plots/theme.js";
-import { pressureName, shareOf, xColumn } from "../../plots/axes.js";
+import { pressureName, shareOf, xColumn } from "../../muscle/curve-axes.js";
 
-/** @typedef {import("../../plots/axes.js").View} View */
+/** @typedef {import("../../muscle/curve-axes.js").View} View */
 
 /** Where the cursor is on the x axis, in shown units; null = over no plot. */
 export const cursor = signal(/** @type {number | null} */ (null));

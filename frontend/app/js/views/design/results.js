@@ -2,7 +2,8 @@
 // The right column's first cards: verdicts in words, the operating points at the load, figures per pressure.
 import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
-import { design, units } from "../../state.js";
+import { units } from "../../state.js";
+import { design } from "../../muscle/document.js";
 import { aligned, number, scaleOf, withUnit } from "../../format.js";
 import { shown } from "../../plots/axes.js";
 import { curves, fault } from "./model.js";

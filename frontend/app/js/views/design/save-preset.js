@@ -3,10 +3,12 @@
 import { h } from "../../dom.js";
 import { signal } from "../../reactive.js";
 import { ApiError, post } from "../../server/client.js";
-import { design, editDesign } from "../../state.js";
-import { effectsById, loadKind, status } from "../../store.js";
+import { design, editDesign } from "../../muscle/document.js";
+import { loadKind } from "../../server/presets.js";
+import { effectsById, status } from "../../store.js";
 import { openDialog } from "../../ui/dialog.js";
-import { curves, muscle, preset } from "./model.js";
+import { curves } from "./model.js";
+import { muscle, preset } from "../../muscle/preset.js";
 
 /** @typedef {import("../../types.js").PresetValue} PresetValue */
 

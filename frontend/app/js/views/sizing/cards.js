@@ -21,7 +21,7 @@ import {
 import { partsField } from "./parts.js";
 import { RANKING_WHY, RANKINGS, USUAL_RANKING } from "./specs.js";
 
-/** @typedef {import("./document.js").Arrangement} Arrangement */
+/** @typedef {import("../../types.js").TaskArrangement} Arrangement */
 
 /** @type {[Arrangement, string, string][]} */
 const ARRANGEMENTS = [

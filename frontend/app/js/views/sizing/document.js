@@ -1,17 +1,15 @@
 // @ts-check
 // The Task side of the Design view in the document: the task as /api/sizings takes it, numbers in SI, only what
 // differs from the defaults; and what is looked at. Pure functions; the server checks what the numbers mean.
-import { at, inSi, put } from "../transient/document.js";
+import { inSi } from "../../drive/document.js";
+import { at, isObject, put } from "../../paths.js";
+import { computed } from "../../reactive.js";
+import { addPart, doc } from "../../state.js";
 
-/** A task with some of its fields. @typedef {Record<string, any>} Task */
-/** @typedef {"lift" | "lever" | "antagonist"} Arrangement */
-/** What a drive is good for, and an axis of the plot.
- * @typedef {"air" | "time" | "length" | "reserve" | "stiffness"} Aim */
-/** `selected`: place of the proposal shown, from 0.
- * @typedef {{mode: "muscle" | "task", arrangement: Arrangement, task: Task, selected: number,
- *   axes: [Aim, Aim]}} Sizing */
-
-export { at, put };
+/** @typedef {import("../../types.js").Aim} Aim */
+/** @typedef {import("../../types.js").Sizing} Sizing */
+/** @typedef {import("../../types.js").Task} Task */
+/** @typedef {import("../../types.js").TaskArrangement} Arrangement */
 
 /** @type {Aim[]} */
 export const AIM_NAMES = ["air", "time", "length", "reserve", "stiffness"];
@@ -20,7 +18,7 @@ const LEVER = 0.5;
 const SWING = { angle: Math.PI / 3, torque: 2, inertia: 0.02 };
 
 /** @returns {Sizing} a load that several muscles of the catalogue lift */
-export const defaultSizing = () => ({
+const defaultSizing = () => ({
   mode: "muscle",
   arrangement: "lift",
   task: {
@@ -75,9 +73,6 @@ export function opened(document) {
   return { arrangement, task, selected: 0 };
 }
 
-/** @param {unknown} x @returns {x is Record<string, any>} */
-const isObject = (x) => typeof x === "object" && x !== null && !Array.isArray(x);
-
 /** A task of this program or of the command line, as opposed to a drive or a document of this page.
  * @param {unknown} raw @returns {raw is Task} */
 export const isTaskDocument = (raw) =>
@@ -92,7 +87,7 @@ function isPlain(x, depth = 0) {
 
 /** Reads the Task part of a link or file; a missing part takes its default, links from before it had one too.
  * @param {unknown} raw @returns {Sizing} @throws {Error} says which part makes no sense */
-export function readSizing(raw) {
+function readSizing(raw) {
   const start = defaultSizing();
   if (raw === undefined) return start;
   if (!isObject(raw)) throw new Error("“sizing” is not an object");
@@ -110,3 +105,8 @@ export function readSizing(raw) {
     axes: isPair ? [axes[0], axes[1]] : start.axes,
   };
 }
+
+addPart("sizing", { start: defaultSizing, read: readSizing });
+
+/** The Design view starts from a task. */
+export const inTask = computed(() => doc.value.sizing.mode === "task");

@@ -5,7 +5,7 @@ import { computed, effect, signal } from "../../reactive.js";
 import { commit, preview, units } from "../../state.js";
 import { number, plainScale, scaleOf, toShown, toSi } from "../../format.js";
 import { quantityField } from "../../ui/field.js";
-import { put } from "./document.js";
+import { put } from "../../paths.js";
 import { messageFor, patchSizing, setTask, task, valueAt } from "./model.js";
 import { FIELDS } from "./specs.js";
 

@@ -9,13 +9,12 @@ import { chartMenu } from "../../plots/export.js";
 import { palette } from "../../plots/theme.js";
 import { menuButton } from "../../ui/menu.js";
 import { axisTitle, extent } from "../../plots/axes.js";
-import { plotlyReady } from "../design/charts.js";
-import { AIM_NAMES } from "./document.js";
+import { plotlyReady } from "../../plots/library.js";
+import { AIM_NAMES, inTask } from "./document.js";
 import { answer, answeredTask, chosenIndex, lookSizing, proposals, sizing } from "./model.js";
-import { inTask } from "./index.js";
 import { AIMS, driveWords, partsWords, say } from "./words.js";
 
-/** @typedef {import("./document.js").Aim} Aim */
+/** @typedef {import("../../types.js").Aim} Aim */
 /** @typedef {import("./words.js").Design} Design */
 /** @typedef {import("../../plots/chart.js").Spec} Spec */
 /** @typedef {import("../../types.js").S["ExploredDesign"]} Explored */

@@ -4,12 +4,13 @@ import { batch, computed, effect, signal } from "../../reactive.js";
 import { doc, edit, look } from "../../state.js";
 import { ApiError, follow } from "../../server/client.js";
 import { status } from "../../store.js";
-import { at, opened, put, requestOf } from "./document.js";
+import { opened, requestOf } from "./document.js";
+import { at, put } from "../../paths.js";
 import { driveWords } from "./words.js";
 
 /** @typedef {import("../../types.js").S["SizingAnswer"]} Answer */
 /** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
-/** @typedef {import("./document.js").Sizing} Sizing */
+/** @typedef {import("../../types.js").Sizing} Sizing */
 /** @typedef {import("../../types.js").Doc} Doc */
 /** @typedef {"idle" | "running" | "done" | "cancelled" | "failed"} Stage */
 
@@ -29,7 +30,7 @@ export const setTask = (path, value, label) => editSizing({ task: put(task.peek(
 /** @param {string} path */
 export const valueAt = (path) => at(task.value, path);
 
-/** A task of a file or preset takes the place of the one there is. @param {import("./document.js").Task} document
+/** A task of a file or preset takes the place of the one there is. @param {import("../../types.js").Task} document
  * @param {string} label */
 export function openTask(document, label) {
   const part = opened(document);
@@ -56,7 +57,7 @@ const refused = signal(/** @type {{error: ApiError, key: string} | null} */ (nul
 export const fault = computed(() => refused.value?.key === key.value ? refused.value.error : null);
 /** The drives on screen are not those of the task beside them. */
 export const stale = computed(() => answer.value !== null && key.value !== answered.value);
-/** The task that the drives on screen belong to. @returns {import("./document.js").Task} */
+/** The task that the drives on screen belong to. @returns {import("../../types.js").Task} */
 export const answeredTask = () => JSON.parse(answered.value ?? "{}");
 
 export const proposals = computed(() => answer.value?.proposals ?? []);

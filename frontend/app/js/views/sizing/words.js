@@ -5,7 +5,7 @@ import { withUnit } from "../../format.js";
 
 /** @typedef {import("../../types.js").S["ExploredDesign"]} Explored */
 /** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
-/** @typedef {import("./document.js").Aim} Aim */
+/** @typedef {import("../../types.js").Aim} Aim */
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** What proposals and explored designs have in common. @typedef {Explored | Proposal} Design */
 

@@ -5,7 +5,7 @@ import { ApiError } from "../../server/client.js";
 import { scaleOf, toShown } from "../../format.js";
 import { status } from "../../store.js";
 import { saveSheet } from "../../plots/export.js";
-import { downloadText, toCsv } from "../../ui/table.js";
+import { downloadText, fileName, toCsv } from "../../ui/table.js";
 import { shownCharts } from "./plots/charts.js";
 import { documentNow, simulate } from "./model.js";
 
@@ -74,13 +74,11 @@ export function runTable(r) {
   };
 }
 
-const stamp = () => new Date().toISOString().slice(0, 10);
-
 /** The whole run, finer than the plots show it. */
 export async function saveCsv() {
   try {
     const whole = await simulate({ drive: documentNow(), points: ROWS });
-    downloadText(`mckibben-run-${stamp()}.csv`, toCsv(runTable(whole)), "text/csv");
+    downloadText(fileName("run", "csv"), toCsv(runTable(whole)), "text/csv");
   } catch (error) {
     status.value = `The run could not be saved: ${error instanceof ApiError ? error.words : error}`;
   }
@@ -88,13 +86,13 @@ export async function saveCsv() {
 
 /** @param {"png" | "svg"} format */
 export const savePlots = (format) =>
-  saveSheet(shownCharts(), format, `mckibben-run-${stamp()}`).catch((error) => {
+  saveSheet(shownCharts(), format, fileName("run")).catch((error) => {
     status.value = `The plots could not be saved: ${error.message}`;
   });
 
 export const saveDrive = () =>
   downloadText(
-    `mckibben-drive-${stamp()}.json`,
+    fileName("drive", "json"),
     JSON.stringify(documentNow(), null, 2) + "\n",
     "application/json",
   );

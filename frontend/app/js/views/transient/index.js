@@ -1,7 +1,9 @@
 // @ts-check
 // The Transient view as the shell sees it: its page is fetched when it is first shown.
 import { later } from "../../ui/later.js";
+import { isDriveDocument } from "../../drive/document.js";
 import { view } from "../../state.js";
+import "./document.js";
 
 /** A focused control keeps the space bar for itself. @param {KeyboardEvent} e */
 const free = (e) =>
@@ -47,5 +49,11 @@ export const transientExports = () => [
     run: async () => (await import("./exports.js")).saveDrive(),
   },
 ];
+
+/** Drive documents, opened from a file. @type {import("../../ui/files.js").Opener} */
+export const driveFiles = {
+  reads: isDriveDocument,
+  open: async (raw, label) => (await import("../../drive/open.js")).openDrive(raw, { label }),
+};
 
 export const transientView = later(async () => (await import("./page.js")).transientPage);

@@ -1,26 +1,21 @@
 // @ts-check
 // From the document to the server's run.
 import { batch, computed, effect, signal } from "../../reactive.js";
-import { commit, design, doc, edit, look, preview, view } from "../../state.js";
+import { commit, doc, edit, look, preview, view } from "../../state.js";
+import { design, muscleInput } from "../../muscle/document.js";
 import { latest, post } from "../../server/client.js";
 import { presets, status } from "../../store.js";
-import { muscleInput, preset, presetEffects } from "../design/model.js";
-import {
-  arrangementOf,
-  at,
-  defaultTransient,
-  driveDocument,
-  inclinationOf,
-  inSi,
-  put,
-  takenApart,
-} from "./document.js";
+import { openDrive } from "../../drive/open.js";
+import { preset, presetEffects } from "../../muscle/preset.js";
+import { defaultTransient, driveDocument } from "./document.js";
+import { arrangementOf, inclinationOf, inSi, takenApart } from "../../drive/document.js";
+import { at, put } from "../../paths.js";
 import { siNumber } from "../../quantities.js";
 
 /** @typedef {import("../../types.js").Run} Run */
 /** @typedef {import("../../types.js").Preset} Preset */
-/** @typedef {import("./document.js").Drive} Drive */
-/** @typedef {import("./document.js").Transient} Transient */
+/** @typedef {import("../../types.js").Drive} Drive */
+/** @typedef {import("../../types.js").Transient} Transient */
 
 const POINTS = 401, LASTS = 4;
 
@@ -136,24 +131,12 @@ export const baseDrive = computed(() => {
   return start;
 });
 
-/** A whole drive document takes the place of muscle, effects and drive; one undo step.
- * @param {Drive} document @param {string | null} id @param {string} label */
-export function openDrive(document, id, label) {
-  const { muscle, effects, transient: part } = takenApart(document, id);
-  edit((d) => ({
-    ...d,
-    view: "transient",
-    design: { ...d.design, muscle, effects, reference: "auto" },
-    transient: { ...d.transient, ...part },
-  }), label);
-}
-
 /** @param {string} id */
 export function useScenario(id) {
   const chosen = scenarios.peek().find((s) => s.id === id);
   if (!chosen?.document) return lookTransient({ scenario: null });
   try {
-    openDrive(chosen.document, id, `scenario ${chosen.title}`);
+    openDrive(chosen.document, { label: `scenario ${chosen.title}`, scenario: id });
     status.value = [chosen.title, chosen.description].filter(Boolean).join(": ");
   } catch (error) {
     status.value = `“${chosen.title}” cannot be opened: ${/** @type {Error} */ (error).message}.`;

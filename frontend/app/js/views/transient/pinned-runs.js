@@ -6,8 +6,8 @@ import { runRequest, shownNow, simulate, timeWindow, transient, within } from ".
 import { siNumber } from "../../quantities.js";
 
 /** @typedef {import("../../types.js").Run} Run */
-/** @typedef {import("./document.js").Drive} Drive */
-/** @typedef {import("./document.js").Pin} Pin */
+/** @typedef {import("../../types.js").Drive} Drive */
+/** @typedef {import("../../types.js").Pin} Pin */
 
 /** What the server runs when a document does not say how long [s]. */
 const LASTS = 4;

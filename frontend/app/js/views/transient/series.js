@@ -63,3 +63,11 @@ export function rowAt(time, t) {
   }
   return t - time[low] <= time[high] - t ? low : high;
 }
+
+/** Contraction of a pair's muscles at stroke 0. @param {Run} run */
+export function middleOf(run) {
+  const k = run.contraction.findIndex((v) => v != null);
+  return run.joint && k >= 0
+    ? (run.contraction[k] ?? 0) - (run.position[k] ?? 0) / run.geometry.nominal_length
+    : 0;
+}

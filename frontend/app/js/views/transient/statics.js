@@ -1,9 +1,8 @@
 // @ts-check
 // The muscle at rest, behind the phase plot: its curves while filling and while venting.
 import { computed, effect, signal } from "../../reactive.js";
-import { design } from "../../state.js";
+import { design, muscleInput } from "../../muscle/document.js";
 import { latest, post } from "../../server/client.js";
-import { muscleInput } from "../design/model.js";
 import { numberAt, shownNow } from "./model.js";
 
 /** @typedef {import("../../types.js").Curves} Curves */

@@ -8,7 +8,7 @@ import { errorText, rangeText } from "../words.js";
 
 /** @typedef {import("../types.js").HeatMap} HeatMap */
 /** @typedef {import("../types.js").Comparison} Comparison */
-/** @typedef {import("../document.js").Heat} Heat */
+/** @typedef {import("../../../types.js").Heat} Heat */
 /** `most`: at the full colour; `start`: what the first model's scale has there; `largest`: of all cells,
  * `at`: where it is. @typedef {{kind: "start" | "own", most: number, start: number, largest: number,
  *   at: [number, number]}} HeatScale */

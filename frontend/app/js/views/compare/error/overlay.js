@@ -9,7 +9,7 @@ import { palette } from "../../../plots/theme.js";
 import { chartMenu } from "../../../plots/export.js";
 import { menuButton } from "../../../ui/menu.js";
 import { spoken } from "../../../ui/sources.js";
-import { plotlyReady } from "../../design/charts.js";
+import { plotlyReady } from "../../../plots/library.js";
 import { compare, fault, isBefore, lookCompare, previous, shown, stale, steps } from "../answers.js";
 import { channels, over, variables, viewOf } from "./pictures.js";
 import { colours, overlaySpec, pressureText } from "./specs.js";

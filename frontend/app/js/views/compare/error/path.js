@@ -2,10 +2,10 @@
 // The way of the error: a row for each model, the way ahead that the diagnosis proposes, the noise as a line.
 import { h, icon } from "../../../dom.js";
 import { future, past, units } from "../../../state.js";
-import { redoAndTell, undoAndTell } from "../../../shell.js";
-import { goBack, here, titleOf } from "../model/history.js";
+import { redoAndReport, undoAndReport } from "../../../ui/history.js";
+import { goBack, here } from "../model/history.js";
 import { answer, diagnosis, stale, steps } from "../answers.js";
-import { errorText, errorUnit } from "../words.js";
+import { errorText, errorUnit, titleOf } from "../words.js";
 
 /** @typedef {{label: string, rmse: number | null, holdout: number | null,
  *   kind: "past" | "now" | "ahead", index: number}} Row */
@@ -101,8 +101,8 @@ export function pathCard() {
         h("li", null, h("i", { class: "tick" }), "hold-out"),
         h("li", null, h("i", { class: "noise" }), "noise"),
       ),
-      historyButton("undo", () => past.value.at(-1)?.label, undoAndTell),
-      historyButton("redo", () => future.value.at(-1)?.label, redoAndTell),
+      historyButton("undo", () => past.value.at(-1)?.label, undoAndReport),
+      historyButton("redo", () => future.value.at(-1)?.label, redoAndReport),
     ),
     h(
       "table",

@@ -10,7 +10,7 @@ import { palette } from "../../../plots/theme.js";
 import { chartMenu } from "../../../plots/export.js";
 import { menuButton } from "../../../ui/menu.js";
 import { spoken } from "../../../ui/sources.js";
-import { plotlyReady } from "../../design/charts.js";
+import { plotlyReady } from "../../../plots/library.js";
 import { brushLayer } from "./brush-layer.js";
 import { brush, lookCompare, shown, stale } from "../answers.js";
 import { channel, channels, residualOver, residuals, variables, viewOf } from "./pictures.js";
@@ -18,7 +18,7 @@ import { autocorrelation, histogram, loops } from "./leftover.js";
 import { residualSpec } from "./specs.js";
 import { errorText, rangeText, rmsInside, VARIABLES } from "../words.js";
 
-/** @typedef {import("../document.js").Tab} Tab */
+/** @typedef {import("../../../types.js").Tab} Tab */
 /** @typedef {import("./leftover.js").Picture} Picture */
 
 /** @type {[Tab, string, string][]} */

@@ -10,7 +10,7 @@ import { channelScale, column, isInside, VARIABLES } from "../words.js";
 /** @typedef {import("../../../plots/theme.js").Palette} Palette */
 /** @typedef {import("../../../format.js").System} System */
 /** @typedef {import("../types.js").Series} Series */
-/** @typedef {import("../document.js").Brush} Brush */
+/** @typedef {import("../../../types.js").Brush} Brush */
 /** `ghost`: the series of the other model of before and after; `picture` changes with the data.
  * @typedef {{series: Series[], ghost: Series[], channel: string, unit: string, over: string, system: System,
  *   brush: Brush | null, noise: number | null, picture: string}} View */

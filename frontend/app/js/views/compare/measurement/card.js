@@ -16,8 +16,8 @@ import {
 } from "./files.js";
 import { answer, chosen, fault, files, messageFor } from "../answers.js";
 
-/** @typedef {import("../document.js").Chosen} Chosen */
-/** @typedef {import("../document.js").Use} Use */
+/** @typedef {import("../../../types.js").Chosen} Chosen */
+/** @typedef {import("../../../types.js").Use} Use */
 
 /** @type {[Use, string, string][]} */
 const USES = [

@@ -1,8 +1,7 @@
 // @ts-check
 // Files dropped on any part of the page, in any view.
 import { signal } from "../../../reactive.js";
-import { view } from "../../../state.js";
-import { goTo } from "../../../shell.js";
+import { goTo, view } from "../../../state.js";
 
 /** Files are being dragged over the page. */
 export const dropping = signal(false);

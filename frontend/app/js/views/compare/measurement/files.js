@@ -4,9 +4,8 @@ import { computed, effect, signal } from "../../../reactive.js";
 import { doc, edit, view } from "../../../state.js";
 import { ApiError, get } from "../../../server/client.js";
 import { muscles, references } from "../../../store.js";
-import { MOST_FILES } from "../document.js";
+import { fresh, MOST_FILES } from "../document.js";
 import { driveFor, needsDrive, startOf } from "../drive-document.js";
-import { fresh } from "../model/history.js";
 import { openMapping } from "./mapping.js";
 import { compare, editCompare, files } from "../answers.js";
 import { muscleOf, presetNamed } from "../muscle-values.js";
@@ -15,8 +14,8 @@ import { keep, previewOf } from "./upload.js";
 /** @typedef {import("../types.js").FileInfo} FileInfo */
 /** @typedef {import("../types.js").Preview} Preview */
 /** @typedef {import("../types.js").Mapping} Mapping */
-/** @typedef {import("../document.js").Compare} Compare */
-/** @typedef {import("../document.js").Use} Use */
+/** @typedef {import("../../../types.js").Compare} Compare */
+/** @typedef {import("../../../types.js").Use} Use */
 /** Something about a file that the user has to know. @typedef {{name: string, words: string}} Complaint */
 
 const MOST_BYTES = 64e6;

@@ -4,8 +4,8 @@ import { h, icon } from "../../../dom.js";
 import { computed, signal } from "../../../reactive.js";
 import { edit } from "../../../state.js";
 import { ApiError, get, post } from "../../../server/client.js";
-import { GIVEN, IDEAL } from "../document.js";
-import { fresh, titleOf } from "../model/history.js";
+import { fresh, GIVEN, IDEAL } from "../document.js";
+import { titleOf } from "../words.js";
 import { compare } from "../answers.js";
 import { muscleFrom } from "../muscle-values.js";
 

@@ -7,19 +7,19 @@ import { effectsById } from "../../../store.js";
 import { brief, number, plainScale, quantityOf, scaleOf, toShown } from "../../../format.js";
 import { quantityField } from "../../../ui/field.js";
 import { spoken } from "../../../ui/sources.js";
-import { fitting, refit, remove, titleOf } from "./history.js";
+import { fitting, refit, remove } from "./history.js";
 import { answer, compare, diagnosis, messageFor, patchCompare, preset } from "../answers.js";
 import { fitOf } from "../document.js";
-import { presetValues } from "../muscle-values.js";
+import { effectValues } from "../../../muscle/preset.js";
 import { newTerm } from "./own-term.js";
-import { figures, FORMULA, OWN_TERM } from "../words.js";
+import { figures, FORMULA, OWN_TERM, titleOf } from "../words.js";
 
 /** What a field needs to know of a parameter.
  * @typedef {Pick<import("../../../types.js").Parameter,
  *   "name" | "unit" | "symbol_mathml" | "lower" | "upper" | "default">} Field */
 
 /** Effects of the model with their values, those of the preset included. */
-const effects = computed(() => compare.value.effects ?? presetValues(preset.value));
+const effects = computed(() => compare.value.effects ?? effectValues(preset.value));
 const ids = computed(() => Object.keys(effects.value).join());
 
 /** @param {Field} p */
@@ -66,7 +66,7 @@ function parameterField(id, p) {
       get: value,
       put: (si, done) => {
         preview((d) => {
-          const all = d.compare.effects ?? presetValues(preset.peek());
+          const all = d.compare.effects ?? effectValues(preset.peek());
           const { [p.name]: _gone, ...fit } = d.compare.fit[id] ?? {};
           return patchCompare({
             effects: { ...all, [id]: { ...all[id], [p.name]: si } },

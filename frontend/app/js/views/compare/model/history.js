@@ -3,26 +3,22 @@
 import { signal } from "../../../reactive.js";
 import { edit } from "../../../state.js";
 import { ApiError } from "../../../server/client.js";
-import { effectsById, status } from "../../../store.js";
+import { status } from "../../../store.js";
 import { answer, compare, diagnosis, fitWith, preset } from "../answers.js";
-import { fitOf, IDEAL, stepOf, withStep } from "../document.js";
+import { fitOf, stepOf, withStep } from "../document.js";
 import { keyOf, valuesOf } from "../request.js";
-import { presetValues } from "../muscle-values.js";
-import { OWN_TERM } from "../words.js";
+import { effectValues } from "../../../muscle/preset.js";
+import { OWN_TERM, titleOf } from "../words.js";
 
-/** @typedef {import("../document.js").Compare} Compare */
-/** @typedef {import("../document.js").Step} Step */
+/** @typedef {import("../../../types.js").Compare} Compare */
+/** @typedef {import("../../../types.js").Step} Step */
 /** @typedef {import("../types.js").Candidate} Candidate */
 /** @typedef {import("../types.js").Comparison} Comparison */
-/** @typedef {import("../types.js").Effects} Effects */
+/** @typedef {import("../../../types.js").Effects} Effects */
 /** @typedef {import("../types.js").Model} Model */
 
 /** A fit on request is under way. */
 export const fitting = signal(false);
-
-/** @param {string} id */
-export const titleOf = (id) =>
-  id === OWN_TERM ? "Own term" : effectsById.value.get(id)?.title ?? id.replaceAll("_", " ");
 
 /** The model of now with its error, as a step of the history. */
 export const here = () =>
@@ -152,7 +148,7 @@ export const refitByKey = () => {
 /** Takes an effect out and fits the others again. @param {string} id */
 export function remove(id) {
   const title = titleOf(id);
-  const all = compare.peek().effects ?? presetValues(preset.peek());
+  const all = compare.peek().effects ?? effectValues(preset.peek());
   const effects = Object.fromEntries(Object.entries(all).filter(([name]) => name !== id));
   return fitted(effects, `remove ${title}`, `− ${title}`);
 }
@@ -166,19 +162,3 @@ export function goBack(index) {
     `back to ${step.label}`,
   );
 }
-
-/** A fresh start: without effects, or with those of the preset.
- * @param {Compare} c @param {"ideal" | "preset"} start @returns {Compare} */
-export const fresh = (c, start = c.start) => ({
-  ...c,
-  start,
-  effects: start === "ideal" ? {} : null,
-  freed: [],
-  fit: {},
-  label: start === "ideal" ? IDEAL : "Effects of the preset",
-  holdout: null,
-  history: [],
-  heat: "auto",
-  brush: null,
-  before: false,
-});

@@ -5,10 +5,10 @@ import { signal } from "../../../reactive.js";
 import { ApiError } from "../../../server/client.js";
 import { addModel, fitting, takeFitted } from "./history.js";
 import { compare, preset } from "../answers.js";
-import { presetValues } from "../muscle-values.js";
+import { effectValues } from "../../../muscle/preset.js";
 import { FORMULA, OWN_TERM } from "../words.js";
 
-/** @typedef {import("../types.js").Effects} Effects */
+/** @typedef {import("../../../types.js").Effects} Effects */
 /** @typedef {import("../types.js").ProposedTerm} ProposedTerm */
 
 /** What may stand in a term. @type {[string, string][]} */
@@ -32,7 +32,7 @@ function withTerm(effects, formula) {
   return { ...effects, [OWN_TERM]: { [FORMULA]: formula, ...Object.fromEntries(kept) } };
 }
 
-const effectsNow = () => compare.peek().effects ?? presetValues(preset.peek());
+const effectsNow = () => compare.peek().effects ?? effectValues(preset.peek());
 
 /** A field for a formula, with what may stand in it and what is wrong with it.
  * @param {{label: string, formula: string, button: string, id: string, effects: () => Effects,

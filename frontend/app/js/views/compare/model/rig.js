@@ -7,12 +7,11 @@ import { presets } from "../../../store.js";
 import { scaleOf } from "../../../format.js";
 import { openDialog } from "../../../ui/dialog.js";
 import { quantityField } from "../../../ui/field.js";
-import { at, put } from "../../transient/document.js";
+import { at, put } from "../../../paths.js";
 import { siNumber } from "../../../quantities.js";
-import { GIVEN, IDEAL } from "../document.js";
+import { fresh, GIVEN, IDEAL } from "../document.js";
 import { driveFor, needsDrive, readDrive } from "../drive-document.js";
 import { infos } from "../measurement/files.js";
-import { fresh } from "./history.js";
 import { chosen, compare, editCompare, messageFor, patchCompare } from "../answers.js";
 
 /** @typedef {import("../../../format.js").Quantity} Quantity */

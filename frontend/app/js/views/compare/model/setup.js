@@ -9,8 +9,7 @@ import { quantityField } from "../../../ui/field.js";
 import { openPopover } from "../../../ui/dialog.js";
 import { unverifiedNote } from "../../../ui/sources.js";
 import { infos, unknownMuscle } from "../measurement/files.js";
-import { GIVEN } from "../document.js";
-import { fresh } from "./history.js";
+import { fresh, GIVEN } from "../document.js";
 import { answer, chosen, compare, editCompare, messageFor, patchCompare, preset, steps } from "../answers.js";
 
 /** @typedef {import("../../../format.js").Quantity} Quantity */

@@ -5,13 +5,12 @@ import { signal } from "../../../reactive.js";
 import { units } from "../../../state.js";
 import { effectsById } from "../../../store.js";
 import { brief, plainScale, quantityOf, scaleOf, toShown } from "../../../format.js";
-import { openPopover } from "../../../ui/dialog.js";
 import { spoken } from "../../../ui/sources.js";
-import { effectNote } from "../../../muscle/effect-note.js";
+import { aboutButton } from "../../../muscle/effects.js";
 import { equationBox } from "./equation.js";
-import { add, titleOf } from "../model/history.js";
+import { add } from "../model/history.js";
 import { answer, diagnosis, found, stage, stale } from "../answers.js";
-import { errorText, figures } from "../words.js";
+import { errorText, figures, titleOf } from "../words.js";
 
 /** @typedef {import("../types.js").Candidate} Candidate */
 /** @typedef {import("../types.js").Fitted} Fitted */
@@ -75,13 +74,6 @@ const listed = (names) =>
 function card(c, best, wanted) {
   const effect = effectsById.value.get(c.effect);
   const helps = c.gain_percent >= USEFUL;
-  const info = h("button", {
-    type: "button",
-    class: "mini",
-    "aria-label": `About ${c.title}`,
-    "aria-expanded": "false",
-    onclick: () => effect && openPopover(info, effect.title, () => effectNote(effect), { kind: "about" }),
-  }, icon("info"));
   return h(
     "li",
     { class: `candidate${helps ? "" : " useless"}`, "data-candidate": c.effect },
@@ -89,7 +81,7 @@ function card(c, best, wanted) {
       "div",
       { class: "candidate-head" },
       h("h3", null, c.title),
-      effect ? info : null,
+      effect ? aboutButton(effect) : null,
       h("button", {
         type: "button",
         class: best && wanted ? "primary" : "",

@@ -4,7 +4,7 @@ import { h, icon } from "../../../dom.js";
 import { units } from "../../../state.js";
 import { brief } from "../../../format.js";
 import { spoken } from "../../../ui/sources.js";
-import { addAll, titleOf } from "../model/history.js";
+import { addAll } from "../model/history.js";
 import {
   again,
   answer,
@@ -17,7 +17,7 @@ import {
   stale,
   trouble,
 } from "../answers.js";
-import { errorText, whatIsLeft } from "../words.js";
+import { errorText, titleOf, whatIsLeft } from "../words.js";
 
 /** @typedef {import("../types.js").Status} Status */
 /** @typedef {import("../types.js").Diagnosis} Diagnosis */

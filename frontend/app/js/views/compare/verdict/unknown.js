@@ -7,7 +7,7 @@ import { brief, scaleOf, toShown } from "../../../format.js";
 import { Chart } from "../../../plots/chart.js";
 import { palette } from "../../../plots/theme.js";
 import { extent } from "../../../plots/axes.js";
-import { plotlyReady } from "../../design/charts.js";
+import { plotlyReady } from "../../../plots/library.js";
 import { diagnosis } from "../answers.js";
 import { proposedTerm } from "../model/own-term.js";
 import { padded } from "../error/specs.js";

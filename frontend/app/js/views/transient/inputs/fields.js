@@ -4,7 +4,7 @@ import { h } from "../../../dom.js";
 import { units } from "../../../state.js";
 import { scaleOf, siOf } from "../../../format.js";
 import { quantityField } from "../../../ui/field.js";
-import { at } from "../document.js";
+import { at } from "../../../paths.js";
 import { siNumber } from "../../../quantities.js";
 import {
   arrangement,
@@ -17,7 +17,7 @@ import {
   run,
   setDrive,
 } from "../model.js";
-import { middleOf } from "../plots/phase.js";
+import { middleOf } from "../series.js";
 
 /** @typedef {import("../../../format.js").Quantity} Quantity */
 /** `usual` in SI: what holds when the document says nothing.

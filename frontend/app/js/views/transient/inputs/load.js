@@ -4,13 +4,13 @@ import { h } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
 import { units } from "../../../state.js";
 import { number, scaleOf, toShown } from "../../../format.js";
-import { rearranged } from "../document.js";
+import { rearranged } from "../../../drive/document.js";
 import { choiceField, driveField, partMessage, SPECS } from "./fields.js";
 import { arrangement, drive, numberAt, run, setDrive } from "../model.js";
-import { middleOf } from "../plots/phase.js";
+import { middleOf } from "../series.js";
 import { signalFields } from "./signals.js";
 
-/** @typedef {import("../document.js").Arrangement} Arrangement */
+/** @typedef {import("../../../types.js").DriveArrangement} Arrangement */
 
 /** @type {[Arrangement, string][]} */
 const ARRANGEMENTS = [

@@ -2,11 +2,11 @@
 // The inputs of the Transient view: scenario, muscle, air supply, load, command or controller, surroundings.
 import { h } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
-import { design, units } from "../../../state.js";
+import { units } from "../../../state.js";
+import { design, showMuscle } from "../../../muscle/document.js";
 import { brief, siOf, withUnit } from "../../../format.js";
 import { effectsCard, isStatic } from "../../../muscle/effects.js";
-import { preset } from "../../design/model.js";
-import { showMuscle } from "../../sizing/index.js";
+import { preset } from "../../../muscle/preset.js";
 import { driveField, partMessage } from "./fields.js";
 import {
   arrangement,

@@ -2,7 +2,7 @@
 // A signal over time: its shape from a list, and the fields that shape has.
 import { h } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
-import { at } from "../document.js";
+import { at } from "../../../paths.js";
 import { choiceField, driveField } from "./fields.js";
 import { drive, numberAt, setDrive } from "../model.js";
 import { tableField } from "./table-field.js";

@@ -6,7 +6,7 @@ import { presets } from "../../../store.js";
 import { siOf } from "../../../format.js";
 import { openPopover } from "../../../ui/dialog.js";
 import { unverifiedNote } from "../../../ui/sources.js";
-import { at } from "../document.js";
+import { at } from "../../../paths.js";
 import { choiceField, driveField, partMessage } from "./fields.js";
 import { changePart, drive, numberAt, partPreset, regulated } from "../model.js";
 

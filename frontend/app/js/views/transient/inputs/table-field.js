@@ -4,7 +4,7 @@ import { h } from "../../../dom.js";
 import { computed, signal } from "../../../reactive.js";
 import { units } from "../../../state.js";
 import { number, scaleOf, toShown } from "../../../format.js";
-import { at } from "../document.js";
+import { at } from "../../../paths.js";
 import { choiceField } from "./fields.js";
 import { drive, messageFor, setDrive } from "../model.js";
 import { readTable, textOf } from "./table-file.js";

@@ -4,7 +4,7 @@ import { computed, effect } from "../../../reactive.js";
 import { row } from "../cursor.js";
 import { numberAt, run } from "../model.js";
 import { draw, outline, place } from "./outline.js";
-import { middleOf } from "../plots/phase.js";
+import { middleOf } from "../series.js";
 
 /** @typedef {import("../../../types.js").Run} Run */
 

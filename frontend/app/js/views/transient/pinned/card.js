@@ -7,14 +7,16 @@ import { ApiError } from "../../../server/client.js";
 import { number, scaleOf, toShown } from "../../../format.js";
 import { palette } from "../../../plots/theme.js";
 import { figureRows, inputRows } from "./rows.js";
-import { at, MOST_PINS } from "../document.js";
-import { documentNow, editTransient, muscleName, openDrive, run, transient } from "../model.js";
+import { MOST_PINS } from "../document.js";
+import { at } from "../../../paths.js";
+import { documentNow, editTransient, muscleName, run, transient } from "../model.js";
+import { openDrive } from "../../../drive/open.js";
 import { pinKey, pinRuns, pins } from "../pinned-runs.js";
 import { pinColours } from "../plots/specs.js";
 import { siNumber } from "../../../quantities.js";
 
 /** @typedef {import("../../../format.js").Quantity} Quantity */
-/** @typedef {import("../document.js").Drive} Drive */
+/** @typedef {import("../../../types.js").Drive} Drive */
 /** @typedef {import("./rows.js").Column} Column */
 
 const colours = computed(() => pinColours(palette.value));
@@ -141,7 +143,7 @@ const pinButtons = (c, i) =>
       class: "mini",
       "aria-label": `Go back to ${c.name}`,
       title: "Make this drive the current one",
-      onclick: () => openDrive(c.drive, null, `back to ${c.name}`),
+      onclick: () => openDrive(c.drive, { label: `back to ${c.name}` }),
     }, icon("reset")),
     h("button", {
       type: "button",

@@ -5,7 +5,7 @@ import { units } from "../../../state.js";
 import { effectsById } from "../../../store.js";
 import { brief, number, plainScale, quantityOf, scaleOf, toShown } from "../../../format.js";
 import { spoken } from "../../../ui/sources.js";
-import { at } from "../document.js";
+import { at } from "../../../paths.js";
 import { SPECS } from "../inputs/fields.js";
 import { greatestOf, JOINT } from "../plots/joint.js";
 import { timeWindow } from "../model.js";
@@ -16,7 +16,7 @@ import { siNumber } from "../../../quantities.js";
 /** @typedef {import("../../../types.js").Run} Run */
 /** @typedef {import("../../../format.js").Quantity} Quantity */
 /** @typedef {import("../../../format.js").Scale} Scale */
-/** @typedef {import("../document.js").Drive} Drive */
+/** @typedef {import("../../../types.js").Drive} Drive */
 /** @typedef {{name: string, drive: Drive, run: Run | null, color: string, wrong: string | null}} Column */
 /** @typedef {{label: string, unit: string, texts: string[], deltas: (number | null)[]}} Row */
 

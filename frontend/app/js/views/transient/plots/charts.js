@@ -8,8 +8,8 @@ import { drawBands, writeLabels } from "../../../plots/overlay.js";
 import { palette } from "../../../plots/theme.js";
 import { chartMenu } from "../../../plots/export.js";
 import { menuButton } from "../../../ui/menu.js";
-import { plotlyReady } from "../../design/charts.js";
-import { at } from "../document.js";
+import { plotlyReady } from "../../../plots/library.js";
+import { at } from "../../../paths.js";
 import { followTime, row, span } from "../cursor.js";
 import { angleSpec, jointCells, stiffnessSpec, torqueSpec } from "./joint.js";
 import { measured } from "../measured.js";
@@ -23,7 +23,7 @@ import { accelerationSpec, legendOf, lowerSpec, positionSpec, pressureSpec, spee
 
 /** @typedef {import("./specs.js").View} View */
 /** @typedef {import("../../../types.js").Run} Run */
-/** @typedef {import("../document.js").Lower} Lower */
+/** @typedef {import("../../../types.js").Lower} Lower */
 /** @typedef {import("./plot.js").Plot} Plot */
 
 const NARROWEST = 1e-3;

@@ -43,7 +43,7 @@ export function drawPhase() {
     load: load.peek(),
     system: units.value,
     zoom: zoom.value,
-    zoomed: (/** @type {import("../document.js").Zoom | null} */ to) => lookTransient({ phase: to }),
+    zoomed: (/** @type {import("../../../types.js").Zoom | null} */ to) => lookTransient({ phase: to }),
   };
   if (answer && view.value === "transient") phase.chart.show((p) => phaseSpec({ run: answer, ...o }, p));
 }

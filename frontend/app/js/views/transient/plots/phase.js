@@ -3,13 +3,14 @@
 import { scaleOf, toShown, toSi } from "../../../format.js";
 import { axisTitle, extent, shown, steadyRange } from "../../../plots/axes.js";
 import { pressureColour } from "../../../plots/theme.js";
+import { middleOf } from "../series.js";
 
 /** @typedef {import("../../../types.js").Run} Run */
 /** @typedef {import("../../../types.js").Curves} Curves */
 /** @typedef {import("../../../plots/theme.js").Palette} Palette */
 /** @typedef {import("../../../format.js").System} System */
 /** @typedef {import("../statics.js").Statics} Statics */
-/** @typedef {import("../document.js").Zoom} Zoom */
+/** @typedef {import("../../../types.js").Zoom} Zoom */
 /** What the load holds against the muscle at rest: weight [N], spring [N/m], lever ratio.
  * @typedef {{weight: number, spring: number, ratio: number}} Load */
 /** @typedef {{run: Run, statics: Statics | null, load: Load, system: System, zoom: Zoom | null,
@@ -57,14 +58,6 @@ export function forceAt(c, p, k) {
     return a + (b - a) * along;
   };
   return Math.max(0, row(i) + (row(i + 1) - row(i)) * up);
-}
-
-/** Contraction of a pair's muscles at stroke 0. @param {Run} run */
-export function middleOf(run) {
-  const k = run.contraction.findIndex((v) => v != null);
-  return run.joint && k >= 0
-    ? (run.contraction[k] ?? 0) - (run.position[k] ?? 0) / run.geometry.nominal_length
-    : 0;
 }
 
 /** Whether the external force is the same at every instant. @param {Run} run */

@@ -11,7 +11,7 @@ import { contacts, measuredColumn, resampled, withoutImpacts } from "../series.j
 /** @typedef {import("../../../format.js").System} System */
 /** @typedef {import("../../../types.js").Run} Run */
 /** @typedef {import("../../../types.js").Measured} Measured */
-/** @typedef {import("../document.js").Lower} Lower */
+/** @typedef {import("../../../types.js").Lower} Lower */
 /** @typedef {{name: string, run: Run, index: number}} Pinned */
 /** @typedef {{run: Run, system: System, window: [number, number], lower: Lower, supply: number | null,
  *   pinned: Pinned[], measured: Measured | null, switches: number[], zoomed: boolean,
