@@ -1,4 +1,4 @@
-"""The modules without a page: signals, the document, links, units, one request at a time."""
+"""The modules without a page: signals, the document, links, units."""
 
 from __future__ import annotations
 
@@ -204,28 +204,6 @@ def test_numbers_have_sensible_digits(blank: Page) -> None:
         """,
     )
     assert texts == ["0.3", "0", "1548.5", "–", "0.004", "15.8", ["0.0", "4.3", "15.8", "–"]]
-
-
-def test_one_request_in_flight_and_the_latest_wins(blank: Page) -> None:
-    result = run(
-        blank,
-        """
-        const { latest } = await import("/js/server/client.js");
-        const asked = [], done = [];
-        let most = 0, now = 0;
-        const ask = latest(async (body) => {
-          asked.push(body);
-          most = Math.max(most, ++now);
-          await new Promise((r) => setTimeout(r, 20));
-          now--;
-          return body * 10;
-        }, (answer) => done.push(answer), () => {});
-        for (let i = 1; i <= 50; i++) ask(i);
-        await new Promise((r) => setTimeout(r, 120));
-        return { asked, done, most };
-        """,
-    )
-    assert result == {"asked": [1, 50], "done": [10, 500], "most": 1}
 
 
 # ---- links

@@ -177,6 +177,18 @@ def test_no_circle_of_folders_within_a_view(texts: dict[str, str]) -> None:
     assert not found, "folders of a view import each other in a circle:\n" + "\n".join(found)
 
 
+def test_only_the_server_folder_sends_requests(texts: dict[str, str]) -> None:
+    """Aborting, the newest text and what is under way are the affair of server/question.js."""
+    pattern = re.compile(r"\bfetch\(|\bnew AbortController\b|\bXMLHttpRequest\b|\bEventSource\b")
+    found = [
+        f"{module}: {match[0]}"
+        for module, text in texts.items()
+        if not module.startswith("server/")
+        for match in pattern.finditer(_COMMENT.sub("", text))
+    ]
+    assert not found, "ask through server/question.js or server/client.js:\n" + "\n".join(found)
+
+
 WAYS = """
 // import { no } from "./comment.js";
 /** @typedef {import("./type.js").T} T */

@@ -1,5 +1,5 @@
 // @ts-check
-// Requests to the server: one JSON error shape, one request in flight per question, the latest wins.
+// Requests to the server, and the one shape of its errors.
 
 export class ApiError extends Error {
   /** @param {string} message @param {{field?: string | null, hint?: string | null, status?: number}} [more]
@@ -34,11 +34,11 @@ async function reach(path, init) {
 async function answerOf(response) {
   const body = await response.json().catch(() => null);
   if (response.ok && body) return body;
-  throw told(body, response.status);
+  throw errorOf(body, response.status);
 }
 
-/** The server's one shape of an error. @param {any} body @param {number} status */
-const told = (body, status) =>
+/** @param {any} body @param {number} status */
+const errorOf = (body, status) =>
   new ApiError(body?.error?.message ?? `The server answered with status ${status}.`, {
     field: body?.error?.field,
     hint: body?.error?.hint,
@@ -48,8 +48,8 @@ const told = (body, status) =>
 /** @param {string} path @param {RequestInit} [init] */
 const request = async (path, init) => answerOf(await reach(path, init));
 
-/** @param {string} path */
-export const get = (path) => request(path);
+/** @param {string} path @param {AbortSignal} [signal] */
+export const get = (path, signal) => request(path, { signal });
 
 /** @param {string} path @param {unknown} body @param {AbortSignal} [signal] */
 export const post = (path, body, signal) =>
@@ -86,11 +86,12 @@ function readEvent(text) {
   return parts.data === undefined ? null : { event: parts.event ?? "message", data: JSON.parse(parts.data) };
 }
 
-/** Long work: the answer comes as events, the last of which is “done”.
- * @param {string} path @param {unknown} body @param {(event: string, data: any) => void} seen
+/** Long work whose answer comes as events, the last of which is "done".
+ * @param {string} path @param {unknown} body @param {(event: string, data: any) => void} onEvent for every event
+ * before
  * @param {AbortSignal} signal ends the work on the server too
- * @returns {Promise<any>} the data of “done” */
-export async function follow(path, body, seen, signal) {
+ * @returns {Promise<any>} the data of "done" */
+export async function postForEvents(path, body, onEvent, signal) {
   const response = await reach(path, {
     method: "POST",
     headers: { "content-type": "application/json", accept: "text/event-stream" },
@@ -106,48 +107,11 @@ export async function follow(path, body, seen, signal) {
     const blocks = (rest + (value ?? "")).split(/\r?\n\r?\n/);
     rest = blocks.pop() ?? "";
     for (const block of blocks) {
-      const found = readEvent(block);
-      if (found?.event === "done") return found.data;
-      if (found?.event === "error") throw told(found.data.error ? found.data : { error: found.data }, 422);
-      if (found) seen(found.event, found.data);
+      const { event, data } = readEvent(block) ?? {};
+      if (event === "done") return data;
+      if (event === "error") throw errorOf(data.error ? data : { error: data }, 422);
+      if (event && !signal.aborted) onEvent(event, data);
     }
     if (done) throw new ApiError("The connection ended before the work was done.");
   }
-}
-
-const PATIENCE_MS = 400;
-
-/** Asks with the newest body only: while one request is under way the next waits; a newer one replaces it.
- * A request that takes long is aborted as soon as it is out of date.
- * @template B, A
- * @param {(body: B, signal: AbortSignal) => Promise<A>} ask
- * @param {(answer: A, body: B) => void} done @param {(error: ApiError, body: B) => void} failed
- * @returns {(body: B) => void} */
-export function latest(ask, done, failed) {
-  /** @type {{body: B} | null} */
-  let waiting = null;
-  /** @type {{control: AbortController, since: number} | null} */
-  let running = null;
-  const next = async () => {
-    if (!waiting || running) return;
-    const { body } = waiting;
-    waiting = null;
-    const control = new AbortController();
-    running = { control, since: performance.now() };
-    try {
-      const answer = await ask(body, control.signal);
-      if (!control.signal.aborted) done(answer, body);
-    } catch (error) {
-      if (error instanceof ApiError) failed(error, body);
-      else if (!control.signal.aborted) throw error;
-    } finally {
-      running = null;
-      next();
-    }
-  };
-  return (body) => {
-    waiting = { body };
-    if (running && performance.now() - running.since > PATIENCE_MS) running.control.abort();
-    next();
-  };
 }

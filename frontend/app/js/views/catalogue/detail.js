@@ -5,7 +5,8 @@ import { h, icon } from "../../dom.js";
 import { effect } from "../../reactive.js";
 import { units } from "../../state.js";
 import { effectsById } from "../../store.js";
-import { latest, post } from "../../server/client.js";
+import { post } from "../../server/client.js";
+import { Question } from "../../server/question.js";
 import { siOf } from "../../format.js";
 import { Chart } from "../../plots/chart.js";
 import { writeLabels } from "../../plots/overlay.js";
@@ -103,37 +104,25 @@ function smallPlot() {
   });
   const chart = new Chart(host, "catalogue-force");
   writeLabels(chart);
-  /** @type {Curves | null} */
-  let shown = null;
-  const draw = () => {
-    if (!shown) return;
-    /** @type {import("../../muscle/curve-axes.js").View} */
-    const view = {
-      place: "catalogue",
-      curves: shown,
-      across: "contraction",
-      over: "contraction",
-      system: units.peek(),
-      reference: null,
-    };
-    chart.show((p) => forceSpec(view, p));
-  };
-  const ask = latest(
-    (/** @type {object} */ body, control) => post("/api/curves", body, control),
-    (answer) => {
-      shown = answer;
-      draw();
-    },
-    () => (shown = null),
+  const curves = new Question(
+    (text, signal) => /** @type {Promise<Curves>} */ (post("/api/curves", JSON.parse(text), signal)),
   );
-  effect(() => {
+  curves.follow(() => {
     const p = selected.value;
-    if (p?.kind === "muscle") ask(request(p));
+    return p?.kind === "muscle" ? JSON.stringify(request(p)) : null;
   });
   effect(() => {
-    units.value;
+    const answer = curves.error.value ? null : curves.answer.value;
     palette.value;
-    if (plotlyReady.value) draw();
+    /** @type {Omit<import("../../muscle/curve-axes.js").View, "curves">} */
+    const view = {
+      place: "catalogue",
+      across: "contraction",
+      over: "contraction",
+      system: units.value,
+      reference: null,
+    };
+    if (answer && plotlyReady.value) chart.show((p) => forceSpec({ ...view, curves: answer }, p));
   });
   return host;
 }

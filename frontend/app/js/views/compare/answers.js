@@ -1,8 +1,10 @@
 // @ts-check
 // From the document to the server's answers: the comparison at once, then the diagnosis as it finds things.
-import { batch, computed, effect, signal } from "../../reactive.js";
+import { batch, computed, signal } from "../../reactive.js";
 import { doc, edit, look, view } from "../../state.js";
-import { ApiError, follow, post } from "../../server/client.js";
+import { post, postForEvents } from "../../server/client.js";
+import { fieldMessages } from "../../server/messages.js";
+import { Memory, Question } from "../../server/question.js";
 import { musclesById } from "../../store.js";
 import { keyOf, used } from "./request.js";
 
@@ -29,206 +31,111 @@ export const editCompare = (patch, label) => edit(patchCompare(patch), label);
 /** What is looked at is no step of the work. @param {Partial<Compare>} patch */
 export const lookCompare = (patch) => look(patchCompare(patch));
 
-/** The comparison with the model of now, and with the one before it. */
-export const answer = signal(/** @type {Comparison | null} */ (null));
-export const previous = signal(/** @type {Comparison | null} */ (null));
-/** Why there is no comparison. */
-export const fault = signal(/** @type {ApiError | null} */ (null));
+// ---- the comparison
 
-/** The diagnosis; while it runs, what it found so far. */
-export const diagnosis = signal(/** @type {Diagnosis | null} */ (null));
-export const found = signal(/** @type {Candidate[]} */ ([]));
-export const progress = signal(/** @type {Progress} */ ({ share: 0 }));
-export const stage = signal(/** @type {Stage} */ ("idle"));
-export const trouble = signal(/** @type {ApiError | null} */ (null));
+const REMEMBERED = 16, AFTER_MS = 30;
 
-const key = computed(() => keyOf(compare.value));
-const keyBefore = computed(() => {
+/** Without a fit. @type {Memory<Comparison>} */
+const comparisons = new Memory(REMEMBERED);
+
+/** @param {string} text @param {AbortSignal} [signal] @returns {Promise<Comparison>} */
+const compareWith = (text, signal) => post("/api/comparisons", { ...JSON.parse(text), fit: false }, signal);
+
+/** The parameters of a model fitted to the data. @param {string} text @param {AbortSignal} [signal]
+ * @returns {Promise<Comparison>} */
+export const fitWith = (text, signal) => post("/api/comparisons", { ...JSON.parse(text), fit: true }, signal);
+
+const modelText = computed(() => keyOf(compare.value));
+const comparison = new Question(compareWith, { memory: comparisons, patience: 0 });
+/** The comparison with the model of now, why there is none, and whether it belongs to other data or another
+ * model than those chosen. */
+export const { answer, error: fault, stale } = comparison;
+const isCompared = computed(() => comparison.answered.value === modelText.value && fault.value === null);
+
+const previousText = computed(() => {
   const last = steps.value.at(-1);
   return last ? keyOf(compare.value, last) : null;
 });
-/** The body that the answers on screen belong to. */
-const answered = signal(/** @type {string | null} */ (null));
-/** The numbers on screen are not those of the model and data chosen. */
-export const stale = computed(() => key.value !== answered.value || fault.value !== null);
+/** The comparison with the model before. What is wrong with the data is said by the other one. */
+const comparisonBefore = new Question(compareWith, { memory: comparisons, patience: 0 });
+export const previous = computed(() => comparisonBefore.error.value ? null : comparisonBefore.answer.value);
 
-/** What is drawn: the model of now, or with “before” the one it came from. */
+/** What is drawn: the model of now, or with "before" the one it came from. */
 export const shown = computed(() => compare.value.before && previous.value ? previous.value : answer.value);
 export const isBefore = computed(() => compare.value.before && previous.value !== null);
 
-const KEPT = 16;
-/** Answers of bodies asked before: undo shows its numbers at once. @template T */
-class Memory {
-  constructor() {
-    /** @type {Map<string, T>} */
-    this.known = new Map();
-  }
-  /** @param {string} name */
-  get(name) {
-    return this.known.get(name) ?? null;
-  }
-  /** @param {string} name @param {T} value */
-  keep(name, value) {
-    this.known.delete(name);
-    this.known.set(name, value);
-    if (this.known.size > KEPT) this.known.delete([...this.known.keys()][0]);
-  }
-}
-/** @type {Memory<Comparison>} */
-const comparisons = new Memory();
+// ---- the diagnosis
+
+/** Candidates of the diagnosis of a model while it runs. */
+const foundSoFar = signal({ text: "", candidates: /** @type {Candidate[]} */ ([]) });
+export const progress = signal(/** @type {Progress} */ ({ share: 0 }));
+
 /** @type {Memory<Diagnosis>} */
-const diagnoses = new Memory();
-
-/** @param {string} body @param {AbortSignal} [control] @returns {Promise<Comparison>} */
-async function compareWith(body, control) {
-  const known = comparisons.get(body);
-  if (known) return known;
-  const got = await post("/api/comparisons", { ...JSON.parse(body), fit: false }, control);
-  comparisons.keep(body, got);
-  return got;
-}
-
-/** The parameters of a model fitted to the data. @param {string} body @param {AbortSignal} [control]
- * @returns {Promise<Comparison>} */
-export const fitWith = (body, control) =>
-  post("/api/comparisons", { ...JSON.parse(body), fit: true }, control);
-
-let control = new AbortController();
-
-/** @param {unknown} error @returns {ApiError} */
-const asApiError = (error) => error instanceof ApiError ? error : new ApiError(String(error));
-
-/** @param {string | null} body */
-async function start(body) {
-  control.abort();
-  control = new AbortController();
-  const mine = control.signal;
-  if (!body) return clear();
-  trouble.value = null;
-  stage.value = "waiting";
-  try {
-    const got = await compareWith(body, mine);
-    if (mine.aborted) return;
-    batch(() => {
-      fault.value = null;
-      answer.value = got;
-      answered.value = body;
-      if (!keyBefore.peek()) previous.value = null;
-    });
-    fetchPrevious(mine);
-  } catch (error) {
-    if (mine.aborted) return;
-    batch(() => {
-      fault.value = asApiError(error);
-      stage.value = "idle";
-      found.value = [];
-      diagnosis.value = null;
-    });
-    return;
-  }
-  await diagnose(body, mine);
-}
-
-function clear() {
+const diagnoses = new Memory(REMEMBERED);
+const diagnosisQuestion = new Question((text, signal) => {
   batch(() => {
-    answer.value = previous.value = diagnosis.value = null;
-    answered.value = null;
-    fault.value = trouble.value = null;
-    found.value = [];
-    stage.value = "idle";
-  });
-}
-
-/** @param {AbortSignal} mine */
-async function fetchPrevious(mine) {
-  const body = keyBefore.peek();
-  if (!body) return;
-  try {
-    const got = await compareWith(body, mine);
-    if (!mine.aborted) previous.value = got;
-  } catch {
-    // without it there is no “before” to show; what is wrong with the data is said by the comparison
-    if (!mine.aborted) previous.value = null;
-  }
-}
-
-/** @param {string} body @param {AbortSignal} mine */
-async function diagnose(body, mine) {
-  const known = diagnoses.get(body);
-  if (known) {
-    return batch(() => {
-      diagnosis.value = known;
-      found.value = known.candidates;
-      stage.value = "done";
-    });
-  }
-  batch(() => {
-    diagnosis.value = null;
-    found.value = [];
+    foundSoFar.value = { text, candidates: [] };
     progress.value = { share: 0 };
-    stage.value = "running";
-    trouble.value = null;
   });
-  try {
-    const got = await follow("/api/diagnoses", JSON.parse(body), (name, data) => {
-      if (name === "progress" && !mine.aborted) heed(data);
-    }, mine);
-    if (mine.aborted) return;
-    diagnoses.keep(body, got);
-    batch(() => {
-      diagnosis.value = got;
-      found.value = got.candidates;
-      stage.value = "done";
-    });
-  } catch (error) {
-    if (mine.aborted) return;
-    trouble.value = asApiError(error);
-    stage.value = "failed";
-  }
-}
+  return /** @type {Promise<Diagnosis>} */ (postForEvents(
+    "/api/diagnoses",
+    JSON.parse(text),
+    (name, data) => {
+      if (name === "progress") takeProgress(text, data);
+    },
+    signal,
+  ));
+}, { memory: diagnoses, patience: 0, keeps: false });
+/** The diagnosis, once it is complete, and why it failed. */
+export const { answer: diagnosis, error: diagnosisError } = diagnosisQuestion;
+/** The candidates of the diagnosis; while it runs, those found so far, the best first. */
+export const candidates = computed(() => {
+  const { text, candidates: some } = foundSoFar.value;
+  return diagnosis.value?.candidates ?? (text === diagnosisQuestion.asked.value ? some : []);
+});
 
-/** @param {Progress} data */
-function heed(data) {
+/** @param {string} text @param {Progress} data */
+function takeProgress(text, data) {
   batch(() => {
     progress.value = data;
     const one = data.found;
     if (!one) return;
-    const others = found.peek().filter((c) => c.effect !== one.effect);
-    found.value = [...others, one].sort((a, b) => b.gain_percent - a.gain_percent);
+    const others = foundSoFar.peek().candidates.filter((c) => c.effect !== one.effect);
+    const all = [...others, one].sort((a, b) => b.gain_percent - a.gain_percent);
+    foundSoFar.value = { text, candidates: all };
   });
 }
+
+/** How far comparison and diagnosis are. @type {import("../../reactive.js").Signal<Stage>} */
+export const stage = computed(() => {
+  const compared = comparison.stage.value;
+  if (compared === "idle" || compared === "failed") return "idle";
+  if (compared !== "answered") return compared === "asking" ? "waiting" : "cancelled";
+  const diagnosed = diagnosisQuestion.stage.value;
+  return diagnosed === "asking" ? "running" : diagnosed === "answered" ? "done" : diagnosed;
+});
+
+// ---- asking
 
 /** Ends the diagnosis; what it found stays. */
 export function cancel() {
-  control.abort();
-  stage.value = "cancelled";
+  comparison.cancel();
+  diagnosisQuestion.cancel();
 }
 
-/** Asks for all of it again. */
-export const again = () => void start(key.peek());
-
-/** The message for a field of the request, by its path. @param {string} name */
-export function messageFor(name) {
-  const told = fault.value;
-  if (!told?.field) return null;
-  const path = told.field.replace(/^body\./, "");
-  return path === name || path.startsWith(`${name}.`) ? told.words : null;
+/** Asks once more for what failed or was cancelled. */
+export function again() {
+  comparison.again();
+  diagnosisQuestion.again();
 }
 
-const shownNow = computed(() => view.value === "compare");
-const AFTER_MS = 30;
-let asked = /** @type {string | null} */ (null);
+/** The message for a field of the request or for one inside it, by its path. */
+export const { field: faultField, within: messageFor } = fieldMessages(() => fault.value, (path) => path);
 
 /** Starts asking; called once, when the view is built. It rests while another view is shown. */
 export function startComparing() {
-  let timer = 0;
-  effect(() => {
-    const body = key.value;
-    clearTimeout(timer);
-    if (!shownNow.value || body === asked) return;
-    timer = setTimeout(() => {
-      asked = body;
-      start(body);
-    }, AFTER_MS);
-  });
+  const isShown = () => view.value === "compare";
+  comparison.follow(() => modelText.value, { delay: AFTER_MS, active: isShown });
+  comparisonBefore.follow(() => previousText.value, { active: () => isCompared.value });
+  diagnosisQuestion.follow(() => fault.value ? null : modelText.value, { active: () => isCompared.value });
 }

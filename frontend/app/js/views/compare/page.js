@@ -9,7 +9,18 @@ import { dropping } from "./measurement/drop.js";
 import { followFiles } from "./measurement/files.js";
 import { whereCard } from "./error/heat.js";
 import { measurementsCard } from "./measurement/card.js";
-import { again, answer, chosen, diagnosis, fault, files, stage, startComparing } from "./answers.js";
+import { faultNotice, goToField } from "../../ui/fault.js";
+import {
+  again,
+  answer,
+  chosen,
+  diagnosis,
+  fault,
+  faultField,
+  files,
+  stage,
+  startComparing,
+} from "./answers.js";
 import { modelCard } from "./model/card.js";
 import { fetchMysteries, mysteryCard } from "./measurement/mysteries.js";
 import { overlayCards } from "./error/overlay.js";
@@ -20,31 +31,19 @@ import { setupCard } from "./model/setup.js";
 import { unknownCard } from "./verdict/unknown.js";
 import { verdictCard } from "./verdict/card.js";
 
-/** @param {string} path */
-function goToField(path) {
-  const key = path.replace(/^body\./, "").replace(/^(muscle|effects)\./, "compare.").replace(
-    /^drive\./,
-    "rig.",
-  );
-  const box = document.querySelector(`.compare [data-field="${CSS.escape(key)}"]`);
-  box?.closest("details")?.setAttribute("open", "");
-  const input = box?.querySelector("input, select") ?? document.getElementById("compare-preset");
-  if (input instanceof HTMLElement) input.focus();
-}
+/** The field of the page for a path of the request. @param {string} path */
+const keyOf = (path) => path.replace(/^(muscle|effects)\./, "compare.").replace(/^drive\./, "rig.");
 
 function notice() {
-  const told = fault.value;
-  if (!told) return null;
-  const { field } = told;
-  return h(
-    "div",
-    { class: "notice bad", role: "alert" },
-    icon("warn"),
-    h("span", null, told.words, answer.value ? " The plots show the last comparison that was possible." : ""),
-    field && !field.includes("measurement")
-      ? h("button", { type: "button", onclick: () => goToField(field) }, "Go to the field")
-      : h("button", { type: "button", onclick: again }, "Try again"),
-  );
+  const error = fault.value, field = faultField();
+  if (!error) return null;
+  const kept = answer.value ? " The plots show the last comparison that was possible." : "";
+  return faultNotice(`${error.words}${kept}`, {
+    goTo: field === null || field.includes("measurement")
+      ? null
+      : () => goToField(keyOf(field), ".compare") || goToField("compare-preset"),
+    retry: again,
+  });
 }
 
 export function comparePage() {

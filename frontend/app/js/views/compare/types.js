@@ -21,9 +21,7 @@
 /** @typedef {S["PreviewAnswer"]} Preview */
 /** @typedef {S["PreviewColumn"]} PreviewColumn */
 /** @typedef {S["MissingCondition"]} Missing */
-/** What the user says beyond a file.
- * @typedef {{columns?: Record<string, {channel: string, unit?: string, absolute?: boolean} | null>,
- *   kind?: string, conditions?: Record<string, string | null>, bad_rows?: "skip"}} Mapping */
+/** @typedef {import("../../server/measurements.js").Mapping} Mapping */
 
 /** A measurement with a hidden cause.
  * @typedef {{id: string, title: string, story: string, kind: string, muscle: Record<string, any> | null,

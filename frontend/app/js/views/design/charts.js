@@ -10,7 +10,8 @@ import { plotlyReady } from "../../plots/library.js";
 import { dragLine, linkCursor, writeLabels } from "../../plots/overlay.js";
 import { palette, pressureColour } from "../../plots/theme.js";
 import { menuButton } from "../../ui/menu.js";
-import { curves, fault, fieldOf, reference, retry } from "./model.js";
+import { curves, fault, faultField, reference, retry } from "./model.js";
+import { faultNotice, goToField } from "../../ui/fault.js";
 import { forgetRanges } from "../../plots/axes.js";
 import { ACROSS, OVER, pressureName, shareOf } from "../../muscle/curve-axes.js";
 import { cursor, readout } from "./readout.js";
@@ -119,29 +120,12 @@ const choice = (label, options, get, set) =>
   }, () => options.map(([value, text]) => h("option", { value, selected: value === get() }, text)));
 
 function stateNote() {
-  const told = fault.value;
-  if (!told && curves.value) return null;
-  if (!told) return h("p", { class: "notice" }, "Asking the server for the curves…");
-  return h(
-    "div",
-    { class: "notice bad", role: "alert" },
-    icon("warn"),
-    h("span", null, told.words, curves.value ? " The plots show the last valid model." : ""),
-    told.field
-      ? h(
-        "button",
-        { type: "button", onclick: () => goToField(fieldOf(told.field ?? "")) },
-        "Go to the field",
-      )
-      : h("button", { type: "button", onclick: retry }, "Try again"),
-  );
-}
-
-/** @param {string} key */
-function goToField(key) {
-  const box = document.querySelector(`[data-field="${CSS.escape(key)}"]`) ?? document.getElementById(key);
-  const input = box?.querySelector("input") ?? box;
-  if (input instanceof HTMLElement) input.focus();
+  const error = fault.value, field = faultField();
+  if (!error) return curves.value ? null : h("p", { class: "notice" }, "Asking the server for the curves…");
+  return faultNotice(`${error.words}${curves.value ? " The plots show the last valid model." : ""}`, {
+    goTo: field === null ? null : () => goToField(field, ".design"),
+    retry,
+  });
 }
 
 function overHint() {

@@ -1,12 +1,11 @@
 // @ts-check
 // The model's error: against which points, in newtons and in % of full scale, beside the ideal braid.
 import { h, icon } from "../../dom.js";
-import { computed } from "../../reactive.js";
 import { units } from "../../state.js";
 import { design, editDesign } from "../../muscle/document.js";
 import { presets, references } from "../../store.js";
 import { brief, siOf, withUnit } from "../../format.js";
-import { curves, errors, errorsOutdated, fault, reference, referenceId } from "./model.js";
+import { curves, errorFault, errors, errorsOutdated, fault, reference, referenceId } from "./model.js";
 import { preset } from "../../muscle/preset.js";
 
 /** @typedef {import("../../types.js").Comparison} Comparison */
@@ -35,10 +34,6 @@ function referenceSelect() {
   });
 }
 
-/** The newest figures of one kind stay on screen while new ones are asked for. */
-const model = computed(() => errors.value.model);
-const ideal = computed(() => errors.value.ideal);
-
 /** @param {string} name @param {Comparison} c @param {boolean} first @param {number} widest */
 function figure(name, c, first, widest) {
   return h(
@@ -58,17 +53,17 @@ function source() {
 
 /** The "Used" opens the reasons and the source of the points. */
 function body() {
-  const { words } = errors.value, now = model.value, bare = ideal.value;
+  const { model: now, ideal } = errors.value ?? {};
   if (!reference.value) {
     return h("p", { class: "muted" }, "Choose points above: the model’s error against them is shown here.");
   }
-  if (words) return h("p", { class: "error" }, words);
-  if (!now || !bare) return h("p", { class: "muted" }, "Comparing…");
-  const widest = Math.max(now.rmse ?? 0, bare.rmse ?? 0, 1e-9);
+  if (errorFault.value) return h("p", { class: "error" }, errorFault.value.words);
+  if (!now || !ideal) return h("p", { class: "muted" }, "Comparing…");
+  const widest = Math.max(now.rmse ?? 0, ideal.rmse ?? 0, 1e-9);
   const left = Object.entries(now.excluded).filter(([, n]) => n > 0);
   return [
     figure("This model", now, true, widest),
-    figure("Ideal braid", bare, false, widest),
+    figure("Ideal braid", ideal, false, widest),
     h(
       "details",
       null,

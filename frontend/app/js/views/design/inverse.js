@@ -1,19 +1,20 @@
 // @ts-check
 // Inverse questions: what pressure, what contraction, what range. Asked again whenever the model changes.
 import { h, icon } from "../../dom.js";
-import { effect, signal } from "../../reactive.js";
+import { signal } from "../../reactive.js";
 import { units } from "../../state.js";
 import { design, modelInput } from "../../muscle/document.js";
 import { scaleOf, withUnit } from "../../format.js";
-import { latest, post } from "../../server/client.js";
+import { post } from "../../server/client.js";
+import { Question } from "../../server/question.js";
 import { quantityField } from "../../ui/field.js";
-import { curves } from "./model.js";
+import { curves, curvesAreCurrent } from "./model.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** @typedef {import("../../types.js").Answer} Answer */
-/** @typedef {{label: string, short: string, inputs: string[], found: string}} Question */
+/** @typedef {{label: string, short: string, inputs: string[], found: string}} Inverse */
 
-/** @type {Record<string, Question>} */
+/** @type {Record<string, Inverse>} */
 const QUESTIONS = {
   pressure: {
     label: "Pressure for a force at a length",
@@ -61,10 +62,10 @@ const DETAILS = [
   [/volume/, "volume"],
 ];
 
+const ASK_AFTER_MS = 90;
+
 const kind = signal("pressure");
 const values = signal(/** @type {Record<string, number>} */ ({}));
-const answer = signal(/** @type {Answer | null} */ (null));
-const wrong = signal("");
 
 /** A sensible start for each input, from the design. @param {string} key */
 function start(key) {
@@ -80,16 +81,8 @@ const value = (key) => values.value[key] ?? start(key);
 const quantityOfAnswer = (unit, name) =>
   unit === "Pa" ? "pressure" : DETAILS.find(([pattern]) => pattern.test(name))?.[1] ?? "ratio";
 
-const ask = latest(
-  (/** @type {unknown} */ body, control) => post("/api/inverse", body, control),
-  (got) => {
-    wrong.value = "";
-    answer.value = got;
-  },
-  (error) => {
-    answer.value = null;
-    wrong.value = error.words;
-  },
+const inverse = new Question(
+  (text, signal) => /** @type {Promise<Answer>} */ (post("/api/inverse", JSON.parse(text), signal)),
 );
 
 /** @param {string} key */
@@ -106,8 +99,8 @@ const inputField = (key) =>
   });
 
 function shown() {
-  if (wrong.value) return h("p", { class: "error" }, wrong.value);
-  const got = answer.value;
+  if (inverse.error.value) return h("p", { class: "error" }, inverse.error.value.words);
+  const got = inverse.answer.value;
   if (!got || got.question !== kind.value) return h("p", { class: "muted" }, "…");
   const quantity = quantityOfAnswer(got.unit, got.unit === "m" ? "length" : got.question);
   const details = Object.entries(got.details).filter(([, v]) => v != null);
@@ -137,14 +130,14 @@ function shown() {
 }
 
 export function inverseCard() {
-  let timer = 0;
-  effect(() => {
-    const { inputs } = QUESTIONS[kind.value];
-    const given = Object.fromEntries(inputs.map((key) => [key, value(key)]));
-    if (!curves.value) return;
-    clearTimeout(timer);
-    timer = setTimeout(() => ask({ ...modelInput(design.peek()), question: kind.peek(), ...given }), 90);
-  });
+  inverse.follow(() => {
+    const inputs = QUESTIONS[kind.value].inputs.map((key) => [key, value(key)]);
+    return JSON.stringify({
+      ...modelInput(design.value),
+      question: kind.value,
+      ...Object.fromEntries(inputs),
+    });
+  }, { delay: ASK_AFTER_MS, active: () => curvesAreCurrent.value });
   return h(
     "section",
     { class: "card", "aria-label": "Inverse questions" },

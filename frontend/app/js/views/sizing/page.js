@@ -8,7 +8,7 @@ import {
   answer,
   cancel,
   fault,
-  fieldOf,
+  faultField,
   openExample,
   proposals,
   propose,
@@ -17,51 +17,34 @@ import {
   stale,
   startSizing,
 } from "./model.js";
+import { faultNotice, goToField } from "../../ui/fault.js";
 import { proposalsCard } from "./proposals.js";
 import { rejectedCard } from "./rejected.js";
 
-/** @param {string} path */
-function goToField(path) {
-  const root = document.querySelector(".sizing");
-  for (let key = fieldOf(path); key; key = key.replace(/\.?[^.]*$/, "")) {
-    const box = root?.querySelector(`[data-field="${CSS.escape(key)}"]`);
-    box?.closest("details")?.setAttribute("open", "");
-    const input = box?.querySelector("input, select, textarea");
-    if (input instanceof HTMLElement) return input.focus();
-  }
-}
-
-/** @param {string} kind @param {"info" | "warn"} sign @param {import("../../dom.js").Child[]} body */
-const notice = (kind, sign, ...body) =>
-  h("div", { class: `notice ${kind}`, role: kind === "bad" ? "alert" : "status" }, icon(sign), ...body);
+/** @param {import("../../dom.js").Child[]} body */
+const notice = (...body) => h("div", { class: "notice", role: "status" }, icon("info"), ...body);
 
 /** What stands between the task and the drives on screen. */
 function notices() {
-  const told = fault.value, { field } = told ?? {};
   if (stage.value === "running") return null;
-  if (told) {
-    return notice(
-      "bad",
-      "warn",
-      h("span", null, told.words),
-      field
-        ? h("button", { type: "button", onclick: () => goToField(field) }, "Go to the field")
-        : h("button", { type: "button", onclick: propose }, "Try again"),
-    );
+  const error = fault.value, field = faultField();
+  if (error) {
+    return faultNotice(error.words, {
+      goTo: field === null ? null : () => goToField(field, ".sizing"),
+      retry: propose,
+    });
   }
   if (stale.value) {
     return notice(
-      "",
-      "info",
       h("span", null, "The task has changed: these drives are those of the task before."),
       h("button", { type: "button", onclick: propose }, "Propose again"),
     );
   }
   if (stage.value === "cancelled" && !answer.value) {
-    return notice("", "info", h("span", null, "The search was cancelled."));
+    return notice(h("span", null, "The search was cancelled."));
   }
   const message = answer.value?.message;
-  return message ? notice("", "info", h("span", null, message)) : null;
+  return message ? notice(h("span", null, message)) : null;
 }
 
 function progress() {

@@ -1,9 +1,11 @@
 // @ts-check
 // From the document to the server's run.
-import { batch, computed, effect, signal } from "../../reactive.js";
+import { computed } from "../../reactive.js";
 import { commit, doc, edit, look, preview, view } from "../../state.js";
 import { design, muscleInput } from "../../muscle/document.js";
-import { latest, post } from "../../server/client.js";
+import { post } from "../../server/client.js";
+import { fieldMessages } from "../../server/messages.js";
+import { Question } from "../../server/question.js";
 import { presets, status } from "../../store.js";
 import { openDrive } from "../../drive/open.js";
 import { preset, presetEffects } from "../../muscle/preset.js";
@@ -22,12 +24,6 @@ const POINTS = 401, LASTS = 4;
 export const transient = computed(() => doc.value.transient);
 export const drive = computed(() => transient.value.drive);
 export const mode = computed(() => transient.value.mode);
-
-export const run = signal(/** @type {Run | null} */ (null));
-/** Why there is no new run: the plots keep the last one, dimmed. */
-export const fault = signal(/** @type {import("../../server/client.js").ApiError | null} */ (null));
-/** From the request to its answer [ms]. */
-export const roundTrip = signal(0);
 
 // ---- changing the document
 
@@ -157,41 +153,22 @@ export const runRequest = (document, rows) => ({
   ...(rows ? { from: rows[0], to: rows[1] } : {}),
 });
 
-const request = computed(() => JSON.stringify(runRequest(documentNow(), windowOf(transient.value))));
+/** @param {unknown} body @param {AbortSignal} [signal] @returns {Promise<Run>} */
+export const simulate = (body, signal) => post("/api/simulations", body, signal);
 
-/** @param {unknown} body @param {AbortSignal} [control] @returns {Promise<Run>} */
-export const simulate = (body, control) => post("/api/simulations", body, control);
-
-let asked = "";
-const askRun = latest(
-  async (/** @type {string} */ body, control) => {
-    const began = performance.now();
-    const answer = await simulate(JSON.parse(body), control);
-    return { answer, took: performance.now() - began };
-  },
-  ({ answer, took }) =>
-    batch(() => {
-      fault.value = null;
-      roundTrip.value = took;
-      run.value = answer;
-    }),
-  (error) => {
-    fault.value = error;
-  },
-);
-
+const runQuestion = new Question((text, signal) => simulate(JSON.parse(text), signal));
+/** The newest run, why there is no newer one (the plots then keep the last one, dimmed), and how long its request
+ * took [ms]. */
+export const { answer: run, error: fault, took: roundTrip } = runQuestion;
 /** Asks once more, after the server was away. */
-export const retry = () => askRun(request.peek());
+export const retry = () => runQuestion.again();
 
-/** The field of the page a path of the request belongs to. @param {string} path */
-export const fieldOf = (path) =>
-  path.replace(/^body\./, "").replace(/^drive\./, "").replace(/^effects\./, "");
-
-/** The message for a field or a part of the drive, by its path. @param {string} key */
-export function messageFor(key) {
-  const told = fault.value;
-  return told?.field && fieldOf(told.field) === key ? told.words : null;
-}
+/** The field of the page for a path of the request. @param {string} path */
+const fieldOf = (path) => path.replace(/^drive\./, "").replace(/^effects\./, "");
+export const { field: faultField, at: messageFor, within: messageWithin } = fieldMessages(
+  () => fault.value,
+  fieldOf,
+);
 
 /** The muscle by name and length. */
 export const muscleName = computed(() => preset.value?.title ?? "Own geometry");
@@ -200,10 +177,7 @@ export const muscleName = computed(() => preset.value?.title ?? "Own geometry");
 export const shownNow = computed(() => view.value === "transient");
 
 /** Starts asking; called once, when the view is built. It rests while another view is shown. */
-export function startRuns() {
-  effect(() => {
-    if (!shownNow.value || request.value === asked) return;
-    asked = request.value;
-    askRun(asked);
+export const startRuns = () =>
+  runQuestion.follow(() => JSON.stringify(runRequest(documentNow(), windowOf(transient.value))), {
+    active: () => shownNow.value,
   });
-}

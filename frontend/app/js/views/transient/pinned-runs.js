@@ -1,57 +1,71 @@
 // @ts-check
-// Pinned runs, asked for once more whenever other times are looked at: as fine as the run they lie under.
-import { computed, effect, signal } from "../../reactive.js";
+// Pinned runs: computed again whenever another time window is shown, with as many rows as the run itself.
+import { computed, signal } from "../../reactive.js";
 import { ApiError } from "../../server/client.js";
-import { runRequest, shownNow, simulate, timeWindow, transient, within } from "./model.js";
+import { Memory, Question } from "../../server/question.js";
 import { siNumber } from "../../quantities.js";
+import { runRequest, shownNow, simulate, timeWindow, transient, within } from "./model.js";
 
 /** @typedef {import("../../types.js").Run} Run */
 /** @typedef {import("../../types.js").Drive} Drive */
 /** @typedef {import("../../types.js").Pin} Pin */
 
-/** What the server runs when a document does not say how long [s]. */
-const LASTS = 4;
+/** How long the server runs a document that does not say it [s]. */
+const USUAL_DURATION = 4;
+const REMEMBERED = 32;
 
 /** @type {import("../../reactive.js").Signal<Pin[]>} */
 export const pins = computed(() => transient.value.pins);
-/** Answers of pinned runs by their document, as JSON: the newest rows there are. */
+/** The newest run of each pinned drive document, or why it failed. */
 export const pinRuns = signal(/** @type {Map<string, Run | ApiError>} */ (new Map()));
 /** @param {Drive} document */
 export const pinKey = (document) => JSON.stringify(document);
 
-/** Which request each answer belongs to, by document. @type {Map<string, string>} */
-const answered = new Map();
+/** Runs, and refusals by the server, by their request.
+ * @type {Memory<Run | ApiError>} */
+const memory = new Memory(REMEMBERED);
 
-/** @param {Pin[]} list @param {[number, number] | null} rows @param {AbortSignal} stop */
-async function ask(list, rows, stop) {
-  for (const { drive } of list) {
-    const key = pinKey(drive);
-    const body = runRequest(drive, within(rows, siNumber(drive.duration) ?? LASTS));
-    const request = JSON.stringify(body);
-    if (answered.get(key) === request) continue;
-    /** @type {Run | ApiError} */
-    let answer;
+/** @param {string} request @param {AbortSignal} signal @throws {ApiError} if the server was not reached */
+async function runOf(request, signal) {
+  const known = memory.get(request);
+  if (known) return known;
+  /** @type {Run | ApiError} */
+  let answer;
+  try {
+    answer = await simulate(JSON.parse(request), signal);
+  } catch (error) {
+    if (!(error instanceof ApiError) || !error.status) throw error;
+    answer = error;
+  }
+  memory.set(request, answer);
+  return answer;
+}
+
+/** One run after the other, each shown as soon as it is there. */
+const runs = new Question(async (text, signal) => {
+  /** @type {{key: string, request: string}[]} */
+  const all = JSON.parse(text);
+  for (const { key, request } of all) {
     try {
-      answer = await simulate(body, stop);
+      show(key, await runOf(request, signal), signal);
     } catch (error) {
-      if (!(error instanceof ApiError) && !stop.aborted) throw error;
-      answer = /** @type {ApiError} */ (error);
+      if (error instanceof ApiError) show(key, error, signal);
+      throw error;
     }
-    if (stop.aborted) return;
-    // A server that was away is asked again.
-    if (!(answer instanceof ApiError) || answer.status) answered.set(key, request);
+  }
+}, { patience: 0 });
+
+/** @param {string} key @param {Run | ApiError} answer @param {AbortSignal} signal */
+function show(key, answer, signal) {
+  if (!signal.aborted && pinRuns.peek().get(key) !== answer) {
     pinRuns.value = new Map(pinRuns.peek()).set(key, answer);
   }
 }
 
-/** Starts asking; called once. Other pins or other times put an end to what is still under way. */
-export function startPins() {
-  let control = new AbortController();
-  effect(() => {
-    const list = pins.value, rows = timeWindow.value;
-    if (!shownNow.value) return;
-    control.abort();
-    control = new AbortController();
-    ask(list, rows, control.signal);
-  });
-}
+/** Starts asking; called once. */
+export const startPins = () =>
+  runs.follow(() =>
+    JSON.stringify(pins.value.map(({ drive }) => {
+      const rows = within(timeWindow.value, siNumber(drive.duration) ?? USUAL_DURATION);
+      return { key: pinKey(drive), request: JSON.stringify(runRequest(drive, rows)) };
+    })), { active: () => shownNow.value });

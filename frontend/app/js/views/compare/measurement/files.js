@@ -2,14 +2,14 @@
 // Measurement files: looked at first, sent when they are understood, else put before the user.
 import { computed, effect, signal } from "../../../reactive.js";
 import { doc, edit, view } from "../../../state.js";
-import { ApiError, get } from "../../../server/client.js";
+import { ApiError } from "../../../server/client.js";
 import { muscles, references } from "../../../store.js";
 import { fresh, MOST_FILES } from "../document.js";
 import { driveFor, needsDrive, startOf } from "../drive-document.js";
 import { openMapping } from "./mapping.js";
 import { compare, editCompare, files } from "../answers.js";
 import { muscleOf, presetNamed } from "../muscle-values.js";
-import { keep, previewOf } from "./upload.js";
+import { keep, measurement, missingFile, previewOf, refusal } from "../../../server/measurements.js";
 
 /** @typedef {import("../types.js").FileInfo} FileInfo */
 /** @typedef {import("../types.js").Preview} Preview */
@@ -18,7 +18,6 @@ import { keep, previewOf } from "./upload.js";
 /** @typedef {import("../../../types.js").Use} Use */
 /** Something about a file that the user has to know. @typedef {{name: string, words: string}} Complaint */
 
-const MOST_BYTES = 64e6;
 const SHA256 = /^[0-9a-f]{64}$/;
 
 /** How the server understood each file. */
@@ -46,8 +45,9 @@ const isUnsure = (p) =>
 export async function addFiles(list) {
   complaints.value = [];
   for (const file of list) {
-    if (file.size > MOST_BYTES) {
-      complain(file.name, "The file is larger than 64 MB.");
+    const refused = refusal(file);
+    if (refused) {
+      complain(file.name, refused);
       continue;
     }
     reading.value = file.name;
@@ -88,8 +88,7 @@ function begun(info, columns) {
 }
 
 /** @param {FileInfo} info */
-const withStart = async (info) =>
-  needsDrive(info) ? begun(info, (await get(`/api/measurements/${info.id}`)).columns) : info;
+const withStart = async (info) => needsDrive(info) ? begun(info, (await measurement(info.id)).columns) : info;
 
 /** @param {File} file @param {Mapping} mapping @param {string | null} instead of which file it comes */
 async function send(file, mapping, instead) {
@@ -184,12 +183,11 @@ export function followFiles() {
 /** @param {string} id */
 async function fetchInfo(id) {
   try {
-    const { columns, ...info } = await get(`/api/measurements/${id}`);
+    const { columns, ...info } = await measurement(id);
     infos.value = new Map(infos.peek()).set(id, begun(info, columns));
   } catch (error) {
     const file = files.peek().find((f) => f.id === id);
     if (!(error instanceof ApiError) || !file) return;
-    const gone = error.status === 404;
-    complain(file.name, gone ? "This server does not have the file. Choose it once more." : error.words);
+    complain(file.name, missingFile(error));
   }
 }

@@ -1,13 +1,14 @@
 // @ts-check
 // How a file is read, as a table the user can correct: channel and unit of each column, kind, conditions.
 import { h, icon } from "../../../dom.js";
-import { apart, effect, signal } from "../../../reactive.js";
+import { apart, computed, effect, signal } from "../../../reactive.js";
 import { ApiError } from "../../../server/client.js";
 import { brief } from "../../../format.js";
 import { openDialog } from "../../../ui/dialog.js";
 import { spoken } from "../../../ui/sources.js";
 import { columnTable, valueOf } from "./mapping-columns.js";
-import { previewOf } from "./upload.js";
+import { previewOf } from "../../../server/measurements.js";
+import { Question } from "../../../server/question.js";
 
 /** @typedef {import("../types.js").Preview} Preview */
 /** @typedef {import("../types.js").Mapping} Mapping */
@@ -18,36 +19,22 @@ const AFTER_MS = 200;
 /** Shows how a file is read; the answer is what the user said, null when the file is not wanted.
  * @param {File} file @param {Preview} first @param {Mapping} start @returns {Promise<Mapping | null>} */
 export function openMapping(file, first, start) {
-  const preview = signal(first), mapping = signal(start);
-  const wrong = signal(""), waiting = signal(false);
-  let control = new AbortController(), timer = 0;
-
-  async function ask() {
-    control.abort();
-    control = new AbortController();
-    const mine = control.signal;
-    try {
-      const got = await previewOf(file, mapping.peek(), mine);
-      preview.value = got;
-      wrong.value = "";
-      waiting.value = false;
-    } catch (error) {
-      if (mine.aborted) return;
-      if (!(error instanceof ApiError)) throw error;
-      wrong.value = error.words;
-      waiting.value = false;
-    }
-  }
-  /** @param {Mapping} patch */
-  const change = (patch) => {
-    mapping.value = { ...mapping.peek(), ...patch };
-    waiting.value = true;
-    clearTimeout(timer);
-    timer = setTimeout(ask, AFTER_MS);
-  };
+  const mapping = signal(start);
+  const reading = new Question((text, signal) => previewOf(file, JSON.parse(text), signal), { patience: 0 });
+  const stopReading = reading.follow(
+    () => mapping.value === start ? null : JSON.stringify(mapping.value),
+    { delay: AFTER_MS },
+  );
+  const preview = computed(() => reading.answer.value ?? first);
   /** @type {Context} */
-  const context = { preview, mapping, change };
-  const usable = () => preview.value.measurement !== null && !preview.value.problem && !wrong.value;
+  const context = {
+    preview,
+    mapping,
+    change: (patch) => (mapping.value = { ...mapping.peek(), ...patch }),
+  };
+  const usable = () =>
+    preview.value.measurement !== null && !preview.value.problem && !reading.error.value &&
+    reading.stage.value !== "asking";
 
   return new Promise((resolve) => {
     /** @type {Mapping | null} */
@@ -62,7 +49,7 @@ export function openMapping(file, first, start) {
       }, () => columnTable(context)),
       h("div", { class: "map-more" }, kindField(context), conditionFields(context)),
       () => badRows(context),
-      () => problem(preview.value, wrong.value),
+      () => problem(preview.value, reading.error.value?.words ?? ""),
       notes(preview),
       h(
         "div",
@@ -71,7 +58,7 @@ export function openMapping(file, first, start) {
         h("button", {
           type: "button",
           class: "primary",
-          disabled: () => waiting.value || !usable(),
+          disabled: () => !usable(),
           onclick: () => {
             result = mapping.peek();
             dialog.close();
@@ -82,8 +69,7 @@ export function openMapping(file, first, start) {
     const dialog = openDialog({ title: `How ${file.name} is read`, wide: true }, ...body);
     dialog.classList.add("mapping");
     dialog.addEventListener("close", () => {
-      control.abort();
-      clearTimeout(timer);
+      stopReading();
       resolve(result);
     });
   });

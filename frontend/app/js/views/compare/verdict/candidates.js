@@ -9,7 +9,7 @@ import { spoken } from "../../../ui/sources.js";
 import { aboutButton } from "../../../muscle/effects.js";
 import { equationBox } from "./equation.js";
 import { add } from "../model/history.js";
-import { answer, diagnosis, found, stage, stale } from "../answers.js";
+import { answer, candidates, diagnosis, stage, stale } from "../answers.js";
 import { errorText, figures, titleOf } from "../words.js";
 
 /** @typedef {import("../types.js").Candidate} Candidate */
@@ -135,7 +135,7 @@ const skeletons = () => [1, 2].map(() => h("li", { class: "candidate skeleton bl
 
 export function candidatesCard() {
   const list = () => {
-    const all = found.value;
+    const all = candidates.value;
     if (!all.length && stage.value === "done") {
       return h("li", { class: "muted" }, "No other effect of the catalogue shows in these data.");
     }
@@ -156,7 +156,7 @@ export function candidatesCard() {
     ];
   };
   const rest = () => {
-    const all = found.value, useful = all.filter((c) => c.gain_percent >= USEFUL).length;
+    const all = candidates.value, useful = all.filter((c) => c.gain_percent >= USEFUL).length;
     const hidden = all.length - Math.min(useful, SHOWN);
     if (hidden <= 0) return null;
     return h(
@@ -172,7 +172,7 @@ export function candidatesCard() {
       "div",
       { class: "card-head" },
       h("h2", null, "Which effect is missing?"),
-      h("span", { class: "muted" }, () => found.value.length ? `${found.value.length} tried` : ""),
+      h("span", { class: "muted" }, () => candidates.value.length ? `${candidates.value.length} tried` : ""),
     ),
     h("ol", { class: "plain", "aria-live": "off" }, list),
     rest,

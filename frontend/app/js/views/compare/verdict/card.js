@@ -9,13 +9,13 @@ import {
   again,
   answer,
   cancel,
+  candidates,
   diagnosis,
+  diagnosisError,
   fault,
-  found,
   progress,
   stage,
   stale,
-  trouble,
 } from "../answers.js";
 import { errorText, titleOf, whatIsLeft } from "../words.js";
 
@@ -31,7 +31,7 @@ const BADGES = {
 };
 
 function running() {
-  const { share } = progress.value, tried = found.value.length;
+  const { share } = progress.value, tried = candidates.value.length;
   return [
     h(
       "div",
@@ -65,7 +65,7 @@ const halted = (words, button) =>
     h("button", { type: "button", onclick: again }, button),
   );
 
-/** Every effect found missing, in one click. */
+/** Every effect candidates missing, in one click. */
 function allButton() {
   const path = diagnosis.value?.path.slice(1) ?? [], a = answer.value;
   if (path.length < 2) return null;
@@ -102,11 +102,11 @@ function fall(told) {
   );
 }
 
-/** Each effect found missing, and what else it could be. @param {Diagnosis["verdict"]} verdict */
+/** Each effect candidates missing, and what else it could be. @param {Diagnosis["verdict"]} verdict */
 function missing({ effects, indistinguishable }) {
   return h(
     "ul",
-    { class: "plain found-missing" },
+    { class: "plain candidates-missing" },
     ...effects.map((id) => {
       const twins = indistinguishable.find(([one]) => one === id)?.slice(1) ?? [];
       return h(
@@ -182,7 +182,9 @@ function conclusion(told) {
 
 export function verdictCard() {
   const body = () => {
-    if (stage.value === "failed") return halted(trouble.value?.words ?? "The diagnosis failed.", "Try again");
+    if (stage.value === "failed") {
+      return halted(diagnosisError.value?.words ?? "The diagnosis failed.", "Try again");
+    }
     if (stage.value === "cancelled") return halted("The diagnosis was cancelled.", "Diagnose");
     const told = diagnosis.value;
     if (!told) {

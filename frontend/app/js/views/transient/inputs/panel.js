@@ -11,8 +11,7 @@ import { driveField, partMessage } from "./fields.js";
 import {
   arrangement,
   editTransient,
-  fault,
-  fieldOf,
+  messageWithin,
   mode,
   muscleName,
   numberAt,
@@ -72,10 +71,7 @@ function muscleLine() {
     h("span", null, "Muscle"),
     h("b", { id: "drive-muscle" }, () => [muscleName.value, lengthText.value].filter(Boolean).join(" · ")),
     h("button", { type: "button", class: "link", onclick: showMuscle }, "Change in Design"),
-    h("p", { class: "error" }, () => {
-      const told = fault.value;
-      return told?.field && fieldOf(told.field).startsWith("muscle") ? told.words : "";
-    }),
+    h("p", { class: "error" }, () => messageWithin("muscle") ?? ""),
   );
 }
 
@@ -187,14 +183,6 @@ function families(all) {
   return new Map([...groups].sort(([, a], [, b]) => resting(a) - resting(b)));
 }
 
-/** @param {string} key @returns {string | null} */
-const effectMessage = (key) => {
-  const told = fault.value;
-  if (!told?.field) return null;
-  const field = fieldOf(told.field);
-  return field === key || field.startsWith(`${key}.`) ? told.words : null;
-};
-
 export function inputCards() {
   return [
     h(
@@ -212,7 +200,7 @@ export function inputCards() {
       own: ownEffects,
       chosen: computed(() => design.value.effects ?? ownEffects.value),
       count: () => Object.keys(run.value?.model.effects ?? ownEffects.value).length,
-      message: effectMessage,
+      message: messageWithin,
       families,
     }),
   ];
