@@ -91,7 +91,7 @@ def test_from_the_empty_page_to_the_printed_report(page: Page, tmp_path: Path) -
     act(lambda: enter(page, "Mass", "18 kg"))
     act(lambda: enter(page, "Stroke", "5 cm"))
     act(lambda: searched(page))
-    expect(page.locator(".chosen-drive")).to_contain_text("probability that what is built does the task")
+    expect(page.locator(".chosen-drive")).to_contain_text("probability that the real drive does the task")
     drive = page.locator(".chosen-drive h3").first.inner_text()
     time = number(fact(page, "Time for the stroke"))
 
@@ -149,7 +149,7 @@ def test_the_list_says_what_the_server_found(page: Page) -> None:
     )
     badge = page.locator(".chosen-drive .badge")
     badge.click()
-    expect(page.get_by_role("dialog", name="Unverified figures")).to_contain_text(proposals[2]["valve"])
+    expect(page.get_by_role("dialog", name="Unverified values")).to_contain_text(proposals[2]["valve"])
 
 
 def test_trade_offs(page: Page) -> None:
@@ -293,7 +293,7 @@ def test_cancel_keeps_what_was_there(page: Page) -> None:
     # The server is free again: the next search is answered.
     enter(page, "Specimens", "0")
     searched(page)
-    expect(page.locator(".chosen-drive")).to_contain_text("no specimens were asked for")
+    expect(page.locator(".chosen-drive")).to_contain_text("no specimens were simulated")
 
 
 def test_undo_brings_back_task_and_drives(page: Page) -> None:

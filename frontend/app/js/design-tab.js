@@ -12,7 +12,7 @@ import { taskView } from "./views/sizing/index.js";
 /** @type {[Mode, string, string][]} */
 const MODES = [
   ["muscle", "Muscle", "What a muscle does"],
-  ["task", "Task", "Which drive does what is wanted"],
+  ["task", "Task", "Find a drive for a task"],
 ];
 
 /** @param {Mode} mode */

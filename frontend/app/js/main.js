@@ -66,28 +66,28 @@ async function readLink() {
     if (linked) doc.value = linked;
   } catch (error) {
     const why = /** @type {Error} */ (error).message;
-    status.value = `The link cannot be read: ${why}. Here is the example design instead.`;
+    status.value = `The link cannot be read: ${why}. The example design is shown instead.`;
   }
 }
 
-/** The address always holds the newest document; it follows at rest: browsers allow few changes a second. */
+/** Keeps the address up to date. Browsers allow few changes of it per second, so it waits for a pause. */
 function writeLink() {
-  let timer = 0, own = location.hash;
+  let timer = 0, written = location.hash;
   effect(() => {
     const state = doc.value;
     clearTimeout(timer);
     timer = setTimeout(async () => {
-      own = await toHash(state);
-      if (state === doc.peek()) history.replaceState(null, "", own);
+      written = await toHash(state);
+      if (state === doc.peek()) history.replaceState(null, "", written);
     }, LINK_MS);
   });
   addEventListener("hashchange", () => {
-    if (location.hash !== own && location.hash !== "#main") readLink();
+    if (location.hash !== written && location.hash !== "#main") readLink();
   });
 }
 
-/** A fault of the program itself must not leave a blank page. @param {unknown} error */
-function showFault(error) {
+/** An error of the program itself must not leave a blank page. @param {unknown} error */
+function showError(error) {
   const text = `The page could not be built: ${error instanceof Error ? error.message : error}. `;
   const again = h("a", { href: "/" }, "Start again with the example");
   document.getElementById("app")?.replaceChildren(h("p", { class: "loading", role: "alert" }, text, again));
@@ -113,6 +113,6 @@ await readLink();
 try {
   start();
 } catch (error) {
-  showFault(error);
+  showError(error);
   throw error;
 }

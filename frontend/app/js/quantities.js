@@ -1,5 +1,5 @@
 // @ts-check
-// Quantities as drive documents write them, "6 bar" or "120 N*s/m", read into SI so that fields show them.
+// Quantities as documents write them, "6 bar" or "120 N*s/m", converted to SI.
 
 const INCH = 0.0254, POUND = 0.45359237, LBF = 4.4482216152605;
 /** @type {Record<string, number>} */
@@ -20,14 +20,14 @@ const FACTORS = {
   ...{ s: 1, ms: 1e-3, us: 1e-6, µs: 1e-6, min: 60, h: 3600, Hz: 1, kHz: 1e3 },
   ...{ l: 1e-3, L: 1e-3, ml: 1e-6, rad: 1, deg: Math.PI / 180, "°": Math.PI / 180, "%": 0.01 },
 };
-/** Scales with a zero of their own stand alone. @type {Record<string, [number, number]>} */
+/** Temperature scales: factor and offset. They cannot be part of a compound unit. @type {Record<string, [number, number]>} */
 const SHIFTED = {
   degC: [1, 273.15],
   "°C": [1, 273.15],
   degF: [5 / 9, 273.15 - (32 * 5) / 9],
 };
 
-/** The SI factor of a unit such as "l/(s*bar)"; null = not known to this page. @param {string} text */
+/** The SI factor of a unit such as "l/(s*bar)"; null: unknown unit. @param {string} text */
 function factorOf(text) {
   const tokens = text.match(/[A-Za-zµ°%]+|\*\*|[()*/·^ ]|-?\d+/g) ?? [];
   if (tokens.join("") !== text) return null;
@@ -60,7 +60,7 @@ function factorOf(text) {
   return at === tokens.length ? value : null;
 }
 
-/** A number in SI, or a text with a unit as a number in SI; null = neither.
+/** A number in SI, or a text with a unit as a number in SI; null: neither.
  * @param {unknown} value @returns {number | null} */
 export function siNumber(value) {
   if (typeof value === "number") return value;

@@ -1,5 +1,5 @@
 // @ts-check
-// The bar over every view: tabs, history, units, export, share, theme, help, status.
+// The bar above every view: tabs, undo, units, export, link, theme, help; and the status line.
 import { h, icon } from "./dom.js";
 import { toHash } from "./link.js";
 import { setTheme, themeChoice } from "./plots/theme.js";

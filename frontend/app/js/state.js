@@ -39,17 +39,18 @@ export const units = computed(() => doc.value.units);
 export const view = computed(() => doc.value.view);
 
 const MERGE_MS = 800, HISTORY = 200;
-/** @type {Doc | null} the document before the gesture that is under way */
+/** @type {Doc | null} the document before the change that is under way */
 let before = null;
 
-/** Shows a change without a history step: a slider that is still moving. @param {(d: Doc) => Doc} change */
+/** Changes the document without an undo step yet, while a slider moves; commit() ends the change. @param {(d: Doc) => Doc} change */
 export function preview(change) {
   const start = doc.peek();
   before ??= start;
   doc.value = change(start);
 }
 
-/** Ends a gesture: one undo step, however many previews it had. Quick repeats of one label merge.
+/** Ends a change: one undo step for all its previews. Changes with the same label shortly after each other are
+ * one step too.
  * @param {string} label */
 export function commit(label) {
   const start = before;
@@ -65,7 +66,7 @@ export function commit(label) {
   });
 }
 
-/** One change, one undo step. @param {(d: Doc) => Doc} change @param {string} label */
+/** Changes the document in one undo step. @param {(d: Doc) => Doc} change @param {string} label */
 export function edit(change, label) {
   batch(() => {
     preview(change);
@@ -73,7 +74,7 @@ export function edit(change, label) {
   });
 }
 
-/** What is looked at is not a design decision: it changes without an undo step.
+/** Changes without an undo step what is shown, as opposed to what is designed.
  * @param {(d: Doc) => Doc} change */
 export function look(change) {
   doc.value = change(doc.peek());
@@ -99,10 +100,12 @@ export const redo = () => travel(future, past);
 
 /** Reads a whole document. @param {unknown} raw @returns {Doc} @throws {Error} says what is wrong */
 export function readDoc(raw) {
-  if (typeof raw !== "object" || raw === null || Array.isArray(raw)) throw new Error("it holds no document");
+  if (typeof raw !== "object" || raw === null || Array.isArray(raw)) {
+    throw new Error("it is not a document of this program");
+  }
   const found = /** @type {Record<string, unknown>} */ (raw);
   if (found.schema !== 1) {
-    throw new Error(`it is of version ${found.schema}; this program reads version 1`);
+    throw new Error(`it is a document of version ${found.schema}; this program reads version 1`);
   }
   const start = defaultDoc();
   return {

@@ -10,9 +10,9 @@ export const effects = signal(/** @type {Effect[]} */ ([]));
 /** @type {import("./reactive.js").Signal<Record<string, Preset[]>>} */
 export const presets = signal(/** @type {Record<string, Preset[]>} */ ({}));
 export const problems = signal(/** @type {Problem[]} */ ([]));
-/** Why the page cannot work at all; shown as a banner with “Try again”. */
+/** Why the page cannot work at all, shown as a banner. */
 export const outage = signal("");
-/** The one sentence in the status line; it leaves by itself. */
+/** The sentence in the status line; it disappears after a few seconds. */
 export const status = signal("");
 const STATUS_MS = 8000;
 let clearing = 0;
@@ -24,7 +24,7 @@ effect(() => {
 export const muscles = computed(() => presets.value.muscles ?? []);
 export const musclesById = computed(() => new Map(muscles.value.map((m) => [m.id, m])));
 export const effectsById = computed(() => new Map(effects.value.map((e) => [e.id, e])));
-/** Curves of the maker and measurements: everything that can be laid over the model. */
+/** Measurements and curves of the maker: everything the model can be compared with. */
 export const references = computed(() => [
   ...(presets.value.measurements ?? []),
   ...(presets.value.curves ?? []),

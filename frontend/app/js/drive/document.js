@@ -8,7 +8,7 @@ import { siNumber } from "../quantities.js";
 /** @typedef {import("../types.js").DriveArrangement} Arrangement */
 /** @typedef {import("../types.js").Transient} Transient */
 
-/** @returns {Drive} a weight lifted and let down once */
+/** @returns {Drive} an example: a weight is lifted and lowered once */
 export const defaultDrive = () => ({
   supply: { pressure: 5.5e5 },
   valve: { preset: "MPYE-5-1/8-HF" },
@@ -33,7 +33,7 @@ const PERCENT_PER_MM = 10;
 /** Texts that are names, not quantities. */
 const NAMES = new Set(["shape", "preset", "arrangement", "type", "interpolation", "title"]);
 
-/** The same with every text of a quantity as a number in SI; what cannot be read stays, for the server.
+/** The document with every quantity such as "6 bar" as a number in SI; what cannot be read stays for the server.
  * @param {any} part @param {string} [key] @returns {any} */
 export function inSi(part, key = "") {
   if (NAMES.has(key) || key === "fittings") return part;
@@ -50,7 +50,7 @@ export function inSi(part, key = "") {
   return GAINS.has(key) && /[a-z%]/i.test(part) ? si / PERCENT_PER_MM : si;
 }
 
-/** Only what JSON of numbers and texts can hold, and not without end.
+/** Only numbers, texts, lists and objects, not nested deeply.
  * @param {unknown} x @param {number} [depth] @returns {boolean} */
 function isPlain(x, depth = 0) {
   if (x === null || typeof x === "boolean" || typeof x === "string") return true;
@@ -62,18 +62,18 @@ function isPlain(x, depth = 0) {
 /** @param {unknown} raw @returns {raw is Drive} */
 export const isDrive = (raw) => isObject(raw) && isPlain(raw);
 
-/** A drive document of this program or of the command line, as opposed to a document of this page.
+/** Whether this is a drive document, as opposed to a document of this page.
  * @param {unknown} raw @returns {raw is Drive} */
 export const isDriveDocument = (raw) =>
   isObject(raw) && !("design" in raw) && isObject(raw.muscle) && isDrive(raw);
 
 const UPRIGHT = Math.PI / 2, TILTED = Math.PI / 6, LEVER = 2, PULLEY = 0.03;
-/** What an arrangement inclines the load by when the document does not say it.
+/** The inclination of the load in each arrangement, unless the document gives it.
  * @type {Record<Arrangement, number>} */
 const INCLINED = { hanging: UPRIGHT, inclined: UPRIGHT, horizontal: 0, lever: UPRIGHT, antagonist: 0 };
 const near = (/** @type {number} */ a, /** @type {number} */ b) => Math.abs(a - b) < 1e-3;
 
-/** How the load is arranged; a document may leave it to its numbers. @param {Drive | undefined} load
+/** The arrangement of the load, from its numbers if the document does not name it. @param {Drive | undefined} load
  * @returns {Arrangement} */
 export function arrangementOf(load) {
   if (load?.arrangement) return load.arrangement;
@@ -82,35 +82,35 @@ export function arrangementOf(load) {
   return near(angle, UPRIGHT) ? "hanging" : near(angle, 0) ? "horizontal" : "inclined";
 }
 
-/** Of the way the load is pulled against the horizontal [rad]. @param {Drive | undefined} load */
+/** The inclination of the direction of motion against the horizontal [rad]. @param {Drive | undefined} load */
 export const inclinationOf = (load) =>
   siNumber(load?.inclination) ?? INCLINED[arrangementOf(load)] ?? UPRIGHT;
 
-/** The load with its arrangement in a word, so that a slider cannot make another one of it.
+/** The load with the name of its arrangement, so that moving a slider does not change the arrangement.
  * @param {Drive} load */
-export function arranged(load) {
+export function withArrangement(load) {
   const arrangement = arrangementOf(load), { inclination, ...rest } = load;
   const fixed = arrangement === "hanging" || arrangement === "horizontal";
-  const told = fixed && near(siNumber(inclination) ?? INCLINED[arrangement], INCLINED[arrangement]);
-  return told ? { ...rest, arrangement } : { ...load, arrangement };
+  const isUsual = fixed && near(siNumber(inclination) ?? INCLINED[arrangement], INCLINED[arrangement]);
+  return isUsual ? { ...rest, arrangement } : { ...load, arrangement };
 }
 
-/** The same load arranged otherwise, with what the arrangement needs and without what it does not know.
- * @param {Drive} load @param {Arrangement} next @param {number} middle contraction in the middle of the stops
+/** The same load in another arrangement, with the fields that arrangement needs and without others.
+ * @param {Drive} load @param {Arrangement} next @param {number} middle contraction in the middle between the stops
  * @returns {Drive} */
 export function rearranged(load, next, middle) {
   const { pulley_radius: _r, precontraction: _e, lever_ratio: ratio, inclination, ...rest } = load;
   const angle = siNumber(inclination);
   const tilted = angle === null || near(angle, 0) || near(angle, UPRIGHT) ? TILTED : angle;
   /** @type {Record<Arrangement, object>} */
-  const own = {
+  const fields = {
     hanging: {},
     horizontal: {},
     inclined: { inclination: tilted },
     lever: { lever_ratio: ratio ?? LEVER, ...(inclination === undefined ? {} : { inclination }) },
     antagonist: { pulley_radius: PULLEY, precontraction: middle },
   };
-  return { ...rest, arrangement: next, ...own[next] };
+  return { ...rest, arrangement: next, ...fields[next] };
 }
 
 const GEOMETRY = [
@@ -123,20 +123,20 @@ const GEOMETRY = [
   "wall_thickness",
 ];
 
-/** A drive document taken apart: the muscle and effects for the Design view, the rest for this one.
+/** A drive document in parts: muscle and effects for the design, the rest for the Transient view.
  * @param {Drive} document @param {string | null} scenario
  * @returns {{muscle: import("../types.js").Muscle, effects: Record<string, Record<string, number>> | null,
  *   transient: Partial<Transient>}} @throws {Error} */
-export function takenApart(document, scenario) {
+export function partsOfDrive(document, scenario) {
   const { schema: _schema, muscle, effects, ...rest } = inSi(document);
-  if (!isObject(muscle)) throw new Error("it names no muscle");
-  const { preset = null, rhombus, ...given } = muscle;
+  if (!isObject(muscle)) throw new Error("“muscle” is missing");
+  const { preset = null, rhombus, ...geometry } = muscle;
   const values = Object.fromEntries(
-    [...Object.entries(given), ...Object.entries(rhombus ?? {})].filter(([, v]) => typeof v === "number"),
+    [...Object.entries(geometry), ...Object.entries(rhombus ?? {})].filter(([, v]) => typeof v === "number"),
   );
-  const lost = Object.keys(given).filter((key) => !(key in values) || !GEOMETRY.includes(key));
-  if (lost.length) throw new Error(`“muscle.${lost[0]}” cannot be read here`);
-  if (isObject(rest.load)) rest.load = arranged(rest.load);
+  const unknown = Object.keys(geometry).filter((key) => !(key in values) || !GEOMETRY.includes(key));
+  if (unknown.length) throw new Error(`“muscle.${unknown[0]}” cannot be read`);
+  if (isObject(rest.load)) rest.load = withArrangement(rest.load);
   const form = rhombus ? "rhombus" : "turns" in values || "thread_length" in values ? "thread" : "braid";
   const start = defaultDrive();
   return {

@@ -9,7 +9,7 @@ import { axisTitle, extent, shown, steadyX } from "../plots/axes.js";
 /** @typedef {import("../types.js").Preset} Preset */
 /** @typedef {import("../format.js").System} System */
 /** @typedef {import("../format.js").Quantity} Quantity */
-/** What a plot needs; `place` keeps the ranges of one place apart from those of another.
+/** What a plot of curves needs; `place`: the view, whose axis ranges are its own.
  * @typedef {{place: string, curves: Curves, across: Across, over: Over, system: System,
  *   reference: Preset | null}} View */
 
@@ -20,7 +20,7 @@ export const ACROSS = {
   braid_angle: { title: "Braid angle", quantity: "angle" },
 };
 
-/** Value at a contraction, read off the answer's own columns. @param {Curves} c @param {Across} across
+/** The value of the x quantity at a contraction. @param {Curves} c @param {Across} across
  * @param {number} k */
 export function acrossAt(c, across, k) {
   if (across === "contraction") return k;
@@ -29,7 +29,7 @@ export function acrossAt(c, across, k) {
   return Math.acos(Math.min(1, Math.max(-1, cosine)));
 }
 
-/** @param {View} v the x columns of the curves, in shown units */
+/** The x values of the curves in shown units. @param {View} v */
 export const xColumn = ({ curves, across, system }) => shown(curves[across], ACROSS[across].quantity, system);
 
 /** @param {View} v @param {string} key */
@@ -40,7 +40,7 @@ export function xAxis(v, key) {
   return { title: axisTitle(title, quantity, v.system), range };
 }
 
-/** @param {number} p @param {Curves} c 0 at the lowest pressure of the family, 1 at the highest */
+/** 0 at the lowest of the pressures, 1 at the highest. @param {number} p @param {Curves} c */
 export function shareOf(p, c) {
   const low = Math.min(...c.pressure), high = Math.max(...c.pressure);
   return high > low ? (p - low) / (high - low) : 0.6;

@@ -31,7 +31,7 @@ const isObject = (x) => typeof x === "object" && x !== null && !Array.isArray(x)
 /** @param {unknown} x @returns {x is number} */
 const isNumber = (x) => typeof x === "number" && Number.isFinite(x);
 
-/** Checks by the key of the document; a missing key takes its default, a wrong one is refused by name.
+/** What each value must be; a missing value takes its default.
  * @type {Record<string, (x: unknown) => boolean>} */
 const DESIGN_CHECKS = {
   muscle: (x) =>
@@ -59,8 +59,8 @@ const DESIGN_CHECKS = {
 export function readDesign(raw) {
   if (!isObject(raw)) throw new Error("the design is missing");
   for (const [key, value] of Object.entries(raw)) {
-    if (!Object.hasOwn(DESIGN_CHECKS, key)) throw new Error(`“${key}” is not a part of a design`);
-    if (!DESIGN_CHECKS[key](value)) throw new Error(`“${key}” has a value that makes no sense`);
+    if (!Object.hasOwn(DESIGN_CHECKS, key)) throw new Error(`a design has no “${key}”`);
+    if (!DESIGN_CHECKS[key](value)) throw new Error(`the value of “${key}” is invalid`);
   }
   return { ...defaultDesign(), ...raw };
 }

@@ -1,5 +1,5 @@
 // @ts-check
-// What there is to know about an effect: cause, equation, parameters with sources, look-alikes, references.
+// What is known about an effect: cause, equation, parameters with sources, similar effects, references.
 import { h, mathml } from "../dom.js";
 import { units } from "../state.js";
 import { effectsById } from "../store.js";
@@ -51,7 +51,7 @@ export function effectNote(e) {
             "tr",
             null,
             h("td", null),
-            ...["Parameter", "Usual", "Range", "Unit"].map((t, i) =>
+            ...["Parameter", "Default", "Range", "Unit"].map((t, i) =>
               h("th", { scope: "col", class: i % 3 ? "" : "text" }, t)
             ),
           ),
@@ -59,7 +59,7 @@ export function effectNote(e) {
         h("tbody", null, ...e.parameters.map(parameterRow)),
       )
       : null,
-    h("h4", null, "How it shows in the residual"),
+    h("h4", null, "What it looks like in the residual"),
     h("p", null, e.signature.text),
     e.kinds.length ? h("p", { class: "muted" }, `Visible in ${e.kinds.join(", ")} tests.`) : null,
     e.confused_with.length ? h("h4", null, "Easily confused with") : null,

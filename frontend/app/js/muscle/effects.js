@@ -1,6 +1,5 @@
 // @ts-check
-// The effects card: everything the server's catalogue holds, by family, each with a switch and its
-// parameters.
+// The effects card: every effect of the server's catalogue by family, each with a switch and its parameters.
 import { h, icon, mathml } from "../dom.js";
 import { computed, signal } from "../reactive.js";
 import { commit, preview, units } from "../state.js";
@@ -13,25 +12,26 @@ import { openPopover } from "../ui/dialog.js";
 /** @typedef {import("../types.js").Effect} Effect */
 /** @typedef {import("../types.js").Parameter} Parameter */
 /** @typedef {Record<string, Record<string, number>>} Chosen */
-/** The card of one view: the effects that come along by themselves, those that are on, the message for one,
- * which families stand under which heading, how many are on.
- * @typedef {{own: Signal<Chosen>, chosen: Signal<Chosen>, wanted: Signal<string>, count: () => number,
+/** The card of one view. `preset`: the effects that come with muscle, valve and tube; `active`: those that are on;
+ * `search`: what is typed into the search field; `count`: how many are on; `families`: the effects by heading.
+ * @typedef {{preset: Signal<Chosen>, active: Signal<Chosen>, search: Signal<string>, count: () => number,
  *   message: (key: string) => string | null, families: (all: Effect[]) => Map<string, Effect[]>,
  *   hints?: Record<string, string>}} Panel */
 /** @template T @typedef {import("../reactive.js").Signal<T>} Signal */
 
-/** @param {Panel} c @param {Effect} e @param {Parameter} p what comes along, else the effect's default */
-const usual = (c, e, p) => c.own.value[e.id]?.[p.name] ?? p.default;
+/** The value of the preset, else the default of the effect.
+ * @param {Panel} c @param {Effect} e @param {Parameter} p */
+const usual = (c, e, p) => c.preset.value[e.id]?.[p.name] ?? p.default;
 /** @param {Panel} c @param {Effect} e @param {Parameter} p */
-const valueOf = (c, e, p) => c.chosen.value[e.id]?.[p.name] ?? usual(c, e, p);
+const valueOf = (c, e, p) => c.active.value[e.id]?.[p.name] ?? usual(c, e, p);
 
 /** @param {Chosen} next @param {string} label */
 const choose = (next, label) => editDesign({ effects: next }, label);
 
 /** @param {Panel} c @param {Effect} e @param {boolean} on */
 function turn(c, e, on) {
-  const next = { ...c.chosen.peek() };
-  if (on) next[e.id] = { ...c.own.peek()[e.id] };
+  const next = { ...c.active.peek() };
+  if (on) next[e.id] = { ...c.preset.peek()[e.id] };
   else delete next[e.id];
   choose(next, `${e.title} ${on ? "on" : "off"}`);
 }
@@ -41,11 +41,11 @@ function parameterField(c, e, p) {
   const quantity = quantityOf(p.unit, p.name);
   /** @param {number | null} si */
   const set = (si) => {
-    const own = { ...c.chosen.peek()[e.id] };
-    if (si === null) delete own[p.name];
-    else own[p.name] = si;
-    if (si === null && c.own.peek()[e.id]?.[p.name] !== undefined) own[p.name] = usual(c, e, p);
-    return { effects: { ...c.chosen.peek(), [e.id]: own } };
+    const values = { ...c.active.peek()[e.id] };
+    if (si === null) delete values[p.name];
+    else values[p.name] = si;
+    if (si === null && c.preset.peek()[e.id]?.[p.name] !== undefined) values[p.name] = usual(c, e, p);
+    return { effects: { ...c.active.peek(), [e.id]: values } };
   };
   return quantityField({
     key: `${e.id}.${p.name}`,
@@ -67,7 +67,7 @@ function parameterField(c, e, p) {
   });
 }
 
-/** The parameters in one line, for an effect that is folded. @param {Panel} c @param {Effect} e */
+/** The first parameters in one line, for an effect that is collapsed. @param {Panel} c @param {Effect} e */
 function summary(c, e) {
   return e.parameters.slice(0, 3).flatMap((p, i) => {
     const quantity = quantityOf(p.unit, p.name);
@@ -77,7 +77,7 @@ function summary(c, e) {
   });
 }
 
-/** Opens what there is to know about an effect. @param {Effect} e */
+/** A button that opens the description of an effect. @param {Effect} e */
 export function aboutButton(e) {
   const button = h("button", {
     type: "button",
@@ -94,10 +94,10 @@ export function aboutButton(e) {
 
 /** @param {Panel} c @param {Effect} e */
 function row(c, e) {
-  const on = computed(() => e.id in c.chosen.value);
+  const on = computed(() => e.id in c.active.value);
   const open = signal(false);
   const matches = () => {
-    const words = c.wanted.value.trim().toLowerCase();
+    const words = c.search.value.trim().toLowerCase();
     return !words || [e.title, e.family, e.cause, e.id].some((text) => text.toLowerCase().includes(words));
   };
   const body = () => {
@@ -159,12 +159,12 @@ function row(c, e) {
   );
 }
 
-/** A family is open while one of its effects is on, until the user folds or unfolds it.
+/** A family is open while one of its effects is on, unless the user opens or closes it.
  * @param {Panel} c @param {string} family @param {Effect[]} list */
 function group(c, family, list) {
-  const count = computed(() => list.filter((e) => e.id in c.chosen.value).length);
+  const count = computed(() => list.filter((e) => e.id in c.active.value).length);
   const folded = signal(/** @type {boolean | null} */ (null));
-  const open = () => c.wanted.value.trim() !== "" || !(folded.value ?? count.value === 0);
+  const open = () => c.search.value.trim() !== "" || !(folded.value ?? count.value === 0);
   const box = h(
     "details",
     { class: "family", open, onchange: () => (folded.value = false) },
@@ -185,14 +185,14 @@ function group(c, family, list) {
   return box;
 }
 
-/** A static test shows it. @param {Effect} e */
+/** Whether the effect changes static curves. @param {Effect} e */
 export const isStatic = (e) => e.kinds.some((kind) => kind === "static" || kind === "diameter");
 
-/** @param {Omit<Panel, "wanted">} panel */
+/** @param {Omit<Panel, "search">} panel */
 export function effectsCard(panel) {
   /** @type {Panel} */
-  const c = { ...panel, wanted: signal("") };
-  const own = () => Object.keys(c.own.value).length > 0;
+  const c = { ...panel, search: signal("") };
+  const hasPreset = () => Object.keys(c.preset.value).length > 0;
   return h(
     "section",
     { class: "card", "aria-label": "Effects" },
@@ -210,16 +210,16 @@ export function effectsCard(panel) {
         h("button", {
           type: "button",
           title: "Switch all effects off: the ideal braid",
-          "aria-pressed": () => String(Object.keys(c.chosen.value).length === 0),
+          "aria-pressed": () => String(Object.keys(c.active.value).length === 0),
           onclick: () => choose({}, "ideal model"),
         }, "Ideal"),
         h("button", {
           type: "button",
           title: "The effects that come with the preset",
-          disabled: () => !own(),
-          "aria-pressed": () => String(design.value.effects === null && Boolean(own())),
-          onclick: () => editDesign({ effects: null }, "the preset’s own effects"),
-        }, "Preset’s own"),
+          disabled: () => !hasPreset(),
+          "aria-pressed": () => String(design.value.effects === null && hasPreset()),
+          onclick: () => editDesign({ effects: null }, "the preset’s effects"),
+        }, "Preset’s effects"),
       ),
     ),
     h(
@@ -232,7 +232,7 @@ export function effectsCard(panel) {
         "aria-label": "Search effects",
         oninput: (
           /** @type {Event} */ e,
-        ) => (c.wanted.value = /** @type {HTMLInputElement} */ (e.target).value),
+        ) => (c.search.value = /** @type {HTMLInputElement} */ (e.target).value),
       }),
     ),
     () =>

@@ -12,7 +12,7 @@ import { ACROSS, acrossAt, pressureName, shareOf, xAxis, xColumn } from "./curve
 /** @typedef {import("../format.js").Quantity} Quantity */
 /** @typedef {import("./curve-axes.js").View} View */
 
-/** Contractions the maker does not allow. @param {View} v @param {[number, number]} range
+/** Contractions outside the limits of the maker. @param {View} v @param {[number, number]} range
  * @returns {Zone[]} */
 export function limitZones(v, range) {
   const { max_contraction, max_pretension } = v.curves.limits;
@@ -36,7 +36,7 @@ export function limitZones(v, range) {
  * @param {string} [dash] @returns {Trace[]} */
 export function curveFamily(v, p, what, quantity, dash) {
   const x = xColumn(v);
-  // Where the muscle is slack there is nothing to be stiff; a line down to zero would look like a jump.
+  // A slack muscle has no stiffness; a line down to zero would look like a jump.
   const slack = (/** @type {number} */ i, /** @type {number} */ k) =>
     what !== "force" && v.curves.force[i][k] === 0;
   return v.curves[what].map((row, i) => ({
@@ -48,14 +48,14 @@ export function curveFamily(v, p, what, quantity, dash) {
   }));
 }
 
-/** Reference or measured points in the coordinates of the plot. @param {View} v */
+/** The measured points or the curve of the maker; `left`: indices of those left out. @param {View} v */
 function referencePoints(v) {
   const columns = v.reference?.data_columns;
   if (!columns?.force || !columns.pressure) return null;
   const si = (/** @type {string} */ name) =>
     columns[name]?.values.map((value) => siOf({ value, unit: columns[name].unit }));
-  const own = v.reference?.nominal_length;
-  const nominal = own ? siOf(own) : v.curves.geometry.nominal_length;
+  const measuredLength = v.reference?.nominal_length;
+  const nominal = measuredLength ? siOf(measuredLength) : v.curves.geometry.nominal_length;
   const contraction = si("contraction") ?? si("length")?.map((length) => 1 - length / nominal);
   if (!contraction) return null;
   const left = new Set(v.reference?.excluded?.map((e) => e.index) ?? []);
@@ -134,7 +134,7 @@ export function forceSpec(v, p) {
   };
 }
 
-/** The pressure, written where its line is highest. @param {Trace} t @param {number} i @param {View} v
+/** The pressure, written beside the start of its line. @param {Trace} t @param {number} i @param {View} v
  * @param {[number, number]} range @param {boolean} fromRight */
 function lineLabel(t, i, v, range, fromRight) {
   const at = range[fromRight ? 1 : 0];

@@ -13,7 +13,8 @@ export function shown(values, quantity, system) {
 /** @param {string} title @param {Quantity} quantity @param {System} system */
 export const axisTitle = (title, quantity, system) => `${title} (${scaleOf(quantity, system).unit})`;
 
-/** Ranges that stay put while a slider moves: a new one is taken when the data leaves it or halves.
+/** Ranges that stay the same while a slider moves: a new one is chosen when the data leave the old one, or fill
+ * little more than half of it.
  * @type {Map<string, [number, number]>} */
 const kept = new Map();
 /** @param {string} key @param {number} low @param {number} high @returns {[number, number]} */
@@ -22,7 +23,7 @@ export function steadyRange(key, low, high) {
   const last = kept.get(key), span = high - low;
   if (last && low >= last[0] && high <= last[1] && span > 0.55 * (last[1] - last[0])) return last;
   const step = 10 ** Math.floor(Math.log10(span)) / 4;
-  // A range that is left by a moving slider will be left again: it gets room to grow.
+  // Data that leave the range while a slider moves will go on growing: leave room.
   const growing = last && span < 1.5 * (last[1] - last[0]) && span > 0.5 * (last[1] - last[0]);
   const margin = (growing ? 0.15 : 0.04) * span;
   const from = low >= 0 && low < 0.5 * span ? 0 : Math.floor((low - margin) / step) * step;
@@ -32,7 +33,7 @@ export function steadyRange(key, low, high) {
   return range;
 }
 
-/** Another muscle, quantity or family is another picture: its ranges start afresh. */
+/** Forgets all ranges: for another muscle, other quantities or other pressures. */
 export function forgetRanges() {
   kept.clear();
   return null;
@@ -51,7 +52,7 @@ export function extent(rows) {
   return low <= high ? [low, high] : [0, 1];
 }
 
-/** As steadyRange, but close to the data on both sides. @param {string} key @param {number} low
+/** Like steadyRange, but close to the data on both sides. @param {string} key @param {number} low
  * @param {number} high @returns {[number, number]} */
 export function steadyX(key, low, high) {
   const span = high - low || 1, step = niceStep(span / 30);

@@ -10,7 +10,7 @@ export class ApiError extends Error {
     this.hint = hint;
     this.status = status;
   }
-  /** Message and hint as one text. */
+  /** Message and hint as sentences. */
   get words() {
     return [this.message, this.hint].filter((text) => text != null && text !== "").map(sentence).join(" ");
   }
@@ -64,7 +64,7 @@ export const post = (path, body, signal) =>
  * @param {AbortSignal} [signal] */
 export const sendFile = (method, path, file, signal) => request(path, { method, body: file, signal });
 
-/** The text of an answer that is no JSON. @param {string} path @param {unknown} body */
+/** An answer that is text instead of JSON. @param {string} path @param {unknown} body */
 export async function postForText(path, body) {
   const response = await reach(path, {
     method: "POST",

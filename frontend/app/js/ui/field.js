@@ -1,5 +1,5 @@
 // @ts-check
-// A quantity one can type (with a unit), step, slide and reset.
+// A field for a quantity: typed with a unit, stepped with arrow keys, moved with a slider, reset.
 import { computed, effect, signal } from "../reactive.js";
 import { h, icon } from "../dom.js";
 import { niceStep, number, parse, toShown, toSi } from "../format.js";
@@ -12,7 +12,7 @@ import { niceStep, number, parse, toShown, toSi } from "../format.js";
  *   bounds?: () => [number, number], strict?: boolean, log?: boolean, slider?: boolean,
  *   changed?: () => boolean, reset?: () => void, message?: () => string | null, hint?: string,
  *   clear?: () => void, empty?: string}} FieldOptions  `bounds` in SI: the range of the slider,
- *   and with `strict` of what the model accepts; `clear` allows an empty field, which then reads `empty` */
+ *   and with `strict` of accepted values; `clear` allows an empty field, which then shows `empty` */
 
 let count = 0;
 const STEPS = 200;

@@ -1,5 +1,5 @@
 // @ts-check
-// A button that opens a list of actions; arrow keys walk through it.
+// A button that opens a list of actions; arrow keys move through it.
 import { h } from "../dom.js";
 import { openPopover } from "./dialog.js";
 

@@ -1,17 +1,17 @@
 // @ts-check
-// The keyboard: one table, from which the list behind “?” is written too.
+// The keyboard shortcuts, and the list of them behind “?”.
 import { h } from "../dom.js";
 import { openDialog } from "./dialog.js";
 
 /** @typedef {{keys: string, what: string, match: (e: KeyboardEvent) => boolean, run: () => void,
  *   typing?: boolean}} Shortcut  `typing`: also while a text field has the focus */
 
-/** What needs no table because the element with the focus does it. @type {[string, string][]} */
+/** Keys of the element that has the focus, for the list only. @type {[string, string][]} */
 const ELSEWHERE = [
   ["← → ↑ ↓", "Move a slider, a value or the load line; Shift or Page keys: ten steps"],
-  ["Enter", "Take the value typed; units may be typed too: 30 cm, 6 bar"],
+  ["Enter", "Apply the typed value; units are allowed: 30 cm, 6 bar"],
   ["Esc", "Close a dialog, leave a field unchanged"],
-  ["Drag, double click", "Zoom into a plot, and back"],
+  ["Drag, double click", "Zoom into a plot, reset the zoom"],
 ];
 
 /** @param {Shortcut[]} table */

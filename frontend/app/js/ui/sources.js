@@ -1,5 +1,5 @@
 // @ts-check
-// How sure a figure is: grades in words, and the list of values of a preset that nobody has verified.
+// How reliable a value is: grades in words, and the values of a preset that nobody has verified.
 import { h } from "../dom.js";
 import { tidyUnit } from "../format.js";
 
@@ -11,7 +11,7 @@ export const GRADES = {
   D: "derived or fitted for this program",
   M: "general knowledge, not verified",
   E: "estimate, not verified",
-  user: "given by you",
+  user: "entered by you",
 };
 
 /** @param {string} grade */

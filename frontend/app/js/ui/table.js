@@ -1,10 +1,10 @@
 // @ts-check
-// Tables of numbers, for the eye and for the clipboard.
+// Tables of numbers: on the page and as CSV; saving files.
 import { h } from "../dom.js";
 import { aligned } from "../format.js";
 
 /** @typedef {{title: string, unit?: string, text?: boolean}} Column */
-/** @typedef {{columns: Column[], rows: (string | number | null)[][]}} Table  null = there is no value */
+/** @typedef {{columns: Column[], rows: (string | number | null)[][]}} Table  null: no value */
 
 /** @param {Table} table @param {string} caption */
 export function dataTable(table, caption) {

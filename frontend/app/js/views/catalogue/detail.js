@@ -1,6 +1,5 @@
 // @ts-check
-// One part in full: a small force–contraction plot for muscles, every value with unit, source and grade,
-// references.
+// One part in full: every value with unit, source and grade; references; for muscles a force plot.
 import { h, icon } from "../../dom.js";
 import { effect } from "../../reactive.js";
 import { units } from "../../state.js";
@@ -51,7 +50,7 @@ function valueTable(title, values) {
   );
 }
 
-/** Measured points and reference curves: what there is of each column. @param {Preset} p */
+/** The columns of measured points and reference curves. @param {Preset} p */
 function columnList(p) {
   const entries = Object.entries(p.data_columns ?? {});
   if (!entries.length) return null;
@@ -166,7 +165,7 @@ export function detailPanel() {
     { class: "card detail", "aria-label": "Detail" },
     () => {
       const p = selected.value;
-      if (!p) return h("p", { class: "muted" }, "Choose a part to see everything known about it.");
+      if (!p) return h("p", { class: "muted" }, "Select a part to see all its values.");
       return [
         h("div", { class: "card-head" }, h("h2", null, p.title), badge(p)),
         h("p", { class: "muted" }, [p.maker, p.function, p.description].filter(Boolean).join(" · ")),

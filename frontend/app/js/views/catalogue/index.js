@@ -1,5 +1,5 @@
 // @ts-check
-// The Catalogue view as the shell sees it: its page is fetched when it is first shown.
+// The Catalogue view as the program sees it; its page is fetched when it is first shown.
 import { later } from "../../ui/later.js";
 import "./document.js";
 

@@ -40,7 +40,7 @@ export const rows = computed(() => {
   return found.map(({ p }) => p);
 });
 
-/** The chosen part, or the first that fits. */
+/** The selected part, or the first of the list. */
 export const selected = computed(() => {
   const all = rows.value;
   return all.find((p) => p.id === filter.value.selected) ?? all[0] ?? null;
@@ -110,7 +110,7 @@ export function partsTable() {
     if (!list.value.length) {
       return `This server has no ${KIND_TITLES[filter.value.kind]?.toLowerCase() ?? "parts"}.`;
     }
-    return rows.value.length ? null : "No part fits the filter. Widen the size range or clear the search.";
+    return rows.value.length ? null : "No part matches the filter. Widen the size range or clear the search.";
   };
   return h(
     "section",
@@ -131,7 +131,7 @@ export function partsTable() {
       h(
         "table",
         { class: "data" },
-        h("caption", { class: "unseen" }, "Parts; the buttons in the head sort"),
+        h("caption", { class: "unseen" }, "Parts; the buttons in the header sort the table"),
         h(
           "thead",
           null,

@@ -1,5 +1,5 @@
 // @ts-check
-// From the document to the server's answers: the comparison at once, then the diagnosis as it finds things.
+// The answers of the server: first the comparison of model and measurement, then the diagnosis.
 import { batch, computed, signal } from "../../reactive.js";
 import { doc, edit, look, view } from "../../state.js";
 import { post, postForEvents } from "../../server/client.js";
@@ -28,7 +28,7 @@ export const steps = computed(() => compare.value.history);
 export const patchCompare = (patch) => (d) => ({ ...d, compare: { ...d.compare, ...patch } });
 /** @param {Partial<Compare>} patch @param {string} label */
 export const editCompare = (patch, label) => edit(patchCompare(patch), label);
-/** What is looked at is no step of the work. @param {Partial<Compare>} patch */
+/** Changes what is shown, without an undo step. @param {Partial<Compare>} patch */
 export const lookCompare = (patch) => look(patchCompare(patch));
 
 // ---- the comparison

@@ -1,7 +1,6 @@
 // @ts-check
-// The Compare view's part of the document: which measurements, which model, how it came about, what is looked
-// at. Pure functions; the server checks what the numbers mean.
-
+// The Compare view's part of the document: measurements, model, the models before it, and what is shown. The
+// server checks what the numbers mean.
 import { isObject } from "../../paths.js";
 import { addPart } from "../../state.js";
 
@@ -24,7 +23,8 @@ const TABS = [
 const HEATS = ["auto", "start", "own"];
 export const MOST_FILES = 16;
 const MOST_STEPS = 40;
-export const IDEAL = "Ideal muscle", GIVEN = "Start model";
+/** Labels of start models: the ideal one, and one that comes with a measurement or drive document. */
+export const IDEAL = "Ideal muscle", PROVIDED = "Start model";
 
 /** @returns {Compare} */
 const defaultCompare = () => ({
@@ -110,7 +110,7 @@ const CHECKS = {
 };
 
 /** Reads the Compare part of a link or file; a missing part takes its default.
- * @param {unknown} raw @returns {Compare} @throws {Error} names the part that makes no sense */
+ * @param {unknown} raw @returns {Compare} @throws {Error} names the invalid part */
 function readCompare(raw) {
   const start = defaultCompare();
   if (raw === undefined) return start;
@@ -118,7 +118,7 @@ function readCompare(raw) {
   const known = Object.entries(raw).filter(([key]) => Object.hasOwn(CHECKS, key));
   for (const [key, value] of known) {
     if (!CHECKS[/** @type {keyof Compare} */ (key)](value)) {
-      throw new Error(`“compare.${key}” makes no sense`);
+      throw new Error(`“compare.${key}” is invalid`);
     }
   }
   return { ...start, ...Object.fromEntries(known) };
@@ -126,7 +126,7 @@ function readCompare(raw) {
 
 addPart("compare", { start: defaultCompare, read: readCompare });
 
-/** The model as it is now, as one step of the history. @param {Compare} c @param {number | null} rmse
+/** The current model as a step of the history. @param {Compare} c @param {number | null} rmse
  * @param {number | null} holdout @returns {Step} */
 export const stepOf = (c, rmse, holdout) => ({
   label: c.label,
@@ -138,7 +138,7 @@ export const stepOf = (c, rmse, holdout) => ({
   holdout: c.holdout ?? holdout,
 });
 
-/** The document with a step's model in place of its own. @param {Compare} c @param {Step} step
+/** The document with the model of a step. @param {Compare} c @param {Step} step
  * @param {Step[]} history @returns {Compare} */
 export const withStep = (c, step, history) => ({
   ...c,
@@ -152,9 +152,9 @@ export const withStep = (c, step, history) => ({
   before: false,
 });
 
-/** A fresh start: without effects, or with those of the preset.
+/** The document with a new start model: without effects, or with those of the preset.
  * @param {Compare} c @param {"ideal" | "preset"} start @returns {Compare} */
-export const fresh = (c, start = c.start) => ({
+export const withStartModel = (c, start = c.start) => ({
   ...c,
   start,
   effects: start === "ideal" ? {} : null,
@@ -168,7 +168,7 @@ export const fresh = (c, start = c.start) => ({
   before: false,
 });
 
-/** What a fit said of its values, without the values themselves.
+/** Standard errors of fitted values, and which of them are at a bound.
  * @param {Record<string, Record<string, import("./types.js").Fitted>>} parameters @returns {Fit} */
 export const fitOf = (parameters) =>
   Object.fromEntries(

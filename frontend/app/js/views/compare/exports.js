@@ -1,5 +1,5 @@
 // @ts-check
-// What leaves this view: data with residuals, plots, the report, the model for the Design view.
+// Exports of this view: data with residuals, plots, the report, the model for the Design view.
 import { units } from "../../state.js";
 import { openDesign } from "../../muscle/document.js";
 import { ApiError, postForText } from "../../server/client.js";
@@ -33,8 +33,8 @@ export function residualTable(a) {
       ...["measured", "predicted", "residual"].map((title) => ({ title, unit })),
     ],
     rows: all.flatMap((s) => {
-      const own = channelScale(s.unit, s.channel, system);
-      const value = (/** @type {number | null} */ si) => si === null ? null : toShown(si, own);
+      const scale = channelScale(s.unit, s.channel, system);
+      const value = (/** @type {number | null} */ si) => si === null ? null : toShown(si, scale);
       return s.measured.map((measured, i) => [
         s.label,
         s.use,
@@ -45,7 +45,7 @@ export function residualTable(a) {
         }),
         value(measured),
         value(s.predicted[i]),
-        s.residual[i] === null ? null : /** @type {number} */ (s.residual[i]) / own.factor,
+        s.residual[i] === null ? null : /** @type {number} */ (s.residual[i]) / scale.factor,
       ]);
     }),
   };
@@ -65,7 +65,7 @@ export const savePlots = (format) =>
     },
   );
 
-/** One file that holds data, model, plots and verdict. */
+/** Saves data, model, plots and verdict as one file. */
 export async function saveReport() {
   const c = compare.peek();
   const title = used({ ...c, files: files.peek() }).map((f) => f.name).join(", ");
@@ -83,7 +83,7 @@ export async function saveReport() {
   }
 }
 
-/** The muscle and the effects found become those of the Design view. */
+/** Takes muscle and effects over into the Design view, which knows effects of the catalogue only. */
 export function useInDesign() {
   const c = compare.peek();
   const all = c.effects ?? effectValues(preset.peek());

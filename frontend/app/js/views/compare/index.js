@@ -1,5 +1,5 @@
 // @ts-check
-// The Compare & diagnose view as the shell sees it: its page is fetched when it is first shown.
+// The Compare & diagnose view as the program sees it; its page is fetched when it is first shown.
 import { later } from "../../ui/later.js";
 import { view } from "../../state.js";
 import "./document.js";
@@ -7,21 +7,21 @@ import "./document.js";
 export { listenToDrops } from "./measurement/drop.js";
 
 /** @param {string} key */
-const bare = (key) => (/** @type {KeyboardEvent} */ e) =>
+const inView = (key) => (/** @type {KeyboardEvent} */ e) =>
   view.peek() === "compare" && e.key.toLowerCase() === key && !e.ctrlKey && !e.metaKey && !e.altKey;
 
 /** @type {import("../../ui/shortcuts.js").Shortcut[]} */
 export const COMPARE_KEYS = [
   {
     keys: "B",
-    what: "Compare: flip between the model before and after",
-    match: bare("b"),
+    what: "Compare: switch between the model before and after",
+    match: inView("b"),
     run: async () => (await import("./error/overlay.js")).toggleBefore(),
   },
   {
     keys: "R",
     what: "Compare: fit the parameters of the model again",
-    match: bare("r"),
+    match: inView("r"),
     run: async () => (await import("./model/history.js")).refitByKey(),
   },
 ];

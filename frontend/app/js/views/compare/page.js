@@ -37,7 +37,7 @@ const keyOf = (path) => path.replace(/^(muscle|effects)\./, "compare.").replace(
 function notice() {
   const error = fault.value, field = faultField();
   if (!error) return null;
-  const kept = answer.value ? " The plots show the last comparison that was possible." : "";
+  const kept = answer.value ? " The plots show the last valid comparison." : "";
   return faultNotice(`${error.words}${kept}`, {
     goTo: field === null || field.includes("measurement")
       ? null
@@ -55,7 +55,7 @@ export function comparePage() {
     errorCard(),
     verdictCard(),
     h("div", { class: "column" }, mysteryCard),
-    // Where effects are missing too, they come first.
+    // Missing effects of the catalogue come first.
     h(
       "div",
       { class: () => `column${diagnosis.value?.verdict.effects.length ? " after" : ""}` },
@@ -86,7 +86,7 @@ export function comparePage() {
             "p",
             { class: "notice" },
             icon("info"),
-            h("span", null, "No file is used for the fit: set one of them to “Fit”."),
+            h("span", null, "No file is used for the fit. Set one of them to “Fit”."),
           )
           : null,
       overlayCards(),

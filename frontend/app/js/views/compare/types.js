@@ -1,9 +1,9 @@
 // @ts-check
-// Names for what the server answers in this view.
+// Names for the answers of the server in this view.
 
 /** @typedef {import("../../types.js").S} S */
 /** @typedef {import("../../types.js").Effects} Effects */
-/** A model as the next request takes it.
+/** A model as requests take it.
  * @typedef {{effects: Effects, muscle?: Record<string, any> | null}} Model */
 /** @typedef {S["FittedParameter"]} Fitted */
 /** @typedef {S["ComparisonAnswer"]} Comparison */

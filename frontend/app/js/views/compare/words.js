@@ -1,5 +1,5 @@
 // @ts-check
-// Errors and ranges as the page writes them.
+// Errors, ranges and names as the page writes them.
 import { effectsById } from "../../store.js";
 import { brief, number, plainScale, quantityOf, scaleOf, toShown } from "../../format.js";
 
@@ -7,7 +7,7 @@ import { brief, number, plainScale, quantityOf, scaleOf, toShown } from "../../f
 /** @typedef {import("../../format.js").System} System */
 /** @typedef {import("./types.js").Series} Series */
 
-/** The effect that is a typed formula, and the parameter that holds its text. */
+/** The id of the effect that is a formula of the user, and its parameter that holds the formula. */
 export const OWN_TERM = "custom", FORMULA = "term";
 
 /** @param {string} id */
@@ -28,7 +28,7 @@ export function channelScale(unit, channel, system) {
   return quantity ? scaleOf(quantity, system) : plainScale(unit);
 }
 
-/** The unit of an error: several channels together are told in units of their noise.
+/** The unit of an error; the error of several channels together is in units of their noise.
  * @param {string} unit @param {string} channel @param {System} system */
 export function errorUnit(unit, channel, system) {
   const s = channelScale(unit, channel, system);
@@ -43,7 +43,7 @@ export function errorText(si, unit, channel, system, withUnit = true) {
   return withUnit ? `${text}\u00a0${errorUnit(unit, channel, system)}`.trim() : text;
 }
 
-/** Variables of the residual by the name the server uses.
+/** Variables the residual is shown over, by their name in answers.
  * @type {Record<string, {title: string, quantity: Quantity, of: (s: Series) => (number | null)[] | null}>} */
 export const VARIABLES = {
   contraction: { title: "Contraction", quantity: "ratio", of: (s) => s.contraction },
@@ -88,7 +88,7 @@ export function isInside(s, i, brush) {
   });
 }
 
-/** Root mean square and number of the residuals inside a brush.
+/** RMS and number of the residuals in the selected range.
  * @param {Series[]} all @param {import("../../types.js").Brush | null} brush */
 export function rmsInside(all, brush) {
   let sum = 0, rows = 0;
@@ -102,7 +102,7 @@ export function rmsInside(all, brush) {
   return { rms: rows ? Math.sqrt(sum / rows) : null, rows };
 }
 
-/** Share of the spread that the model explains, the mean of the channels: 100 % is perfect.
+/** How much of the variation the model explains, as the mean of the channels: 100 % is perfect.
  * @param {Series[]} all */
 export function fitPercent(all) {
   const shares = [...new Set(all.map((s) => s.channel))].flatMap((name) =>
@@ -121,7 +121,7 @@ function fitOfChannel(all) {
   return rms === null || spread === 0 ? null : 100 * (1 - Math.sqrt((rms * rms * rows) / spread));
 }
 
-/** A number with a few figures, whatever its size: 2.03·10⁻⁶. @param {number} x @param {number} digits */
+/** A number of any size with some significant digits: 2.03·10⁻⁶. @param {number} x @param {number} digits */
 export function figures(x, digits) {
   const size = Math.abs(x);
   if (size >= 1e-3 && size < 1e5 || x === 0) {

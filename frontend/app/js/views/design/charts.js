@@ -1,5 +1,5 @@
 // @ts-check
-// The four plots: cards with title, legend and menu; one drawing of all of them when an answer arrives.
+// The four plots: cards with title, legend and menu; all are drawn when an answer arrives.
 import { h, icon } from "../../dom.js";
 import { computed, effect } from "../../reactive.js";
 import { commit, look, preview, units } from "../../state.js";
@@ -23,7 +23,8 @@ import { forceSpec } from "../../muscle/force-plot.js";
 const across = computed(() => design.value.across);
 const overWhat = computed(() => design.value.over);
 
-/** Follows the answers and what is looked at, not the inputs: new inputs with old curves would be wrong.
+/** What is drawn. It follows the answers and the display, not the inputs: new inputs with old curves would be
+ * wrong.
  * @returns {View | null} */
 const viewNow = () => {
   const answer = curves.value;
@@ -52,7 +53,7 @@ const over = chartCard(
   "Position or force over pressure, filling and venting",
 );
 
-/** All plots with their titles, for the export of the sheet. */
+/** All plots with their titles, for the export as one sheet. */
 export const charts = [force, stiffness, volume, over].map(({ title, chart }) => ({ title, chart }));
 
 /** @param {ReturnType<typeof chartCard>} card @param {import("../../dom.js").Child[]} head */
@@ -76,7 +77,7 @@ function frame(card, ...head) {
   );
 }
 
-function familyLegend() {
+function pressureLegend() {
   const answer = curves.value;
   if (!answer) return null;
   const v = /** @type {View} */ ({ system: units.value, curves: answer });
@@ -96,7 +97,7 @@ function familyLegend() {
     reference.value ? h("li", null, h("i", { class: "ring" }), "points") : null,
   );
 }
-/** The family's legend changes with the pressures only, not with every answer. */
+/** The legend changes with the pressures only, not with every answer. */
 const legendKey = computed(() => JSON.stringify([curves.value?.pressure, units.value, reference.value?.id]));
 
 /** @param {string} solid @param {string} dashed @param {boolean} [coloured] */
@@ -138,10 +139,10 @@ function overHint() {
     class: "link",
     onclick: () =>
       editDesign({ fixed_length: curves.peek()?.geometry.nominal_length ?? 0.3 }, "fixed length"),
-  }, "hold the muscle at its length");
+  }, "fix the length");
 }
 
-/** The load as a handle on the force plot. */
+/** The load as a line in the force plot that can be dragged. */
 function loadHandle() {
   const scale = () => scaleOf("force", units.peek());
   return dragLine(force.chart, {
@@ -160,7 +161,7 @@ function loadHandle() {
 
 let drawings = 0;
 
-/** What makes another picture; while it stays, the axes stand still under a moving slider. */
+/** Changes when the axes have to be chosen anew; until then they stay the same while a slider moves. */
 const picture = computed(() => {
   const { muscle, pressures, clipped, range } = design.value;
   return JSON.stringify([
@@ -173,20 +174,20 @@ const picture = computed(() => {
     reference.value?.id,
   ]);
 });
-let pictured = "";
-/** The answer that was on screen when the picture changed: it sets no range for the next one.
+let drawnPicture = "";
+/** The answer that was on screen when the picture changed: it sets no ranges for the next one.
  * @type {unknown} */
 let outdated = null;
 
-/** Redraws every plot; the count tells tests, and the marks tell how long it took since the answer came. */
+/** Redraws every plot; the count and the performance marks are for tests. */
 function drawAll() {
   const v = viewNow();
   palette.value;
   if (!v) return;
   performance.mark("draw-start");
-  if (picture.peek() !== pictured) outdated = v.curves;
+  if (picture.peek() !== drawnPicture) outdated = v.curves;
   else if (outdated && outdated !== v.curves) outdated = forgetRanges();
-  pictured = picture.peek();
+  drawnPicture = picture.peek();
   force.chart.show((p) => forceSpec(v, p));
   stiffness.chart.show((p) => stiffnessSpec(v, p));
   volume.chart.show((p) => volumeSpec(v, p));
@@ -215,7 +216,7 @@ export function chartColumn() {
         () => across.value,
         (key) => editDesign({ across: key }, `plots over ${ACROSS[key].title.toLowerCase()}`),
       ),
-      () => (legendKey.value, familyLegend()),
+      () => (legendKey.value, pressureLegend()),
     ),
     h("div", { class: "readout", "aria-live": "off" }, () => readout(viewNow())),
     frame(stiffness, dashLegend("open valve", "closed valve")),

@@ -6,14 +6,14 @@ import { curves, messageFor } from "./model.js";
 
 /** @typedef {import("../../types.js").Effect} Effect */
 
-const LATER = "Only over time";
+const DYNAMIC = "Dynamic effects";
 
-/** What moves nothing in static curves stands last, under one heading. @param {Effect[]} all */
+/** Effects that do not change static curves come last, under one heading. @param {Effect[]} all */
 function byFamily(all) {
   /** @type {Map<string, Effect[]>} */
   const families = new Map();
   for (const e of [...all].sort((a, b) => Number(isStatic(b)) - Number(isStatic(a)))) {
-    const name = isStatic(e) ? e.family : LATER;
+    const name = isStatic(e) ? e.family : DYNAMIC;
     families.set(name, [...families.get(name) ?? [], e]);
   }
   return families;
@@ -21,12 +21,14 @@ function byFamily(all) {
 
 /** @type {Parameters<typeof effectsCard>[0]} */
 const PANEL = {
-  own: presetEffects,
-  chosen: activeEffects,
+  preset: presetEffects,
+  active: activeEffects,
   count: () => Object.keys(curves.value?.model.effects ?? activeEffects.value).length,
   message: messageFor,
   families: byFamily,
-  hints: { [LATER]: "These act while the muscle moves or fills; the curves here do not show them." },
+  hints: {
+    [DYNAMIC]: "They act while the muscle moves or fills. The curves here are static and do not show them.",
+  },
 };
 
 export const designEffectsCard = () => effectsCard(PANEL);

@@ -1,5 +1,5 @@
 // @ts-check
-// The model's error: against which points, in newtons and in % of full scale, beside the ideal braid.
+// The error of the model against measured points, in newtons and in % of full scale, beside the ideal braid.
 import { h, icon } from "../../dom.js";
 import { units } from "../../state.js";
 import { design, editDesign } from "../../muscle/document.js";
@@ -24,12 +24,11 @@ function referenceSelect() {
       editDesign({ reference: id === NONE ? null : id }, "points to compare with");
     },
   }, () => {
-    const own = preset.value?.id;
-    const mine = references.value.filter((r) => r.muscle === own);
+    const ofMuscle = references.value.filter((r) => r.muscle === preset.value?.id);
     return [
       h("option", { value: NONE, selected: !referenceId.value }, "No points"),
-      group("Of this muscle", mine),
-      group("Of other muscles", references.value.filter((r) => !mine.includes(r))),
+      group("Of this muscle", ofMuscle),
+      group("Of other muscles", references.value.filter((r) => !ofMuscle.includes(r))),
     ];
   });
 }
@@ -51,11 +50,10 @@ function source() {
   return r?.source ? h("li", null, `Source: ${r.source}`, r.verified ? "." : " (unverified).") : null;
 }
 
-/** The "Used" opens the reasons and the source of the points. */
 function body() {
   const { model: now, ideal } = errors.value ?? {};
   if (!reference.value) {
-    return h("p", { class: "muted" }, "Choose points above: the model’s error against them is shown here.");
+    return h("p", { class: "muted" }, "Choose points above to see the error of the model.");
   }
   if (errorFault.value) return h("p", { class: "error" }, errorFault.value.words);
   if (!now || !ideal) return h("p", { class: "muted" }, "Comparing…");
@@ -80,7 +78,7 @@ function body() {
   ];
 }
 
-/** Points of another length than the muscle's compare badly, and the number alone would not tell. */
+/** Points of a muscle of another length do not compare, which the number alone would not show. */
 function lengthNote() {
   const at = reference.value?.nominal_length, length = curves.value?.geometry.nominal_length;
   if (!at || !length || Math.abs(siOf(at) / length - 1) < 0.002) return null;
@@ -92,17 +90,17 @@ function lengthNote() {
     h(
       "span",
       null,
-      `Measured on a muscle ${withUnit(measured, "length", units.value)} long, yours has `,
-      `${withUnit(length, "length", units.value)}: the error compares different muscles. `,
+      `The points were measured on a muscle ${withUnit(measured, "length", units.value)} long. Yours is `,
+      `${withUnit(length, "length", units.value)} long, so the error compares different muscles. `,
       h("button", {
         type: "button",
         class: "link",
         onclick: () => {
           const { muscle } = design.peek();
           const values = { ...muscle.values, nominal_length: measured };
-          editDesign({ muscle: { ...muscle, values } }, "length of the sample");
+          editDesign({ muscle: { ...muscle, values } }, "measured length");
         },
-      }, "Take the sample’s length"),
+      }, "Use the measured length"),
     ),
   );
 }

@@ -1,5 +1,5 @@
 // @ts-check
-// Example documents of the server (presets/designs): one click replaces the design, one undo brings it back.
+// Example designs of the server (presets/designs): one click replaces the design, in one undo step.
 import { defaultDesign, openDesign, readDesign } from "../../muscle/document.js";
 import { status } from "../../store.js";
 

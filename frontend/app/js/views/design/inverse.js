@@ -1,5 +1,5 @@
 // @ts-check
-// Inverse questions: what pressure, what contraction, what range. Asked again whenever the model changes.
+// Inverse calculations: which pressure, contraction or range is needed. Repeated whenever the model changes.
 import { h, icon } from "../../dom.js";
 import { signal } from "../../reactive.js";
 import { units } from "../../state.js";
@@ -12,7 +12,7 @@ import { curves, curvesAreCurrent } from "./model.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** @typedef {import("../../types.js").Answer} Answer */
-/** @typedef {{label: string, short: string, inputs: string[], found: string}} Inverse */
+/** @typedef {{label: string, short: string, inputs: string[], result: string}} Inverse */
 
 /** @type {Record<string, Inverse>} */
 const QUESTIONS = {
@@ -20,25 +20,25 @@ const QUESTIONS = {
     label: "Pressure for a force at a length",
     short: "Pressure",
     inputs: ["force", "length"],
-    found: "Pressure",
+    result: "Pressure",
   },
   contraction: {
     label: "Contraction for a force at a pressure",
     short: "Contraction",
     inputs: ["force", "pressure"],
-    found: "Contraction",
+    result: "Contraction",
   },
   stroke_pressure: {
     label: "Pressure for a stroke under load",
     short: "Stroke",
     inputs: ["load", "stroke"],
-    found: "Pressure",
+    result: "Pressure",
   },
   working_range: {
     label: "Working range between preload and load",
     short: "Range",
     inputs: ["preload", "load", "pressure"],
-    found: "Usable contraction",
+    result: "Usable contraction",
   },
 };
 
@@ -52,7 +52,7 @@ const INPUTS = {
   preload: { label: "Preload", quantity: "force" },
 };
 
-/** What the details of an answer measure, by their name's last word or unit. @type {[RegExp, Quantity][]} */
+/** The quantity of a detail of an answer, by its name. @type {[RegExp, Quantity][]} */
 const DETAILS = [
   [/length|stroke|diameter/, "length"],
   [/contraction/, "ratio"],
@@ -67,7 +67,7 @@ const ASK_AFTER_MS = 90;
 const kind = signal("pressure");
 const values = signal(/** @type {Record<string, number>} */ ({}));
 
-/** A sensible start for each input, from the design. @param {string} key */
+/** The start value of each input, from the design. @param {string} key */
 function start(key) {
   const d = design.value, length = curves.value?.geometry.nominal_length ?? 0.3;
   /** @type {Record<string, number>} */
@@ -108,7 +108,7 @@ function shown() {
     h(
       "p",
       { class: "answer" },
-      h("span", null, QUESTIONS[kind.value].found),
+      h("span", null, QUESTIONS[kind.value].result),
       h("b", null, got.value == null ? "none" : withUnit(got.value, quantity, units.value)),
     ),
     details.length
@@ -140,8 +140,8 @@ export function inverseCard() {
   }, { delay: ASK_AFTER_MS, active: () => curvesAreCurrent.value });
   return h(
     "section",
-    { class: "card", "aria-label": "Inverse questions" },
-    h("div", { class: "card-head" }, h("h2", null, "What is needed?")),
+    { class: "card", "aria-label": "Inverse calculation" },
+    h("div", { class: "card-head" }, h("h2", null, "Inverse calculation")),
     h(
       "div",
       { class: "segments", role: "radiogroup", "aria-label": "Question" },

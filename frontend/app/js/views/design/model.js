@@ -49,18 +49,18 @@ export const retry = () => curvesQuestion.again();
 /** The curves on screen are those of the design now. */
 export const curvesAreCurrent = computed(() => curvesQuestion.stage.value === "answered");
 
-/** The geometry value shown in a field: what the user set, else what the server made of preset and form.
+/** The geometry value shown in a field: what the user set, else that of the preset, else what the server derived.
  * @param {string} key @returns {number | null} */
 export function geometryValue(key) {
-  const own = muscle.value.values[key];
-  if (own !== undefined) return own;
-  const given = preset.value?.geometry?.[key];
-  if (given) return siOf(given);
+  const set = muscle.value.values[key];
+  if (set !== undefined) return set;
+  const ofPreset = preset.value?.geometry?.[key];
+  if (ofPreset) return siOf(ofPreset);
   const answer = /** @type {any} */ (curves.value?.geometry);
   return answer?.[key] ?? answer?.rhombus?.[key] ?? null;
 }
 
-/** What the preset says in each form, to mark and reset changed values. @param {string} key
+/** The value of the preset in any form of the geometry, to mark and reset changed values. @param {string} key
  * @returns {number | null} */
 export function presetValue(key) {
   const g = preset.value?.geometry;
@@ -81,10 +81,10 @@ export function presetValue(key) {
   return derived[key] ?? null;
 }
 
-/** Side of the rhombus that a conversion starts from: the lattice of one braid has any size of mesh. */
+/** The side of the rhombus after a conversion [m]: a braid fits a lattice of any mesh size. */
 const SIDE = 2e-3;
 
-/** The same muscle in another form; without an answer of the server yet it stays as it is.
+/** The same muscle in another form of the geometry; unchanged while there is no answer of the server yet.
  * @param {Muscle} m @param {Form} form @returns {Muscle} */
 export function inForm(m, form) {
   const g = curves.peek()?.geometry;
@@ -99,8 +99,8 @@ export function inForm(m, form) {
   if (form === "braid") {
     const { braid_diameter, braid_angle } = g;
     for (const [key, value] of Object.entries({ braid_diameter, braid_angle })) {
-      const own = m.preset && presetValue(key);
-      if (!own || Math.abs(value / own - 1) > 1e-6) values[key] = value;
+      const ofPreset = m.preset && presetValue(key);
+      if (!ofPreset || Math.abs(value / ofPreset - 1) > 1e-6) values[key] = value;
     }
   }
   return { ...m, form, values };
@@ -121,7 +121,7 @@ export const { field: faultField, within: messageFor } = fieldMessages(() => fau
 
 // ---- the model's error against points
 
-/** "auto" is what belongs to the muscle: its measurement, else its maker's curve. */
+/** The points the model is compared with; "auto": the measurement of the preset, else its maker's curve. */
 export const referenceId = computed(() => {
   const chosen = design.value.reference;
   if (chosen !== "auto") return chosen;

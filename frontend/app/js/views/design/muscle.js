@@ -17,7 +17,7 @@ import { muscle, preset, usePreset } from "../../muscle/preset.js";
  *   bounds: [number, number], log?: boolean, hint?: string}} Spec */
 
 const DEG = Math.PI / 180;
-/** Slider ranges span what is built; the field beside takes any value the model takes.
+/** Slider ranges cover usual muscles; the field accepts any value the model accepts.
  * @type {Record<string, Spec>} */
 const SPECS = {
   nominal_length: { label: "Length", symbol: "L₀", quantity: "length", bounds: [0.02, 10], log: true },
@@ -63,8 +63,8 @@ function put(key, si, done) {
 
 /** @param {string} key */
 const isChanged = (key) => {
-  const own = muscle.value.values[key], usual = presetValue(key);
-  return own !== undefined && usual !== null && Math.abs(own - usual) > 1e-6 * Math.abs(usual);
+  const set = muscle.value.values[key], usual = presetValue(key);
+  return set !== undefined && usual !== null && Math.abs(set - usual) > 1e-6 * Math.abs(usual);
 };
 
 /** @param {string} key */
@@ -102,7 +102,7 @@ const subscript = (symbol) => {
   return below ? h("span", null, letter, h("sub", null, below)) : symbol;
 };
 
-/** The maker's range of lengths where there is one. @param {string} key @param {Spec} spec
+/** The range of lengths the maker offers, if it is known. @param {string} key @param {Spec} spec
  * @returns {[number, number]} */
 function sliderBounds(key, spec) {
   const limits = preset.value?.limits ?? {};
@@ -112,7 +112,7 @@ function sliderBounds(key, spec) {
   return [siOf(limits.min_nominal_length), siOf(limits.max_nominal_length)];
 }
 
-/** @param {string} id "" = own geometry: the muscle as it is now, free of its preset */
+/** @param {string} id "": own geometry, the muscle as it is now without its preset */
 function choose(id) {
   const { reference } = design.peek();
   const g = curves.peek()?.geometry;
@@ -123,9 +123,9 @@ function choose(id) {
     if (inside_diameter) Object.assign(values, { inside_diameter });
     if (wall_thickness) Object.assign(values, { wall_thickness });
     const active = curves.peek()?.model.effects ?? {};
-    const own = reference === "auto" ? null : reference;
+    const points = reference === "auto" ? null : reference;
     editDesign(
-      { muscle: { preset: null, form: "braid", values }, effects: active, reference: own },
+      { muscle: { preset: null, form: "braid", values }, effects: active, reference: points },
       "own geometry",
     );
   }

@@ -1,5 +1,5 @@
 // @ts-check
-// The right column's first cards: verdicts in words, the operating points at the load, figures per pressure.
+// Results: the verdict, the operating points at the load, characteristics per pressure.
 import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { units } from "../../state.js";
@@ -54,7 +54,7 @@ function column(values, quantity) {
   return quantity === "pressure" ? numbers.map((v) => number(v ?? NaN, 2)) : aligned(numbers);
 }
 
-/** What a flag of a row means, from the flags of the answer. @param {Curves} c @param {string[]} codes */
+/** The flags of a row in words. @param {Curves} c @param {string[]} codes */
 const explain = (c, codes) =>
   codes.map((code) => c.flags.find((f) => f.code === code)?.message ?? code.replaceAll("_", " ")).join("; ");
 
@@ -73,10 +73,10 @@ function characteristics() {
   }));
 }
 
-/** A doubt about a figure is a note; everything else about an answer is a limit. */
+/** The flag that is only a note; all others are about limits. */
 const NOTE = "unverified";
 
-/** The limit that is reached first stands on top; its share of the limit says how near the others are. */
+/** Whether the muscle holds the load within its limits, and which limits it crosses. */
 function verdict() {
   const c = curves.value;
   if (!c) {
@@ -93,7 +93,7 @@ function verdict() {
     } at ${withUnit(best.contraction, "ratio", units.value)} contraction (${
       withUnit(best.length, "length", units.value)
     } long).`
-    : `No pressure of the family holds ${withUnit(design.value.load, "force", units.value)}.`;
+    : `None of these pressures holds ${withUnit(design.value.load, "force", units.value)}.`;
   return [
     h(
       "p",
@@ -117,7 +117,7 @@ function verdict() {
   ];
 }
 
-/** How much of each limit the family uses: one bar each, the fullest is the one that binds. */
+/** How much of each limit is used, as one bar each. */
 function margins() {
   const c = curves.value;
   if (!c) return null;

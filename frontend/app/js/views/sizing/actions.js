@@ -1,5 +1,5 @@
 // @ts-check
-// What becomes of a proposal: a muscle in the Design view, a run in the Transient view, a report, a table.
+// What can be done with a proposal: open it in the Design or Transient view, write a report, save a table.
 import { signal } from "../../reactive.js";
 import { units } from "../../state.js";
 import { ApiError, postForText } from "../../server/client.js";
@@ -23,13 +23,14 @@ export function staticLoad({ drive, nominal_length: length, contraction }) {
   return (mass * GRAVITY * Math.sin(inclination) + force + spring * stroke) / ratio;
 }
 
-/** Whole bars up to the pressure of the proposal, and that itself. @param {number} most */
-function family(most) {
+/** Pressures of the curves: whole bars up to the pressure of the proposal, and that itself.
+ * @param {number} most */
+function pressuresUpTo(most) {
   const whole = Array.from({ length: Math.ceil(most / BAR) }, (_, i) => (i + 1) * BAR);
   return [...whole.filter((p) => p < most - NEAR), most];
 }
 
-/** Points to compare with: the maker’s curve goes by contraction, a measurement is of one length.
+/** Points to compare with: the maker’s curve, which holds for any length; a measurement is of one length.
  * @param {Proposal} p */
 const reference = (p) => musclesById.peek().get(p.muscle)?.reference_curve ?? null;
 
@@ -43,7 +44,7 @@ export function openInDesign(p) {
     muscle: { preset: p.muscle, form: "braid", values: { nominal_length: p.nominal_length } },
     effects: null,
     reference: reference(p),
-    pressures: family(p.pressure),
+    pressures: pressuresUpTo(p.pressure),
     load: Math.max(0, Number(staticLoad(p).toPrecision(5))),
     range: null,
   }, `proposal ${driveWords(p)}`);
@@ -56,10 +57,10 @@ export function openInTransient(p) {
   status.value = `${driveWords(p)}, filled and vented once.${oneOf(p)}`;
 }
 
-/** Whether a report is being written: the server searches once more. */
+/** Whether a report is being written, which takes a while. */
 export const writing = signal(false);
 
-/** One file that holds the task, the proposal and why. @param {number} index of the proposal, from 0 */
+/** Saves the report of a proposal as one file. @param {number} index of the proposal, from 0 */
 export async function saveReport(index) {
   const task = answeredTask();
   writing.value = true;
@@ -79,7 +80,7 @@ export async function saveReport(index) {
   }
 }
 
-/** The task as “mckibben size” takes it. */
+/** Saves the task as "mckibben size" reads it. */
 export function saveTask() {
   const text = JSON.stringify({ schema: 1, ...requestOf(sizing.peek()) }, null, 2) + "\n";
   downloadText(fileName("task", "json"), text, "application/json");

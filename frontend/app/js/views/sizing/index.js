@@ -6,7 +6,7 @@ import { view } from "../../state.js";
 import { later } from "../../ui/later.js";
 import { inTask, isTaskDocument } from "./document.js";
 
-/** The task side of the view. @returns {HTMLElement} */
+/** @returns {HTMLElement} */
 export function taskView() {
   const page = later(async () => (await import("./page.js")).taskPage);
   const place = h("div", { class: "task-side", hidden: () => !inTask.value });

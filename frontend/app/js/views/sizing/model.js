@@ -24,15 +24,15 @@ export const arrangement = computed(() => sizing.value.arrangement);
 export const patchSizing = (patch) => (d) => ({ ...d, sizing: { ...d.sizing, ...patch } });
 /** @param {Partial<Sizing>} patch @param {string} label */
 export const editSizing = (patch, label) => edit(patchSizing(patch), label);
-/** What is looked at is no part of the task. @param {Partial<Sizing>} patch */
+/** Changes what is shown, without an undo step. @param {Partial<Sizing>} patch */
 export const lookSizing = (patch) => look(patchSizing(patch));
 
-/** @param {string} path @param {unknown} value undefined: the default @param {string} label */
+/** @param {string} path @param {unknown} value undefined: its default @param {string} label */
 export const setTask = (path, value, label) => editSizing({ task: put(task.peek(), path, value) }, label);
 /** @param {string} path */
 export const valueAt = (path) => at(task.value, path);
 
-/** A task of a file or preset takes the place of the one there is. @param {import("../../types.js").Task} document
+/** Replaces the task by that of a file or preset. @param {import("../../types.js").Task} document
  * @param {string} label */
 export function openTask(document, label) {
   const part = opened(document);
@@ -88,7 +88,7 @@ function showFound({ proposals: [best, ...rest] }) {
   lookSizing({ selected: 0 });
   status.value = best
     ? `${rest.length + 1} drive${rest.length ? "s" : ""} found; first ${driveWords(best)}.`
-    : "No drive of the catalogue does this task; the list says why.";
+    : "No drive of the catalogue does this task. The list below gives the reasons.";
 }
 
 /** Ends the search on the server too; drives found before stay. */

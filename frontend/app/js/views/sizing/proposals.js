@@ -1,5 +1,5 @@
 // @ts-check
-// The ranked list: one row a drive, its reasons and margins unfolded below it.
+// The ranked list: one row per proposal, with its reasons and margins below it on request.
 import { h, icon } from "../../dom.js";
 import { effect, signal } from "../../reactive.js";
 import { menuButton } from "../../ui/menu.js";
@@ -10,7 +10,7 @@ import { driveWords, limitName, partsOf, percent, say, spare } from "./words.js"
 
 /** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
 
-/** Ranks whose reasons are unfolded. */
+/** Proposals whose reasons are shown, by index. */
 const unfolded = signal(/** @type {ReadonlySet<number>} */ (new Set()));
 /** @param {number} i */
 function fold(i) {
@@ -24,7 +24,7 @@ const HEAD = [
   ["", "No."],
   ["text", "Drive"],
   ["", "Time"],
-  ["", "Does it"],
+  ["", "Probability"],
   ["wide", "Air per cycle"],
   ["wide roomy", "Force reserve"],
   ["wide text", "Nearest limit"],
@@ -40,7 +40,7 @@ const doubt = (p) =>
       "span",
       { class: "doubt", title: `Unverified: ${p.unverified.join("; ")}` },
       icon("warn"),
-      h("span", { class: "unseen" }, "unverified figures"),
+      h("span", { class: "unseen" }, "unverified values"),
     )
     : null;
 
@@ -66,7 +66,11 @@ function row(p, i) {
           () => driveWords(p),
         ),
         p.front
-          ? h("span", { class: "front-mark", title: "Nothing is better in everything" }, "front")
+          ? h(
+            "span",
+            { class: "front-mark", title: "Pareto front: no drive is better in every aim" },
+            "Pareto",
+          )
           : null,
         doubt(p),
         h(

@@ -1,8 +1,8 @@
 // @ts-check
-// Candidates that do not do: why not, and what would make each work.
+// Rejected candidates: the reason for each, and what would make it work.
 import { h } from "../../dom.js";
 import { computed, effect, signal } from "../../reactive.js";
-import { answer, proposals } from "./model.js";
+import { answer } from "./model.js";
 import { limitName } from "./words.js";
 
 /** @typedef {import("../../types.js").S["RejectedAnswer"]} Rejected */
@@ -10,7 +10,7 @@ import { limitName } from "./words.js";
 const SHOWN = 8;
 const all = signal(false);
 
-/** Candidates that differ in the tube only and fail alike are told together.
+/** Merges candidates that differ only in the tube and fail for the same reason.
  * @param {Rejected[]} list @returns {(Rejected & {tubes: string[]})[]} */
 export function together(list) {
   /** @type {Map<string, Rejected & {tubes: string[]}>} */
@@ -55,8 +55,8 @@ export function rejectedCard() {
     h(
       "div",
       { class: "card-head" },
-      h("h2", null, () => proposals.value.length ? "Why not the others" : "Why not"),
-      h("span", { class: "muted" }, "nearest first"),
+      h("h2", null, "Rejected candidates"),
+      h("span", { class: "muted" }, "closest first"),
     ),
     h("ul", null, () => (all.value ? groups.value : groups.value.slice(0, SHOWN)).map(item)),
     () =>
@@ -64,7 +64,7 @@ export function rejectedCard() {
         ? h(
           "button",
           { type: "button", class: "link", onclick: () => (all.value = !all.peek()) },
-          all.value ? "Show the nearest only" : `Show ${hidden()} more`,
+          all.value ? "Show fewer" : `Show ${hidden()} more`,
         )
         : null,
   );

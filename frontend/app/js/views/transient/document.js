@@ -1,7 +1,7 @@
 // @ts-check
 // The Transient view's part of the document: the drive as a drive document has it, without the muscle and its
 // effects, which belong to the design; and what is shown of the run.
-import { arranged, defaultDrive, isDrive } from "../../drive/document.js";
+import { defaultDrive, isDrive, withArrangement } from "../../drive/document.js";
 import { isObject } from "../../paths.js";
 import { addPart } from "../../state.js";
 
@@ -28,12 +28,12 @@ export const defaultTransient = () => ({
 const isRange = (x) => Array.isArray(x) && x.length === 2 && x.every(Number.isFinite) && x[0] < x[1];
 
 /** Reads the Transient part of a link or file; a missing part takes its default.
- * @param {unknown} raw @returns {Transient} @throws {Error} says which part makes no sense */
+ * @param {unknown} raw @returns {Transient} @throws {Error} says which part is invalid */
 function readTransient(raw) {
   const start = defaultTransient();
   if (raw === undefined) return start;
   if (!isObject(raw)) throw new Error("“transient” is not an object");
-  if (raw.drive !== undefined && !isDrive(raw.drive)) throw new Error("“transient.drive” makes no sense");
+  if (raw.drive !== undefined && !isDrive(raw.drive)) throw new Error("“transient.drive” is invalid");
   const pins = Array.isArray(raw.pins) ? raw.pins : [];
   const sound = pins.filter((p) => isObject(p) && typeof p.name === "string" && isDrive(p.drive));
   const { window: w, measurement: m, phase: z } = raw;
@@ -41,7 +41,7 @@ function readTransient(raw) {
   const isZoomed = isObject(z) && isRange(z.pressure) && isRange(z.contraction);
   const isFile = isObject(m) && typeof m.id === "string" && typeof m.name === "string";
   return {
-    drive: isObject(drive.load) ? { ...drive, load: arranged(drive.load) } : drive,
+    drive: isObject(drive.load) ? { ...drive, load: withArrangement(drive.load) } : drive,
     mode: raw.mode === "controller" ? "controller" : "command",
     scenario: typeof raw.scenario === "string" ? raw.scenario : null,
     lower: ["force", "valve"].includes(raw.lower) ? raw.lower : "flow",
@@ -55,7 +55,7 @@ function readTransient(raw) {
 
 addPart("transient", { start: defaultTransient, read: readTransient });
 
-/** The complete document: what the server runs and the command line takes.
+/** The complete drive document, as the server and the command line read it.
  * @param {Transient} t @param {object} muscle @param {object | null} effects @returns {Drive} */
 export function driveDocument(t, muscle, effects) {
   const { command, controller, ...rest } = t.drive;

@@ -1,5 +1,5 @@
 // @ts-check
-// What leaves this view: the run as CSV, the plots, the drive document.
+// Exports of this view: the run as CSV, the plots, the drive document.
 import { units } from "../../state.js";
 import { ApiError } from "../../server/client.js";
 import { scaleOf, toShown } from "../../format.js";
@@ -14,7 +14,7 @@ import { documentNow, simulate } from "./model.js";
 
 const ROWS = 2001;
 
-/** Column of the file, quantity, column of the answer; the names are those a measurement file is read by.
+/** Name of the column in the file, quantity, column of the answer. Measurement files are read by these names.
  * @type {[string, Quantity, keyof Run][]} */
 const COLUMNS = [
   ["displacement", "length", "position"],
@@ -38,7 +38,7 @@ const COLUMNS = [
   ["gas_temperature", "temperature", "temperature"],
 ];
 
-/** What an antagonist pair adds. @type {[string, Quantity, keyof NonNullable<Run["joint"]>][]} */
+/** Columns of an antagonist pair. @type {[string, Quantity, keyof NonNullable<Run["joint"]>][]} */
 const JOINT = [
   ["joint_angle", "angle", "angle"],
   ["joint_torque", "torque", "torque"],
@@ -74,7 +74,7 @@ export function runTable(r) {
   };
 }
 
-/** The whole run, finer than the plots show it. */
+/** Saves the whole run with more rows than the plots show. */
 export async function saveCsv() {
   try {
     const whole = await simulate({ drive: documentNow(), points: ROWS });

@@ -1,11 +1,11 @@
 // @ts-check
-// The Transient view as the shell sees it: its page is fetched when it is first shown.
+// The Transient view as the program sees it; its page is fetched when it is first shown.
 import { later } from "../../ui/later.js";
 import { isDriveDocument } from "../../drive/document.js";
 import { view } from "../../state.js";
 import "./document.js";
 
-/** A focused control keeps the space bar for itself. @param {KeyboardEvent} e */
+/** Whether a key is free: a focused control uses the space bar itself. @param {KeyboardEvent} e */
 const free = (e) =>
   view.peek() === "transient" && !e.ctrlKey && !e.metaKey && !e.altKey &&
   !(/** @type {HTMLElement} */ (e.target)).closest?.("button, summary, a, input, label");

@@ -1,5 +1,5 @@
 // @ts-check
-// A measured trace over the plots: a file goes to the server, which says how it understood it.
+// A measured trace shown in the plots: the file is read by the server.
 import { h, icon } from "../../dom.js";
 import { computed, signal } from "../../reactive.js";
 import { view } from "../../state.js";
@@ -41,7 +41,7 @@ function complaint() {
   return refused.value || (error && chosen.value ? `${chosen.value.name}: ${missingFile(error)}` : "");
 }
 
-/** What is shown of the file, and what the server remarked. */
+/** What is shown of the file, and the messages of the server. */
 function summary() {
   const m = measured.value;
   if (!m) return null;
@@ -63,7 +63,7 @@ function summary() {
     timed && used.length ? h("p", { class: "muted" }, `Dots in the plots: ${used.join(", ")}.`) : h(
       "p",
       { class: "error" },
-      timed ? "None of its columns can be laid over a run." : "It has no column of time.",
+      timed ? "None of its columns can be shown in the plots." : "It has no time column.",
     ),
     m.messages.length
       ? h("ul", { class: "plain muted" }, ...m.messages.map((text) => h("li", null, text)))

@@ -1,5 +1,5 @@
 // @ts-check
-// From the document to the server's run.
+// The drive, and its run by the server.
 import { computed } from "../../reactive.js";
 import { commit, doc, edit, look, preview, view } from "../../state.js";
 import { design, muscleInput } from "../../muscle/document.js";
@@ -8,9 +8,9 @@ import { fieldMessages } from "../../server/messages.js";
 import { Question } from "../../server/question.js";
 import { presets, status } from "../../store.js";
 import { openDrive } from "../../drive/open.js";
-import { preset, presetEffects } from "../../muscle/preset.js";
+import { preset, presetEffects as muscleEffects } from "../../muscle/preset.js";
 import { defaultTransient, driveDocument } from "./document.js";
-import { arrangementOf, inclinationOf, inSi, takenApart } from "../../drive/document.js";
+import { arrangementOf, inclinationOf, inSi, partsOfDrive } from "../../drive/document.js";
 import { at, put } from "../../paths.js";
 import { siNumber } from "../../quantities.js";
 
@@ -19,7 +19,7 @@ import { siNumber } from "../../quantities.js";
 /** @typedef {import("../../types.js").Drive} Drive */
 /** @typedef {import("../../types.js").Transient} Transient */
 
-const POINTS = 401, LASTS = 4;
+const POINTS = 401, USUAL_DURATION = 4;
 
 export const transient = computed(() => doc.value.transient);
 export const drive = computed(() => transient.value.drive);
@@ -32,35 +32,35 @@ export const mode = computed(() => transient.value.mode);
 export const patchTransient = (patch) => (d) => ({ ...d, transient: { ...d.transient, ...patch } });
 /** @param {Partial<Transient>} patch @param {string} label */
 export const editTransient = (patch, label) => edit(patchTransient(patch), label);
-/** What is looked at is no design decision. @param {Partial<Transient>} patch */
+/** Changes what is shown, without an undo step. @param {Partial<Transient>} patch */
 export const lookTransient = (patch) => look(patchTransient(patch));
 
-/** @param {string} path @param {unknown} value undefined takes it out @param {string} label
+/** @param {string} path @param {unknown} value undefined removes it @param {string} label
  * @param {boolean} [done] false while a slider still moves */
 export function setDrive(path, value, label, done = true) {
   preview((d) => ({ ...d, transient: { ...d.transient, drive: put(d.transient.drive, path, value) } }));
   if (done) commit(label);
 }
 
-/** A number of the drive in SI; null = not given. @param {string} path @returns {number | null} */
+/** A number of the drive in SI; null: not given. @param {string} path @returns {number | null} */
 export const numberAt = (path) => siNumber(at(drive.value, path));
 
 export const arrangement = computed(() => arrangementOf(drive.value.load));
 export const inclination = computed(() => inclinationOf(drive.value.load));
 
-/** The part of a window that lies in a run; null = all of it.
+/** The part of a window that lies in a run; null: all of it.
  * @param {[number, number] | null} range @param {number} duration @returns {[number, number] | null} */
 export function within(range, duration) {
   if (!range || range[0] >= duration) return null;
   return range[1] <= duration ? range : [range[0], duration];
 }
 
-/** How long the run takes [s]. @param {Transient} t */
-const durationOf = (t) => siNumber(t.drive.duration) ?? LASTS;
+/** The duration of the run [s]. @param {Transient} t */
+const durationOf = (t) => siNumber(t.drive.duration) ?? USUAL_DURATION;
 export const duration = computed(() => durationOf(transient.value));
 /** @param {Transient} t */
 const windowOf = (t) => within(t.window, durationOf(t));
-/** The times looked at; null = the whole run. */
+/** The time window shown; null: the whole run. */
 export const timeWindow = computed(() => windowOf(transient.value));
 
 /** The preset of a part of the drive. @param {"valves" | "tubes"} kind @param {string} path */
@@ -77,14 +77,14 @@ const effectsOf = (p) => /** @type {any} */ (inSi(Object.fromEntries(
   ]),
 )));
 
-/** What muscle, valve and tube bring along as long as the effects are not chosen one by one. */
-export const ownEffects = computed(() => ({
-  ...presetEffects.value,
+/** The effects that come with the presets of muscle, valve and tube, unless the user chooses effects. */
+export const presetEffects = computed(() => ({
+  ...muscleEffects.value,
   ...effectsOf(partPreset("valves", "valve.preset")),
   ...effectsOf(partPreset("tubes", "tube.preset")),
 }));
 
-/** Another valve or tube: effects chosen one by one give up those of the old part for those of the new one.
+/** Changes valve or tube. If the user chose effects, those of the old part are replaced by those of the new one.
  * @param {"valves" | "tubes"} kind @param {string} path @param {object | undefined} part
  * @param {string} label */
 export function changePart(kind, path, part, label) {
@@ -100,7 +100,7 @@ export function changePart(kind, path, part, label) {
   }, label);
 }
 
-/** Whether the command is a share of a regulator's range instead of a valve opening. */
+/** Whether a pressure regulator is commanded, by a share of its range, instead of a valve opening. */
 export const regulated = computed(() =>
   Boolean(
     at(drive.value, "regulator") ?? /** @type {any} */ (partPreset("valves", "valve.preset"))?.regulator,
@@ -115,14 +115,14 @@ export const scenario = computed(() =>
 );
 
 const start = defaultTransient().drive;
-/** What "changed" and "reset" refer to: the scenario as it was loaded, else the start of this view.
+/** What fields are compared with and reset to: the scenario as it was loaded, else the default drive.
  * @type {import("../../reactive.js").Signal<Drive>} */
 export const baseDrive = computed(() => {
   const document = scenario.value?.document;
   try {
-    if (document) return /** @type {Drive} */ (takenApart(document, null).transient.drive);
+    if (document) return /** @type {Drive} */ (partsOfDrive(document, null).transient.drive);
   } catch {
-    // a scenario that cannot be read was never loaded
+    // a scenario that cannot be read is not loaded either
   }
   return start;
 });
@@ -145,7 +145,7 @@ export function useScenario(id) {
 export const documentNow = () =>
   driveDocument(transient.value, muscleInput(design.value.muscle), design.value.effects);
 
-/** What is asked for: a drive, and the rows of the window. @param {Drive} document
+/** The request for a run: the drive, and the time window. @param {Drive} document
  * @param {[number, number] | null} rows */
 export const runRequest = (document, rows) => ({
   drive: document,
@@ -170,13 +170,13 @@ export const { field: faultField, at: messageFor, within: messageWithin } = fiel
   fieldOf,
 );
 
-/** The muscle by name and length. */
+/** The name of the muscle. */
 export const muscleName = computed(() => preset.value?.title ?? "Own geometry");
 
-/** Asking rests while another view is shown. */
+/** Nothing is asked while another view is shown. */
 export const shownNow = computed(() => view.value === "transient");
 
-/** Starts asking; called once, when the view is built. It rests while another view is shown. */
+/** Starts asking; called once, when the view is built. */
 export const startRuns = () =>
   runQuestion.follow(() => JSON.stringify(runRequest(documentNow(), windowOf(transient.value))), {
     active: () => shownNow.value,

@@ -16,7 +16,7 @@ import { startStatics } from "./statics.js";
 function notice() {
   const error = fault.value, field = faultField();
   if (!error) return null;
-  return faultNotice(`${error.words}${run.value ? " The plots show the last run that was possible." : ""}`, {
+  return faultNotice(`${error.words}${run.value ? " The plots show the last valid run." : ""}`, {
     goTo: field === null ? null : () => goToField(field, ".transient"),
     retry,
   });

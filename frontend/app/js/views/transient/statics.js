@@ -1,5 +1,5 @@
 // @ts-check
-// The muscle at rest, behind the phase plot: its curves while filling and while venting.
+// Static curves of the muscle for the phase plot, while filling and while venting.
 import { computed } from "../../reactive.js";
 import { design, muscleInput } from "../../muscle/document.js";
 import { post } from "../../server/client.js";

@@ -1,5 +1,5 @@
 // @ts-check
-// A range chosen on a plot by dragging; its two edges also move with the arrow keys.
+// A range selected on a plot by dragging; arrow keys move its edges.
 import { h } from "../../../dom.js";
 
 /** @typedef {import("../../../plots/chart.js").Chart} Chart */
@@ -9,7 +9,7 @@ const SMALLEST_PX = 4, STEPS = 50;
 /** @param {Chart} chart
  * @param {{get: () => [number, number] | null, set: (range: [number, number] | null) => void,
  *   text: (x: number) => string, usable: () => boolean}} o in shown units
- * @returns {() => void} places it anew */
+ * @returns {() => void} updates its position */
 export function brushLayer(chart, o) {
   const band = h("div", { class: "brush-band", hidden: true });
   const area = h(

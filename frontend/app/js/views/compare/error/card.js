@@ -1,5 +1,5 @@
 // @ts-check
-// The error in one number, what it was before, and what it is made of.
+// The error of the model: RMS, change, fit, hold-out, validation, noise.
 import { h } from "../../../dom.js";
 import { computed, signal } from "../../../reactive.js";
 import { units } from "../../../state.js";
@@ -44,7 +44,7 @@ function facts(a) {
   const fit = fitPercent(allSeries(a).filter((s) => s.use !== "validation"));
   const check = a.validation ? fitPercent(allSeries(a).filter((s) => s.use === "validation")) : null;
   const noise = a.noise_floor;
-  // The errors of several channels are told in noise already.
+  // The error of several channels is in units of their noise already.
   const scaled = Object.keys(a.channels ?? {}).length > 1;
   const holdout = compare.value.holdout ?? diagnosis.value?.baseline.holdout_rmse ?? a.holdout_rmse;
   const both = (/** @type {number | null | undefined} */ error, /** @type {number | null} */ percent) =>
@@ -52,7 +52,7 @@ function facts(a) {
   return h(
     "dl",
     null,
-    ...row("Fit, 100 % is perfect", fit === null ? "–" : `${brief(fit)} %`),
+    ...row("Fit (100 % is perfect)", fit === null ? "–" : `${brief(fit)} %`),
     ...row("Hold-out", say(holdout)),
     ...(a.validation ? row("Validation", both(a.validation.rmse, check), "validation-error") : []),
     ...(scaled ? [] : [
@@ -95,7 +95,7 @@ function channelTable(a) {
   );
 }
 
-/** What a screen reader is told: the newest error, once. */
+/** The newest error, for screen readers. */
 const spokenError = computed(() => {
   const a = answer.value;
   if (!a || stale.value) return "";

@@ -1,6 +1,6 @@
 // @ts-check
-// What the colours of the map span: the error of the first model, by which before and after compare, or the
-// largest cell, so that what a fix leaves over still shows its shape. Pure functions but for the switch.
+// The colour scale of the map: that of the first model, by which models compare, or one up to the largest cell of
+// this map, so that a small error shows its shape.
 import { h } from "../../../dom.js";
 import { units } from "../../../state.js";
 import { compare, lookCompare, shown, steps } from "../answers.js";
@@ -9,11 +9,11 @@ import { errorText, rangeText } from "../words.js";
 /** @typedef {import("../types.js").HeatMap} HeatMap */
 /** @typedef {import("../types.js").Comparison} Comparison */
 /** @typedef {import("../../../types.js").Heat} Heat */
-/** `most`: at the full colour; `start`: what the first model's scale has there; `largest`: of all cells,
- * `at`: where it is. @typedef {{kind: "start" | "own", most: number, start: number, largest: number,
+/** `most`: the error at full colour; `start`: the same on the scale of the first model; `largest`: of all cells;
+ * `at`: its place. @typedef {{kind: "start" | "own", most: number, start: number, largest: number,
  *   at: [number, number]}} HeatScale */
 
-/** Largest cell over the first scale, below which a map in that scale looks empty. */
+/** Largest cell as a share of the first scale, below which a map on that scale would look empty. */
 const PALE = 1 / 5;
 
 /** @param {(number | null)[]} edges @param {number} i @returns {[number, number]} */
@@ -39,7 +39,7 @@ export function heatScale(map, first, choice) {
 /** @param {Comparison} a @param {HeatMap} map */
 export const scaleOf = (a, map) => heatScale(map, steps.value[0]?.rmse ?? a.rmse ?? 1, compare.value.heat);
 
-/** What the colours span, and what that hides. @param {Comparison} a @param {HeatMap} map
+/** The largest cell and the colour scale in words. @param {Comparison} a @param {HeatMap} map
  * @param {HeatScale} s */
 export function scaleNote(a, map, s) {
   const system = units.value;
@@ -58,7 +58,7 @@ export function scaleNote(a, map, s) {
     : `${largest} Colours up to ${say(s.most)}, as at the start.`;
 }
 
-/** Which of both; there once the model is another than the first. */
+/** The switch between both scales; hidden for the first model. */
 export const scaleSwitch = () =>
   h(
     "div",

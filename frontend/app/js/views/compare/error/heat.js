@@ -1,5 +1,5 @@
 // @ts-check
-// Where the model fails: the residual over two variables as a map, and in words.
+// Where the model fails: a map of the residual over two variables, and sentences.
 import { h } from "../../../dom.js";
 import { units } from "../../../state.js";
 import { number, scaleOf, toShown } from "../../../format.js";
@@ -11,7 +11,7 @@ import { channelScale, errorText, rangeText, VARIABLES } from "../words.js";
 /** @typedef {import("../types.js").Where} Where */
 /** @typedef {import("../types.js").Comparison} Comparison */
 
-/** @param {number} share −1…1: too low, right, too high */
+/** @param {number} share −1…1 of the full colour */
 const tint = (share) => {
   const size = Math.round(100 * Math.min(1, Math.abs(share)));
   return `background:color-mix(in srgb, var(${
@@ -137,7 +137,7 @@ function grid(a, map) {
 
 /** @param {Where} w @param {Comparison} a */
 const sentenceOf = (w, a) =>
-  `${Math.round(100 * w.share_explained)} % of the error follows the ${
+  `${Math.round(100 * w.share_explained)} % of the error depends on the ${
     VARIABLES[w.over]?.title.toLowerCase() ?? w.over
   }; ` +
   `worst at ${w.worst}, RMS ${errorText(w.rmse, a.unit, a.predicted, units.value)}.`;
@@ -145,7 +145,7 @@ const sentenceOf = (w, a) =>
 /** @param {Comparison} a */
 function inWords(a) {
   const where = a.where ?? [];
-  const told = a.sentences?.length
+  const sentences = a.sentences?.length
     ? a.sentences.map((text) => ({ text, over: "" }))
     : where.filter((w) => w.share_explained > 0.03).slice(0, 4).map((w) => ({
       text: sentenceOf(w, a),
@@ -154,13 +154,13 @@ function inWords(a) {
   const clickable = where.filter((w) => ["contraction", "pressure", "velocity", "time"].includes(w.over))
     .slice(0, 4);
   return [
-    told.length
+    sentences.length
       ? h(
         "ul",
         { class: "where-words" },
-        ...told.map(({ text }) => h("li", null, text.replace(/(^| )-(?=\d)/g, "$1−"))),
+        ...sentences.map(({ text }) => h("li", null, text.replace(/(^| )-(?=\d)/g, "$1−"))),
       )
-      : h("p", { class: "muted" }, "The residual follows none of the measured quantities."),
+      : h("p", { class: "muted" }, "The residual depends on none of the measured quantities."),
     clickable.length
       ? h(
         "div",

@@ -1,6 +1,5 @@
 // @ts-check
-// Whether the residual is noise: how often each size occurs, what one row says of the next, what its loops
-// enclose. Each as a plot, and in words.
+// Whether the residual is noise: histogram, autocorrelation and area of loops, each as a plot and in words.
 import { h } from "../../../dom.js";
 import { brief, scaleOf, toShown } from "../../../format.js";
 import { channelScale, errorText, rmsInside } from "../words.js";
@@ -11,7 +10,7 @@ import { channelScale, errorText, rmsInside } from "../words.js";
 /** @typedef {import("../../../format.js").System} System */
 /** @typedef {import("../types.js").Comparison} Comparison */
 /** @typedef {import("./specs.js").View} View */
-/** What a tab shows of the residual: `spec` null = there is nothing to draw, and `words` say why.
+/** What a tab shows of the residual; `spec` null: nothing can be drawn, and `words` give the reason.
  * @typedef {{spec: ((p: Palette) => Spec) | null, words: import("../../../dom.js").Child[]}} Picture */
 
 const BINS = 31;
@@ -27,13 +26,13 @@ export function histogram(v) {
   return {
     spec: (p) => histogramSpec(v, p),
     words: [
-      `σ of what is left ${say(rms)}`,
+      `σ of the residual ${say(rms)}`,
       v.noise === null ? "" : `; dashed: noise alone, σ ${say(v.noise)}`,
     ],
   };
 }
 
-/** How often each size of residual occurs, beside what noise alone would give.
+/** The histogram of the residual, with that of noise alone.
  * @param {View} v @param {Palette} p @returns {Spec} */
 function histogramSpec(v, p) {
   const s = channelScale(v.unit, v.channel, v.system);
@@ -61,7 +60,7 @@ function histogramSpec(v, p) {
       column: "noise alone",
     });
   }
-  // A narrow peak of the noise must not flatten the data.
+  // A narrow peak of the noise must not make the histogram flat.
   const top = Math.max(...counts, 1) * 1.6;
   return {
     x: { title: s.unit ? `Residual (${s.unit})` : "Residual", range: [-most, most] },
@@ -82,13 +81,13 @@ const sticks = (ends) => ({
   y: ends.flatMap(([, y]) => [0, y, null]),
 });
 
-/** What a row says of the rows after it: nothing, if only noise is left. @param {Comparison} a
+/** The correlation of a row with the rows after it: none, if only noise is left. @param {Comparison} a
  * @returns {Picture} */
 export function autocorrelation(a) {
   const { autocorrelation: rho, band, outside, runs, white } = a.whiteness;
   const known = rho.flatMap((r) => r === null ? [] : [r]);
   if (!known.length) {
-    return { spec: null, words: ["The sweeps are too short to tell whether neighbouring rows agree."] };
+    return { spec: null, words: ["The sweeps are too short for an autocorrelation."] };
   }
   const out = Math.round(outside * known.length);
   const lags = `${out} of ${known.length} lags outside the 95 % band`;
@@ -96,7 +95,7 @@ export function autocorrelation(a) {
   return {
     spec: (p) => autocorrelationSpec(known, band, p),
     words: [
-      h("b", { id: "white" }, white ? "Inside = nothing left: noise. " : "Outside = something is left. "),
+      h("b", { id: "white" }, white ? "The residual is noise: " : "The residual is not only noise: "),
       `${lags}; ${signs}.`,
     ],
   };
@@ -135,7 +134,7 @@ function autocorrelationSpec(rho, band, p) {
   };
 }
 
-/** A loop of the residual: its area and what noise makes of it, the held pressure it ran at.
+/** A loop of the residual: its area, the standard deviation of the area by noise, its constant pressure.
  * @typedef {{area: number, sigma: number, span: number, pressure: number | null, label: string}} Cycle */
 
 /** @param {Comparison} a @returns {Cycle[]} */
@@ -143,7 +142,7 @@ function cycles(a) {
   const curves = a.series.filter((s) => s.use !== "validation");
   return a.loops.map(({ group, area, span }, i) => ({
     area,
-    // Noise on each of n rows that go twice through the span.
+    // By noise on each of n rows that go through the span twice.
     sigma: ((a.noise_floor ?? 0) * 2 * span) / Math.sqrt(curves[group]?.measured.length || 1),
     span,
     pressure: curves[group]?.pressure ?? null,
@@ -151,7 +150,7 @@ function cycles(a) {
   }));
 }
 
-/** What the residual takes out of each cycle. @param {Comparison} a @param {System} system
+/** The energy of the residual in each cycle. @param {Comparison} a @param {System} system
  * @returns {Picture} */
 export function loops(a, system) {
   const all = cycles(a);
@@ -159,17 +158,16 @@ export function loops(a, system) {
     return {
       spec: null,
       words: [
-        "No loops in these data: a loop is a force over a length that comes back to where it began, " +
-        "pulled to and fro at one pressure.",
+        "No loops in these data. A loop is the force over a length that returns to its start, at one pressure.",
       ],
     };
   }
   const area = all.reduce((sum, c) => sum + c.area, 0) / all.length;
-  // A constant force against the motion encloses twice itself times the way.
-  const way = all.reduce((sum, c) => sum + 2 * c.span, 0) / all.length;
+  // The area of a constant friction force is twice the force times the distance.
+  const distance = all.reduce((sum, c) => sum + 2 * c.span, 0) / all.length;
   const energy = scaleOf("energy", system), force = scaleOf("force", system);
   const say = `${brief(toShown(Math.abs(area), energy))}\u00a0${energy.unit}`;
-  const like = `${brief(toShown(Math.abs(area) / way, force))}\u00a0${force.unit}`;
+  const like = `${brief(toShown(Math.abs(area) / distance, force))}\u00a0${force.unit}`;
   const sigma = Math.hypot(...all.map((c) => c.sigma)) / all.length;
   const count = all.length === 1 ? "One loop" : `${all.length} loops`;
   return {
@@ -177,10 +175,10 @@ export function loops(a, system) {
     words: [
       h("b", { id: "loop-mean" }, `${count}, mean ${area < 0 ? "−" : "+"}${say}. `),
       Math.abs(area) <= BAND * sigma
-        ? "No more than the noise makes: nothing is left."
+        ? "This is within the noise."
         : area >= 0
-        ? `Positive: the muscle loses more than the model, as with ${like} of friction.`
-        : `Negative: the model loses more than the muscle, by ${like} of friction.`,
+        ? `Positive: the muscle dissipates more than the model, equivalent to ${like} of friction.`
+        : `Negative: the model dissipates more than the muscle, equivalent to ${like} of friction.`,
     ],
   };
 }
@@ -188,11 +186,11 @@ export function loops(a, system) {
 /** @param {Cycle[]} all @param {System} system @param {Palette} p @returns {Spec} */
 function loopsSpec(all, system, p) {
   const energy = scaleOf("energy", system), pressure = scaleOf("pressure", system);
-  const held = all.every((c) => c.pressure !== null);
-  const at = held ? all.map((c) => toShown(c.pressure ?? 0, pressure)) : all.map((_c, i) => i + 1);
-  const low = held ? Math.min(...at) : 0, high = held ? Math.max(...at) : all.length + 1;
-  const edge = held ? 0.08 * (high - low) || 0.5 : 0;
-  // Loops at one pressure stand side by side.
+  const hasPressure = all.every((c) => c.pressure !== null);
+  const at = hasPressure ? all.map((c) => toShown(c.pressure ?? 0, pressure)) : all.map((_c, i) => i + 1);
+  const low = hasPressure ? Math.min(...at) : 0, high = hasPressure ? Math.max(...at) : all.length + 1;
+  const edge = hasPressure ? 0.08 * (high - low) || 0.5 : 0;
+  // Loops at the same pressure are drawn side by side.
   const near = 0.012 * (high - low);
   const x = at.map((one, i) => {
     const same = [...at.keys()].filter((k) => Math.abs(at[k] - one) < near);
@@ -214,7 +212,7 @@ function loopsSpec(all, system, p) {
   };
   return {
     x: {
-      title: held ? `Pressure of the loop (${pressure.unit})` : "Loop",
+      title: hasPressure ? `Pressure of the loop (${pressure.unit})` : "Loop",
       range: [low - edge, low + FOR_LABEL * (high + edge - low)],
     },
     y: {

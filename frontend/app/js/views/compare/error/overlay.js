@@ -1,5 +1,5 @@
 // @ts-check
-// Measured points with the model over them; one plot for each predicted channel.
+// Measured points and model; one plot for each predicted channel.
 import { h, icon } from "../../../dom.js";
 import { computed, effect } from "../../../reactive.js";
 import { units, view } from "../../../state.js";
@@ -15,11 +15,11 @@ import { channels, over, variables, viewOf } from "./pictures.js";
 import { colours, overlaySpec, pressureText } from "./specs.js";
 import { VARIABLES } from "../words.js";
 
-/** Plots on the page now, for the export. @type {{title: string, chart: Chart}[]} */
+/** The plots on the page, for the export. @type {{title: string, chart: Chart}[]} */
 export const overlays = [];
 let drawings = 0;
 
-/** Flips between the model of now and the one before it. */
+/** Switches between the current model and the one before it. */
 export function toggleBefore() {
   if (previous.peek()) lookCompare({ before: !compare.peek().before });
 }
@@ -27,12 +27,12 @@ export function toggleBefore() {
 const flip = () =>
   h(
     "div",
-    { class: "group", role: "group", "aria-label": "Model that is shown" },
+    { class: "group", role: "group", "aria-label": "Model shown" },
     ...[true, false].map((before) =>
       h("button", {
         type: "button",
         id: before ? "show-before" : "show-after",
-        title: "Flip with B",
+        title: "Switch with B",
         disabled: () => previous.value === null,
         "aria-pressed": () => String(isBefore.value === before),
         onclick: () => lookCompare({ before }),

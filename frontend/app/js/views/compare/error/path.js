@@ -1,5 +1,5 @@
 // @ts-check
-// The way of the error: a row for each model, the way ahead that the diagnosis proposes, the noise as a line.
+// The error after each effect: a row for each model so far and each one the diagnosis proposes.
 import { h, icon } from "../../../dom.js";
 import { future, past, units } from "../../../state.js";
 import { redoAndReport, undoAndReport } from "../../../ui/history.js";
@@ -107,7 +107,7 @@ export function pathCard() {
     h(
       "table",
       { class: "data path-table" },
-      h("caption", { class: "unseen" }, "Models in the order they came about, with their errors"),
+      h("caption", { class: "unseen" }, "Models in order, with their errors"),
       h(
         "thead",
         null,

@@ -1,5 +1,5 @@
 // @ts-check
-// What the plots are drawn from: the answer shown, channel by channel.
+// What the plots are drawn from: the comparison shown, by channel.
 import { computed } from "../../../reactive.js";
 import { units } from "../../../state.js";
 import { answer, brush, chosen, compare, isBefore, previous, shown, tab } from "../answers.js";
@@ -47,11 +47,10 @@ export const over = computed(() => {
   return all.includes(usual) ? usual : all[0] ?? usual;
 });
 
-/** Pictures of the residual that are not drawn over a variable. */
+/** Tabs of the residual that are not over a variable. */
 const WHOLE = new Set(["histogram", "autocorrelation", "loops"]);
 
-/** The variable of the residual plot, or one of the pictures of all of it; what the data do not vary has no
- * tab. */
+/** The tab of the residual plot; variables that do not change in the data have none. */
 export const residualOver = computed(() => {
   const all = variables.value, wanted = tab.value;
   if (WHOLE.has(wanted)) return wanted;
@@ -79,5 +78,5 @@ export function viewOf(name, x) {
   };
 }
 
-/** Residuals the brush and the heat map speak of: those of the channel shown. */
+/** The series of the residual plot. */
 export const residuals = computed(() => shown.value ? ofChannel(shown.value, channel.value) : []);

@@ -1,5 +1,5 @@
 // @ts-check
-// The residual over one variable, with the band of the noise and a range one can choose.
+// The residual over one variable with the band of the noise and a range to select, or as histogram and others.
 import { h, icon } from "../../../dom.js";
 import { apart, computed, effect } from "../../../reactive.js";
 import { units, view } from "../../../state.js";
@@ -61,7 +61,7 @@ function setBrush(range) {
   lookCompare({ brush: { [residualOver.peek()]: [si[0], si[1]] } });
 }
 
-/** The picture of the whole residual that is chosen, if one is. @returns {Picture | null} */
+/** Histogram, autocorrelation or loops, if one of them is selected. @returns {Picture | null} */
 const picture = () => {
   const a = shown.value, x = residualOver.value;
   if (!a || x in VARIABLES) return null;
@@ -77,7 +77,7 @@ function inside() {
   const b = brush.value, a = shown.value, system = units.value;
   if (!a) return null;
   if (whole.value) return h("span", null, ...whole.value.words);
-  if (!b) return h("span", { class: "muted" }, "Drag over the plot: error in a range");
+  if (!b) return h("span", { class: "muted" }, "Drag over the plot to see the error in a range.");
   const { rms, rows } = rmsInside(residuals.value, b);
   const unit = residuals.value[0]?.unit ?? a.unit;
   const ranges = Object.entries(b).map(([name, range]) => rangeText(name, range, system)).filter(Boolean);
@@ -99,11 +99,11 @@ function inside() {
 }
 
 const tabs = () => {
-  const there = variables.value;
+  const available = variables.value;
   return h(
     "div",
     { class: "group", role: "group", "aria-label": "Residual over" },
-    ...TABS.filter(([id]) => !(id in VARIABLES) || there.includes(id)).map(([id, label, title]) =>
+    ...TABS.filter(([id]) => !(id in VARIABLES) || available.includes(id)).map(([id, label, title]) =>
       h("button", {
         type: "button",
         title,

@@ -11,19 +11,19 @@ import { channelScale, column, isInside, VARIABLES } from "../words.js";
 /** @typedef {import("../../../format.js").System} System */
 /** @typedef {import("../types.js").Series} Series */
 /** @typedef {import("../../../types.js").Brush} Brush */
-/** `ghost`: the series of the other model of before and after; `picture` changes with the data.
+/** `ghost`: the series of the other one of the models before and after; `picture`: changes with the data.
  * @typedef {{series: Series[], ghost: Series[], channel: string, unit: string, over: string, system: System,
  *   brush: Brush | null, noise: number | null, picture: string}} View */
 
-/** The x of the overlay that a kind of test is usually drawn over. @param {string} kind */
+/** The x variable of the overlay for a kind of test. @param {string} kind */
 export const usualOver = (kind) =>
   kind === "transient" ? "time" : kind === "isometric" || kind === "isotonic" ? "pressure" : "contraction";
 
-/** One curve, of no pressure of its own: what is measured and the model take different colours.
+/** A single series without a pressure: data and model then have different colours.
  * @param {Series[]} series */
 const isAlone = (series) => series.length === 1 && series[0].pressure === null;
 
-/** Colour of each series: by its pressure, else by its place in the list.
+/** Colour of each series, by its pressure or else by its index.
  * @param {Series[]} series @param {Palette} p */
 export function colours(series, p) {
   const known = series.flatMap((s) => s.pressure === null ? [] : [s.pressure]);
@@ -35,7 +35,7 @@ export function colours(series, p) {
   });
 }
 
-/** A model line in pieces: where the motion turns around, the line starts anew.
+/** A model line in pieces: a new piece starts where the motion reverses.
  * @param {Series} s @param {string} over @param {(sign: number) => boolean} belongs */
 function pieces(s, over, belongs) {
   const x = column(s, over), turns = s.direction ?? [];
@@ -55,17 +55,17 @@ function pieces(s, over, belongs) {
   return line;
 }
 
-/** Points at pressures of their own: no line runs through them. @param {Series} s @param {string} over */
+/** Whether each point has its own pressure: no line is drawn then. @param {Series} s @param {string} over */
 export const isScattered = (s, over) =>
   s.pressure === null && over !== "time" && !(s.direction ?? []).some((d) => d);
 
 /** A range with room for the points at its ends. @param {[number, number]} range @returns {[number, number]} */
 export const padded = ([low, high]) => [low - 0.015 * (high - low), high + 0.015 * (high - low)];
 
-/** So many points that they would hide the model. */
+/** More points than this are drawn small and faint, because they would hide the model. */
 const MANY = 300;
 
-/** A colour that lets what is drawn over it show. @param {string} color "rgb(…)" */
+/** The colour half transparent. @param {string} color "rgb(…)" */
 const faint = (color) => color.replace("rgb(", "rgba(").replace(")", ",0.5)");
 
 /** @param {View} v @param {Palette} p @returns {Spec} */
@@ -179,7 +179,7 @@ function points(v, p, tints, x, y) {
   };
 }
 
-/** @param {View} v the brush as a shaded zone, if its variable is drawn here */
+/** @param {View} v the brush as a shaded zone, if its variable is the x axis */
 function brushZone({ brush, over, system }) {
   const range = brush?.[over];
   if (!range) return [];

@@ -1,5 +1,5 @@
 // @ts-check
-// The measurements card: drop zone, built-in examples, the files with what is made of each.
+// The measurements card: drop zone, built-in examples, the files and their use.
 import { h, icon } from "../../../dom.js";
 import { references } from "../../../store.js";
 import { menuButton } from "../../../ui/menu.js";
@@ -46,7 +46,7 @@ const examplesMenu = (name) =>
     },
   });
 
-/** How many rows are used, and why others are not. @param {Chosen} file */
+/** The number of rows used, and why others are left out. @param {Chosen} file */
 function rowsText(file) {
   const info = infos.value.get(file.id);
   if (!info) {
@@ -107,14 +107,14 @@ function fileRow(file, index) {
         ? h(
           "details",
           null,
-          h("summary", null, "What was assumed"),
+          h("summary", null, "Assumptions"),
           h("ul", { class: "plain muted" }, ...messages().map((text) => h("li", null, text))),
         )
         : null,
   );
 }
 
-/** What the comparison left out of all files together, unless the only file says it already. */
+/** What the comparison left out of all files together, unless a single file shows it already. */
 function leftOut() {
   const a = answer.value, all = chosen.value;
   if (!a || fault.value || !all.length) return null;

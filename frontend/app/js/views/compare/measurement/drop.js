@@ -1,5 +1,5 @@
 // @ts-check
-// Files dropped on any part of the page, in any view.
+// Measurement files dropped anywhere on the page, in any view.
 import { signal } from "../../../reactive.js";
 import { goTo, view } from "../../../state.js";
 

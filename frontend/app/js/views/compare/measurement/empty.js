@@ -1,5 +1,5 @@
 // @ts-check
-// Before there are data: what this view does, and ways to start; the guide over a first example.
+// What is shown without a measurement: what this view does and ways to start; and the guide of the example.
 import { h, icon } from "../../../dom.js";
 import { units } from "../../../state.js";
 import { openBuiltIn } from "./files.js";
@@ -17,8 +17,8 @@ export function emptyCard() {
     h(
       "p",
       null,
-      "Give a measurement. It is laid over the model, you see where and by how much the model fails, which effects of the " +
-        "catalogue explain it, and the error falls as you add them.",
+      "Open a measurement. The page plots it with the model, shows where and by how much the model is wrong, finds the " +
+        "effects of the catalogue that explain the error, and shows how the error falls as you add them.",
     ),
     h(
       "div",
@@ -36,7 +36,7 @@ export function emptyCard() {
     h(
       "p",
       { class: "muted" },
-      "CSV, .xlsx, .mat or .tdms with columns for pressure, length or contraction, force, time. Or drop it anywhere.",
+      "A CSV, .xlsx, .mat or .tdms file with columns for pressure, length or contraction, force, time. You can also drop it on the page.",
     ),
     h("h3", null, "Built-in measurements"),
     h("div", { class: "tiles" }, () =>
@@ -52,28 +52,30 @@ export function emptyCard() {
   );
 }
 
-/** What to look at next; it follows what the user does. */
+/** What to do next. */
 function advice() {
-  const a = answer.value, told = diagnosis.value, done = steps.value.length;
-  if (!a || stale.value) return "The measured points are being laid over the ideal muscle…";
+  const a = answer.value, result = diagnosis.value, added = steps.value.length;
+  if (!a || stale.value) return "The measured points are being compared with the ideal muscle…";
   const error = errorText(a.rmse, a.unit, a.predicted, units.value);
   if (stage.value === "running") {
     return `The ${
-      done ? "model" : "ideal muscle"
-    } misses the points by ${error}. The map “Where it fails” shows at which pressure and ` +
-      "contraction; now every effect of the catalogue is tried.";
+      added ? "model" : "ideal muscle"
+    } is wrong by ${error}. The map “Where it fails” shows at which pressure and contraction. ` +
+      "Now every effect of the catalogue is tried.";
   }
-  if (told?.verdict.status === "adequate") {
-    return `The error is ${error}: what is left looks like noise. Undo (Ctrl Z) takes the steps back, Report writes them down.`;
+  if (result?.verdict.status === "adequate") {
+    return `The error is ${error}: only noise is left. Undo (Ctrl Z) takes the steps back, Report saves them.`;
   }
-  if (!done) {
-    return "Each card on the right is an effect with what it would take from the error. Press Add on the first.";
+  if (!added) {
+    return "Each card on the right is an effect, and by how much it reduces the error. Press Add on the first one.";
   }
-  if (done === 1) return "The error fell. Hold it against the model before with B, then add the next effect.";
-  return "Go on while a card still lowers the error, also on the points held out.";
+  if (added === 1) {
+    return "The error fell. Press B to compare with the model before, then add the next effect.";
+  }
+  return "Continue while a card still reduces the error, including the hold-out error.";
 }
 
-/** The guide over the first example. */
+/** The guide through the example. */
 export function guide() {
   if (!compare.value.guided) return null;
   return h(

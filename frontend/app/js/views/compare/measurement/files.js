@@ -1,10 +1,10 @@
 // @ts-check
-// Measurement files: looked at first, sent when they are understood, else put before the user.
+// Measurement files: a preview first; if it leaves questions the user is asked, then the file is sent.
 import { computed, effect, signal } from "../../../reactive.js";
 import { doc, edit, view } from "../../../state.js";
 import { ApiError } from "../../../server/client.js";
 import { muscles, references } from "../../../store.js";
-import { fresh, MOST_FILES } from "../document.js";
+import { MOST_FILES, withStartModel } from "../document.js";
 import { driveFor, needsDrive, startOf } from "../drive-document.js";
 import { openMapping } from "./mapping.js";
 import { compare, editCompare, files } from "../answers.js";
@@ -16,23 +16,23 @@ import { keep, measurement, missingFile, previewOf, refusal } from "../../../ser
 /** @typedef {import("../types.js").Mapping} Mapping */
 /** @typedef {import("../../../types.js").Compare} Compare */
 /** @typedef {import("../../../types.js").Use} Use */
-/** Something about a file that the user has to know. @typedef {{name: string, words: string}} Complaint */
+/** A message about a file. @typedef {{name: string, words: string}} Complaint */
 
 const SHA256 = /^[0-9a-f]{64}$/;
 
-/** How the server understood each file. */
+/** How the server read each file, by its id. */
 export const infos = signal(/** @type {Map<string, FileInfo>} */ (new Map()));
 export const complaints = signal(/** @type {Complaint[]} */ ([]));
-/** The file that is being read. */
+/** The name of the file that is being read. */
 export const reading = signal("");
-/** Files of this page's life, to be read another way. @type {Map<string, {file: File, mapping: Mapping}>} */
+/** Files of this session, which can be read again with other columns. @type {Map<string, {file: File, mapping: Mapping}>} */
 const sources = new Map();
 export const hasSource = (/** @type {string} */ id) => (infos.value, sources.has(id));
 
 /** @param {string} name @param {string} words */
 const complain = (name, words) => (complaints.value = [...complaints.peek(), { name, words }]);
 
-/** Is there something only the user knows? A unit that is guessed may be off by any factor.
+/** Whether the user must be asked: something is missing, or a unit is guessed and may be wrong by any factor.
  * @param {Preview} p */
 const isUnsure = (p) =>
   p.problem !== null || p.missing.length > 0 ||
@@ -41,7 +41,7 @@ const isUnsure = (p) =>
     (p.channel_choices.find((one) => one.name === column.channel)?.si_unit ?? "1") !== "1"
   );
 
-/** Files chosen or dropped, one after the other. @param {Iterable<File>} list */
+/** Adds files one after the other. @param {Iterable<File>} list */
 export async function addFiles(list) {
   complaints.value = [];
   for (const file of list) {
@@ -65,7 +65,7 @@ export async function addFiles(list) {
   }
 }
 
-/** Reads a file of this session another way. @param {string} id */
+/** Reads a file of this session again, with other columns. @param {string} id */
 export async function remap(id) {
   const source = sources.get(id);
   if (!source) return;
@@ -80,49 +80,50 @@ export async function remap(id) {
   }
 }
 
-/** A run that a valve made begins at the pressure of its first rows, unless the file says another.
+/** The file with its initial pressure, from the first rows unless the file gives it.
  * @param {FileInfo} info @param {Record<string, unknown>} columns @returns {FileInfo} */
-function begun(info, columns) {
+function withInitialPressure(info, columns) {
   const start = needsDrive(info) ? startOf(columns.pressure) : null;
   return start === null ? info : { ...info, conditions: { start_pressure: start, ...info.conditions } };
 }
 
 /** @param {FileInfo} info */
-const withStart = async (info) => needsDrive(info) ? begun(info, (await measurement(info.id)).columns) : info;
+const completed = async (info) =>
+  needsDrive(info) ? withInitialPressure(info, (await measurement(info.id)).columns) : info;
 
-/** @param {File} file @param {Mapping} mapping @param {string | null} instead of which file it comes */
+/** @param {File} file @param {Mapping} mapping @param {string | null} instead the id of the file it replaces */
 async function send(file, mapping, instead) {
   reading.value = file.name;
-  const info = await withStart(await keep(file, mapping));
+  const info = await completed(await keep(file, mapping));
   sources.set(info.id, { file, mapping });
   infos.value = new Map(infos.peek()).set(info.id, info);
-  edit((d) => ({ ...d, compare: taken(d.compare, info, instead) }), `measurement ${info.name}`);
+  edit((d) => ({ ...d, compare: withFile(d.compare, info, instead) }), `measurement ${info.name}`);
 }
 
 /** @param {Compare} c @param {FileInfo} info @param {string | null} instead @returns {Compare} */
-function taken(c, info, instead) {
-  const own = { id: info.id, name: info.name, use: /** @type {Use} */ ("fit") };
+function withFile(c, info, instead) {
+  const added = { id: info.id, name: info.name, use: /** @type {Use} */ ("fit") };
   if (instead) {
-    const list = c.files.map((f) => f.id === instead ? { ...own, use: f.use } : f);
+    const list = c.files.map((f) => f.id === instead ? { ...added, use: f.use } : f);
     return { ...c, files: list.filter((f, i) => list.findIndex((g) => g.id === f.id) === i) };
   }
-  // A file of the user's takes the place of an example.
+  // A file of the user replaces an example.
   const kept = c.files.filter((f) => SHA256.test(f.id) && f.id !== info.id);
-  const files = [...kept, own].slice(0, MOST_FILES);
+  const files = [...kept, added].slice(0, MOST_FILES);
   if (kept.length) return { ...c, files };
   const muscle = muscleOf(muscles.peek(), info.conditions) ?? c.muscle;
   const drive = needsDrive(info) ? driveFor(doc.peek().transient.drive, info.conditions) : null;
-  return { ...fresh(c), files, muscle, drive, mystery: null, guided: false };
+  return { ...withStartModel(c), files, muscle, drive, mystery: null, guided: false };
 }
 
-/** The muscle a file names, if this page knows no preset of it.
+/** The muscle a file names, if there is no preset for it.
  * @param {FileInfo} info @returns {string | null} */
 export function unknownMuscle(info) {
   const name = info.conditions.muscle ?? info.conditions.sample;
   return typeof name === "string" && !presetNamed(muscles.value, name) ? name : null;
 }
 
-/** A measurement that comes with the program. @param {string} id @param {boolean} [guided] */
+/** Opens a measurement that comes with the program. @param {string} id @param {boolean} [guided] */
 export function openBuiltIn(id, guided = false) {
   const preset = references.peek().find((r) => r.id === id);
   if (!preset) return;
@@ -139,7 +140,7 @@ export function openBuiltIn(id, guided = false) {
   edit((d) => ({
     ...d,
     compare: {
-      ...fresh(d.compare, "ideal"),
+      ...withStartModel(d.compare, "ideal"),
       files: [{ id, name: preset.title, use: "fit" }],
       muscle,
       drive: null,
@@ -167,11 +168,11 @@ export function removeFile(id) {
   if (left.length) return editCompare({ files: left }, `remove ${file?.name}`);
   edit((d) => ({
     ...d,
-    compare: { ...fresh(d.compare), files: [], drive: null, mystery: null, guided: false },
+    compare: { ...withStartModel(d.compare), files: [], drive: null, mystery: null, guided: false },
   }), `remove ${file?.name}`);
 }
 
-/** What is known of files that came with a link or an undo is asked for. */
+/** Fetches information about files that came with a link or an undo. */
 export function followFiles() {
   const wanted = computed(() => files.value.map((f) => f.id).filter((id) => SHA256.test(id)).join(" "));
   effect(() => {
@@ -184,7 +185,7 @@ export function followFiles() {
 async function fetchInfo(id) {
   try {
     const { columns, ...info } = await measurement(id);
-    infos.value = new Map(infos.peek()).set(id, begun(info, columns));
+    infos.value = new Map(infos.peek()).set(id, withInitialPressure(info, columns));
   } catch (error) {
     const file = files.peek().find((f) => f.id === id);
     if (!(error instanceof ApiError) || !file) return;

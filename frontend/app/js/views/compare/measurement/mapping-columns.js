@@ -1,5 +1,5 @@
 // @ts-check
-// The columns of a file: what each is taken for, in which unit, and its first values.
+// The columns of a file: channel, unit and first values of each.
 import { h } from "../../../dom.js";
 import { signal } from "../../../reactive.js";
 import { brief } from "../../../format.js";
@@ -17,7 +17,7 @@ const SAMPLE_ROWS = 5;
 /** @param {Event} event */
 export const valueOf = (event) => /** @type {HTMLSelectElement | HTMLInputElement} */ (event.target).value;
 
-// Columns side by side need the width; on a phone they stand one under the other.
+// Columns are side by side, but one below the other on a phone.
 const phone = matchMedia("(max-width: 700px)");
 const isPhone = signal(phone.matches);
 phone.addEventListener("change", () => (isPhone.value = phone.matches));
@@ -158,7 +158,7 @@ function unitSelect(column, p, set) {
           onchange: (/** @type {Event} */ e) =>
             set(column, { ...keep, absolute: /** @type {HTMLInputElement} */ (e.target).checked }),
         }),
-        h("small", null, "above vacuum"),
+        h("small", null, "absolute"),
       )
       : null,
   ];

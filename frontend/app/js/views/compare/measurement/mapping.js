@@ -1,5 +1,5 @@
 // @ts-check
-// How a file is read, as a table the user can correct: channel and unit of each column, kind, conditions.
+// The dialog about how a file is read, where the user can correct channels, units, kind and conditions.
 import { h, icon } from "../../../dom.js";
 import { apart, computed, effect, signal } from "../../../reactive.js";
 import { ApiError } from "../../../server/client.js";
@@ -16,7 +16,7 @@ import { Question } from "../../../server/question.js";
 
 const AFTER_MS = 200;
 
-/** Shows how a file is read; the answer is what the user said, null when the file is not wanted.
+/** Shows how a file is read; resolves to the corrections of the user, null if the dialog is cancelled.
  * @param {File} file @param {Preview} first @param {Mapping} start @returns {Promise<Mapping | null>} */
 export function openMapping(file, first, start) {
   const mapping = signal(start);
@@ -95,20 +95,20 @@ const kindField = ({ preview, mapping, change }) =>
         id: "map-kind",
         onchange: (/** @type {Event} */ e) => change({ kind: valueOf(e) || undefined }),
       }, () => {
-        const p = preview.value, said = mapping.value.kind;
+        const p = preview.value, chosen = mapping.value.kind;
         const auto = p.kind && p.kind_detected ? `detected: ${p.kind}` : "as the file says";
         return [
-          h("option", { value: "", selected: !said }, auto),
-          ...p.kind_choices.map((kind) => h("option", { value: kind, selected: kind === said }, kind)),
+          h("option", { value: "", selected: !chosen }, auto),
+          ...p.kind_choices.map((kind) => h("option", { value: kind, selected: kind === chosen }, kind)),
         ];
       }),
     ),
     h("p", { class: "hint" }, () => preview.value.kind_reason),
   );
 
-/** Conditions that are asked for, and those that were found. @param {Context} c */
+/** Missing conditions, which are asked for, and those the file gives. @param {Context} c */
 function conditionFields({ preview, mapping, change }) {
-  // A field stays once it was asked for and answered: the answer must not take it away.
+  // A field that was asked for stays after the user has filled it in.
   const asked = signal(/** @type {import("../types.js").Missing[]} */ ([]));
   effect(() => {
     const seen = asked.peek();
@@ -186,10 +186,10 @@ function badRows({ preview, mapping, change }) {
 /** @param {Preview} p @param {string} wrong */
 function problem(p, wrong) {
   const { message = "", hint = null } = p.problem ?? {};
-  // The message starts with the name of the file, which keeps its first letter.
-  const told = wrong ||
+  // The message starts with the file name, which must not be capitalized.
+  const text = wrong ||
     (message && [`${message}.`, hint && new ApiError(hint).words].filter(Boolean).join(" "));
-  return told ? h("p", { class: "flag bad", role: "alert" }, icon("warn"), h("span", null, told)) : null;
+  return text ? h("p", { class: "flag bad", role: "alert" }, icon("warn"), h("span", null, text)) : null;
 }
 
 /** @param {import("../../../reactive.js").Signal<Preview>} preview */

@@ -1,10 +1,10 @@
 // @ts-check
-// Measurements with a hidden cause, to practise on: diagnose first, then reveal.
+// Measurements with hidden effects for practice: diagnose first, then reveal them.
 import { h, icon } from "../../../dom.js";
 import { computed, signal } from "../../../reactive.js";
 import { edit } from "../../../state.js";
 import { ApiError, get, post } from "../../../server/client.js";
-import { fresh, GIVEN, IDEAL } from "../document.js";
+import { IDEAL, PROVIDED, withStartModel } from "../document.js";
 import { titleOf } from "../words.js";
 import { compare } from "../answers.js";
 import { muscleFrom } from "../muscle-values.js";
@@ -12,7 +12,7 @@ import { muscleFrom } from "../muscle-values.js";
 /** @typedef {import("../types.js").Mystery} Mystery */
 /** @typedef {import("../types.js").Revealed} Revealed */
 
-/** Empty on a server that has none. */
+/** Empty if the server has none. */
 export const mysteries = signal(/** @type {Mystery[]} */ ([]));
 const revealed = signal(/** @type {{id: string, answer: Revealed} | null} */ (null));
 const wrong = signal("");
@@ -34,11 +34,11 @@ export function openMystery(m) {
   edit((d) => ({
     ...d,
     compare: {
-      ...fresh(d.compare, "ideal"),
+      ...withStartModel(d.compare, "ideal"),
       files: [{ id: m.measurement, name: m.title, use: "fit" }],
       muscle: m.muscle ? muscleFrom(m.muscle) : d.compare.muscle,
       effects: m.effects ?? {},
-      label: Object.keys(m.effects ?? {}).length ? GIVEN : IDEAL,
+      label: Object.keys(m.effects ?? {}).length ? PROVIDED : IDEAL,
       drive: m.drive
         ? Object.fromEntries(
           Object.entries(m.drive).filter(([k]) => !["muscle", "effects", "schema"].includes(k)),
@@ -65,11 +65,11 @@ async function reveal(m) {
   }
 }
 
-/** The story of the mystery that is open, and what was hidden in it once that is asked for. */
+/** The mystery that is open: its description, and on request what is hidden in it. */
 export function mysteryCard() {
   const m = chosen.value;
   if (!m) return null;
-  const told = revealed.value?.id === m.id ? revealed.value.answer : null;
+  const hidden = revealed.value?.id === m.id ? revealed.value.answer : null;
   const named = Object.keys(compare.value.effects ?? {}).filter((id) => !(id in (m.effects ?? {})))
     .map(titleOf);
   return h(
@@ -77,41 +77,41 @@ export function mysteryCard() {
     { class: "card mystery", "aria-label": "Mystery" },
     h("div", { class: "card-head" }, h("h2", null, m.title)),
     h("p", null, m.story),
-    told ? null : h(
+    hidden ? null : h(
       "p",
       { class: "muted" },
       named.length
         ? `Your diagnosis so far: ${named.join(", ")}.`
-        : "Add what you think is missing, then look.",
+        : "Add the effects you think are missing, then reveal what is hidden.",
     ),
-    told
+    hidden
       ? [
         h(
           "ul",
           { class: "plain" },
-          ...told.hidden.map((one, i) =>
+          ...hidden.hidden.map((one, i) =>
             h(
               "li",
-              { class: `revealed ${told.found[i] ? "good" : "bad"}` },
-              icon(told.found[i] ? "check" : "close"),
+              { class: `revealed ${hidden.found[i] ? "good" : "bad"}` },
+              icon(hidden.found[i] ? "check" : "close"),
               h(
                 "span",
                 null,
                 h("b", null, one.title),
-                ` ${told.found[i] ? "found" : "not found"}. `,
+                ` ${hidden.found[i] ? "found" : "not found"}. `,
                 one.what,
               ),
             )
           ),
         ),
-        h("p", null, told.text),
+        h("p", null, hidden.text),
       ]
       : h("button", { type: "button", onclick: () => reveal(m) }, "Reveal what is hidden"),
     h("p", { class: "error", role: "alert" }, wrong.value),
   );
 }
 
-/** Buttons that open a mystery; nothing on a server without them. */
+/** Buttons that open a mystery. */
 export function mysteryList() {
   if (!mysteries.value.length) return null;
   return h(

@@ -1,5 +1,5 @@
 // @ts-check
-// The effects in the model: each value with its error and its bounds, to be changed, taken out or fitted again.
+// The effects in the model: values with standard errors and bounds; they can be changed, removed, fitted again.
 import { h, icon, mathml } from "../../../dom.js";
 import { computed, signal } from "../../../reactive.js";
 import { commit, preview, units } from "../../../state.js";
@@ -14,11 +14,11 @@ import { effectValues } from "../../../muscle/preset.js";
 import { newTerm } from "./own-term.js";
 import { figures, FORMULA, OWN_TERM, titleOf } from "../words.js";
 
-/** What a field needs to know of a parameter.
+/** What a field needs of a parameter.
  * @typedef {Pick<import("../../../types.js").Parameter,
  *   "name" | "unit" | "symbol_mathml" | "lower" | "upper" | "default">} Field */
 
-/** Effects of the model with their values, those of the preset included. */
+/** The effects of the model with their values. */
 const effects = computed(() => compare.value.effects ?? effectValues(preset.value));
 const ids = computed(() => Object.keys(effects.value).join());
 
@@ -28,7 +28,7 @@ const scale = (p) => {
   return quantity ? scaleOf(quantity, units.value) : plainScale(p.unit);
 };
 
-/** A diagnosis that adds nothing has fitted the model of now. */
+/** A diagnosis that adds no effect has fitted the current model. */
 const lastFit = computed(() => diagnosis.value?.path.length === 1 ? fitOf(diagnosis.value.parameters) : {});
 
 /** @param {string} id @param {Field} p */
@@ -48,8 +48,8 @@ function range(id, p) {
 /** @param {string} id @param {Field} p */
 function parameterField(id, p) {
   const value = () => {
-    const own = effects.value[id]?.[p.name];
-    return typeof own === "number" ? own : answer.value?.parameters[id]?.[p.name]?.value ?? p.default;
+    const set = effects.value[id]?.[p.name];
+    return typeof set === "number" ? set : answer.value?.parameters[id]?.[p.name]?.value ?? p.default;
   };
   return h(
     "div",
@@ -67,7 +67,7 @@ function parameterField(id, p) {
       put: (si, done) => {
         preview((d) => {
           const all = d.compare.effects ?? effectValues(preset.peek());
-          const { [p.name]: _gone, ...fit } = d.compare.fit[id] ?? {};
+          const { [p.name]: _outdated, ...fit } = d.compare.fit[id] ?? {};
           return patchCompare({
             effects: { ...all, [id]: { ...all[id], [p.name]: si } },
             fit: { ...d.compare.fit, [id]: fit },
@@ -85,7 +85,7 @@ function parameterField(id, p) {
 const editing = signal(false);
 const closeEditor = () => (editing.value = false);
 
-/** A typed formula with its constants, which the catalogue does not know. @param {string} id */
+/** A formula of the user with its constants. @param {string} id */
 function typedTerm(id) {
   const names = computed(() =>
     Object.entries(effects.value[id] ?? {}).filter(([, v]) => typeof v === "number").map(([name]) => name)
@@ -103,7 +103,7 @@ function typedTerm(id) {
   ];
 }
 
-/** What a constant of a typed term is, as the catalogue would say it.
+/** A constant of a formula, described like a parameter of the catalogue.
  * @param {string} id @param {string} name @returns {Field} */
 const constant = (id, name) => ({
   name,
@@ -114,7 +114,7 @@ const constant = (id, name) => ({
   default: Number(effects.peek()[id]?.[name] ?? 1),
 });
 
-/** The way to a term of the user's own; one at a time. */
+/** The button or form for a term of the user, of which a model has one at most. */
 function ownTerm() {
   if (OWN_TERM in effects.value) return null;
   return editing.value ? newTerm(closeEditor) : h(
@@ -144,7 +144,7 @@ function row(id) {
         type: "button",
         class: "mini",
         "aria-label": `Remove ${titleOf(id)}`,
-        title: "Take it out and fit the others again",
+        title: "Remove it and fit the others again",
         disabled: () => fitting.value,
         onclick: () => remove(id),
       }, icon("close")),
@@ -154,7 +154,7 @@ function row(id) {
   );
 }
 
-/** Pairs of parameters that stand in for each other. */
+/** Strongly correlated parameters. */
 function correlated() {
   const pairs = (diagnosis.value?.correlations ?? answer.value?.correlations ?? [])
     .filter((c) => Math.abs(c.value) > 0.95 && [c.a, c.b].every((key) => key.split(".")[0] in effects.value));
@@ -169,7 +169,7 @@ function correlated() {
     h(
       "summary",
       null,
-      `${pairs.length} pair${pairs.length > 1 ? "s" : ""} of values stand in for each other`,
+      `${pairs.length} pair${pairs.length > 1 ? "s" : ""} of parameters strongly correlated`,
     ),
     h(
       "ul",

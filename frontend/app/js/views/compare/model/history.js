@@ -1,5 +1,5 @@
 // @ts-check
-// The ways a model changes: an effect added or taken out, a fit, a step back. Each is one step of undo.
+// Changes of the model: effects added or removed, fits, steps back. Each is one undo step.
 import { signal } from "../../../reactive.js";
 import { edit } from "../../../state.js";
 import { ApiError } from "../../../server/client.js";
@@ -17,19 +17,19 @@ import { OWN_TERM, titleOf } from "../words.js";
 /** @typedef {import("../../../types.js").Effects} Effects */
 /** @typedef {import("../types.js").Model} Model */
 
-/** A fit on request is under way. */
+/** Whether the user requested a fit that is under way. */
 export const fitting = signal(false);
 
-/** The model of now with its error, as a step of the history. */
+/** The current model with its error, as a step of the history. */
 export const here = () =>
   stepOf(compare.value, answer.value?.rmse ?? null, diagnosis.value?.baseline.holdout_rmse ?? null);
 
-/** Geometry that a fit changed. @param {Model} model */
+/** The geometry with the values of a fit. @param {Model} model */
 const geometryOf = (model) => ({ ...compare.peek().muscle.values, ...valuesOf(model.muscle) });
 
-/** @param {Step[]} walked steps after the one of now; the last is the new model @param {string} label */
-function go(walked, label) {
-  const all = [...compare.peek().history, here(), ...walked];
+/** @param {Step[]} added steps after the current one; the last is the new model @param {string} label */
+function go(added, label) {
+  const all = [...compare.peek().history, here(), ...added];
   const last = /** @type {Step} */ (all.pop());
   edit((d) => ({ ...d, compare: withStep(d.compare, last, all) }), label);
 }
@@ -48,11 +48,11 @@ export function add(c) {
   }], `add ${title}`);
 }
 
-/** Every effect the diagnosis found missing, in its order; one step of undo. */
+/** Adds every effect the diagnosis found missing, in one undo step. */
 export function addAll() {
-  const told = diagnosis.peek();
-  const path = told?.path.slice(1) ?? [];
-  if (!told || !path.length) return;
+  const result = diagnosis.peek();
+  const path = result?.path.slice(1) ?? [];
+  if (!result || !path.length) return;
   const names = path.map((s) => s.added ? titleOf(s.added) : "Values fitted");
   go(
     path.map((s, i) => ({
@@ -60,7 +60,7 @@ export function addAll() {
       effects: s.model.effects,
       freed: s.freed,
       values: geometryOf(s.model),
-      fit: i === path.length - 1 ? fitOf(told.parameters) : {},
+      fit: i === path.length - 1 ? fitOf(result.parameters) : {},
       rmse: s.rmse,
       holdout: s.holdout_rmse,
     })),
@@ -68,7 +68,7 @@ export function addAll() {
   );
 }
 
-/** A model with a formula of the user's. @param {Model} model @param {string} label */
+/** Adds a model with a formula of the user. @param {Model} model @param {string} label */
 export const addModel = (model, label) =>
   go([{
     label: `+ ${label}`,
@@ -91,9 +91,9 @@ const fittedValues = (effects, got) =>
 
 const MOST_FITS = 4;
 
-/** Fits the parameters of a model and takes it.
- * @param {Effects | null} effects @param {string} label of undo @param {string} step of the history
- * @throws {ApiError} the server's reason why there is no fit */
+/** Fits the parameters of a model and makes it the current one.
+ * @param {Effects | null} effects @param {string} label of the undo step @param {string} step of the history
+ * @throws {ApiError} why the server cannot fit it */
 export async function takeFitted(effects, label, step) {
   const c = compare.peek();
   const freed = effects === null ? c.freed : c.freed.filter((name) => name.split(".")[0] in effects);
@@ -101,14 +101,14 @@ export async function takeFitted(effects, label, step) {
   if (!keyOf(c, { effects, ...start })) return;
   fitting.value = true;
   try {
-    let values = effects, tries = 0, stuck = true;
+    let values = effects, tries = 0, atBound = true;
     let got = /** @type {Comparison | null} */ (null);
-    // The range of a typed term's constant follows from where it starts: at its end, the fit goes on from there.
-    while (stuck && tries++ < MOST_FITS) {
+    // The bounds of the constants of a formula depend on their start values: at a bound, the fit is continued.
+    while (atBound && tries++ < MOST_FITS) {
       got = await fitWith(keyOf(c, { effects: values, ...start }) ?? "");
       if (compare.peek() !== c && keyOf(compare.peek()) !== keyOf(c)) return;
       values = fittedValues(values ?? {}, got);
-      stuck = Object.values(got.parameters[OWN_TERM] ?? {}).some((p) => p.at_bound);
+      atBound = Object.values(got.parameters[OWN_TERM] ?? {}).some((p) => p.at_bound);
     }
     if (!got) return;
     const free = Object.fromEntries(
@@ -128,7 +128,7 @@ export async function takeFitted(effects, label, step) {
   }
 }
 
-/** As takeFitted; a failure is told in the status line.
+/** Like takeFitted; a failure is shown in the status line.
  * @param {Effects | null} effects @param {string} label @param {string} step */
 async function fitted(effects, label, step) {
   try {
@@ -145,7 +145,7 @@ export const refitByKey = () => {
   if (answer.peek() && !fitting.peek()) refit();
 };
 
-/** Takes an effect out and fits the others again. @param {string} id */
+/** Removes an effect and fits the others again. @param {string} id */
 export function remove(id) {
   const title = titleOf(id);
   const all = compare.peek().effects ?? effectValues(preset.peek());
@@ -153,7 +153,7 @@ export function remove(id) {
   return fitted(effects, `remove ${title}`, `− ${title}`);
 }
 
-/** Back to a model of the history; the way from there is forgotten, until undo. @param {number} index */
+/** Goes back to a model of the history and removes the later ones; undo brings them back. @param {number} index */
 export function goBack(index) {
   const { history } = compare.peek();
   const step = history[index];

@@ -1,5 +1,5 @@
 // @ts-check
-// A term of the user's own: typed or proposed, checked by the server, fitted, changed, taken out again.
+// A term of the user: a formula, typed or proposed by the diagnosis, checked by the server and fitted.
 import { h } from "../../../dom.js";
 import { signal } from "../../../reactive.js";
 import { ApiError } from "../../../server/client.js";
@@ -11,7 +11,7 @@ import { FORMULA, OWN_TERM } from "../words.js";
 /** @typedef {import("../../../types.js").Effects} Effects */
 /** @typedef {import("../types.js").ProposedTerm} ProposedTerm */
 
-/** What may stand in a term. @type {[string, string][]} */
+/** The variables of a term. @type {[string, string][]} */
 const SYMBOLS = [
   ["P", "gauge pressure, Pa"],
   ["kappa", "contraction ratio, 0.1 = 10 %"],
@@ -23,7 +23,7 @@ const FUNCTIONS = ["sign(", "abs(", "exp(", "sqrt(", "sin(", "cos(", "tanh("];
 
 let count = 0;
 
-/** The model with this formula, its known values kept and the new ones at 1.
+/** The model with this formula; constants that were in it before keep their values.
  * @param {Effects} effects @param {string} formula @returns {Effects} */
 function withTerm(effects, formula) {
   const known = effects[OWN_TERM] ?? {};
@@ -34,10 +34,10 @@ function withTerm(effects, formula) {
 
 const effectsNow = () => compare.peek().effects ?? effectValues(preset.peek());
 
-/** A field for a formula, with what may stand in it and what is wrong with it.
+/** The form for a formula, with its variables and functions.
  * @param {{label: string, formula: string, button: string, id: string, effects: () => Effects,
- *   plain?: boolean, unchanged?: () => void, done?: () => void, cancel?: () => void}} o  `effects`: the model it goes into;
- *   `unchanged`: takes a formula that was proposed as it is */
+ *   plain?: boolean, unchanged?: () => void, done?: () => void, cancel?: () => void}} o  `effects`: the model it is added to;
+ *   `unchanged`: what to do with a proposed formula that was not changed */
 export function termForm(o) {
   const wrong = signal("");
   const own = `${o.id}-${++count}`;
@@ -56,7 +56,7 @@ export function termForm(o) {
     const formula = field.value.trim();
     wrong.value = "";
     if (!formula) {
-      wrong.value = "Write a term, for example c1*sign(v)*P.";
+      wrong.value = "Enter a formula, for example c1*sign(v)*P.";
       return field.focus();
     }
     if (o.unchanged && formula === o.formula.trim()) return o.unchanged();
@@ -95,12 +95,12 @@ export function termForm(o) {
     h(
       "p",
       { class: "hint", id: `${own}-help` },
-      "A force in N that is added. Other names are constants, fitted in SI.",
+      "A force in N that is added to the model. All other names are constants, which are fitted in SI units.",
     ),
     h(
       "details",
       { class: "symbols", open: !o.formula },
-      h("summary", null, "What may stand in it"),
+      h("summary", null, "Variables and functions"),
       h(
         "dl",
         null,
@@ -142,13 +142,13 @@ export function termForm(o) {
   );
 }
 
-/** The form for a term by hand. @param {() => void} close */
+/** The form for a term the user types. @param {() => void} close */
 export const newTerm = (close) =>
   termForm({
     id: "own-term",
-    label: "Your own term of the force",
+    label: "Formula of your own term",
     formula: String(effectsNow()[OWN_TERM]?.[FORMULA] ?? ""),
-    button: OWN_TERM in effectsNow() ? "Take it and fit" : "Add and fit",
+    button: OWN_TERM in effectsNow() ? "Change and fit" : "Add and fit",
     effects: effectsNow,
     unchanged: OWN_TERM in effectsNow() ? close : undefined,
     done: close,
@@ -156,7 +156,7 @@ export const newTerm = (close) =>
   });
 
 /** The form for a term the diagnosis proposes. @param {ProposedTerm} proposed @param {string} label
- * @param {boolean} plain it is not the first thing to do */
+ * @param {boolean} plain other things should be done first */
 export const proposedTerm = (proposed, label, plain) =>
   termForm({
     id: "term",

@@ -1,5 +1,5 @@
 // @ts-check
-// The rig of a measurement over time: valve, supply, load; from the Transient view or a drive document.
+// The test rig of a transient measurement: valve, supply, load; from the Transient view or a drive document.
 import { h, icon } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
 import { commit, doc, edit, preview, units } from "../../../state.js";
@@ -9,7 +9,7 @@ import { openDialog } from "../../../ui/dialog.js";
 import { quantityField } from "../../../ui/field.js";
 import { at, put } from "../../../paths.js";
 import { siNumber } from "../../../quantities.js";
-import { fresh, GIVEN, IDEAL } from "../document.js";
+import { IDEAL, PROVIDED, withStartModel } from "../document.js";
 import { driveFor, needsDrive, readDrive } from "../drive-document.js";
 import { infos } from "../measurement/files.js";
 import { chosen, compare, editCompare, messageFor, patchCompare } from "../answers.js";
@@ -20,7 +20,7 @@ const drive = computed(() => compare.value.drive);
 const conditions = computed(() =>
   Object.assign({}, ...chosen.value.map(({ id }) => infos.value.get(id)?.conditions ?? {}))
 );
-/** A file was recorded with a valve command. */
+/** Whether a file has a valve command. */
 const wanted = computed(() =>
   chosen.value.some(({ id }) => {
     const info = infos.value.get(id);
@@ -50,14 +50,14 @@ function openText() {
       const read = readDrive(text.value);
       const { muscle, effects } = read, { start_pressure: begun } = conditions.peek();
       const drive = { ...(begun === undefined ? {} : { start_pressure: begun }), ...read.drive };
-      const start = effects ? { effects, label: Object.keys(effects).length ? GIVEN : IDEAL } : {};
+      const start = effects ? { effects, label: Object.keys(effects).length ? PROVIDED : IDEAL } : {};
       edit((d) => {
-        const c = effects ? fresh(d.compare, "ideal") : d.compare;
+        const c = effects ? withStartModel(d.compare, "ideal") : d.compare;
         return { ...d, compare: { ...c, drive, muscle, ...start } };
       }, "drive document");
       dialog.close();
     } catch (error) {
-      wrong.textContent = `This cannot be used: ${/** @type {Error} */ (error).message}.`;
+      wrong.textContent = `This drive document cannot be used: ${/** @type {Error} */ (error).message}.`;
     }
   };
   if (drive.peek()) text.value = JSON.stringify({ schema: 1, muscle: {}, ...drive.peek() }, null, 2);
@@ -67,7 +67,11 @@ function openText() {
     file,
     text,
     wrong,
-    h("div", { class: "foot" }, h("button", { type: "button", class: "primary", onclick: use }, "Use it")),
+    h(
+      "div",
+      { class: "foot" },
+      h("button", { type: "button", class: "primary", onclick: use }, "Use this drive"),
+    ),
   );
 }
 
@@ -117,7 +121,7 @@ const valveSelect = () =>
     h("p", { class: "error" }, () => messageFor("drive.valve") ?? ""),
   );
 
-/** Shown when the data need it, or a drive is there. */
+/** Shown if the data need a rig, or if there is one. */
 export function rigCard() {
   if (!wanted.value && !drive.value) return null;
   return h(
@@ -132,7 +136,7 @@ export function rigCard() {
         h(
           "span",
           null,
-          "The file holds a valve command: valve, supply and load are needed to compute the run.",
+          "The file has a valve command. Valve, supply and load are needed to simulate it.",
         ),
       ),
     h("p", { class: "error" }, () => (messageFor("drive") && !drive.value ? messageFor("drive") : "") ?? ""),
@@ -147,7 +151,7 @@ export function rigCard() {
           field("stops.max_contraction", "Upper stop", "ratio"),
         ]
         : null,
-    h("button", { type: "button", class: "link", onclick: take }, "Take the rig of the Transient view"),
+    h("button", { type: "button", class: "link", onclick: take }, "Use the rig of the Transient view"),
     h("button", { type: "button", class: "link", onclick: openText }, "Drive document…"),
   );
 }

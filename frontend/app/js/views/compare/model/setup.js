@@ -1,5 +1,5 @@
 // @ts-check
-// Which model the measurement is laid beside: muscle, start model, what the fit may change, noise of the data.
+// The model the measurement is compared with: muscle, start model, fitted geometry, noise of the data.
 import { h, icon } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
 import { commit, edit, preview, units } from "../../../state.js";
@@ -9,7 +9,7 @@ import { quantityField } from "../../../ui/field.js";
 import { openPopover } from "../../../ui/dialog.js";
 import { unverifiedNote } from "../../../ui/sources.js";
 import { infos, unknownMuscle } from "../measurement/files.js";
-import { fresh, GIVEN } from "../document.js";
+import { PROVIDED, withStartModel } from "../document.js";
 import { answer, chosen, compare, editCompare, messageFor, patchCompare, preset, steps } from "../answers.js";
 
 /** @typedef {import("../../../format.js").Quantity} Quantity */
@@ -23,24 +23,24 @@ const GEOMETRY = {
   inside_diameter: { label: "Inside diameter", quantity: "length", bounds: [1e-3, 0.2] },
   wall_thickness: { label: "Wall thickness", quantity: "length", bounds: [0, 0.02] },
 };
-/** What a fit may change. */
+/** Geometry that can be fitted. */
 const FREE = ["braid_angle", "braid_diameter"];
 
 /** @param {string} key */
 function valueOf(key) {
-  const own = compare.value.muscle.values[key];
-  if (own !== undefined) return own;
-  const given = preset.value?.geometry?.[key];
-  return given ? siOf(given) : /** @type {any} */ (answer.value?.geometry)?.[key] ?? null;
+  const set = compare.value.muscle.values[key];
+  if (set !== undefined) return set;
+  const ofPreset = preset.value?.geometry?.[key];
+  return ofPreset ? siOf(ofPreset) : /** @type {any} */ (answer.value?.geometry)?.[key] ?? null;
 }
 
 /** @param {string} key */
 function isChanged(key) {
-  const own = compare.value.muscle.values[key], given = preset.value?.geometry?.[key];
-  return own !== undefined && given !== undefined && Math.abs(own - siOf(given)) > 1e-9;
+  const set = compare.value.muscle.values[key], ofPreset = preset.value?.geometry?.[key];
+  return set !== undefined && ofPreset !== undefined && Math.abs(set - siOf(ofPreset)) > 1e-9;
 }
 
-/** @param {string} key @param {number | null} si null = the preset's @param {boolean} [done] */
+/** @param {string} key @param {number | null} si null: that of the preset @param {boolean} [done] */
 function put(key, si, done = true) {
   const { muscle } = compare.peek();
   const values = { ...muscle.values };
@@ -84,7 +84,7 @@ const freeBox = (key) =>
     h("span", null, `Fit the ${GEOMETRY[key].label.toLowerCase()} too`),
   );
 
-/** Another muscle is another question: the model starts afresh. @param {string} id "" = own geometry */
+/** Changes the muscle, which starts again from the start model. @param {string} id "": own geometry */
 function choose(id) {
   const { muscle } = compare.peek();
   const length = muscle.values.nominal_length;
@@ -92,18 +92,18 @@ function choose(id) {
     const values = /** @type {Record<string, number>} */ (length ? { nominal_length: length } : {});
     return edit((d) => ({
       ...d,
-      compare: { ...fresh(d.compare), muscle: { preset: id, form: "braid", values } },
+      compare: { ...withStartModel(d.compare), muscle: { preset: id, form: "braid", values } },
     }), `muscle ${id}`);
   }
-  const own = Object.keys(GEOMETRY).flatMap((key) => {
+  const values = Object.keys(GEOMETRY).flatMap((key) => {
     const value = valueOf(key);
     return value === null ? [] : [[key, value]];
   });
   edit((d) => ({
     ...d,
     compare: {
-      ...fresh(d.compare, "ideal"),
-      muscle: { preset: null, form: "braid", values: Object.fromEntries(own) },
+      ...withStartModel(d.compare, "ideal"),
+      muscle: { preset: null, form: "braid", values: Object.fromEntries(values) },
     },
   }), "own geometry");
 }
@@ -138,8 +138,8 @@ function badge() {
   return button;
 }
 
-/** The muscle a file names but this page does not know. */
-const stranger = computed(() => {
+/** A muscle that a file names and that is not in the catalogue. */
+const unknownName = computed(() => {
   for (const { id } of chosen.value) {
     const info = infos.value.get(id);
     const name = info && unknownMuscle(info);
@@ -150,12 +150,12 @@ const stranger = computed(() => {
 
 /** @type {["ideal" | "preset", string, string][]} */
 const STARTS = [
-  ["ideal", "Ideal", "Force from pressure and braid alone"],
-  ["preset", "Preset’s effects", "With the effects the preset brings along"],
+  ["ideal", "Ideal", "Ideal braid without further effects"],
+  ["preset", "Preset’s effects", "With the effects of the preset"],
 ];
 
-/** A mystery or a drive document may say what the start model is. */
-const broughtAlong = () => (steps.value[0] ?? compare.value).label === GIVEN;
+/** Whether the start model came with a mystery or a drive document. */
+const isProvided = () => (steps.value[0] ?? compare.value).label === PROVIDED;
 
 function startChoice() {
   return h(
@@ -166,9 +166,12 @@ function startChoice() {
         type: "button",
         role: "radio",
         title,
-        "aria-checked": () => String(compare.value.start === id && !(id === "ideal" && broughtAlong())),
+        "aria-checked": () => String(compare.value.start === id && !(id === "ideal" && isProvided())),
         onclick: () =>
-          edit((d) => ({ ...d, compare: fresh(d.compare, id) }), `start from ${label.toLowerCase()}`),
+          edit(
+            (d) => ({ ...d, compare: withStartModel(d.compare, id) }),
+            `start from ${label.toLowerCase()}`,
+          ),
       }, label)
     ),
   );
@@ -202,7 +205,7 @@ export function setupCard() {
     presetSelect(),
     h("p", { class: "error" }, () => messageFor("muscle.preset") ?? messageFor("measurement") ?? ""),
     () =>
-      stranger.value
+      unknownName.value
         ? h(
           "p",
           { class: "flag note" },
@@ -210,7 +213,7 @@ export function setupCard() {
           h(
             "span",
             null,
-            `The file names “${stranger.value}”, which is not in the catalogue: check the muscle.`,
+            `The file names the muscle “${unknownName.value}”, which is not in the catalogue. Check the muscle above.`,
           ),
         )
         : null,

@@ -1,5 +1,5 @@
 // @ts-check
-// Which effect: a card for each, the best first, with what speaks for it and what cannot be told from it.
+// The candidates: a card for each effect, the best first, with its reason and the effects it cannot be told from.
 import { h, icon, mathml } from "../../../dom.js";
 import { signal } from "../../../reactive.js";
 import { units } from "../../../state.js";
@@ -70,7 +70,7 @@ const listed = (names) =>
     ? `${names.slice(0, NAMED).join(", ")} and ${names.length - NAMED} others`
     : names.join(", ");
 
-/** @param {Candidate} c @param {boolean} best @param {boolean} wanted the verdict asks for it */
+/** @param {Candidate} c @param {boolean} best @param {boolean} wanted the verdict names it missing */
 function card(c, best, wanted) {
   const effect = effectsById.value.get(c.effect);
   const helps = c.gain_percent >= USEFUL;
@@ -137,7 +137,7 @@ export function candidatesCard() {
   const list = () => {
     const all = candidates.value;
     if (!all.length && stage.value === "done") {
-      return h("li", { class: "muted" }, "No other effect of the catalogue shows in these data.");
+      return h("li", { class: "muted" }, "No other effect of the catalogue is visible in these data.");
     }
     if (!all.length) return ["running", "waiting"].includes(stage.value) ? skeletons() : null;
     const useful = all.filter((c) => c.gain_percent >= USEFUL);
@@ -147,7 +147,7 @@ export function candidatesCard() {
       (status !== "unknown_effect" || diagnosis.value?.verdict.effects.length !== 0);
     return [
       status === "adequate" && useful.length
-        ? h("li", { class: "muted" }, "The error is that of the noise: none of these is asked for.")
+        ? h("li", { class: "muted" }, "The error is as small as the noise: none of these effects is needed.")
         : null,
       ...shown.map((c, i) => card(c, i === 0 && c.gain_percent >= USEFUL, wanted)),
       shown.length

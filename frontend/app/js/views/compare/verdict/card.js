@@ -1,5 +1,5 @@
 // @ts-check
-// What the diagnosis concludes: a sentence, all effects at once, what to measure next; while it runs, how far.
+// The verdict of the diagnosis: conclusion, adding all effects at once, what to measure next; and its progress.
 import { h, icon } from "../../../dom.js";
 import { units } from "../../../state.js";
 import { brief } from "../../../format.js";
@@ -26,7 +26,7 @@ import { errorText, titleOf, whatIsLeft } from "../words.js";
 const BADGES = {
   adequate: ["good", "Adequate"],
   missing_effects: ["warn", "Effects are missing"],
-  ambiguous: ["warn", "Effects are missing, not all decidable"],
+  ambiguous: ["warn", "Effects are missing, some cannot be told apart"],
   unknown_effect: ["bad", "Unknown effect"],
 };
 
@@ -65,7 +65,7 @@ const halted = (words, button) =>
     h("button", { type: "button", onclick: again }, button),
   );
 
-/** Every effect candidates missing, in one click. */
+/** Adds all missing effects at once. */
 function allButton() {
   const path = diagnosis.value?.path.slice(1) ?? [], a = answer.value;
   if (path.length < 2) return null;
@@ -83,18 +83,18 @@ function allButton() {
 
 const AT_FLOOR = 1.15;
 
-/** "127 N → 3.09 N, which is the noise" @param {Diagnosis} told */
-function fall(told) {
-  const say = (/** @type {number | null} */ si) => errorText(si, told.unit, told.predicted, units.value);
-  const scaled = Object.keys(told.channels).length > 1;
-  const floor = scaled ? 1 : told.noise_floor.rmse, end = told.path.at(-1)?.rmse ?? null;
-  const there = floor !== null && end !== null && end <= AT_FLOOR * floor;
+/** "127 N → 3.09 N, which is the noise" @param {Diagnosis} result */
+function fall(result) {
+  const say = (/** @type {number | null} */ si) => errorText(si, result.unit, result.predicted, units.value);
+  const scaled = Object.keys(result.channels).length > 1;
+  const floor = scaled ? 1 : result.noise_floor.rmse, end = result.path.at(-1)?.rmse ?? null;
+  const isNoise = floor !== null && end !== null && end <= AT_FLOOR * floor;
   return h(
     "p",
     { class: "verdict-fall", id: "verdict-fall" },
-    `With ${told.verdict.effects.length > 1 ? "them" : "it"} the error falls `,
-    h("b", null, `${say(told.baseline.rmse)} → ${say(end)}`),
-    there
+    `With ${result.verdict.effects.length > 1 ? "them" : "it"} the error falls `,
+    h("b", null, `${say(result.baseline.rmse)} → ${say(end)}`),
+    isNoise
       ? `: the noise of the data${scaled ? "" : ` (${say(floor)})`}.`
       : floor === null || scaled
       ? "."
@@ -102,11 +102,11 @@ function fall(told) {
   );
 }
 
-/** Each effect candidates missing, and what else it could be. @param {Diagnosis["verdict"]} verdict */
+/** The missing effects, and the effects that explain the data as well. @param {Diagnosis["verdict"]} verdict */
 function missing({ effects, indistinguishable }) {
   return h(
     "ul",
-    { class: "plain candidates-missing" },
+    { class: "plain found-missing" },
     ...effects.map((id) => {
       const twins = indistinguishable.find(([one]) => one === id)?.slice(1) ?? [];
       return h(
@@ -118,8 +118,8 @@ function missing({ effects, indistinguishable }) {
           null,
           h("b", null, titleOf(id)),
           twins.length
-            ? h("small", null, `or ${twins.map(titleOf).join(", ")}: these data cannot tell`)
-            : h("small", null, "nothing else fits as well"),
+            ? h("small", null, `or ${twins.map(titleOf).join(", ")}: these data cannot tell them apart`)
+            : h("small", null, "no other effect fits as well"),
         ),
       );
     }),
@@ -131,10 +131,10 @@ const sentence = (text) => `${text.replace(/^./, (c) => c.toUpperCase()).replace
 
 const FEW = 2;
 
-/** What would decide between effects that look alike. @param {Diagnosis["verdict"]} verdict */
-function next({ experiments, next_measurement: told }) {
+/** Measurements that would tell similar effects apart. @param {Diagnosis["verdict"]} verdict */
+function next({ experiments, next_measurement: advice }) {
   if (!experiments.length) {
-    return told ? h("p", { class: "next" }, h("b", null, "Measure next: "), told) : null;
+    return advice ? h("p", { class: "next" }, h("b", null, "Measure next: "), advice) : null;
   }
   const items = experiments.map((e) =>
     h(
@@ -146,22 +146,22 @@ function next({ experiments, next_measurement: told }) {
         "p",
         { class: "muted" },
         e.protocol
-          ? `Best of the simulated tests: ${e.protocol}, ${brief(e.separation)}\u00a0σ apart.`
-          : "No simulated test of the force separates them.",
+          ? `Best of the simulated tests: ${e.protocol}, difference ${brief(e.separation)}\u00a0σ.`
+          : "No simulated force test tells them apart.",
       ),
     )
   );
   return h(
     "details",
     { class: "next", open: items.length <= FEW },
-    h("summary", null, `Measure next: ${items.length} ${items.length > 1 ? "tests" : "test"} would decide`),
+    h("summary", null, `Measure next: ${items.length} ${items.length > 1 ? "tests" : "test"} would tell`),
     h("ol", { class: "experiments" }, ...items),
   );
 }
 
-/** @param {Diagnosis} told */
-function conclusion(told) {
-  const { verdict } = told;
+/** @param {Diagnosis} result */
+function conclusion(result) {
+  const { verdict } = result;
   const [tone, label] = BADGES[verdict.status] ?? ["warn", spoken(verdict.status)];
   const some = verdict.effects.length > 0, unknown = verdict.status === "unknown_effect";
   const rest = `No catalogued effect explains the rest: ${whatIsLeft(verdict)}.`;
@@ -172,9 +172,13 @@ function conclusion(told) {
     h(
       "div",
       null,
-      h("b", { id: "verdict-status" }, some && unknown ? "Effects are missing, the rest is unknown" : label),
+      h(
+        "b",
+        { id: "verdict-status" },
+        some && unknown ? "Effects are missing, and the rest is unknown" : label,
+      ),
       ...some
-        ? [missing(verdict), fall(told), unknown ? h("p", null, rest) : null]
+        ? [missing(verdict), fall(result), unknown ? h("p", null, rest) : null]
         : [h("p", null, verdict.sentence)],
     ),
   );
@@ -186,15 +190,15 @@ export function verdictCard() {
       return halted(diagnosisError.value?.words ?? "The diagnosis failed.", "Try again");
     }
     if (stage.value === "cancelled") return halted("The diagnosis was cancelled.", "Diagnose");
-    const told = diagnosis.value;
-    if (!told) {
+    const result = diagnosis.value;
+    if (!result) {
       return fault.value ? h("p", { class: "muted" }, "There is no comparison to diagnose.") : running();
     }
-    const { messages } = told;
+    const { messages } = result;
     return [
-      conclusion(told),
+      conclusion(result),
       allButton(),
-      next(told.verdict),
+      next(result.verdict),
       messages.length
         ? h(
           "details",

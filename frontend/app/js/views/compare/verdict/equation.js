@@ -1,5 +1,5 @@
 // @ts-check
-// An equation in a narrow card: MathML does not wrap, so each of its formulas has a line of its own.
+// An equation in a narrow card: MathML does not wrap, so each formula has its own line.
 import { h, mathml } from "../../../dom.js";
 
 const WIDE_GAP = '<mspace width="1em" />';
@@ -19,8 +19,8 @@ function formulas(markup) {
     : [markup];
 }
 
-/** @param {string} title of what it belongs to @param {string | undefined} markup @param {string} latex stands
- * in for markup */
+/** @param {string} title of its effect @param {string | undefined} markup @param {string} latex is shown
+ * without markup */
 export const equationBox = (title, markup, latex) =>
   h(
     "div",

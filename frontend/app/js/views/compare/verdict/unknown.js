@@ -1,5 +1,5 @@
 // @ts-check
-// What no effect of the catalogue explains: how much, in which variables, and a formula that would.
+// The part of the residual that no effect of the catalogue explains, and a formula that would.
 import { h } from "../../../dom.js";
 import { computed, effect } from "../../../reactive.js";
 import { units } from "../../../state.js";
@@ -27,7 +27,7 @@ function plot() {
     const x = curve.values.map((si) => across && si !== null ? toShown(si, across) : si);
     const y = (/** @type {(number | null)[]} */ values) =>
       values.map((one) => one === null ? null : one / s.factor);
-    // Over a variable that takes few values the term has several at each of them.
+    // Over a variable with few different values, the term has several values at each of them.
     const several = new Set(x).size < x.length / 2;
     chart.show((p) => ({
       x: { title: v ? `${v.title} (${across?.unit})` : curve.x, range: padded(extent([x])) },
@@ -73,14 +73,16 @@ export function unknownCard() {
       h(
         "p",
         null,
-        `What ${verdict.effects.length ? "the effects found leave" : "is left"}: ${whatIsLeft(verdict)}.`,
+        `${verdict.effects.length ? "After adding the missing effects" : "The residual"}: ${
+          whatIsLeft(verdict)
+        }.`,
       ),
       proposed
         ? [
           proposed.curve ? plot() : null,
           proposedTerm(
             proposed,
-            `A formula that takes away ${brief(100 * proposed.share)} % of it`,
+            `A formula that explains ${brief(100 * proposed.share)} % of it`,
             verdict.effects.length > 0,
           ),
         ]

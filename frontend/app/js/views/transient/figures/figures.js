@@ -1,5 +1,5 @@
 // @ts-check
-// The right column: verdict in words, key figures, the timing table, tracking.
+// Results of a run: verdict, key figures, tracking, timing.
 import { h, icon } from "../../../dom.js";
 import { units } from "../../../state.js";
 import { brief, withUnit } from "../../../format.js";
@@ -23,7 +23,7 @@ const airOf = ({ time, supply_flow: flow }) =>
     0,
   ) / ANR_DENSITY;
 
-/** The figures one looks for first. @param {Run} r */
+/** The most important figures. @param {Run} r */
 function keyFigures(r) {
   const system = units.value, { extend } = r.timing;
   const first = r.tracking
@@ -48,12 +48,12 @@ function keyFigures(r) {
       ? big(
         timeWindow.value ? "Air in the window" : "Air of the run",
         withUnit(airOf(r), "normal", system),
-        `Taken from the supply ${timeWindow.value ? "in the times shown" : "over the whole run"}, at ANR`,
+        `Taken from the supply ${timeWindow.value ? "in the time shown" : "over the whole run"}, at ANR`,
       )
       : big(
         "Air per cycle",
         withUnit(extend.air_volume_anr, "normal", system),
-        "Taken from the supply in one fill, at ANR",
+        "Taken from the supply for one filling, at ANR",
       ),
   );
 }
@@ -75,7 +75,7 @@ function verdict() {
   }
   const done = r.outcome === "completed";
   const hard = r.flags.filter((f) => f.code !== NOTE), doubts = r.flags.filter((f) => f.code === NOTE);
-  // A complete run in which nothing moves is no good news.
+  // A complete run in which nothing moves is a warning.
   const still = r.timing.extend.max_speed == null && !r.tracking
     ? r.timing.notes["extend.max_speed"] ?? null
     : null;
@@ -113,7 +113,7 @@ function verdict() {
   ];
 }
 
-/** Remarks about the document; those of the tables stand with them. @param {Run} r */
+/** Notes on the document; those on figures are shown in the tables. @param {Run} r */
 const remarks = (r) =>
   Object.entries(r.notes).filter(([where]) => !/^(timing|tracking)\./.test(where)).map(([where, text]) =>
     h("p", { class: "muted" }, `${where.replaceAll("_", " ")}: ${text}`)
@@ -134,7 +134,7 @@ function tracking() {
       h("dd", null, withUnit(t.rms, "length", system)),
       h("dt", null, "Greatest error"),
       h("dd", null, withUnit(t.max, "length", system)),
-      h("dt", { title: "The delay that describes the position best." }, "Lag"),
+      h("dt", { title: "The delay of the reference at which it fits the position best." }, "Lag"),
       h("dd", { title: t.notes.lag ?? null }, t.lag === null ? `– ${t.notes.lag ?? ""}` : lapse(t.lag)),
     ),
     t.overshoot.length
@@ -160,7 +160,7 @@ function tracking() {
   );
 }
 
-/** How long it took and what computed it. */
+/** How long the simulation took, and with what. */
 export function runLine() {
   const r = run.value;
   if (!r) return "";

@@ -1,10 +1,10 @@
 // @ts-check
-// The figures printed for a scenario beside those of the run, and why some cannot agree.
+// The figures the paper prints for a scenario beside those of the run, and why some are not compared.
 import { h, icon } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
 import { units } from "../../../state.js";
 import { brief, scaleOf, toShown } from "../../../format.js";
-import { takenApart } from "../../../drive/document.js";
+import { partsOfDrive } from "../../../drive/document.js";
 import { at } from "../../../paths.js";
 import { drive, run, scenario } from "../model.js";
 import { ALL_FIGURES, figureName } from "./timing.js";
@@ -20,11 +20,11 @@ const signed = (percent) =>
 /** @returns {Paper | null} */
 const paper = () => /** @type {any} */ (scenario.value)?.paper ?? null;
 
-/** Whether the drive is still the scenario's. */
+/** Whether the drive is still that of the scenario. */
 const untouched = computed(() => {
   const document = scenario.value?.document;
   if (!document) return true;
-  const part = /** @type {any} */ (takenApart(/** @type {any} */ (document), null).transient.drive);
+  const part = /** @type {any} */ (partsOfDrive(/** @type {any} */ (document), null).transient.drive);
   const same = (/** @type {string} */ key) =>
     JSON.stringify(at(drive.value, key)) === JSON.stringify(part[key]);
   return Object.keys(part).every(same);
@@ -72,11 +72,11 @@ export function paperCard() {
   if (!all.length) return null;
   return h(
     "section",
-    { class: "card", "aria-label": "Beside the paper" },
+    { class: "card", "aria-label": "Compared with the paper" },
     h(
       "div",
       { class: "card-head" },
-      h("h2", null, "Beside the paper"),
+      h("h2", null, "Compared with the paper"),
       h("span", { class: "muted" }, paper()?.figure ?? ""),
     ),
     untouched.value ? null : h(

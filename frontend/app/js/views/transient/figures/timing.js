@@ -1,5 +1,5 @@
 // @ts-check
-// The timing table: which figures there are, what they mean, and why one is missing.
+// The timing table: figures, their definitions, and why one is missing.
 import { h } from "../../../dom.js";
 import { units } from "../../../state.js";
 import { brief, scaleOf, toShown } from "../../../format.js";
@@ -18,11 +18,16 @@ export const FIGURES = [
       "lapse",
       "From switching to arrival: the impact on the stop that ends the stroke, else 98 % of the stroke.",
     ],
-    ["rise_time", "Rise time", "lapse", "From 10 % to 90 % of the stroke; no dead time in it."],
+    ["rise_time", "Rise time", "lapse", "From 10 % to 90 % of the stroke, without the dead time."],
     ["delay_time", "Delay time", "lapse", "From switching to 50 % of the stroke."],
-    ["settling_time", "Settling time", "lapse", "From here on within 5 % of the stroke."],
+    [
+      "settling_time",
+      "Settling time",
+      "lapse",
+      "After this time the position stays within 5 % of the stroke.",
+    ],
     ["average_speed", "Average speed", "speed", "Stroke over positioning time."],
-    ["max_speed", "Greatest speed", "speed", "The instant before an impact included."],
+    ["max_speed", "Greatest speed", "speed", "Including the moment before an impact."],
     ["max_speed_at", "… at", "lapse", "When, from switching."],
     [
       "max_acceleration",
@@ -49,17 +54,22 @@ export const FIGURES = [
       "pressure_settling_time",
       "Settling time",
       "lapse",
-      "From here on within 1 % of the change: 99 % filled, or 1 % left.",
+      "After this time the pressure stays within 1 % of the change.",
     ],
   ]],
   ["Air", [
     ["air_mass", "Air mass", "air", "Taken from the supply, or let out to the surroundings."],
-    ["air_volume_anr", "Air volume", "normal", "The same at ANR: 20 °C, 1 bar absolute, 65 % humidity."],
+    [
+      "air_volume_anr",
+      "Air volume",
+      "normal",
+      "The air mass as a volume at ANR: 20 °C, 1 bar absolute, 65 % humidity.",
+    ],
     [
       "choked_share",
       "Valve choked",
       "ratio",
-      "Share of the phase in which the flow does not depend on the pressure behind the valve.",
+      "Share of the time in which the flow does not depend on the pressure downstream of the valve.",
     ],
   ]],
 ];
@@ -68,7 +78,7 @@ export const ALL_FIGURES = FIGURES.flatMap(([, list]) => list);
 /** @type {Record<string, string>} */
 const WAYS = { extend: "fill", retract: "vent" };
 
-/** A figure by its whole name, outside of the table. @param {Figure} figure @param {string} phase */
+/** The full name of a figure, for use outside the table. @param {Figure} figure @param {string} phase */
 export function figureName(figure, phase) {
   const [key, label] = figure;
   const of = label.startsWith("…") ? `${ALL_FIGURES[ALL_FIGURES.indexOf(figure) - 1][1]}, when` : label;
@@ -85,7 +95,7 @@ const figureOf = (r, phase, key) => r.timing[phase][key] ?? null;
 function cell(r, phase, [key, , quantity]) {
   const value = figureOf(r, phase, key), why = r.timing.notes[`${phase}.${key}`];
   const s = scaleOf(quantity, units.value);
-  if (value === null) return h("td", null, h("abbr", { title: why ?? "there is none" }, "–"));
+  if (value === null) return h("td", null, h("abbr", { title: why ?? "not available" }, "–"));
   const text = quantity === "lapse" ? brief(1e3 * value) : brief(toShown(value, s));
   return h("td", why ? { title: why } : null, text);
 }
@@ -127,7 +137,7 @@ export function timingTable() {
   );
 }
 
-/** Reasons for the figures that do not exist, each once. */
+/** Why figures are missing, each reason once. */
 export function reasons() {
   const r = run.value;
   if (!r) return null;
@@ -136,7 +146,7 @@ export function reasons() {
   for (const [phase, name] of PHASES) {
     const empty = ALL_FIGURES.filter(([key]) => figureOf(r, phase, key) === null);
     for (const [key, label] of empty) {
-      const text = `${name}: ${r.timing.notes[`${phase}.${key}`] ?? "there is none"}`;
+      const text = `${name}: ${r.timing.notes[`${phase}.${key}`] ?? "not available"}`;
       if (!label.startsWith("…")) why.set(text, [...why.get(text) ?? [], label.toLowerCase()]);
     }
   }

@@ -1,5 +1,5 @@
 // @ts-check
-// Fields of the drive by their path in the drive document: what each is called, measures and usually is.
+// Fields of the drive by their path in the drive document: name, quantity and default of each.
 import { h } from "../../../dom.js";
 import { units } from "../../../state.js";
 import { scaleOf, siOf } from "../../../format.js";
@@ -9,7 +9,6 @@ import { siNumber } from "../../../quantities.js";
 import {
   arrangement,
   baseDrive,
-  drive,
   messageFor,
   numberAt,
   partPreset,
@@ -20,7 +19,7 @@ import {
 import { middleOf } from "../series.js";
 
 /** @typedef {import("../../../format.js").Quantity} Quantity */
-/** `usual` in SI: what holds when the document says nothing.
+/** `usual`: the default in SI.
  * @typedef {{label: string, symbol?: string, quantity: Quantity, unit?: string, bounds: [number, number],
  *   log?: boolean, usual?: number | (() => number | null | undefined), hint?: string,
  *   slider?: boolean}} Spec */
@@ -28,7 +27,7 @@ import { middleOf } from "../series.js";
 const DEG = Math.PI / 180;
 const GAIN = { quantity: /** @type {Quantity} */ ("number"), log: false };
 
-/** A figure of the chosen valve or tube.
+/** A value of the preset of valve or tube.
  * @param {"valves" | "tubes"} kind @param {string} path @param {string} key */
 const figure = (kind, path, key) => () => {
   const q = partPreset(kind, path)?.data?.[key];
@@ -38,12 +37,12 @@ const valve = (/** @type {string} */ key) => figure("valves", "valve.preset", ke
 const tube = (/** @type {string} */ key) => figure("tubes", "tube.preset", key);
 const lowest = () => regulated.value ? 0 : -1;
 
-/** Slider ranges span what is usual; the field beside takes any value the server takes.
+/** Slider ranges cover usual values; the field accepts any value the server accepts.
  * @type {Record<string, Spec>} */
 export const SPECS = {
   "supply.pressure": { label: "Supply pressure", symbol: "p_s", quantity: "pressure", bounds: [1e5, 8e5] },
   "valve.sonic_conductance": {
-    label: "Conductance filling",
+    label: "Conductance, filling",
     symbol: "C",
     quantity: "conductance",
     bounds: [1e-10, 1e-7],
@@ -51,12 +50,12 @@ export const SPECS = {
     usual: valve("sonic_conductance"),
   },
   "valve.exhaust_conductance": {
-    label: "Conductance venting",
+    label: "Conductance, venting",
     symbol: "C_e",
     quantity: "conductance",
     bounds: [1e-10, 1e-7],
     log: true,
-    // A flow given by value means both ways; the preset's exhaust belongs to the preset's own flow.
+    // A conductance the user entered holds in both directions.
     usual: () =>
       numberAt("valve.sonic_conductance") ?? valve("exhaust_conductance")() ?? valve("sonic_conductance")(),
   },
@@ -81,7 +80,7 @@ export const SPECS = {
     usual: regulatorFigure("time"),
   },
   "tube.inside_diameter": {
-    label: "Tube bore",
+    label: "Tube inside diameter",
     symbol: "d",
     quantity: "length",
     bounds: [1e-3, 0.02],
@@ -103,7 +102,7 @@ export const SPECS = {
     quantity: "angle",
     bounds: [-90 * DEG, 90 * DEG],
     usual: () => arrangement.value === "antagonist" ? 0 : 90 * DEG,
-    hint: "90° hangs or lifts, 0° is horizontal.",
+    hint: "90°: vertical, 0°: horizontal.",
   },
   "load.force": { label: "External force", symbol: "F_e", quantity: "force", bounds: [0, 2000], usual: 0 },
   "load.spring": { label: "Spring", symbol: "k", quantity: "stiffness", bounds: [0, 2e4], usual: 0 },
@@ -124,7 +123,7 @@ export const SPECS = {
     log: true,
   },
   "load.precontraction": {
-    label: "Middle",
+    label: "Precontraction",
     symbol: "ε_m",
     quantity: "ratio",
     bounds: [0.01, 0.25],
@@ -166,13 +165,13 @@ export const SPECS = {
   },
   "gas.dead_volume": { label: "Dead volume", symbol: "V_d", quantity: "volume", bounds: [0, 5e-4], usual: 0 },
   "gas.ambient_pressure": {
-    label: "Air pressure outside",
+    label: "Ambient pressure",
     symbol: "p_a",
     quantity: "pressure",
     bounds: [5e4, 1.1e5],
     usual: 101325,
   },
-  start_pressure: { label: "Pressure at the start", quantity: "pressure", bounds: [0, 8e5], usual: 0 },
+  start_pressure: { label: "Initial pressure", quantity: "pressure", bounds: [0, 8e5], usual: 0 },
   duration: { label: "Duration", symbol: "T", quantity: "time", bounds: [0.1, 20], log: true, usual: 4 },
   "controller.kp": { label: "Gain P", symbol: "K_p", ...GAIN, unit: "%/mm", bounds: [0, 20] },
   "controller.ki": { label: "Gain I", symbol: "K_i", ...GAIN, unit: "%/(mm·s)", bounds: [0, 100], usual: 0 },
@@ -185,7 +184,12 @@ export const SPECS = {
     bounds: [0, 5],
     usual: 0,
   },
-  "controller.derivative_filter": { label: "Filter of D", quantity: "lapse", bounds: [0, 0.1], usual: 5e-3 },
+  "controller.derivative_filter": {
+    label: "Derivative filter",
+    quantity: "lapse",
+    bounds: [0, 0.1],
+    usual: 5e-3,
+  },
   "controller.sample_time": {
     label: "Sample time",
     quantity: "lapse",
@@ -235,19 +239,19 @@ export function driveField(path, spec = SPECS[path]) {
     get: value,
     put: (si, done) => setDrive(path, si, label, done),
     changed: () => {
-      const own = numberAt(path), usual = usualOf(spec, path);
-      return own !== null && usual !== null &&
-        Math.abs(own - usual) > 1e-6 * Math.max(Math.abs(own), Math.abs(usual));
+      const set = numberAt(path), usual = usualOf(spec, path);
+      return set !== null && usual !== null &&
+        Math.abs(set - usual) > 1e-6 * Math.max(Math.abs(set), Math.abs(usual));
     },
     reset: () => setDrive(path, at(baseDrive.peek(), path), `reset ${label}`),
     message: () => messageFor(path),
   });
 }
 
-/** The message about a whole part of the drive, which no single field carries. @param {string} path */
+/** The message about a part of the drive as a whole. @param {string} path */
 export const partMessage = (path) => h("p", { class: "error" }, () => messageFor(path) ?? "");
 
-/** A choice among words in the place of a field. @template {string} T
+/** A field that is a choice from a list. @template {string} T
  * @param {string} label @param {() => [T, string][]} options @param {() => T} get
  * @param {(value: T) => void} set
  * @param {string} key */
@@ -269,5 +273,3 @@ export function choiceField(label, options, get, set, key) {
     h("p", { class: "error" }, () => messageFor(key) ?? ""),
   );
 }
-
-export const given = (/** @type {string} */ path) => at(drive.value, path) !== undefined;

@@ -1,5 +1,5 @@
 // @ts-check
-// The load: how it is arranged, the fields that belong to each arrangement, spring, external force, end stops.
+// The load: arrangement and its fields, external force, spring, end stops.
 import { h } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
 import { units } from "../../../state.js";
@@ -21,7 +21,7 @@ const ARRANGEMENTS = [
   ["antagonist", "Antagonist pair"],
 ];
 
-/** What each arrangement asks for besides the mass. @type {Record<Arrangement, string[]>} */
+/** The fields of each arrangement besides the mass. @type {Record<Arrangement, string[]>} */
 const FIELDS = {
   hanging: [],
   inclined: ["load.inclination"],
@@ -30,12 +30,12 @@ const FIELDS = {
   antagonist: ["load.pulley_radius", "load.precontraction"],
 };
 const USUAL_MIDDLE = 0.1;
-const PAIR_MASS = "Moved at the rim of the pulley: the inertia divided by the radius squared.";
-const PAIR_WEIGHT = "0° for a joint in balance; 90° for a mass that hangs on the rim.";
+const PAIR_MASS = "As if moved at the rim of the pulley: the inertia divided by the radius squared.";
+const PAIR_WEIGHT = "0°: balanced joint; 90°: the mass hangs on the rim.";
 
 const PAIR_STOP = "Both as contractions of the first muscle.";
 
-/** A pair has its middle where the stops have theirs. */
+/** The contraction in the middle between the stops. */
 function middle() {
   const r = run.peek();
   if (!r) return USUAL_MIDDLE;
@@ -47,7 +47,7 @@ function middle() {
 const arrange = (next) =>
   setDrive("load", rearranged(drive.peek().load ?? {}, next, middle()), `load ${next}`);
 
-function ownFields() {
+function arrangementFields() {
   const how = arrangement.value, pair = how === "antagonist";
   return [
     pair ? driveField("load.mass", { ...SPECS["load.mass"], hint: PAIR_MASS }) : driveField("load.mass"),
@@ -55,22 +55,22 @@ function ownFields() {
   ];
 }
 
-/** Open as soon as one of its values is given; else as the user leaves it. @param {string[]} paths */
+/** Whether the document gives one of these values, so that their part is opened. @param {string[]} paths */
 const anyGiven = (...paths) => computed(() => paths.some((path) => numberAt(path) !== null));
 
 function springFields() {
   const pair = arrangement.value === "antagonist";
-  const given = anyGiven("load.spring", ...(pair ? ["load.inclination"] : []));
+  const isGiven = anyGiven("load.spring", ...(pair ? ["load.inclination"] : []));
   return h(
     "details",
-    { open: () => given.value },
+    { open: () => isGiven.value },
     h("summary", null, pair ? "Spring and weight" : "Spring"),
     driveField("load.spring"),
     pair ? driveField("load.inclination", { ...SPECS["load.inclination"], hint: PAIR_WEIGHT }) : null,
   );
 }
 
-/** The stops as positions of the load. */
+/** The end stops as positions of the load. */
 function stopsText() {
   const r = run.value;
   if (!r) return "End stops";
@@ -87,7 +87,7 @@ export function loadCard() {
     h("div", { class: "card-head" }, h("h2", null, "Load")),
     partMessage("load"),
     choiceField("Arrangement", () => ARRANGEMENTS, () => arrangement.value, arrange, "load.arrangement"),
-    ownFields,
+    arrangementFields,
     signalFields({
       path: "load.force",
       quantity: "force",

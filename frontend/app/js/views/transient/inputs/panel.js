@@ -15,7 +15,7 @@ import {
   mode,
   muscleName,
   numberAt,
-  ownEffects,
+  presetEffects,
   regulated,
   run,
   scenario,
@@ -39,7 +39,7 @@ function scenarioField() {
       h(
         "option",
         { value: "", selected: !scenario.value },
-        scenarios.value.length ? "Own drive" : "No scenarios here",
+        scenarios.value.length ? "Own drive" : "No scenarios on this server",
       ),
       ...scenarios.value.map((s) =>
         h("option", { value: s.id, selected: s.id === transient.value.scenario }, s.title)
@@ -51,16 +51,16 @@ function scenarioField() {
         ? h(
           "button",
           { type: "button", class: "link", onclick: () => useScenario(scenario.peek()?.id ?? "") },
-          "Load it again as it was",
+          "Reset to the scenario",
         )
         : null,
   );
 }
 
 const lengthText = computed(() => {
-  const own = design.value.muscle.values.nominal_length;
-  const given = preset.value?.geometry?.nominal_length;
-  const length = own ?? (given ? siOf(given) : run.value?.geometry.nominal_length);
+  const set = design.value.muscle.values.nominal_length;
+  const ofPreset = preset.value?.geometry?.nominal_length;
+  const length = set ?? (ofPreset ? siOf(ofPreset) : run.value?.geometry.nominal_length);
   return length ? withUnit(length, "length", units.value) : "";
 });
 
@@ -78,7 +78,7 @@ function muscleLine() {
 /** @type {["command" | "controller", string, string][]} */
 const MODES = [
   ["command", "Command", "The valve follows a signal"],
-  ["controller", "Controller", "A PID controller moves the valve so that the position follows a signal"],
+  ["controller", "Controller", "A PID controller moves the valve so that the position follows a reference"],
 ];
 
 function commandCard() {
@@ -119,7 +119,7 @@ function commandCard() {
     { class: "card", "aria-label": "Command" },
     h(
       "div",
-      { class: "segments", role: "radiogroup", "aria-label": "What moves the valve" },
+      { class: "segments", role: "radiogroup", "aria-label": "Control of the valve" },
       ...MODES.map(([id, label, title]) =>
         h("button", {
           type: "button",
@@ -172,15 +172,15 @@ function airCard() {
   );
 }
 
-/** The more of a family acts only over time, the higher it stands.
+/** Families with more dynamic effects come first.
  * @param {import("../../../types.js").Effect[]} all */
 function families(all) {
   /** @type {Map<string, import("../../../types.js").Effect[]>} */
   const groups = new Map();
   for (const e of all) groups.set(e.family, [...groups.get(e.family) ?? [], e]);
-  const resting = (/** @type {import("../../../types.js").Effect[]} */ list) =>
+  const staticShare = (/** @type {import("../../../types.js").Effect[]} */ list) =>
     list.filter(isStatic).length / list.length;
-  return new Map([...groups].sort(([, a], [, b]) => resting(a) - resting(b)));
+  return new Map([...groups].sort(([, a], [, b]) => staticShare(a) - staticShare(b)));
 }
 
 export function inputCards() {
@@ -197,9 +197,9 @@ export function inputCards() {
     supplyCard(),
     airCard(),
     effectsCard({
-      own: ownEffects,
-      chosen: computed(() => design.value.effects ?? ownEffects.value),
-      count: () => Object.keys(run.value?.model.effects ?? ownEffects.value).length,
+      preset: presetEffects,
+      active: computed(() => design.value.effects ?? presetEffects.value),
+      count: () => Object.keys(run.value?.model.effects ?? presetEffects.value).length,
       message: messageWithin,
       families,
     }),

@@ -1,5 +1,5 @@
 // @ts-check
-// A signal over time: its shape from a list, and the fields that shape has.
+// A signal over time: its shape, and the fields of that shape.
 import { h } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
 import { at } from "../../../paths.js";
@@ -9,16 +9,16 @@ import { tableField } from "./table-field.js";
 
 /** @typedef {import("../../../format.js").Quantity} Quantity */
 /** @typedef {{path: string, quantity: Quantity, low: () => number, high: number, rest: () => number,
- *   full: number, constant?: boolean}} Signal  `low`, `high`: slider; `rest`, `full`: what is left open */
+ *   full: number, constant?: boolean}} Signal  `low`, `high`: of the slider; `rest`, `full`: start values of low and high levels */
 /** @typedef {"time" | "value" | "share" | "frequency" | "angle" | "seed"} Kind */
 /** @typedef {[key: string, label: string, kind: Kind, start: (o: Start) => number]} Row */
-/** What the start value of a field depends on.
+/** What start values depend on.
  * @typedef {{duration: number, rest: number, full: number}} Start */
 
 /** @type {Row} */
 const LEVEL = ["level", "Level", "value", (o) => o.full];
 /** @type {Row} */
-const INITIAL = ["initial", "Otherwise", "value", (o) => o.rest];
+const INITIAL = ["initial", "Base level", "value", (o) => o.rest];
 /** @type {Row} */
 const PERIOD = ["period", "Period", "time", (o) => o.duration / 2];
 /** @type {Row} */
@@ -41,8 +41,8 @@ export const SHAPES = {
   ramp: ["Ramp", [
     ["from", "From", "value", (o) => o.rest],
     ["to", "To", "value", (o) => o.full],
-    ["start", "Starts at", "time", () => 0],
-    ["duration", "Takes", "time", (o) => o.duration],
+    ["start", "Start at", "time", () => 0],
+    ["duration", "Ramp time", "time", (o) => o.duration],
   ]],
   sine: ["Sine", [AMPLITUDE, ["frequency", "Frequency", "frequency", (o) => 2 / o.duration], OFFSET, [
     "phase",
@@ -54,18 +54,18 @@ export const SHAPES = {
     AMPLITUDE,
     ["from", "From", "frequency", (o) => 1 / o.duration],
     ["to", "To", "frequency", (o) => 20 / o.duration],
-    ["duration", "Within", "time", (o) => o.duration],
+    ["duration", "Sweep time", "time", (o) => o.duration],
     OFFSET,
   ]],
   random: ["Random levels", [
-    ["hold", "New every", "time", (o) => o.duration / 8],
+    ["hold", "Hold time", "time", (o) => o.duration / 8],
     ["lower", "Lowest", "value", (o) => o.rest],
     ["upper", "Highest", "value", (o) => o.full],
     ["seed", "Seed", "seed", () => 1],
   ]],
   table: ["Table", []],
 };
-/** Fields that a document must give; what else it leaves out keeps the meaning the server gives it. */
+/** Fields the server requires; it has defaults for the others. */
 const NEEDED = new Set(["off", "period", "duration", "frequency", "hold"]);
 const LEVELS = new Set(["level", "amplitude", "to", "upper"]);
 
@@ -106,11 +106,11 @@ const QUANTITIES = {
   seed: "number",
 };
 
-/** Name and quantity of a field of a signal, by its path; null = it is none.
- * @param {string} path @param {any} given the signal @returns {{label: string, quantity: Quantity} | null} */
-export function signalField(path, given) {
+/** Name and quantity of a field of a signal by its path; null: it is no such field.
+ * @param {string} path @param {any} signal @returns {{label: string, quantity: Quantity} | null} */
+export function signalField(path, signal) {
   const [, where, key] = /^(command|controller\.reference|load\.force)\.(\w+)$/.exec(path) ?? [];
-  const found = where && SHAPES[given?.shape]?.[1].find(([name]) => name === key);
+  const found = where && SHAPES[signal?.shape]?.[1].find(([name]) => name === key);
   if (!found) return null;
   const level = where === "command" ? "ratio" : where === "load.force" ? "force" : "length";
   const whose = where === "command" ? "Command" : where === "load.force" ? "External force" : "Reference";
@@ -160,9 +160,9 @@ export function signalFields(s, label) {
   );
 }
 
-/** Where the command switches [s]: the jumps of straight shapes.
- * @param {any} signal_ @param {number} duration */
-export function switchings(signal_, duration) {
+/** The times at which the command jumps or bends [s].
+ * @param {any} signal @param {number} duration */
+export function switchings(signal, duration) {
   const {
     shape,
     at: when = 0,
@@ -174,7 +174,7 @@ export function switchings(signal_, duration) {
     hold,
     start = 0,
     duration: takes,
-  } = signal_ ?? {};
+  } = signal ?? {};
   const waves = (/** @type {number} */ step, /** @type {number[]} */ shares) =>
     step > 0 && duration / step <= 40
       ? Array.from({ length: Math.ceil(duration / step) }, (_, k) => shares.map((x) => (k + x) * step)).flat()

@@ -1,5 +1,5 @@
 // @ts-check
-// The way of the air: supply pressure, valve or regulator, tube; presets or by value.
+// The air supply: pressure, valve or regulator, tube; from presets or entered values.
 import { h, icon } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
 import { presets } from "../../../store.js";
@@ -35,7 +35,7 @@ const doubt = (of) => () => {
 /** @param {"valves" | "tubes"} kind @returns {[string, string][]} */
 const partOptions = (kind) => (presets.value[kind] ?? []).map((p) => [p.id, p.title]);
 
-/** A valve by value starts from what the preset has. @param {string} id */
+/** Entered values start from those of the preset. @param {string} id */
 function chooseValve(id) {
   if (id !== OWN) return changePart("valves", "valve", { preset: id }, `valve ${id}`);
   const answer = partPreset("valves", "valve.preset")?.data ?? {};
@@ -59,7 +59,7 @@ function chooseTube(id) {
 
 const valveId = computed(() => at(drive.value, "valve.preset") ?? OWN);
 const tubeId = computed(() => at(drive.value, "tube") ? at(drive.value, "tube.preset") ?? OWN : NONE);
-const ownFlow = computed(() => numberAt("valve.sonic_conductance") !== null);
+const hasOwnFlow = computed(() => numberAt("valve.sonic_conductance") !== null);
 
 export function supplyCard() {
   return h(
@@ -74,7 +74,7 @@ export function supplyCard() {
     driveField("supply.pressure"),
     choiceField(
       "Valve",
-      () => [...partOptions("valves"), [OWN, "By value"]],
+      () => [...partOptions("valves"), [OWN, "Own values"]],
       () => valveId.value,
       chooseValve,
       "valve.preset",
@@ -83,14 +83,14 @@ export function supplyCard() {
     () =>
       valveId.value === OWN ? valveFields() : h(
         "details",
-        { open: () => ownFlow.value },
-        h("summary", null, "Its flow"),
+        { open: () => hasOwnFlow.value },
+        h("summary", null, "Flow of the valve"),
         ...valveFields(),
       ),
     () => regulated.value ? [driveField("regulator.range"), driveField("regulator.time")] : null,
     choiceField(
       "Tube",
-      () => [[NONE, "None"], ...partOptions("tubes"), [OWN, "By value"]],
+      () => [[NONE, "None"], ...partOptions("tubes"), [OWN, "Own values"]],
       () => tubeId.value,
       chooseTube,
       "tube.preset",

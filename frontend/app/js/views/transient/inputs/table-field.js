@@ -1,5 +1,5 @@
 // @ts-check
-// The field of a table over time: rows as one types or pastes them, or out of a file.
+// The field of a table over time: typed or pasted rows, or a file.
 import { h } from "../../../dom.js";
 import { computed, signal } from "../../../reactive.js";
 import { units } from "../../../state.js";
@@ -17,8 +17,8 @@ const MOST_BYTES = 20e6, MOST_ROWS = 14, LEAST_ROWS = 4;
 export function tableField(s) {
   const name = s.path.split(".").at(-1), id = `t-${s.path.replace(/\W/g, "-")}`;
   const wrong = signal("");
-  /** How the newest file was understood; it holds as long as its points do. */
-  const told = signal(/** @type {{times: number[], words: string} | null} */ (null));
+  /** How the last file was read, for as long as its points are those of the table. */
+  const reading = signal(/** @type {{times: number[], words: string} | null} */ (null));
   const table = () => at(drive.value, s.path) ?? {};
   const scale = () => scaleOf(s.quantity, units.value);
   const short = (/** @type {number} */ v) => String(Number(v.toPrecision(8)));
@@ -29,14 +29,14 @@ export function tableField(s) {
     ).join("\n");
   });
 
-  /** @param {string} given @param {string | null} file its name @returns {void} */
-  const take = (given, file) => {
+  /** @param {string} rows @param {string | null} file its name @returns {void} */
+  const take = (rows, file) => {
     try {
-      const { times, values, words, thinned } = readTable(given, s.quantity, units.peek(), {
+      const { times, values, words, thinned } = readTable(rows, s.quantity, units.peek(), {
         header: file !== null,
       });
       wrong.value = "";
-      told.value = file === null ? null : { times, words: `${file}: ${words}` };
+      reading.value = file === null ? null : { times, words: `${file}: ${words}` };
       const old = at(drive.peek(), s.path);
       const next = thinned ? { ...old, interpolation: "linear" } : { ...old };
       setDrive(s.path, { ...next, times, values }, file === null ? `${name} table` : `${name} from ${file}`);
@@ -72,7 +72,7 @@ export function tableField(s) {
     },
   });
   const summary = () => {
-    const { times = [] } = table(), newest = told.value;
+    const { times = [] } = table(), newest = reading.value;
     if (newest && newest.times === times) return newest.words;
     const count = `${times.length} point${times.length === 1 ? "" : "s"}`;
     return times.length
@@ -93,7 +93,7 @@ export function tableField(s) {
     h(
       "div",
       { class: "field-head" },
-      h("label", { for: id }, () => `Time (s) and value (${scale().unit}), a row each`),
+      h("label", { for: id }, () => `Rows of time (s) and value (${scale().unit})`),
       h("button", {
         type: "button",
         title: "Two columns: time and value, with or without a header",
@@ -110,7 +110,7 @@ export function tableField(s) {
     ),
     choiceField(
       "Between the rows",
-      () => [["linear", "straight lines"], ["hold", "hold the value"]],
+      () => [["linear", "linear interpolation"], ["hold", "hold the value"]],
       () => at(drive.value, `${s.path}.interpolation`) ?? "linear",
       (way) => setDrive(`${s.path}.interpolation`, way, "interpolation"),
       `${s.path}.interpolation`,

@@ -1,20 +1,19 @@
 // @ts-check
-// A table of times and values out of text: typed rows, or a file with two columns as instruments write them.
-// Pure functions.
+// Reads a table of times and values from typed rows or a file with two columns. Pure functions.
 import { number, parse, scaleOf } from "../../../format.js";
 
 /** @typedef {import("../../../format.js").Quantity} Quantity */
 /** @typedef {import("../../../format.js").System} System */
 /** @typedef {{times: number[], values: number[], words: string, thinned: boolean}} Read */
 
-/** As many as a link can carry beside everything else. */
+/** As many as fit into a link. */
 const MOST_POINTS = 1000;
 const NUMBER = /^[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?$/i;
 
-/** @param {string} cell @returns {number | null} also with a decimal comma */
+/** @param {string} cell @returns {number | null} decimal commas are accepted */
 const numberOf = (cell) => NUMBER.test(cell) ? Number(cell.replace(",", ".")) : null;
 
-/** What stands between the columns, by the first row of numbers. @param {string} line */
+/** The separator of the columns, from the first row of numbers. @param {string} line */
 function separatorOf(line) {
   if (line.includes(";")) return /\s*;\s*/;
   if (line.includes("\t")) return /[ ]*\t\s*/;
@@ -24,7 +23,7 @@ function separatorOf(line) {
 
 /** @param {string} line @param {RegExp} separator */
 function cellsOf(line, separator) {
-  // A name and its unit in brackets are one cell, whatever stands between the columns.
+  // A name and its unit in brackets are one cell, whatever separates the columns.
   const kept = line.replace(/\s+(?=[[(])/g, "\u0000");
   const cells = kept.split(separator).map((cell) =>
     cell.replaceAll("\u0000", " ").replace(/^"(.*)"$/, "$1").trim().replaceAll("−", "-")
@@ -33,18 +32,18 @@ function cellsOf(line, separator) {
   return cells;
 }
 
-/** The unit in a cell of the header: “t [ms]”, “F (kN)”, “Kraft in N”, “F / N”; or a row of units alone.
+/** The unit in the header: "t [ms]", "F (kN)", "Kraft in N", "F / N", or a row of units.
  * @param {string[][]} header @param {number} column */
 function unitIn(header, column) {
   const units = header.map((cells, row) => {
     const cell = cells.length === 2 ? cells[column] : "";
-    const told = /[[(]\s*([^\])]*?)\s*[\])]$/.exec(cell) ?? /(?:\s\/|\sin|^[^\s/]+\/)\s*(\S+)$/.exec(cell);
-    return told ? told[1] : row > 0 ? cell : "";
+    const match = /[[(]\s*([^\])]*?)\s*[\])]$/.exec(cell) ?? /(?:\s\/|\sin|^[^\s/]+\/)\s*(\S+)$/.exec(cell);
+    return match ? match[1] : row > 0 ? cell : "";
   });
   return units.findLast((unit) => unit !== "") ?? "";
 }
 
-/** SI per unit of a column. @param {string} unit @param {Quantity} quantity @param {System} system
+/** The SI factor of the unit of a column. @param {string} unit @param {Quantity} quantity @param {System} system
  * @param {string} what */
 function factorOf(unit, quantity, system, what) {
   const s = scaleOf(quantity, system);
@@ -55,9 +54,9 @@ function factorOf(unit, quantity, system, what) {
   return got.value;
 }
 
-/** Leaves out the points that lie on the line between others, the least important first.
+/** Leaves out points close to the line between others, the closest first.
  * @param {number[]} x @param {number[]} y @param {number} most @returns {{kept: number[], off: number}}
- * `off`: how far the lines then are from the points at most */
+ * `off`: the largest distance of a point from the lines */
 function thin(x, y, most) {
   /** @type {{from: number, to: number, at: number, off: number}[]} */
   const pieces = [];
@@ -86,22 +85,28 @@ function thin(x, y, most) {
   return { kept: kept.sort((a, b) => a - b), off };
 }
 
-/** The rows of numbers. @param {{cells: string[], row: number, text: string}[]} lines */
+/** The numbers of the rows. @param {{cells: string[], row: number, text: string}[]} lines */
 function columnsOf(lines) {
   /** @type {number[]} */
   const times = [], /** @type {number[]} */ values = [];
   for (const { cells, row, text } of lines) {
     if (cells.length !== 2) {
       const has = cells.length === 1 ? "one column" : `${cells.length} columns`;
-      throw new Error(`Row ${row}, “${text}”, has ${has}; a time and a value are needed, such as “0.5  20”.`);
+      throw new Error(
+        `Row ${row}, “${text}”, has ${has}; it must have a time and a value, such as “0.5  20”.`,
+      );
     }
     const bad = cells.find((cell) => numberOf(cell) === null);
     if (bad !== undefined) {
-      throw new Error(`Row ${row}: “${bad}” is no number; a time and a value are needed, such as “0.5  20”.`);
+      throw new Error(
+        `Row ${row}: “${bad}” is not a number; a row must have a time and a value, such as “0.5  20”.`,
+      );
     }
     const [time, value] = cells.map((cell) => numberOf(cell) ?? 0);
     if (time < (times.at(-1) ?? -Infinity)) {
-      throw new Error(`Row ${row}: the time ${time} is earlier than the one before it, ${times.at(-1)}.`);
+      throw new Error(
+        `Row ${row}: the time ${time} is earlier than that of the row before, ${times.at(-1)}.`,
+      );
     }
     times.push(time);
     values.push(value);
@@ -110,8 +115,8 @@ function columnsOf(lines) {
 }
 
 /** @param {string} text @param {Quantity} quantity of the values @param {System} system
- * @param {{header: boolean}} o whether rows of names and units may stand first
- * @returns {Read} in SI, and how it was understood @throws {Error} says in words what is wrong, and where */
+ * @param {{header: boolean}} o whether the first rows may be names and units
+ * @returns {Read} in SI, and in words how it was read @throws {Error} says what is wrong, and in which row */
 export function readTable(text, quantity, system, { header }) {
   const lines = text.replace(/^\ufeff/, "").split(/\r\n|\n|\r/).map((line, i) => ({
     text: line.trim(),
@@ -119,7 +124,7 @@ export function readTable(text, quantity, system, { header }) {
   })).filter((line) => line.text !== "" && !/^(#|sep=)/i.test(line.text));
   const first = header ? lines.findIndex((line) => /^["\s]*[+−-]?[.,]?\d/.test(line.text)) : 0;
   if (first < 0 || !lines.length) {
-    throw new Error("There is no row of numbers. Two columns are needed: a time and a value.");
+    throw new Error("There are no rows of numbers. Two columns are needed: times and values.");
   }
   const separator = separatorOf(lines[first].text);
   const split = lines.map((line) => ({ ...line, cells: cellsOf(line.text, separator) }));
@@ -127,20 +132,20 @@ export function readTable(text, quantity, system, { header }) {
   const { times, values } = columnsOf(split.slice(first));
   const units = [unitIn(head, 0), unitIn(head, 1)];
   const seconds = factorOf(units[0], "time", system, "times");
-  // No command stays within one percent: without a unit, numbers up to 1 are shares.
+  // A command that stays within 1 % is unlikely: without a unit, numbers up to 1 are taken as shares of 1.
   const share = header && quantity === "ratio" && units[1] === "" && values.every((v) => Math.abs(v) <= 1);
   const factor = share ? 1 : factorOf(units[1], quantity, system, "values");
   const si = { times: times.map((t) => tidy(t * seconds)), values: values.map((v) => tidy(v * factor)) };
   const shownUnit = share ? "shares of 1" : units[1] || scaleOf(quantity, system).unit;
-  const told = units[1] ? "" : " (it names no unit)";
+  const note = units[1] ? "" : " (the file names no unit)";
   const span = `${number(si.times[0], 3)} to ${number(si.times[si.times.length - 1], 3)} s`;
   const words = `${times.length} points, ${span}; times in ${
     units[0] || "s"
-  }, values in ${shownUnit}${told}.`;
+  }, values in ${shownUnit}${note}.`;
   return fewer(si, words);
 }
 
-/** Ten digits are more than any instrument has. @param {number} x */
+/** Ten digits are more than any instrument resolves. @param {number} x */
 const tidy = (x) => Number(x.toPrecision(10));
 
 /** @param {{times: number[], values: number[]}} all @param {string} words @returns {Read} */
@@ -153,13 +158,13 @@ function fewer({ times, values }, words) {
   return {
     times: kept.map((i) => times[i]),
     values: kept.map((i) => values[i]),
-    words: `${words} ${kept.length} of them are kept, joined by lines: ` +
-      `at most ${percent < 0.001 ? "0.001" : percent.toPrecision(2)} % of the range off.`,
+    words: `${words} ${kept.length} of them are kept and joined by lines: ` +
+      `at most ${percent < 0.001 ? "0.001" : percent.toPrecision(2)} % of the range away.`,
     thinned: true,
   };
 }
 
-/** A file as text: UTF-8, or UTF-16 as spreadsheets write it. @param {Blob} file */
+/** The text of a file in UTF-8, or in UTF-16 as spreadsheets write it. @param {Blob} file */
 export async function textOf(file) {
   const bytes = new Uint8Array(await file.arrayBuffer());
   const wide = bytes[0] === 0xff && bytes[1] === 0xfe ? "utf-16le" : bytes[0] === 0xfe ? "utf-16be" : "utf-8";

@@ -1,5 +1,5 @@
 // @ts-check
-// The muscle from the side, to scale: length, bulge, load and stops at the cursor; play, pause, time slider.
+// The muscle from the side, to scale, at the time of the cursor; play, pause, time slider.
 import { h, icon } from "../../../dom.js";
 import { computed, effect, signal } from "../../../reactive.js";
 import { units, view } from "../../../state.js";
@@ -17,7 +17,7 @@ const HEIGHT = 118, LEFT = 26, RIGHT = 92, BLOCK = 56, STEPPED_MS = 250;
 /** @param {(number | null)[]} values */
 const greatest = (values) => values.reduce((/** @type {number} */ most, v) => Math.max(most, v ?? 0), 0);
 
-/** What stays the same while the cursor moves: scale and stops. @param {Run} r @param {number} width */
+/** Scale and stops, which stay the same while the cursor moves. @param {Run} r @param {number} width */
 function sceneOf(r, width) {
   const rest = r.geometry.nominal_length, ratio = numberAt("load.lever_ratio") ?? 1;
   const longest = Math.max(greatest(r.length), rest - ratio * r.limits.position_min, rest);
@@ -86,7 +86,7 @@ function picture() {
     block.classList.toggle("touching", Boolean(r.contact[i]));
     pull.setAttribute("transform", `translate(${x + 14} ${y + 41})`);
     place(pullText, { x: x + 35, y: y + 45 });
-    // What fills the muscle shows as its colour.
+    // The pressure of the muscle is its colour.
     const most = Math.max(1, greatest(r.pressure));
     body.style.setProperty("--full", String(Math.max(0, (r.pressure[i] ?? 0) / most)));
   });
@@ -96,15 +96,16 @@ function picture() {
 export const playing = signal(false);
 const speed = signal(0);
 
-/** Seconds of the run per second: real time, unless chosen or too long to watch. */
+/** Seconds of the run per second: real time, unless the user chose a speed or the run is long. */
 const rate = computed(() => speed.value || Math.max(1, (span.value[1] - span.value[0]) / 20));
 
-/** From the cursor to the end, from the start when it stands there. In steps where less motion is wanted. */
+/** Plays from the cursor to the end, or from the start if the cursor is at the end; in steps if the system asks for
+ * reduced motion. */
 function play() {
   const [from, to] = span.peek();
   if (cursor.peek() >= to - 1e-9) moveCursor(from);
   playing.value = true;
-  const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  const reduced = matchMedia("(prefers-reduced-motion: reduce)").matches;
   let last = performance.now();
   const step = () => {
     if (!playing.peek() || view.peek() !== "transient") return void (playing.value = false);
@@ -113,7 +114,7 @@ function play() {
     last = now;
     moveCursor(Math.min(next, span.peek()[1]));
     if (next >= span.peek()[1]) playing.value = false;
-    else if (still) setTimeout(step, STEPPED_MS);
+    else if (reduced) setTimeout(step, STEPPED_MS);
     else requestAnimationFrame(step);
   };
   step();
@@ -166,7 +167,7 @@ function controls() {
   );
 }
 
-/** The window as numbers: what dragging does, by keyboard. */
+/** The time window as numbers, which can also be dragged in the plots. */
 function windowFields() {
   /** @param {0 | 1} side @param {string} label */
   const entry = (side, label) =>

@@ -1,5 +1,5 @@
 // @ts-check
-// An antagonist pair from the side, to scale: both muscles, the cable over the pulley, its hand and its stops.
+// An antagonist pair from the side, to scale: both muscles, cable, pulley with pointer and stops.
 import { computed, effect } from "../../../reactive.js";
 import { row } from "../cursor.js";
 import { numberAt, run } from "../model.js";
@@ -10,14 +10,14 @@ import { middleOf } from "../series.js";
 
 const HEIGHT = 168, LEFT = 26, MARGIN = 26, GAP = 10, APART = 6;
 
-/** Braid diameter at a contraction: threads of one length on a cylinder.
+/** Braid diameter at a contraction, with threads of constant length.
  * @param {Run["geometry"]} g @param {number} k */
 function widthAt(g, k) {
   const cosine = Math.min(1, (1 - k) * Math.cos(g.braid_angle));
   return (g.braid_diameter * Math.sqrt(1 - cosine ** 2)) / Math.sin(g.braid_angle);
 }
 
-/** What stays the same while the cursor moves. @param {Run} r @param {number} width @param {number} radius */
+/** Scale and positions, which stay the same while the cursor moves. @param {Run} r @param {number} width @param {number} radius */
 function sceneOf(r, width, radius) {
   const rest = r.geometry.nominal_length, middle = middleOf(r);
   const { position_min: low, position_max: high } = r.limits, reach = Math.max(-low, high);
@@ -32,7 +32,7 @@ function sceneOf(r, width, radius) {
   return { scale, rest, middle, y, rim, rows: [y - apart, y + apart], x: LEFT + scale * longest + GAP + rim };
 }
 
-/** @param {import("../../../reactive.js").Signal<number>} width of the stage */
+/** @param {import("../../../reactive.js").Signal<number>} width of the picture */
 export function pairPicture(width) {
   const wall = draw("rect", { class: "wall", x: LEFT - 10, y: 8, width: 10, height: HEIGHT - 16 });
   const bodies = [draw("path", { class: "body" }), draw("path", { class: "body second" })];
@@ -56,7 +56,7 @@ export function pairPicture(width) {
   const radius = computed(() => numberAt("load.pulley_radius") ?? 0);
   const scene = computed(() => {
     const r = run.value;
-    const room = width.value > LEFT + MARGIN + GAP; // no width is known before the first layout
+    const room = width.value > LEFT + MARGIN + GAP; // the width is not known before the first layout
     return r?.joint && room && radius.value > 0 ? sceneOf(r, width.value, radius.value) : null;
   });
   /** @param {{x: number, y: number}} s @param {number} angle @param {number} far */

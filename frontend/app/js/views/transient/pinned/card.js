@@ -1,5 +1,5 @@
 // @ts-check
-// Pinned runs: up to four, the first is the baseline; a table of what differs in inputs and in figures.
+// Pinned runs, up to four, and a table of their inputs and figures; the first run is the baseline.
 import { h, icon } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
 import { units } from "../../../state.js";
@@ -21,7 +21,7 @@ import { siNumber } from "../../../quantities.js";
 
 const colours = computed(() => pinColours(palette.value));
 
-/** A short name out of what makes a drive: mass, pressure, valve. @param {Drive} d */
+/** A short name for a drive: muscle, mass, pressure. @param {Drive} d */
 function nameOf(d) {
   const say = (/** @type {string} */ path, /** @type {Quantity} */ q) => {
     const si = siNumber(at(d, path));
@@ -46,7 +46,7 @@ export function pin() {
 /** @param {number} index */
 const unpin = (index) => editTransient({ pins: pins.peek().filter((_, i) => i !== index) }, "unpin run");
 
-/** @returns {Column[]} the pinned runs and the one on screen */
+/** @returns {Column[]} the pinned runs and the current one */
 function columns() {
   const known = pinRuns.value;
   const pinned = pins.value.map((p, i) => {
@@ -96,11 +96,11 @@ function table() {
   const shownRows = transient.value.differing ? figures.filter((r) => new Set(r.texts).size > 1) : figures;
   return h(
     "div",
-    { class: "scroll", tabindex: 0, role: "region", "aria-label": "Pinned runs and the run now" },
+    { class: "scroll", tabindex: 0, role: "region", "aria-label": "Pinned runs and the current run" },
     h(
       "table",
       { class: "data pinned" },
-      h("caption", { class: "unseen" }, "Pinned runs beside the run now; the first is the baseline"),
+      h("caption", { class: "unseen" }, "Pinned runs and the current run; the first is the baseline"),
       h(
         "thead",
         null,
@@ -123,7 +123,9 @@ function table() {
           ),
         ),
       ),
-      inputs.length ? h("tbody", null, groupRow("What differs", all.length), ...inputs.map(tableRow)) : null,
+      inputs.length
+        ? h("tbody", null, groupRow("Different inputs", all.length), ...inputs.map(tableRow))
+        : null,
       h("tbody", null, groupRow("Figures", all.length), ...shownRows.map(tableRow)),
     ),
   );
@@ -186,8 +188,8 @@ export function compareCard() {
           disabled: () => !run.value || pins.value.length >= MOST_PINS,
           title: () =>
             pins.value.length >= MOST_PINS
-              ? `At most ${MOST_PINS}; unpin one first`
-              : "Keep this run to compare with",
+              ? `At most ${MOST_PINS} runs. Unpin one first.`
+              : "Keep this run for comparison",
           onclick: pin,
         },
         icon("pin"),
@@ -198,7 +200,7 @@ export function compareCard() {
       pins.value.length ? table() : h(
         "p",
         { class: "muted" },
-        "Pin a run, then change something: the table shows what it does to every figure. Up to four.",
+        "Pin a run, then change something. The table compares the figures of up to four pinned runs.",
       ),
   );
 }

@@ -1,6 +1,5 @@
 // @ts-check
-// Runs beside each other: which inputs differ, and by how much the figures do. The first column is the
-// baseline.
+// The rows of the table of pinned runs: different inputs, and figures with their change from the baseline.
 import { units } from "../../../state.js";
 import { effectsById } from "../../../store.js";
 import { brief, number, plainScale, quantityOf, scaleOf, toShown } from "../../../format.js";
@@ -20,7 +19,7 @@ import { siNumber } from "../../../quantities.js";
 /** @typedef {{name: string, drive: Drive, run: Run | null, color: string, wrong: string | null}} Column */
 /** @typedef {{label: string, unit: string, texts: string[], deltas: (number | null)[]}} Row */
 
-/** All leaves of a document by their path. @param {any} part @param {string} [path]
+/** All values of a document by their path. @param {any} part @param {string} [path]
  * @returns {Record<string, unknown>} */
 export function flat(part, path = "") {
   if (typeof part !== "object" || part === null || Array.isArray(part)) return { [path]: part };
@@ -41,7 +40,7 @@ const NAMES = {
   "load.arrangement": "Arrangement",
 };
 
-/** What an input is called and how its value is shown. @param {string} path @param {Drive} drive
+/** Name and scale of an input. @param {string} path @param {Drive} drive
  * @returns {{label: string, scale: Scale | null}} */
 function inputOf(path, drive) {
   const system = units.value;
@@ -53,10 +52,10 @@ function inputOf(path, drive) {
     const label = name ? `${effect.title}: ${spoken(name)}` : effect.title;
     return { label, scale: quantity ? scaleOf(quantity, system) : plainScale(unit) };
   }
-  const own = SPECS[path];
-  if (own) {
-    const scale = own.unit ? { unit: own.unit, factor: 1, digits: 4 } : scaleOf(own.quantity, system);
-    return { label: own.label, scale };
+  const spec = SPECS[path];
+  if (spec) {
+    const scale = spec.unit ? { unit: spec.unit, factor: 1, digits: 4 } : scaleOf(spec.quantity, system);
+    return { label: spec.label, scale };
   }
   const signal = signalField(path, at(drive, path.replace(/\.[^.]*$/, "")));
   if (signal) return { label: signal.label, scale: scaleOf(signal.quantity, system) };
@@ -74,9 +73,9 @@ function inputText(value, scale) {
   return scale ? `${number(toShown(si, scale), scale.digits)} ${scale.unit}`.trim() : number(si, 6);
 }
 
-/** Rows of the inputs that are not the same everywhere. @param {Column[]} all @returns {Row[]} */
+/** Rows of the inputs that are not the same in all runs. @param {Column[]} all @returns {Row[]} */
 export function inputRows(all) {
-  // Effects that come along with muscle or valve are not in the document, but they are in the model that ran.
+  // Effects that come with presets are not in the document, but in the model that was simulated.
   const flats = all.map((c) => flat({ ...c.drive, effects: c.run?.model.effects ?? c.drive.effects }));
   const paths = [...new Set(flats.flatMap((f) => Object.keys(f)))];
   const differ = (/** @type {string} */ path) =>
@@ -102,7 +101,7 @@ const TRACKING = [
   { label: "Lag", quantity: "lapse", of: (r) => r.tracking?.lag ?? null },
 ];
 
-/** Figures of the pulley come from the times shown, not from the whole run. @returns {Compared[]} */
+/** Figures of the pulley, for the time shown. @returns {Compared[]} */
 const joined = () =>
   /** @type {import("../plots/joint.js").Column[]} */ (Object.keys(JOINT)).map((key) => ({
     label: `Greatest ${JOINT[key].title.toLowerCase()}${timeWindow.value ? ", in the window" : ""}`,

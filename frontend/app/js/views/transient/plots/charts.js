@@ -1,5 +1,5 @@
 // @ts-check
-// The plots: five over one time axis and the phase plot; one drawing of all of them when an answer arrives.
+// The plots over time and the phase plot; all are drawn when an answer arrives.
 import { h, icon } from "../../../dom.js";
 import { computed, effect, signal } from "../../../reactive.js";
 import { units, view } from "../../../state.js";
@@ -39,7 +39,7 @@ const stiffness = plot("stiffness", "Joint stiffness", "Stiffness of the joint o
 
 const joint = [angle, torque, stiffness];
 const overTime = [position, pressure, speed, lower, acceleration, ...joint];
-/** All plots there are of a run with their titles, for the export of the sheet. */
+/** All plots of the run with their titles, for the export as one sheet. */
 export const shownCharts = () =>
   [...overTime, phase].filter((one) => run.peek()?.joint || !joint.includes(one))
     .map(({ title, chart }) => ({ title, chart }));
@@ -59,7 +59,7 @@ export const paired = computed(() => Boolean(run.value?.joint));
 
 const lowerKind = computed(() => transient.value.lower);
 
-/** @returns {View | null} what the answers give, not what the inputs say: a plot never mixes the two */
+/** What is drawn: from the answers, not from the inputs, so that a plot never mixes both. @returns {View | null} */
 function viewNow() {
   const answer = run.value;
   if (!answer) return null;
@@ -82,7 +82,7 @@ function viewNow() {
   };
 }
 
-/** Legends follow what is drawn. */
+/** Counts the drawings; legends follow them. */
 const drawn = signal(0);
 
 let drawings = 0;

@@ -1,5 +1,5 @@
 // @ts-check
-// The pulley of an antagonist pair: its plots, its values under the cursor, its figures.
+// The pulley of an antagonist pair: plots, values at the cursor, card.
 import { h } from "../../../dom.js";
 import { units } from "../../../state.js";
 import { brief, scaleOf, toShown } from "../../../format.js";
@@ -46,13 +46,13 @@ export const jointCells = (joint, cell) => [
   cell("k", joint.stiffness, "rotary"),
 ];
 
-/** The largest value of a column, whatever its sign; null without a joint. @param {Run} r @param {Column} key */
+/** The value of a column with the largest magnitude; null without a joint. @param {Run} r @param {Column} key */
 export function greatestOf(r, key) {
   const values = (r.joint?.[key] ?? []).filter((x) => x != null);
   return values.length ? values.reduce((most, x) => Math.abs(x) > Math.abs(most) ? x : most) : null;
 }
 
-/** Least and greatest values of the times shown. */
+/** Smallest and largest values in the time shown. */
 export function jointCard() {
   const r = run.value;
   if (!r?.joint) return null;
@@ -75,6 +75,10 @@ export function jointCard() {
         return [h("dt", null, title), h("dd", null, `${low} to ${high} ${s.unit}`)];
       }),
     ),
-    h("p", { class: "hint" }, "Stiffness at constant pressures. Air counts for the first muscle alone."),
+    h(
+      "p",
+      { class: "hint" },
+      "Stiffness at constant pressures. The air consumption is that of the first muscle only.",
+    ),
   );
 }

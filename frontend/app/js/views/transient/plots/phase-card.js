@@ -1,5 +1,5 @@
 // @ts-check
-// The phase plot on the page: legend, what the dashed lines mean, the cursor's point, menu.
+// The phase plot on the page: legend, meaning of the dashed lines, point at the cursor, menu.
 import { h } from "../../../dom.js";
 import { apart, computed, effect } from "../../../reactive.js";
 import { units, view } from "../../../state.js";
@@ -22,10 +22,10 @@ const GRAVITY = 9.80665;
 export const phase = plot(
   "phase",
   "Phase plot",
-  "Contraction over pressure, and where the muscle would rest",
+  "Contraction over pressure, with the static equilibrium",
 );
 
-/** What holds against the pull at rest, without the external force: that one is the run's own.
+/** The static load without the external force, which is a column of the run.
  * @type {import("../../../reactive.js").Signal<Load>} */
 const load = computed(() => ({
   weight: (numberAt("load.mass") ?? 0) * GRAVITY * Math.sin(inclination.value),
@@ -34,7 +34,7 @@ const load = computed(() => ({
 }));
 const zoom = computed(() => transient.value.phase);
 
-/** Follows the run, what is looked at, and the curves at rest, which arrive on their own. */
+/** Drawn when the run, the display or the static curves change. */
 export function drawPhase() {
   const answer = run.value;
   palette.value;
@@ -48,28 +48,28 @@ export function drawPhase() {
   if (answer && view.value === "transient") phase.chart.show((p) => phaseSpec({ run: answer, ...o }, p));
 }
 
-/** What the dashed lines stand for, in words. */
+/** The meaning of the dashed lines. */
 export function phaseNote() {
   const answer = run.value, system = units.value;
   if (!answer || !statics.value) return null;
   const { weight, spring, ratio } = load.peek();
   const [least, most] = extent([answer.load_force]), steady = isSteady(answer);
   const force = (/** @type {number} */ si) => withUnit(si, "force", system);
-  const held = [
+  const loads = [
     Math.abs(weight) > 1e-6 ? `${force(weight)} of weight` : null,
-    !steady ? `the external force of the instant (${force(least)} to ${force(most)})` : null,
+    !steady ? `the external force at that time (${force(least)} to ${force(most)})` : null,
     steady && most !== 0 ? `${force(most)} of external force` : null,
     spring ? `the spring of ${withUnit(spring, "stiffness", system)}` : null,
   ].filter((part) => part !== null);
-  const against = held.length
-    ? ` against ${held.join(", ").replace(/, ([^,]*)$/, " and $1")}`
+  const against = loads.length
+    ? ` against ${loads.join(", ").replace(/, ([^,]*)$/, " and $1")}`
     : " without a load";
-  const lever = ratio === 1 ? "" : `, over the lever of ${Number(ratio.toPrecision(3))}`;
+  const lever = ratio === 1 ? "" : `, with a lever ratio of ${Number(ratio.toPrecision(3))}`;
   const when = answer.joint
-    ? "where the pair would rest at both pressures of each instant"
+    ? "static equilibrium of the pair at both pressures at each time"
     : steady
-    ? "where the muscle rests at each pressure"
-    : "where the muscle would rest at the pressure of each instant";
+    ? "static equilibrium at each pressure"
+    : "static equilibrium at the pressure at each time";
   return h("p", { class: "hint" }, `Dashed: ${when}${against}${lever}.`);
 }
 
@@ -93,7 +93,7 @@ export function phaseLegend() {
   );
 }
 
-/** The cursor's point in the plot. */
+/** The point at the cursor. */
 export function phasePoint() {
   const dot = h("div", { class: "dot", hidden: true });
   phase.chart.over.append(dot);

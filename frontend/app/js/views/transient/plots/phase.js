@@ -1,5 +1,5 @@
 // @ts-check
-// The phase plot: contraction over pressure, the run coloured by time, and where the muscle would rest.
+// The phase plot: contraction over pressure, the run coloured by time, and the static equilibrium.
 import { scaleOf, toShown, toSi } from "../../../format.js";
 import { axisTitle, extent, shown, steadyRange } from "../../../plots/axes.js";
 import { pressureColour } from "../../../plots/theme.js";
@@ -11,7 +11,7 @@ import { middleOf } from "../series.js";
 /** @typedef {import("../../../format.js").System} System */
 /** @typedef {import("../statics.js").Statics} Statics */
 /** @typedef {import("../../../types.js").Zoom} Zoom */
-/** What the load holds against the muscle at rest: weight [N], spring [N/m], lever ratio.
+/** The static load: weight [N], spring [N/m], lever ratio.
  * @typedef {{weight: number, spring: number, ratio: number}} Load */
 /** @typedef {{run: Run, statics: Statics | null, load: Load, system: System, zoom: Zoom | null,
  *   zoomed: (zoom: Zoom | null) => void}} Phase */
@@ -31,8 +31,8 @@ function between(column, x) {
   return [low, Math.min(1, Math.max(0, share))];
 }
 
-/** The rows of a map with what is slack going on below zero: between two pressures the contraction without
- * force then lies between theirs. @type {WeakMap<Curves, number[][]>} */
+/** The force map of the curves, continued below zero where the muscle is slack: between two pressures, the
+ * contraction without force is then interpolated too. @type {WeakMap<Curves, number[][]>} */
 const maps = new WeakMap();
 /** @param {Curves} c */
 function mapOf(c) {
@@ -48,7 +48,7 @@ function mapOf(c) {
   return rows;
 }
 
-/** Static force at a pressure and a contraction, straight between the curves' points.
+/** Static force at a pressure and a contraction, interpolated linearly.
  * @param {Curves} c @param {number} p @param {number} k */
 export function forceAt(c, p, k) {
   const map = mapOf(c), [i, up] = between(c.pressure, p), [j, along] = between(c.contraction, k);
@@ -60,14 +60,14 @@ export function forceAt(c, p, k) {
   return Math.max(0, row(i) + (row(i + 1) - row(i)) * up);
 }
 
-/** Whether the external force is the same at every instant. @param {Run} run */
+/** Whether the external force is constant. @param {Run} run */
 export function isSteady({ load_force: force }) {
   const [low, high] = extent([force]);
   return high - low <= 1e-9 * Math.max(1, Math.abs(high));
 }
 
-/** Contractions at which the muscle would rest, each at a pressure and an external force; of a pair with the
- * pressure of the second muscle, which moves the other way. Balance: i² F = i (W + F_e) + k s.
+/** Contractions in static equilibrium, each at a pressure and an external force, and for a pair at the pressure of
+ * the second muscle, which moves the other way. Balance: i² F = i (W + F_e) + k s.
  * @param {Run} run @param {Load} load @param {Curves} pulling @param {Curves} letting
  * @param {{pressure: (number | null)[], counter: (number | null)[] | null, force: (number | null)[]}} rows */
 export function resting(run, load, pulling, letting, { pressure, counter, force }) {
@@ -83,7 +83,7 @@ export function resting(run, load, pulling, letting, { pressure, counter, force 
     const least = spare(low), most = spare(high);
     if (most > 0) return middle + high / rest;
     if (least < 0) return middle + low / rest;
-    if (least === 0 && most === 0) return null; // nothing pulls either way: any place will do
+    if (least === 0 && most === 0) return null; // no force in either direction: every position is an equilibrium
     let from = low, to = high;
     for (let n = 0; n < HALVINGS; n++) {
       const s = 0.5 * (from + to);
@@ -91,12 +91,13 @@ export function resting(run, load, pulling, letting, { pressure, counter, force 
       else to = s;
     }
     const k = middle + to / rest;
-    const loose = second != null && forceAt(pulling, p, k) + forceAt(letting, second, 2 * middle - k) < SLACK;
-    return loose ? null : k;
+    const isSlack = second != null &&
+      forceAt(pulling, p, k) + forceAt(letting, second, 2 * middle - k) < SLACK;
+    return isSlack ? null : k;
   });
 }
 
-/** The dashed lines: at every pressure where one external force holds, else at every instant of the run.
+/** The dashed lines: over all pressures if the external force is constant, else at every time of the run.
  * @param {Phase} o @param {"filling" | "venting"} id */
 function restLine({ run, statics, load }, id) {
   if (!statics) return null;
@@ -168,7 +169,7 @@ export function phaseSpec(o, p) {
   };
 }
 
-/** The run in the plane of the plot as a table. @param {Run} run @param {System} system
+/** The values of the phase plot as a table. @param {Run} run @param {System} system
  * @returns {import("../../../ui/table.js").Table} */
 export function phaseTable(run, system) {
   const s = scaleOf("pressure", system);

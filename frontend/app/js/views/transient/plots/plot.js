@@ -1,5 +1,5 @@
 // @ts-check
-// A plot of this view: its place on the page and its chart.
+// A plot of this view: its element and its chart.
 import { h } from "../../../dom.js";
 import { Chart } from "../../../plots/chart.js";
 

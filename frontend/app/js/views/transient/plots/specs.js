@@ -20,13 +20,13 @@ import { contacts, measuredColumn, resampled, withoutImpacts } from "../series.j
  * @typedef {{id: string, name: string, values: (number | null)[], color: string, dash?: string,
  *   width?: number, label?: string | null}} Line */
 
-/** Distinct from the accent and from each other, also for the colour-blind. @param {Palette} p */
+/** Colours that differ from the accent and from each other, also for colour-blind readers. @param {Palette} p */
 export const pinColours = (p) =>
   p.dark ? ["#c9a2ff", "#4fd1c0", "#e6c54a", "#ff8fbf"] : ["#7b3fb5", "#00776b", "#8a6a00", "#b3206e"];
 
 /** @param {View} v @param {Palette} p @param {{key: string, title: string, quantity: Quantity, lines: Line[],
  *   dots?: {x: number[], y: (number | null)[]} | null, within?: (number | null)[][], zero?: boolean,
- *   least?: number}} o  `least`: a span in SI below which there is only noise to see
+ *   least?: number}} o  `least`: the smallest span of the y axis in SI
  * @returns {Spec} */
 export function overTime(v, p, o) {
   const { key, title, quantity, lines, dots = null, within, zero = false, least = 0 } = o;
@@ -80,7 +80,7 @@ export function overTime(v, p, o) {
   };
 }
 
-/** Where the name of a line stands: near the end of what is shown, where the line still has a value.
+/** The row at which the name of a line is written: near the end of the time shown.
  * @param {Run} run @param {(number | null)[]} y @param {[number, number]} span */
 function labelRow({ time }, y, [from, to]) {
   const wanted = from + 0.98 * (to - from);
@@ -88,7 +88,7 @@ function labelRow({ time }, y, [from, to]) {
   return null;
 }
 
-/** A column of the pinned runs that have it, on the times of the run.
+/** A column of the pinned runs that have it, at the times of the run.
  * @param {View} v @param {Palette} p @param {(r: Run) => (number | null)[] | null} of @returns {Line[]} */
 export const pinLines = (v, p, of) =>
   v.pinned.flatMap((pin) => {
@@ -142,7 +142,7 @@ export function positionSpec(v, p) {
   });
 }
 
-/** The muscle that pulls the other way. @param {Palette} p @param {(number | null)[]} values @returns {Line} */
+/** The second muscle of an antagonist pair. @param {Palette} p @param {(number | null)[]} values @returns {Line} */
 const second = (p, values) => ({ id: "counter", name: "muscle 2", values, color: p.load, width: 1.6 });
 
 /** @param {View} v @param {Palette} p @returns {Spec} */
