@@ -191,6 +191,10 @@ def test_a_proposed_term_explains_what_no_effect_does(page: Page) -> None:
     assert error(page) < 0.6 * start
     page.get_by_role("button", name="Reveal what is hidden").click()
     expect(page.locator(".revealed.good")).to_have_count(1)
+    page.get_by_role("button", name="Export").click()
+    page.get_by_role("menuitem", name="Use this model in Design").click()
+    expect(page.locator(".status")).to_contain_text("Left out")
+    expect(page.locator(".status")).to_contain_text("Own term")
 
 
 def test_what_is_left_as_autocorrelation_and_loops(page: Page, sweeps: FilePayload) -> None:

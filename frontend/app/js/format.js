@@ -259,3 +259,9 @@ export function siOf(q) {
   const known = TYPED[q.unit.toLowerCase()];
   return known ? q.value * known[1] + (known[2] ?? 0) : q.value;
 }
+
+/** A name of a document or request in words: "max_contraction" → "max contraction". @param {string} key */
+export const readable = (key) => key.replaceAll("_", " ");
+
+/** @param {string} text */
+export const capitalized = (text) => text.replace(/^./, (letter) => letter.toUpperCase());

@@ -27,7 +27,7 @@ async function share() {
     await navigator.clipboard.writeText(url.href);
     status.value = "Link copied: it holds the whole state of this page.";
   } catch {
-    // Without permission for the clipboard the link is shown, to be copied by hand.
+    // Without permission for the clipboard the link is shown, so that the user can copy it.
     const field = h("input", { type: "text", readonly: true, value: url.href, "aria-label": "Link" });
     openDialog({ title: "Link to this state" }, field);
     field.select();

@@ -103,17 +103,17 @@ export function readDoc(raw) {
   if (typeof raw !== "object" || raw === null || Array.isArray(raw)) {
     throw new Error("it is not a document of this program");
   }
-  const found = /** @type {Record<string, unknown>} */ (raw);
-  if (found.schema !== 1) {
-    throw new Error(`it is a document of version ${found.schema}; this program reads version 1`);
+  const document = /** @type {Record<string, unknown>} */ (raw);
+  if (document.schema !== 1) {
+    throw new Error(`it is a document of version ${document.schema}; this program reads version 1`);
   }
   const start = defaultDoc();
   return {
     ...start,
-    view: typeof found.view === "string" ? found.view : start.view,
-    units: ["si", "bar", "us"].includes(String(found.units))
-      ? /** @type {Doc["units"]} */ (found.units)
+    view: typeof document.view === "string" ? document.view : start.view,
+    units: ["si", "bar", "us"].includes(String(document.units))
+      ? /** @type {Doc["units"]} */ (document.units)
       : start.units,
-    ...Object.fromEntries([...parts].map(([name, part]) => [name, part.read(found[name])])),
+    ...Object.fromEntries([...parts].map(([name, part]) => [name, part.read(document[name])])),
   };
 }

@@ -1,5 +1,5 @@
 // @ts-check
-// What the server told this page: effects and presets (loaded by server/presets.js); and the status line.
+// Effects and presets of the server, which server/presets.js loads; and the status line.
 import { computed, effect, signal } from "./reactive.js";
 
 /** @typedef {import("./types.js").Effect} Effect */

@@ -5,7 +5,7 @@ import { computed, signal } from "../reactive.js";
 import { commit, preview, units } from "../state.js";
 import { design, editDesign, patchDesign } from "./document.js";
 import { effects } from "../store.js";
-import { number, plainScale, quantityOf, scaleOf, toShown } from "../format.js";
+import { capitalized, number, plainScale, quantityOf, readable, scaleOf, toShown } from "../format.js";
 import { quantityField } from "../ui/field.js";
 import { openPopover } from "../ui/dialog.js";
 
@@ -49,7 +49,7 @@ function parameterField(c, e, p) {
   };
   return quantityField({
     key: `${e.id}.${p.name}`,
-    label: p.name.replaceAll("_", " ").replace(/^./, (c) => c.toUpperCase()),
+    label: capitalized(readable(p.name)),
     symbol: mathml(p.symbol_mathml),
     quantity,
     strict: true,
@@ -58,11 +58,11 @@ function parameterField(c, e, p) {
     get: () => valueOf(c, e, p),
     put: (si, done) => {
       preview(patchDesign(set(si)));
-      if (done) commit(`${e.title}: ${p.name.replaceAll("_", " ")}`);
+      if (done) commit(`${e.title}: ${readable(p.name)}`);
     },
     changed: () =>
       Math.abs(valueOf(c, e, p) - usual(c, e, p)) > 1e-9 * Math.max(Math.abs(p.lower), Math.abs(p.upper)),
-    reset: () => editDesign(set(null), `reset ${p.name.replaceAll("_", " ")}`),
+    reset: () => editDesign(set(null), `reset ${readable(p.name)}`),
     message: () => c.message(`${e.id}.${p.name}`),
   });
 }

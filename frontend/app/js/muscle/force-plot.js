@@ -124,7 +124,7 @@ export function forceSpec(v, p) {
       ...points,
       ...lines,
       {
-        id: "held",
+        id: "operating-points",
         x: dots.map((k) => k == null ? null : toShown(acrossAt(curves, across, k), s)),
         y: dots.map(() => load),
         marker: { size: 9, symbol: "circle", color: p.load, edge: p.card },

@@ -1,6 +1,6 @@
 // @ts-check
-// A question to the server that is asked anew whenever its text changes: one request at a time, the newest text
-// wins, out-of-date requests are aborted. Every view asks through this.
+// A question to the server that is asked again whenever its text changes. Only one request is under way at a
+// time, the newest text wins, and requests that are out of date are aborted. All views ask through this.
 import { batch, computed, effect, signal } from "../reactive.js";
 import { ApiError } from "./client.js";
 

@@ -1,5 +1,5 @@
 // @ts-check
-// What a view says when the server refused its request: the message, and the way to the field or another try.
+// The notice of a view when the server refused its request: the message, and a button to the field or to retry.
 import { h, icon } from "../dom.js";
 
 /** Puts the cursor into the field of this key; without one, into a field of the part it belongs to

@@ -1,7 +1,15 @@
 // @ts-check
 // Which columns the table of each kind has, and how a value of a preset is read, sorted and written.
-import { number, quantityOf, quantityOfUnit, scaleOf, siOf, tidyUnit, toShown } from "../../format.js";
-import { spoken } from "../../ui/sources.js";
+import {
+  number,
+  quantityOf,
+  quantityOfUnit,
+  readable,
+  scaleOf,
+  siOf,
+  tidyUnit,
+  toShown,
+} from "../../format.js";
 
 /** @typedef {import("../../types.js").Preset} Preset */
 /** @typedef {import("../../types.js").PresetValue} PresetValue */
@@ -61,7 +69,7 @@ export function columnsOf(kind, list) {
   return [
     maker,
     ...(kind === "valves" ? [job] : []),
-    ...common.map((key) => value(key, spoken(key), "data")),
+    ...common.map((key) => value(key, readable(key), "data")),
   ];
 }
 

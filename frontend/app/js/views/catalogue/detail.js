@@ -6,12 +6,11 @@ import { units } from "../../state.js";
 import { effectsById } from "../../store.js";
 import { post } from "../../server/client.js";
 import { Question } from "../../server/question.js";
-import { siOf } from "../../format.js";
+import { readable, siOf } from "../../format.js";
 import { Chart } from "../../plots/chart.js";
 import { writeLabels } from "../../plots/overlay.js";
 import { palette } from "../../plots/theme.js";
-import { openPopover } from "../../ui/dialog.js";
-import { gradeTag, spoken, unverifiedNote } from "../../ui/sources.js";
+import { gradeTag, unverifiedBadge } from "../../ui/sources.js";
 import { plotlyReady } from "../../plots/library.js";
 import { usePreset } from "../../muscle/preset.js";
 import { forceSpec } from "../../muscle/force-plot.js";
@@ -38,7 +37,7 @@ function valueTable(title, values) {
         h(
           "li",
           null,
-          h("span", null, spoken(key)),
+          h("span", null, readable(key)),
           h("b", null, () => {
             const { text, unit } = shownValue(q, units.value, key);
             return `${text} ${unit}`;
@@ -61,7 +60,7 @@ function columnList(p) {
       h(
         "li",
         null,
-        h("span", null, spoken(key)),
+        h("span", null, readable(key)),
         h("b", null, `${Math.min(...c.values)} … ${Math.max(...c.values)} ${c.unit}`),
         h("small", { class: "source" }, `${c.values.length} values`),
       )
@@ -70,21 +69,8 @@ function columnList(p) {
 }
 
 /** @param {Preset} p */
-function badge(p) {
-  if (p.verified) return h("span", { class: "badge good" }, icon("check"), "all values sourced");
-  const button = h(
-    "button",
-    {
-      type: "button",
-      class: "badge warn",
-      "aria-expanded": "false",
-      onclick: () => openPopover(button, "Unverified values", () => unverifiedNote(p)),
-    },
-    icon("warn"),
-    "unverified values",
-  );
-  return button;
-}
+const badge = (p) =>
+  unverifiedBadge(p) ?? h("span", { class: "badge good" }, icon("check"), "all values sourced");
 
 const SHOWN = 6;
 
@@ -127,7 +113,7 @@ function smallPlot() {
 }
 
 /** @param {string} id */
-const effectTitle = (id) => effectsById.value.get(id)?.title ?? spoken(id);
+const effectTitle = (id) => effectsById.value.get(id)?.title ?? readable(id);
 
 /** @param {Preset} p */
 function facts(p) {

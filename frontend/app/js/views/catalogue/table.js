@@ -29,15 +29,15 @@ const natural = new Intl.Collator("en", { numeric: true });
 export const rows = computed(() => {
   const f = filter.value;
   const by = [title, ...columns.value].find((c) => c.key === f.sort) ?? title;
-  const found = (list.value ?? []).filter(matches).map((p) => ({ p, key: sortKey(by.of(p)) }));
-  found.sort((a, b) => {
+  const matching = (list.value ?? []).filter(matches).map((p) => ({ p, key: sortKey(by.of(p)) }));
+  matching.sort((a, b) => {
     if (a.key === null || b.key === null) return Number(a.key === null) - Number(b.key === null);
     const order = typeof a.key === "number" && typeof b.key === "number"
       ? a.key - b.key
       : natural.compare(String(a.key), String(b.key));
     return f.descending ? -order : order;
   });
-  return found.map(({ p }) => p);
+  return matching.map(({ p }) => p);
 });
 
 /** The selected part, or the first of the list. */

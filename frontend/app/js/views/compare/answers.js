@@ -56,7 +56,7 @@ const previousText = computed(() => {
   const last = steps.value.at(-1);
   return last ? keyOf(compare.value, last) : null;
 });
-/** The comparison with the model before. What is wrong with the data is said by the other one. */
+/** The comparison with the model before. Errors are shown for the other one only. */
 const comparisonBefore = new Question(compareWith, { memory: comparisons, patience: 0 });
 export const previous = computed(() => comparisonBefore.error.value ? null : comparisonBefore.answer.value);
 

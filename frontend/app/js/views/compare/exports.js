@@ -13,7 +13,7 @@ import { overlays } from "./error/overlay.js";
 import { allSeries } from "./error/pictures.js";
 import { modelBody, used } from "./request.js";
 import { chart as residual, TITLE } from "./error/residual.js";
-import { channelScale, VARIABLES } from "./words.js";
+import { channelScale, titleOf, VARIABLES } from "./words.js";
 
 /** Every point with its residual, in shown units. @param {import("./types.js").Comparison} a
  * @returns {import("../../ui/table.js").Table} */
@@ -94,4 +94,8 @@ export function useInDesign() {
     }),
   );
   openDesign({ muscle: c.muscle, effects, reference: "auto" }, "model of the comparison");
+  const left = Object.keys(all).filter((id) => !(id in effects)).map(titleOf);
+  if (left.length) {
+    status.value = `Left out, because Design takes effects of the catalogue only: ${left.join(", ")}.`;
+  }
 }

@@ -1,7 +1,7 @@
 // @ts-check
 // Errors, ranges and names as the page writes them.
 import { effectsById } from "../../store.js";
-import { brief, number, plainScale, quantityOf, scaleOf, toShown } from "../../format.js";
+import { brief, number, plainScale, quantityOf, readable, scaleOf, toShown } from "../../format.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** @typedef {import("../../format.js").System} System */
@@ -12,11 +12,11 @@ export const OWN_TERM = "custom", FORMULA = "term";
 
 /** @param {string} id */
 export const titleOf = (id) =>
-  id === OWN_TERM ? "Own term" : effectsById.value.get(id)?.title ?? id.replaceAll("_", " ");
+  id === OWN_TERM ? "Own term" : effectsById.value.get(id)?.title ?? readable(id);
 
 /** "62 % of it follows contraction and pressure" @param {import("./types.js").Diagnosis["verdict"]} verdict */
 export function whatIsLeft({ unexplained_share: share, unexplained_in: names }) {
-  const where = names.map((name) => VARIABLES[name]?.title.toLowerCase() ?? name.replaceAll("_", " "));
+  const where = names.map((name) => VARIABLES[name]?.title.toLowerCase() ?? readable(name));
   return `${brief(100 * share)} % of it follows ${where.join(" and ") || "a pattern"}`;
 }
 
@@ -74,8 +74,8 @@ export function rangeText(name, [from, to], system) {
   const v = VARIABLES[name];
   if (!v) return "";
   const s = scaleOf(v.quantity, system);
-  const say = (/** @type {number} */ si) => number(toShown(si, s), 2);
-  return `${v.title.toLowerCase()} ${say(from)} to ${say(to)} ${s.unit}`.trim();
+  const asText = (/** @type {number} */ si) => number(toShown(si, s), 2);
+  return `${v.title.toLowerCase()} ${asText(from)} to ${asText(to)} ${s.unit}`.trim();
 }
 
 /** @param {Series} s @param {number} i @param {import("../../types.js").Brush | null} brush */

@@ -161,7 +161,7 @@ function loadHandle() {
 
 let drawings = 0;
 
-/** Changes when the axes have to be chosen anew; until then they stay the same while a slider moves. */
+/** Changes when the axes need new ranges; until then they stay the same while a slider moves. */
 const picture = computed(() => {
   const { muscle, pressures, clipped, range } = design.value;
   return JSON.stringify([

@@ -4,7 +4,7 @@ import { h, icon } from "../../dom.js";
 import { units } from "../../state.js";
 import { design, editDesign } from "../../muscle/document.js";
 import { presets, references } from "../../store.js";
-import { brief, siOf, withUnit } from "../../format.js";
+import { brief, capitalized, readable, siOf, withUnit } from "../../format.js";
 import { curves, errorFault, errors, errorsOutdated, fault, reference, referenceId } from "./model.js";
 import { preset } from "../../muscle/preset.js";
 
@@ -69,9 +69,9 @@ function body() {
       h(
         "ul",
         { class: "plain muted" },
-        ...left.map(([why, n]) => h("li", null, `Left out: ${n} ${why.replaceAll("_", " ")}.`)),
+        ...left.map(([why, n]) => h("li", null, `Left out: ${n} ${readable(why)}.`)),
         h("li", null, `Mean residual ${withUnit(now.residual_mean, "force", units.value)}.`),
-        ...now.messages.map((m) => h("li", null, m.replace(/^./, (c) => c.toUpperCase()))),
+        ...now.messages.map((m) => h("li", null, capitalized(m))),
         source(),
       ),
     ),

@@ -4,7 +4,7 @@ import { h, icon } from "../../dom.js";
 import { signal } from "../../reactive.js";
 import { units } from "../../state.js";
 import { design, modelInput } from "../../muscle/document.js";
-import { scaleOf, withUnit } from "../../format.js";
+import { readable, scaleOf, withUnit } from "../../format.js";
 import { post } from "../../server/client.js";
 import { Question } from "../../server/question.js";
 import { quantityField } from "../../ui/field.js";
@@ -116,7 +116,7 @@ function shown() {
         "dl",
         null,
         ...details.flatMap(([name, v]) => [
-          h("dt", null, name.replaceAll("_", " ")),
+          h("dt", null, readable(name)),
           h("dd", null, withUnit(v, quantityOfAnswer("", name), units.value)),
         ]),
       )

@@ -1,14 +1,13 @@
 // @ts-check
 // The muscle card: preset, three forms of geometry, each value with slider, typed units and reset.
-import { h, icon } from "../../dom.js";
+import { h } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { commit, preview, units } from "../../state.js";
 import { design, editDesign, patchDesign } from "../../muscle/document.js";
 import { muscles } from "../../store.js";
 import { scaleOf, siOf } from "../../format.js";
-import { quantityField } from "../../ui/field.js";
-import { openPopover } from "../../ui/dialog.js";
-import { unverifiedNote } from "../../ui/sources.js";
+import { quantityField, subscript } from "../../ui/field.js";
+import { unverifiedBadge } from "../../ui/sources.js";
 import { curves, FORM_KEYS, geometryValue, inForm, messageFor, presetValue } from "./model.js";
 import { muscle, preset, usePreset } from "../../muscle/preset.js";
 
@@ -96,12 +95,6 @@ function field(key) {
   });
 }
 
-/** @param {string} symbol */
-const subscript = (symbol) => {
-  const [letter, below] = symbol.split("_");
-  return below ? h("span", null, letter, h("sub", null, below)) : symbol;
-};
-
 /** The range of lengths the maker offers, if it is known. @param {string} key @param {Spec} spec
  * @returns {[number, number]} */
 function sliderBounds(key, spec) {
@@ -159,23 +152,6 @@ function presetSelect() {
   }, options);
 }
 
-function badge() {
-  const p = preset.value;
-  if (!p || p.verified) return null;
-  const button = h(
-    "button",
-    {
-      type: "button",
-      class: "badge warn",
-      onclick: () => openPopover(button, "Unverified values", () => unverifiedNote(p)),
-      "aria-expanded": "false",
-    },
-    icon("warn"),
-    "unverified values",
-  );
-  return button;
-}
-
 /** @param {[Form, string, string]} one */
 const formButton = ([id, label, title]) =>
   h("button", {
@@ -200,7 +176,7 @@ export function muscleCard() {
   return h(
     "section",
     { class: "card", "aria-label": "Muscle" },
-    h("div", { class: "card-head" }, h("h2", null, "Muscle"), badge),
+    h("div", { class: "card-head" }, h("h2", null, "Muscle"), () => unverifiedBadge(preset.value)),
     presetSelect(),
     h("p", { class: "error" }, () => messageFor("preset") ?? ""),
     h(

@@ -4,7 +4,7 @@ import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { units } from "../../state.js";
 import { design } from "../../muscle/document.js";
-import { aligned, number, scaleOf, withUnit } from "../../format.js";
+import { aligned, number, readable, scaleOf, withUnit } from "../../format.js";
 import { shown } from "../../plots/axes.js";
 import { curves, fault } from "./model.js";
 
@@ -56,7 +56,7 @@ function column(values, quantity) {
 
 /** The flags of a row in words. @param {Curves} c @param {string[]} codes */
 const explain = (c, codes) =>
-  codes.map((code) => c.flags.find((f) => f.code === code)?.message ?? code.replaceAll("_", " ")).join("; ");
+  codes.map((code) => c.flags.find((f) => f.code === code)?.message ?? readable(code)).join("; ");
 
 function operatingPoints() {
   const c = curves.value;
@@ -83,9 +83,9 @@ function verdict() {
     return h("p", { class: "muted" }, fault.value ? "No valid model yet." : "Waiting for curves…");
   }
   const hard = c.flags.filter((f) => f.code !== NOTE), notes = c.flags.filter((f) => f.code === NOTE);
-  const held = c.operating_points.filter((o) => o.contraction != null);
-  const sound = held.filter((o) => !o.flags.some((code) => code !== NOTE));
-  const best = sound.at(-1) ?? held.at(-1);
+  const points = c.operating_points.filter((o) => o.contraction != null);
+  const sound = points.filter((o) => !o.flags.some((code) => code !== NOTE));
+  const best = sound.at(-1) ?? points.at(-1);
   const grade = !sound.length ? "bad" : hard.length ? "warn" : "good";
   const reach = best
     ? `${withUnit(best.pressure, "pressure", units.value)} holds ${

@@ -69,9 +69,9 @@ export function overPressureSpec(v, p) {
   const { curves, over, system } = v;
   const { title, quantity } = OVER[over];
   const o = curves.over_pressure;
-  const held = o?.force_at_fixed_length;
+  const atFixedLength = o?.force_at_fixed_length;
   const branch = (/** @type {"filling" | "venting"} */ way) =>
-    over === "force" ? held?.[way] ?? [] : o?.[way]?.[over] ?? [];
+    over === "force" ? atFixedLength?.[way] ?? [] : o?.[way]?.[over] ?? [];
   const x = shown(o?.pressure ?? [], "pressure", system);
   const filling = shown(branch("filling"), quantity, system),
     venting = shown(branch("venting"), quantity, system);
@@ -101,7 +101,7 @@ export function overPressureSpec(v, p) {
       { id: "filling", x, y: filling, line: { color: p.accent }, column: "filling" },
       { id: "venting", x, y: venting, line: { color: p.second, dash: "dash" }, column: "venting" },
       {
-        id: "held",
+        id: "operating-points",
         x: shown(dots.map((d) => d.pressure), "pressure", system),
         y,
         marker: { size: 9, symbol: "circle", color: p.load, edge: p.card },

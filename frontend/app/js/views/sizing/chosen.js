@@ -5,7 +5,7 @@ import { openPopover } from "../../ui/dialog.js";
 import { openInDesign, openInTransient, saveReport, writing } from "./actions.js";
 import { marginBars } from "./margins.js";
 import { answer, chosen, chosenIndex, proposals } from "./model.js";
-import { driveWords, partsWords, percent, say } from "./words.js";
+import { asText, driveWords, partsWords, percent } from "./words.js";
 
 /** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
 
@@ -39,23 +39,23 @@ function verdict(p) {
 
 /** @param {Proposal} p @returns {[string, string][]} */
 const figures = (p) => [
-  ["Time for the stroke", say(p.time, "time")],
-  ["Time back", say(p.time_down, "time")],
-  ["Air per cycle", say(p.air_volume_anr, "normal")],
-  ["Supply pressure", say(p.pressure, "pressure")],
-  ["Least sufficient pressure", say(p.needed_pressure, "pressure")],
-  ["Pressure at the start", say(p.pressure_start, "pressure")],
-  ["Pressure on arrival", say(p.pressure_end, "pressure")],
-  ["Contraction", say(p.contraction, "ratio")],
+  ["Time for the stroke", asText(p.time, "time")],
+  ["Time back", asText(p.time_down, "time")],
+  ["Air per cycle", asText(p.air_volume_anr, "normal")],
+  ["Supply pressure", asText(p.pressure, "pressure")],
+  ["Least sufficient pressure", asText(p.needed_pressure, "pressure")],
+  ["Pressure at the start", asText(p.pressure_start, "pressure")],
+  ["Pressure on arrival", asText(p.pressure_end, "pressure")],
+  ["Contraction", asText(p.contraction, "ratio")],
   ["Force reserve", percent(p.force_reserve)],
-  ["Peak muscle force", say(p.peak_force, "force")],
-  ["Stiffness, valve open", say(p.stiffness, "stiffness")],
-  ["Stiffness, valve closed", say(p.stiffness_closed, "stiffness")],
-  ["Energy at impact", say(p.impact_energy, "energy")],
-  ["End speed", say(p.end_speed, "speed")],
-  ["Largest speed", say(p.max_speed, "speed")],
-  ["Installed length", say(p.installed_length, "length")],
-  ["Diameter, bulged", say(p.diameter, "length")],
+  ["Peak muscle force", asText(p.peak_force, "force")],
+  ["Stiffness, valve open", asText(p.stiffness, "stiffness")],
+  ["Stiffness, valve closed", asText(p.stiffness_closed, "stiffness")],
+  ["Energy at impact", asText(p.impact_energy, "energy")],
+  ["End speed", asText(p.end_speed, "speed")],
+  ["Largest speed", asText(p.max_speed, "speed")],
+  ["Installed length", asText(p.installed_length, "length")],
+  ["Diameter, bulged", asText(p.diameter, "length")],
   ["Life, unverified", `${Number(p.life.toPrecision(2)).toLocaleString("en")} cycles`],
 ];
 

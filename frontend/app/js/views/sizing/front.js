@@ -12,7 +12,7 @@ import { axisTitle, extent } from "../../plots/axes.js";
 import { plotlyReady } from "../../plots/library.js";
 import { AIM_NAMES, inTask } from "./document.js";
 import { answer, answeredTask, chosenIndex, lookSizing, proposals, sizing } from "./model.js";
-import { AIMS, driveWords, partsWords, say } from "./words.js";
+import { AIMS, asText, driveWords, partsWords } from "./words.js";
 
 /** @typedef {import("../../types.js").Aim} Aim */
 /** @typedef {import("./words.js").Design} Design */
@@ -137,13 +137,13 @@ function numbers(chart) {
   const box = h("div", { class: "ranks" }), lines = document.createElementNS(SVG, "svg");
   chart.over.append(box);
   const place = () => {
-    const found = chart.axes;
-    if (!found) return;
-    const [ax, ay] = axes.peek(), { _offset: left, _length: width } = found.xaxis;
-    const { _offset: top, _length: height } = found.yaxis;
+    const layout = chart.axes;
+    if (!layout) return;
+    const [ax, ay] = axes.peek(), { _offset: left, _length: width } = layout.xaxis;
+    const { _offset: top, _length: height } = layout.yaxis;
     const points = proposals.peek().map((p) => ({
-      x: found.xaxis.c2p(valueOf(ax, p)),
-      y: found.yaxis.c2p(valueOf(ay, p)),
+      x: layout.xaxis.c2p(valueOf(ax, p)),
+      y: layout.yaxis.c2p(valueOf(ay, p)),
     }));
     const placed = spread(points);
     const inside = points.map(({ x, y }) => x >= -1 && x <= width + 1 && y >= -1 && y <= height + 1);
@@ -177,13 +177,13 @@ function numbers(chart) {
 /** @param {Chart} chart */
 function pointing(chart) {
   chart.host.addEventListener("click", (event) => {
-    const found = chart.axes;
-    if (!found || /** @type {Element} */ (event.target).closest("button")) return;
+    const layout = chart.axes;
+    if (!layout || /** @type {Element} */ (event.target).closest("button")) return;
     const box = chart.host.getBoundingClientRect();
     const [ax, ay] = axes.peek();
     const near = others.peek().map((e) => {
-      const dx = found.xaxis._offset + found.xaxis.c2p(valueOf(ax, e)) - (event.clientX - box.left);
-      const dy = found.yaxis._offset + found.yaxis.c2p(valueOf(ay, e)) - (event.clientY - box.top);
+      const dx = layout.xaxis._offset + layout.xaxis.c2p(valueOf(ax, e)) - (event.clientX - box.left);
+      const dy = layout.yaxis._offset + layout.yaxis.c2p(valueOf(ay, e)) - (event.clientY - box.top);
       return { e, far: Math.hypot(dx, dy) };
     }).sort((a, b) => a.far - b.far)[0];
     pointed.value = near && near.far < REACH ? near.e : null;
@@ -201,7 +201,7 @@ function pointedLine() {
   }
   const [ax, ay] = axes.value;
   const figure = (/** @type {Aim} */ aim) =>
-    `${AIMS[aim].title.toLowerCase()} ${say(AIMS[aim].of(e, 0), AIMS[aim].quantity)}`;
+    `${AIMS[aim].title.toLowerCase()} ${asText(AIMS[aim].of(e, 0), AIMS[aim].quantity)}`;
   return [
     h("b", null, driveWords(e)),
     `, ${partsWords(e)}: ${figure(ax)}, ${figure(ay)}. Estimated coarsely; not among the proposals.`,
@@ -253,9 +253,9 @@ export function frontCard() {
       h(
         "span",
         { class: "aims" },
-        axisChoice(1, "Aim upwards"),
+        axisChoice(1, "Aim on the vertical axis"),
         h("span", { class: "muted" }, "over"),
-        axisChoice(0, "Aim to the right"),
+        axisChoice(0, "Aim on the horizontal axis"),
       ),
       menuButton({
         label: icon("more"),

@@ -24,7 +24,7 @@ import { rejectedCard } from "./rejected.js";
 /** @param {import("../../dom.js").Child[]} body */
 const notice = (...body) => h("div", { class: "notice", role: "status" }, icon("info"), ...body);
 
-/** What stands between the task and the drives on screen. */
+/** Errors and messages about the search. */
 function notices() {
   if (stage.value === "running") return null;
   const error = fault.value, field = faultField();

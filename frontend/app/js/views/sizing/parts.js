@@ -1,5 +1,5 @@
 // @ts-check
-// Which parts of the catalogue may be used; none ticked means the default choice.
+// Which parts of the catalogue may be used; none selected means the default choice.
 import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { presets } from "../../store.js";
@@ -37,7 +37,7 @@ export function partsField(kind, title, usual, why) {
     h(
       "fieldset",
       null,
-      h("legend", { class: "hint" }, `None ticked: ${usual}. ${why}`),
+      h("legend", { class: "hint" }, `None selected: ${usual}. ${why}`),
       () =>
         offered.value.map((p) =>
           h(

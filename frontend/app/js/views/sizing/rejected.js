@@ -1,5 +1,6 @@
 // @ts-check
 // Rejected candidates: the reason for each, and what would make it work.
+import { capitalized } from "../../format.js";
 import { h } from "../../dom.js";
 import { computed, effect, signal } from "../../reactive.js";
 import { answer } from "./model.js";
@@ -14,20 +15,17 @@ const all = signal(false);
  * @param {Rejected[]} list @returns {(Rejected & {tubes: string[]})[]} */
 export function together(list) {
   /** @type {Map<string, Rejected & {tubes: string[]}>} */
-  const found = new Map();
+  const merged = new Map();
   for (const one of list) {
     const { tube, combinations, ...rest } = one, name = JSON.stringify(rest);
-    const known = found.get(name);
-    const tubes = [...known?.tubes ?? [], ...(tube ? [tube] : [])];
-    found.set(name, { ...one, combinations: combinations + (known?.combinations ?? 0), tubes });
+    const same = merged.get(name);
+    const tubes = [...same?.tubes ?? [], ...(tube ? [tube] : [])];
+    merged.set(name, { ...one, combinations: combinations + (same?.combinations ?? 0), tubes });
   }
-  return [...found.values()];
+  return [...merged.values()];
 }
 
 const groups = computed(() => together(answer.value?.rejected ?? []));
-
-/** @param {string} text */
-const capital = (text) => text.replace(/^./, (c) => c.toUpperCase());
 
 /** @param {Rejected & {tubes: string[]}} r */
 function item(r) {
@@ -38,7 +36,7 @@ function item(r) {
     null,
     h("b", null, who.map((text, i) => h("span", { class: "whole" }, text, i < who.length - 1 ? ", " : ""))),
     h("span", { class: "limit" }, limitName(r.binding)),
-    h("p", null, `${capital(r.why)}.`),
+    h("p", null, `${capitalized(r.why)}.`),
     h("p", { class: "remedy" }, h("span", null, "Would work with "), `${r.would_work_if}.`),
   );
 }

@@ -1,7 +1,7 @@
 // @ts-check
 // Drives, limits and aims in words, with the user's units.
 import { units } from "../../state.js";
-import { withUnit } from "../../format.js";
+import { readable, withUnit } from "../../format.js";
 
 /** @typedef {import("../../types.js").S["ExploredDesign"]} Explored */
 /** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
@@ -10,7 +10,7 @@ import { withUnit } from "../../format.js";
 /** What proposals and explored drives have in common. @typedef {Explored | Proposal} Design */
 
 /** @param {number | null | undefined} si @param {Quantity} quantity */
-export const say = (si, quantity) => withUnit(si, quantity, units.value);
+export const asText = (si, quantity) => withUnit(si, quantity, units.value);
 
 /** Whole percent: what is left of a limit, or a probability. @param {number | null | undefined} x */
 export const percent = (x) => x == null ? "–" : `${Math.round(100 * x)}\u00a0%`;
@@ -23,16 +23,16 @@ export const spare = (margin) =>
 export function driveWords(d) {
   const pair = "pulley_radius" in d && d.pulley_radius != null, count = d.parallel * (pair ? 2 : 1);
   const sides = pair && d.parallel > 1 ? `, ${d.parallel} per side` : "";
-  return `${count > 1 ? `${count} × ` : ""}${d.muscle}, ${say(d.nominal_length, "length")}${sides}`;
+  return `${count > 1 ? `${count} × ` : ""}${d.muscle}, ${asText(d.nominal_length, "length")}${sides}`;
 }
 
 /** Valve, tube and pressure. @param {Design} d */
 export const partsOf = (d) => [
   d.valve,
   d.tube ?? "no tube",
-  say(d.pressure, "pressure"),
+  asText(d.pressure, "pressure"),
   ...("pulley_radius" in d && d.pulley_radius != null
-    ? [`pulley of ${say(d.pulley_radius, "length")} radius`]
+    ? [`pulley of ${asText(d.pulley_radius, "length")} radius`]
     : []),
 ];
 /** The same as one text. @param {Design} d */
@@ -54,8 +54,7 @@ const LIMITS = {
   cycle_time: "cycle time",
 };
 /** @param {string} name */
-export const limitName = (name) =>
-  LIMITS[/** @type {Proposal["binding"]} */ (name)] ?? name.replaceAll("_", " ");
+export const limitName = (name) => LIMITS[/** @type {Proposal["binding"]} */ (name)] ?? readable(name);
 
 /** @type {Record<Aim, {title: string, quantity: Quantity, good: "less" | "more",
  *   of: (d: Design, fittings: number) => number}>} */

@@ -23,14 +23,14 @@ export function resampled(time, values, wanted) {
 /** Time intervals in contact with a stop. @param {Run} run @returns {[number, number][]} */
 export function contacts({ time, contact }) {
   /** @type {[number, number][]} */
-  const found = [];
+  const intervals = [];
   contact.forEach((on, i) => {
     if (!on) return;
-    const last = found.at(-1);
+    const last = intervals.at(-1);
     if (last && contact[i - 1]) last[1] = time[i];
-    else found.push([time[i], time[i]]);
+    else intervals.push([time[i], time[i]]);
   });
-  return found.filter(([from, to]) => to > from);
+  return intervals.filter(([from, to]) => to > from);
 }
 
 /** Values of a run without those at a stop, where an impact would dwarf all others.

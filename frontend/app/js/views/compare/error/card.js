@@ -3,8 +3,7 @@
 import { h } from "../../../dom.js";
 import { computed, signal } from "../../../reactive.js";
 import { units } from "../../../state.js";
-import { brief } from "../../../format.js";
-import { spoken } from "../../../ui/sources.js";
+import { brief, readable } from "../../../format.js";
 import { answer, compare, diagnosis, fault, previous, stale, steps } from "../answers.js";
 import { allSeries } from "./pictures.js";
 import { fitting, refit } from "../model/history.js";
@@ -14,7 +13,7 @@ import { errorText, fitPercent, signed } from "../words.js";
 /** @typedef {import("../types.js").Comparison} Comparison */
 
 /** @param {number | null | undefined} si */
-const say = (si) => {
+const asText = (si) => {
   const a = answer.value;
   return errorText(si, a?.unit ?? "N", a?.predicted ?? "force", units.value);
 };
@@ -31,7 +30,7 @@ function fall() {
   return h(
     "p",
     { class: `fall ${change <= 0 ? "good" : "bad"}`, id: "error-change" },
-    `${say(last.rmse)} → ${say(a.rmse)}`,
+    `${asText(last.rmse)} → ${asText(a.rmse)}`,
     h("b", null, ` ${signed(change)}`),
     steps.value.length > 1 && first.rmse
       ? h("small", null, `since the start ${signed(100 * (a.rmse / first.rmse - 1))}`)
@@ -48,15 +47,15 @@ function facts(a) {
   const scaled = Object.keys(a.channels ?? {}).length > 1;
   const holdout = compare.value.holdout ?? diagnosis.value?.baseline.holdout_rmse ?? a.holdout_rmse;
   const both = (/** @type {number | null | undefined} */ error, /** @type {number | null} */ percent) =>
-    `${say(error)}${percent === null ? "" : ` · fit ${brief(percent)} %`}`;
+    `${asText(error)}${percent === null ? "" : ` · fit ${brief(percent)} %`}`;
   return h(
     "dl",
     null,
     ...row("Fit (100 % is perfect)", fit === null ? "–" : `${brief(fit)} %`),
-    ...row("Hold-out", say(holdout)),
+    ...row("Hold-out", asText(holdout)),
     ...(a.validation ? row("Validation", both(a.validation.rmse, check), "validation-error") : []),
     ...(scaled ? [] : [
-      ...row("Noise floor", noise === null ? "not known" : say(noise), "noise-floor"),
+      ...row("Noise floor", noise === null ? "not known" : asText(noise), "noise-floor"),
       ...(noise && a.rmse !== null ? row("Error over noise", `${brief(a.rmse / noise)} ×`) : []),
     ]),
   );
@@ -86,7 +85,7 @@ function channelTable(a) {
         h(
           "tr",
           null,
-          h("th", { scope: "row", class: "text" }, spoken(name)),
+          h("th", { scope: "row", class: "text" }, readable(name)),
           h("td", null, errorText(c.rmse, c.unit, name, units.value)),
           h("td", null, errorText(c.noise_floor, c.unit, name, units.value)),
         )
@@ -100,7 +99,7 @@ const spokenError = computed(() => {
   const a = answer.value;
   if (!a || stale.value) return "";
   const last = previous.value?.rmse;
-  return `Error ${say(a.rmse)}${last ? `, before ${say(last)}` : ""}`;
+  return `Error ${asText(a.rmse)}${last ? `, before ${asText(last)}` : ""}`;
 });
 
 const reporting = signal(false);
@@ -137,7 +136,7 @@ export function errorCard() {
       if (!a && fault.value) return h("p", { class: "muted" }, "There is no comparison yet.");
       if (!a) return h("div", { class: "skeleton number" });
       return [
-        h("p", { class: "big", id: "error-now" }, say(a.rmse)),
+        h("p", { class: "big", id: "error-now" }, asText(a.rmse)),
         h("p", { class: "muted" }, `RMS over ${a.rows_used} points · ${a.kind}`),
         fall(),
         facts(a),

@@ -32,8 +32,8 @@ export function heatScale(map, first, choice) {
   );
   const pale = Math.abs(largest) < PALE * start;
   const kind = choice === "auto" ? (pale ? "own" : "start") : choice;
-  const own = Math.abs(largest) || start;
-  return { kind, most: kind === "own" ? own : start, start, largest, at };
+  const most = Math.abs(largest) || start;
+  return { kind, most: kind === "own" ? most : start, start, largest, at };
 }
 
 /** @param {Comparison} a @param {HeatMap} map */
@@ -43,9 +43,9 @@ export const scaleOf = (a, map) => heatScale(map, steps.value[0]?.rmse ?? a.rmse
  * @param {HeatScale} s */
 export function scaleNote(a, map, s) {
   const system = units.value;
-  const say = (/** @type {number} */ si) => errorText(si, a.unit, a.predicted, system);
+  const asText = (/** @type {number} */ si) => errorText(si, a.unit, a.predicted, system);
   if (!s.largest) return "The mean residual is zero everywhere.";
-  const signed = (s.largest > 0 ? "+" : "−") + say(Math.abs(s.largest));
+  const signed = (s.largest > 0 ? "+" : "−") + asText(Math.abs(s.largest));
   const where = `${rangeText(map.y, bin(map.y_edges, s.at[1]), system)}, ${
     rangeText(map.x, bin(map.x_edges, s.at[0]), system)
   }`;
@@ -54,8 +54,8 @@ export function scaleNote(a, map, s) {
   const largest = `Largest cell ${signed} at ${where}${calm}.`;
   if (!steps.value.length) return largest;
   return s.kind === "own"
-    ? `${largest} Colours up to ${say(s.most)}; at the start up to ${say(s.start)}.`
-    : `${largest} Colours up to ${say(s.most)}, as at the start.`;
+    ? `${largest} Colours up to ${asText(s.most)}; at the start up to ${asText(s.start)}.`
+    : `${largest} Colours up to ${asText(s.most)}, as at the start.`;
 }
 
 /** The switch between both scales; hidden for the first model. */

@@ -49,7 +49,7 @@ function grid(a, map) {
   const system = units.value, spanned = heatScaleOf(a, map), { most } = spanned;
   const xs = VARIABLES[map.x], ys = VARIABLES[map.y];
   if (!xs || !ys) return null;
-  const say = (/** @type {typeof xs} */ v, /** @type {number} */ si) =>
+  const asText = (/** @type {typeof xs} */ v, /** @type {number} */ si) =>
     number(toShown(si, scaleOf(v.quantity, system)), 1);
   const rows = [...map.mean.keys()].reverse();
   const columns = [...Array(map.x_edges.length - 1).keys()];
@@ -99,7 +99,7 @@ function grid(a, map) {
         h(
           "tr",
           null,
-          h("th", { scope: "row" }, say(ys, bin(map.y_edges, iy)[0])),
+          h("th", { scope: "row" }, asText(ys, bin(map.y_edges, iy)[0])),
           ...columns.map((ix) => cell(ix, iy)),
         )
       ),
@@ -107,7 +107,7 @@ function grid(a, map) {
         "tr",
         null,
         h("td", null),
-        ...columns.map((ix) => h("th", { scope: "col" }, say(xs, bin(map.x_edges, ix)[0]))),
+        ...columns.map((ix) => h("th", { scope: "col" }, asText(xs, bin(map.x_edges, ix)[0]))),
       ),
     ),
   );

@@ -22,12 +22,12 @@ const BAND = 2;
 /** @param {View} v @returns {Picture} */
 export function histogram(v) {
   const { rms } = rmsInside(v.series, null);
-  const say = (/** @type {number | null} */ si) => errorText(si, v.unit, v.channel, v.system);
+  const asText = (/** @type {number | null} */ si) => errorText(si, v.unit, v.channel, v.system);
   return {
     spec: (p) => histogramSpec(v, p),
     words: [
-      `σ of the residual ${say(rms)}`,
-      v.noise === null ? "" : `; dashed: noise alone, σ ${say(v.noise)}`,
+      `σ of the residual ${asText(rms)}`,
+      v.noise === null ? "" : `; dashed: noise alone, σ ${asText(v.noise)}`,
     ],
   };
 }
@@ -107,14 +107,14 @@ function autocorrelationSpec(rho, band, p) {
   const low = Math.min(...rho, -band);
   /** @param {string} id @param {boolean} beyond @param {string} color @returns {Trace[]} */
   const set = (id, beyond, color) => {
-    const own = ends.filter(([, r]) => Math.abs(r) > band === beyond);
-    if (!own.length) return [];
+    const some = ends.filter(([, r]) => Math.abs(r) > band === beyond);
+    if (!some.length) return [];
     return [
-      { id: `${id}-stick`, ...sticks(own), line: { color, width: 3 }, column: `${id} the band` },
+      { id: `${id}-stick`, ...sticks(some), line: { color, width: 3 }, column: `${id} the band` },
       {
         id,
-        x: own.map(([lag]) => lag),
-        y: own.map(([, r]) => r),
+        x: some.map(([lag]) => lag),
+        y: some.map(([, r]) => r),
         marker: { size: 7, symbol: beyond ? "diamond" : "circle", color },
       },
     ];
@@ -166,14 +166,14 @@ export function loops(a, system) {
   // The area of a constant friction force is twice the force times the distance.
   const distance = all.reduce((sum, c) => sum + 2 * c.span, 0) / all.length;
   const energy = scaleOf("energy", system), force = scaleOf("force", system);
-  const say = `${brief(toShown(Math.abs(area), energy))}\u00a0${energy.unit}`;
+  const meanText = `${brief(toShown(Math.abs(area), energy))}\u00a0${energy.unit}`;
   const like = `${brief(toShown(Math.abs(area) / distance, force))}\u00a0${force.unit}`;
   const sigma = Math.hypot(...all.map((c) => c.sigma)) / all.length;
   const count = all.length === 1 ? "One loop" : `${all.length} loops`;
   return {
     spec: (p) => loopsSpec(all, system, p),
     words: [
-      h("b", { id: "loop-mean" }, `${count}, mean ${area < 0 ? "−" : "+"}${say}. `),
+      h("b", { id: "loop-mean" }, `${count}, mean ${area < 0 ? "−" : "+"}${meanText}. `),
       Math.abs(area) <= BAND * sigma
         ? "This is within the noise."
         : area >= 0
@@ -201,13 +201,13 @@ function loopsSpec(all, system, p) {
   const most = Math.max(...y.map(Math.abs), band) || 1;
   /** @param {string} id @param {boolean} lost @param {string} color @returns {Trace[]} */
   const set = (id, lost, color) => {
-    const own = x.map((one, i) => /** @type {[number, number]} */ ([one, y[i]]))
+    const some = x.map((one, i) => /** @type {[number, number]} */ ([one, y[i]]))
       .filter(([, area]) => area >= 0 === lost);
-    if (!own.length) return [];
+    if (!some.length) return [];
     const marker = { size: 8, symbol: lost ? "circle" : "diamond", color };
     return [
-      { id: `${id}-stick`, ...sticks(own), line: { color, width: 4 }, column: `energy ${id}` },
-      { id, x: own.map(([one]) => one), y: own.map(([, area]) => area), marker },
+      { id: `${id}-stick`, ...sticks(some), line: { color, width: 4 }, column: `energy ${id}` },
+      { id, x: some.map(([one]) => one), y: some.map(([, area]) => area), marker },
     ];
   };
   return {

@@ -1,5 +1,6 @@
 // @ts-check
 // Measured points and model; one plot for each predicted channel.
+import { capitalized, readable } from "../../../format.js";
 import { h, icon } from "../../../dom.js";
 import { computed, effect } from "../../../reactive.js";
 import { units, view } from "../../../state.js";
@@ -8,7 +9,6 @@ import { writeLabels } from "../../../plots/overlay.js";
 import { palette } from "../../../plots/theme.js";
 import { chartMenu } from "../../../plots/export.js";
 import { menuButton } from "../../../ui/menu.js";
-import { spoken } from "../../../ui/sources.js";
 import { plotlyReady } from "../../../plots/library.js";
 import { compare, fault, isBefore, lookCompare, previous, shown, stale, steps } from "../answers.js";
 import { channels, over, variables, viewOf } from "./pictures.js";
@@ -83,12 +83,12 @@ function legend() {
 
 /** @param {string} name @param {boolean} first */
 function plotCard(name, first) {
-  const title = `${spoken(name).replace(/^./, (c) => c.toUpperCase())}: measured and model`;
+  const title = `${capitalized(readable(name))}: measured and model`;
   const host = h("div", {
     class: "plot",
     id: `overlay-${name}`,
     role: "figure",
-    "aria-label": `Measured and modelled ${spoken(name)}`,
+    "aria-label": `Measured and modelled ${readable(name)}`,
   });
   const chart = new Chart(host, `compare-${name}`);
   writeLabels(chart);

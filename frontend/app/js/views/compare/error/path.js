@@ -30,7 +30,7 @@ function rows() {
 /** @param {Row} row @param {number} most @param {number | null} noise */
 function pathRow(row, most, noise) {
   const a = answer.value;
-  const say = (/** @type {number | null} */ si) =>
+  const asText = (/** @type {number | null} */ si) =>
     errorText(si, a?.unit ?? "N", a?.predicted ?? "force", units.value, false);
   const share = (/** @type {number | null} */ si) => `${si === null ? 0 : Math.min(100, (100 * si) / most)}%`;
   return h(
@@ -61,8 +61,8 @@ function pathRow(row, most, noise) {
         noise === null ? null : h("i", { class: "noise", style: `left:${share(noise)}` }),
       ),
     ),
-    h("td", null, say(row.rmse)),
-    h("td", null, say(row.holdout)),
+    h("td", null, asText(row.rmse)),
+    h("td", null, asText(row.holdout)),
   );
 }
 

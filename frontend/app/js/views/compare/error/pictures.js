@@ -22,8 +22,8 @@ const ofChannel = (a, channel) => allSeries(a).filter((s) => (s.channel ?? a.pre
 
 /** Noise of one channel [SI]. @param {Comparison} a @param {string} channel */
 function noiseOf(a, channel) {
-  const own = a.channels?.[channel]?.noise_floor;
-  return own ?? (a.channels && Object.keys(a.channels).length ? null : a.noise_floor);
+  const floor = a.channels?.[channel]?.noise_floor;
+  return floor ?? (a.channels && Object.keys(a.channels).length ? null : a.noise_floor);
 }
 
 export const channels = computed(() => shown.value ? channelsOf(shown.value) : []);
@@ -39,7 +39,7 @@ export const variables = computed(() => {
   return a ? Object.keys(VARIABLES).filter((name) => varies(allSeries(a), name)) : [];
 });
 
-/** What the overlay is drawn over. */
+/** The x variable of the overlay. */
 export const over = computed(() => {
   const all = variables.value, wanted = compare.value.over;
   if (wanted && all.includes(wanted)) return wanted;

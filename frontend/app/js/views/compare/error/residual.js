@@ -3,13 +3,12 @@
 import { h, icon } from "../../../dom.js";
 import { apart, computed, effect } from "../../../reactive.js";
 import { units, view } from "../../../state.js";
-import { number, scaleOf, toShown, toSi } from "../../../format.js";
+import { number, readable, scaleOf, toShown, toSi } from "../../../format.js";
 import { Chart } from "../../../plots/chart.js";
 import { writeLabels } from "../../../plots/overlay.js";
 import { palette } from "../../../plots/theme.js";
 import { chartMenu } from "../../../plots/export.js";
 import { menuButton } from "../../../ui/menu.js";
-import { spoken } from "../../../ui/sources.js";
 import { plotlyReady } from "../../../plots/library.js";
 import { brushLayer } from "./brush-layer.js";
 import { brush, lookCompare, shown, stale } from "../answers.js";
@@ -126,7 +125,7 @@ const channelChoice = () =>
           lookCompare({ channel: /** @type {HTMLSelectElement} */ (e.target).value }),
       },
       ...channels.value.map((name) =>
-        h("option", { value: name, selected: name === channel.value }, spoken(name))
+        h("option", { value: name, selected: name === channel.value }, readable(name))
       ),
     )
     : null;

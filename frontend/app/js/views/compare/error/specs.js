@@ -1,7 +1,7 @@
 // @ts-check
 // What the plots show: measured points, model lines, residuals with the band of the noise.
 import { axisTitle, extent, shown, steadyRange, steadyX } from "../../../plots/axes.js";
-import { number, scaleOf, toShown } from "../../../format.js";
+import { capitalized, number, scaleOf, toShown } from "../../../format.js";
 import { pressureColour } from "../../../plots/theme.js";
 import { channelScale, column, isInside, VARIABLES } from "../words.js";
 
@@ -118,7 +118,7 @@ export function overlaySpec(v, p) {
   });
   const [xLow, xHigh] = extent(v.series.map((one) => x(column(one, v.over))));
   const [low, high] = extent([...v.series.flatMap((one) => [y(one.measured), y(one.predicted)]), [0]]);
-  const name = v.channel.replace(/^./, (c) => c.toUpperCase());
+  const name = capitalized(v.channel);
   return {
     x: {
       title: axisTitle(title, quantity, system),
@@ -139,7 +139,7 @@ export function overlaySpec(v, p) {
  * @returns {import("../../../ui/table.js").Table} */
 function table(v, what) {
   const { title, quantity } = VARIABLES[v.over], s = channelScale(v.unit, v.channel, v.system);
-  const say = (/** @type {number | null} */ si, /** @type {string} */ name) =>
+  const asText = (/** @type {number | null} */ si, /** @type {string} */ name) =>
     si == null ? null : name === "residual" ? si / s.factor : toShown(si, s);
   return {
     columns: [
@@ -149,7 +149,10 @@ function table(v, what) {
     ],
     rows: v.series.flatMap((one) => {
       const x = shown(column(one, v.over), quantity, v.system);
-      return one.measured.map((_m, i) => [one.label, x[i], ...what.map((name) => say(one[name][i], name))]);
+      return one.measured.map((
+        _m,
+        i,
+      ) => [one.label, x[i], ...what.map((name) => asText(one[name][i], name))]);
     }),
   };
 }

@@ -2,8 +2,7 @@
 // The columns of a file: channel, unit and first values of each.
 import { h } from "../../../dom.js";
 import { signal } from "../../../reactive.js";
-import { brief } from "../../../format.js";
-import { spoken } from "../../../ui/sources.js";
+import { brief, readable } from "../../../format.js";
 
 /** @typedef {import("../types.js").Preview} Preview */
 /** @typedef {import("../types.js").PreviewColumn} PreviewColumn */
@@ -118,7 +117,7 @@ function channelSelect(column, names, set) {
       onchange: (/** @type {Event} */ e) => set(column, valueOf(e) ? { channel: valueOf(e) } : null),
     },
     h("option", { value: "", selected: !column.channel }, "not used"),
-    ...all.map((name) => h("option", { value: name, selected: name === column.channel }, spoken(name))),
+    ...all.map((name) => h("option", { value: name, selected: name === column.channel }, readable(name))),
   );
 }
 

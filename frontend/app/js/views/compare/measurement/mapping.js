@@ -3,9 +3,8 @@
 import { h, icon } from "../../../dom.js";
 import { apart, computed, effect, signal } from "../../../reactive.js";
 import { ApiError } from "../../../server/client.js";
-import { brief } from "../../../format.js";
+import { brief, capitalized, readable } from "../../../format.js";
 import { openDialog } from "../../../ui/dialog.js";
-import { spoken } from "../../../ui/sources.js";
 import { columnTable, valueOf } from "./mapping-columns.js";
 import { previewOf } from "../../../server/measurements.js";
 import { Question } from "../../../server/question.js";
@@ -131,7 +130,7 @@ function conditionFields({ preview, mapping, change }) {
           h(
             "div",
             { class: "field-head" },
-            h("label", { for: `map-${m.key}` }, spoken(m.key).replace(/^./, (c) => c.toUpperCase())),
+            h("label", { for: `map-${m.key}` }, capitalized(readable(m.key))),
             h(
               "span",
               { class: "entry" },
@@ -153,7 +152,7 @@ function conditionFields({ preview, mapping, change }) {
     () => {
       const known = Object.entries(preview.value.conditions).filter(([, v]) => v !== null);
       if (!known.length) return null;
-      const texts = known.map(([key, v]) => `${spoken(key)} ${typeof v === "number" ? brief(v) : v}`);
+      const texts = known.map(([key, v]) => `${readable(key)} ${typeof v === "number" ? brief(v) : v}`);
       return h("p", { class: "muted" }, `Conditions in SI: ${texts.join(", ")}.`);
     },
   );

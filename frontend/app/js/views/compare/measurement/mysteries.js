@@ -20,8 +20,8 @@ const chosen = computed(() => mysteries.value.find((m) => m.id === compare.value
 
 export async function fetchMysteries() {
   try {
-    const found = await get("/api/mysteries");
-    mysteries.value = Array.isArray(found) ? found : found.mysteries ?? [];
+    const answer = await get("/api/mysteries");
+    mysteries.value = Array.isArray(answer) ? answer : answer.mysteries ?? [];
   } catch (error) {
     if (!(error instanceof ApiError)) throw error;
     mysteries.value = [];

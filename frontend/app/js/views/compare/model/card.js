@@ -4,9 +4,17 @@ import { h, icon, mathml } from "../../../dom.js";
 import { computed, signal } from "../../../reactive.js";
 import { commit, preview, units } from "../../../state.js";
 import { effectsById } from "../../../store.js";
-import { brief, number, plainScale, quantityOf, scaleOf, toShown } from "../../../format.js";
+import {
+  brief,
+  capitalized,
+  number,
+  plainScale,
+  quantityOf,
+  readable,
+  scaleOf,
+  toShown,
+} from "../../../format.js";
 import { quantityField } from "../../../ui/field.js";
-import { spoken } from "../../../ui/sources.js";
 import { fitting, refit, remove } from "./history.js";
 import { answer, compare, diagnosis, messageFor, patchCompare, preset } from "../answers.js";
 import { fitOf } from "../document.js";
@@ -34,8 +42,10 @@ const lastFit = computed(() => diagnosis.value?.path.length === 1 ? fitOf(diagno
 /** @param {string} id @param {Field} p */
 function range(id, p) {
   const s = scale(p), fit = compare.value.fit[id]?.[p.name] ?? lastFit.value[id]?.[p.name];
-  const say = (/** @type {number} */ si) => number(toShown(si, s), s.digits);
-  const bounds = Number.isFinite(p.lower) ? `${say(p.lower)} … ${say(p.upper)} ${s.unit}`.trim() : "in SI";
+  const asText = (/** @type {number} */ si) => number(toShown(si, s), s.digits);
+  const bounds = Number.isFinite(p.lower)
+    ? `${asText(p.lower)} … ${asText(p.upper)} ${s.unit}`.trim()
+    : "in SI";
   return h(
     "p",
     { class: "hint" },
@@ -56,7 +66,7 @@ function parameterField(id, p) {
     { class: "parameter" },
     quantityField({
       key: `compare.${id}.${p.name}`,
-      label: p.symbol_mathml ? spoken(p.name).replace(/^./, (c) => c.toUpperCase()) : p.name,
+      label: p.symbol_mathml ? capitalized(readable(p.name)) : p.name,
       symbol: p.symbol_mathml ? mathml(p.symbol_mathml) : null,
       quantity: quantityOf(p.unit, p.name),
       slider: false,
@@ -74,7 +84,7 @@ function parameterField(id, p) {
             holdout: null,
           })(d);
         });
-        if (done) commit(`${titleOf(id)}: ${spoken(p.name)}`);
+        if (done) commit(`${titleOf(id)}: ${readable(p.name)}`);
       },
       message: () => messageFor(`effects.${id}.${p.name}`),
     }),
@@ -161,7 +171,7 @@ function correlated() {
   if (!pairs.length) return null;
   const name = (/** @type {string} */ key) => {
     const [id, parameter] = key.split(".");
-    return parameter ? `${titleOf(id)}: ${spoken(parameter)}` : spoken(key);
+    return parameter ? `${titleOf(id)}: ${readable(parameter)}` : readable(key);
   };
   return h(
     "details",

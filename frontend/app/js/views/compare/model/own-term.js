@@ -40,15 +40,15 @@ const effectsNow = () => compare.peek().effects ?? effectValues(preset.peek());
  *   `unchanged`: what to do with a proposed formula that was not changed */
 export function termForm(o) {
   const wrong = signal("");
-  const own = `${o.id}-${++count}`;
+  const fieldId = `${o.id}-${++count}`;
   const field = h("textarea", {
     rows: Math.min(6, 2 + Math.floor(o.formula.length / 42)),
-    id: own,
+    id: fieldId,
     class: "formula",
     spellcheck: "false",
     autocomplete: "off",
     placeholder: "e.g. c1*sign(v)*P",
-    "aria-describedby": `${own}-wrong ${own}-help`,
+    "aria-describedby": `${fieldId}-wrong ${fieldId}-help`,
     "aria-invalid": () => wrong.value ? "true" : null,
   });
   field.value = o.formula;
@@ -89,12 +89,12 @@ export function termForm(o) {
         take();
       },
     },
-    h("label", { for: own, class: "label" }, o.label),
+    h("label", { for: fieldId, class: "label" }, o.label),
     field,
-    h("p", { class: "error", role: "alert", id: `${own}-wrong` }, () => wrong.value),
+    h("p", { class: "error", role: "alert", id: `${fieldId}-wrong` }, () => wrong.value),
     h(
       "p",
-      { class: "hint", id: `${own}-help` },
+      { class: "hint", id: `${fieldId}-help` },
       "A force in N that is added to the model. All other names are constants, which are fitted in SI units.",
     ),
     h(

@@ -63,7 +63,7 @@ function openText() {
   if (drive.peek()) text.value = JSON.stringify({ schema: 1, muscle: {}, ...drive.peek() }, null, 2);
   const dialog = openDialog(
     { title: "Drive document" },
-    h("p", { class: "muted" }, "As the Transient view exports it: muscle, supply, valve, tube, load."),
+    h("p", { class: "muted" }, "As exported by the Transient view: muscle, supply, valve, tube, load."),
     file,
     text,
     wrong,
@@ -111,7 +111,7 @@ const valveSelect = () =>
       }, () => {
         const now = at(drive.value ?? {}, "valve.preset");
         return [
-          now ? null : h("option", { value: "", selected: true }, "By value"),
+          now ? null : h("option", { value: "", selected: true }, "Own values"),
           ...(presets.value.valves ?? []).map((p) =>
             h("option", { value: p.id, selected: p.id === now }, p.title)
           ),

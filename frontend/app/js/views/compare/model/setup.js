@@ -6,8 +6,7 @@ import { commit, edit, preview, units } from "../../../state.js";
 import { muscles } from "../../../store.js";
 import { plainScale, quantityOf, scaleOf, siOf } from "../../../format.js";
 import { quantityField } from "../../../ui/field.js";
-import { openPopover } from "../../../ui/dialog.js";
-import { unverifiedNote } from "../../../ui/sources.js";
+import { unverifiedBadge } from "../../../ui/sources.js";
 import { infos, unknownMuscle } from "../measurement/files.js";
 import { PROVIDED, withStartModel } from "../document.js";
 import { answer, chosen, compare, editCompare, messageFor, patchCompare, preset, steps } from "../answers.js";
@@ -121,23 +120,6 @@ function presetSelect() {
   ]);
 }
 
-function badge() {
-  const p = preset.value;
-  if (!p || p.verified) return null;
-  const button = h(
-    "button",
-    {
-      type: "button",
-      class: "badge warn",
-      "aria-expanded": "false",
-      onclick: () => openPopover(button, "Unverified values", () => unverifiedNote(p)),
-    },
-    icon("warn"),
-    "unverified",
-  );
-  return button;
-}
-
 /** A muscle that a file names and that is not in the catalogue. */
 const unknownName = computed(() => {
   for (const { id } of chosen.value) {
@@ -201,7 +183,12 @@ export function setupCard() {
   return h(
     "section",
     { class: "card", "aria-label": "Muscle and start model" },
-    h("div", { class: "card-head" }, h("h2", null, "Muscle"), badge),
+    h(
+      "div",
+      { class: "card-head" },
+      h("h2", null, "Muscle"),
+      () => unverifiedBadge(preset.value, "unverified"),
+    ),
     presetSelect(),
     h("p", { class: "error" }, () => messageFor("muscle.preset") ?? messageFor("measurement") ?? ""),
     () =>

@@ -4,8 +4,7 @@ import { h, icon, mathml } from "../../../dom.js";
 import { signal } from "../../../reactive.js";
 import { units } from "../../../state.js";
 import { effectsById } from "../../../store.js";
-import { brief, plainScale, quantityOf, scaleOf, toShown } from "../../../format.js";
-import { spoken } from "../../../ui/sources.js";
+import { brief, plainScale, quantityOf, readable, scaleOf, toShown } from "../../../format.js";
 import { aboutButton } from "../../../muscle/effects.js";
 import { equationBox } from "./equation.js";
 import { add } from "../model/history.js";
@@ -19,7 +18,7 @@ const USEFUL = 1, SHOWN = 5;
 const more = signal(false);
 
 /** @param {number | null | undefined} si */
-const say = (si) => {
+const asText = (si) => {
   const a = answer.value;
   return errorText(si, a?.unit ?? "N", a?.predicted ?? "force", units.value);
 };
@@ -54,8 +53,8 @@ function parameterList(id, parameters) {
       const symbol = known.find((one) => one.name === name)?.symbol_mathml;
       return h(
         "li",
-        { title: spoken(name) },
-        symbol ? mathml(symbol) : spoken(name),
+        { title: readable(name) },
+        symbol ? mathml(symbol) : readable(name),
         " = ",
         ...valueText(name, p),
       );
@@ -99,8 +98,8 @@ function card(c, best, wanted) {
         h("i", { style: `width:${Math.max(0, c.gain_percent)}%` }),
       ),
       h("b", null, `−${brief(Math.max(0, c.gain_percent))} %`),
-      ` to ${say(c.rmse)}`,
-      h("small", null, ` hold-out ${say(c.holdout_rmse)}`),
+      ` to ${asText(c.rmse)}`,
+      h("small", null, ` hold-out ${asText(c.holdout_rmse)}`),
     ),
     c.twins.length
       ? h(
@@ -120,7 +119,7 @@ function card(c, best, wanted) {
         ? h(
           "p",
           { class: "muted" },
-          `Fitted with it: ${c.freed.map((name) => spoken(name.replace(".", ": "))).join(", ")}.`,
+          `Fitted with it: ${c.freed.map((name) => readable(name.replace(".", ": "))).join(", ")}.`,
         )
         : null,
       equationBox(c.title, effect?.equation_mathml, c.equation),

@@ -2,8 +2,7 @@
 // The verdict of the diagnosis: conclusion, adding all effects at once, what to measure next; and its progress.
 import { h, icon } from "../../../dom.js";
 import { units } from "../../../state.js";
-import { brief } from "../../../format.js";
-import { spoken } from "../../../ui/sources.js";
+import { brief, capitalized, readable } from "../../../format.js";
 import { addAll } from "../model/history.js";
 import {
   again,
@@ -85,7 +84,8 @@ const AT_FLOOR = 1.15;
 
 /** "127 N → 3.09 N, which is the noise" @param {Diagnosis} result */
 function fall(result) {
-  const say = (/** @type {number | null} */ si) => errorText(si, result.unit, result.predicted, units.value);
+  const asText = (/** @type {number | null} */ si) =>
+    errorText(si, result.unit, result.predicted, units.value);
   const scaled = Object.keys(result.channels).length > 1;
   const floor = scaled ? 1 : result.noise_floor.rmse, end = result.path.at(-1)?.rmse ?? null;
   const isNoise = floor !== null && end !== null && end <= AT_FLOOR * floor;
@@ -93,12 +93,12 @@ function fall(result) {
     "p",
     { class: "verdict-fall", id: "verdict-fall" },
     `With ${result.verdict.effects.length > 1 ? "them" : "it"} the error falls `,
-    h("b", null, `${say(result.baseline.rmse)} → ${say(end)}`),
+    h("b", null, `${asText(result.baseline.rmse)} → ${asText(end)}`),
     isNoise
-      ? `: the noise of the data${scaled ? "" : ` (${say(floor)})`}.`
+      ? `: the noise of the data${scaled ? "" : ` (${asText(floor)})`}.`
       : floor === null || scaled
       ? "."
-      : `; the noise is ${say(floor)}.`,
+      : `; the noise is ${asText(floor)}.`,
   );
 }
 
@@ -127,7 +127,7 @@ function missing({ effects, indistinguishable }) {
 }
 
 /** @param {string} text */
-const sentence = (text) => `${text.replace(/^./, (c) => c.toUpperCase()).replace(/\.$/, "")}.`;
+const sentence = (text) => `${capitalized(text).replace(/\.$/, "")}.`;
 
 const FEW = 2;
 
@@ -162,7 +162,7 @@ function next({ experiments, next_measurement: advice }) {
 /** @param {Diagnosis} result */
 function conclusion(result) {
   const { verdict } = result;
-  const [tone, label] = BADGES[verdict.status] ?? ["warn", spoken(verdict.status)];
+  const [tone, label] = BADGES[verdict.status] ?? ["warn", readable(verdict.status)];
   const some = verdict.effects.length > 0, unknown = verdict.status === "unknown_effect";
   const rest = `No catalogued effect explains the rest: ${whatIsLeft(verdict)}.`;
   return h(

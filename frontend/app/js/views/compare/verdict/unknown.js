@@ -19,10 +19,10 @@ function plot() {
   const host = h("div", { class: "plot", role: "figure", "aria-label": "Residual and proposed term" });
   const chart = new Chart(host, "compare-term");
   effect(() => {
-    const curve = term.value?.curve, system = units.value, told = diagnosis.value;
+    const curve = term.value?.curve, system = units.value, result = diagnosis.value;
     palette.value;
-    if (!curve || !told || !plotlyReady.value) return;
-    const v = VARIABLES[curve.x], s = channelScale(told.unit, told.predicted, system);
+    if (!curve || !result || !plotlyReady.value) return;
+    const v = VARIABLES[curve.x], s = channelScale(result.unit, result.predicted, system);
     const across = v ? scaleOf(v.quantity, system) : null;
     const x = curve.values.map((si) => across && si !== null ? toShown(si, across) : si);
     const y = (/** @type {(number | null)[]} */ values) =>
@@ -58,12 +58,12 @@ function plot() {
 }
 
 export function unknownCard() {
-  const told = computed(() => {
+  const unexplained = computed(() => {
     const verdict = diagnosis.value?.verdict;
     return verdict && (verdict.status === "unknown_effect" || verdict.proposed_term) ? verdict : null;
   });
   return () => {
-    const verdict = told.value;
+    const verdict = unexplained.value;
     if (!verdict) return null;
     const proposed = verdict.proposed_term;
     return h(

@@ -2,7 +2,7 @@
 // Results of a run: verdict, key figures, tracking, timing.
 import { h, icon } from "../../../dom.js";
 import { units } from "../../../state.js";
-import { brief, withUnit } from "../../../format.js";
+import { brief, readable, withUnit } from "../../../format.js";
 import { jointCard } from "../plots/joint.js";
 import { fault, roundTrip, run, timeWindow } from "../model.js";
 import { paperCard } from "./paper.js";
@@ -116,7 +116,7 @@ function verdict() {
 /** Notes on the document; those on figures are shown in the tables. @param {Run} r */
 const remarks = (r) =>
   Object.entries(r.notes).filter(([where]) => !/^(timing|tracking)\./.test(where)).map(([where, text]) =>
-    h("p", { class: "muted" }, `${where.replaceAll("_", " ")}: ${text}`)
+    h("p", { class: "muted" }, `${readable(where)}: ${text}`)
   );
 
 function tracking() {

@@ -36,14 +36,14 @@ function rows() {
   return Object.entries(printed.figures).flatMap(([path, q]) => {
     const [phase, key] = path.split(".");
     const figure = ALL_FIGURES.find(([name]) => name === key);
-    const theirs = siNumber(`${q.value} ${q.unit}`);
-    if (!figure || theirs === null || !(phase === "extend" || phase === "retract")) return [];
+    const printedValue = siNumber(`${q.value} ${q.unit}`);
+    if (!figure || printedValue === null || !(phase === "extend" || phase === "retract")) return [];
     const quantity = figure[2];
-    const ours = r.timing[phase][key];
+    const runValue = r.timing[phase][key];
     const s = quantity === "lapse" ? { unit: "ms", factor: 1e-3, digits: 1 } : scaleOf(quantity, system);
-    const say = (/** @type {number | null} */ si) => si == null ? "–" : brief(toShown(si, s));
+    const asText = (/** @type {number | null} */ si) => si == null ? "–" : brief(toShown(si, s));
     const why = printed.excluded?.[path] ?? null;
-    const off = ours == null ? null : 100 * (ours / theirs - 1);
+    const off = runValue == null ? null : 100 * (runValue / printedValue - 1);
     return [
       h(
         "tr",
@@ -55,8 +55,8 @@ function rows() {
           h("small", null, ` ${s.unit}`),
           why ? h("small", { class: "why" }, `Not compared: ${why}`) : null,
         ),
-        h("td", null, say(ours)),
-        h("td", null, say(theirs)),
+        h("td", null, asText(runValue)),
+        h("td", null, asText(printedValue)),
         h(
           "td",
           null,

@@ -3,7 +3,7 @@
 import { h } from "../../../dom.js";
 import { units } from "../../../state.js";
 import { scaleOf, siOf } from "../../../format.js";
-import { quantityField } from "../../../ui/field.js";
+import { quantityField, subscript } from "../../../ui/field.js";
 import { at } from "../../../paths.js";
 import { siNumber } from "../../../quantities.js";
 import {
@@ -208,12 +208,6 @@ function regulatorFigure(key) {
     return q ? siNumber(`${q.value} ${q.unit}`) : null;
   };
 }
-
-/** "p_s" as p with a subscript. @param {string} symbol */
-const subscript = (symbol) => {
-  const [letter, below] = symbol.split("_");
-  return below ? h("span", null, letter, h("sub", null, below)) : symbol;
-};
 
 /** @param {Spec} spec @param {string} path */
 function usualOf(spec, path) {

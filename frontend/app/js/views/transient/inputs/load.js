@@ -75,8 +75,8 @@ function stopsText() {
   const r = run.value;
   if (!r) return "End stops";
   const { position_min: low, position_max: high } = r.limits, s = scaleOf("length", units.value);
-  const say = (/** @type {number} */ si) => number(toShown(si, s), 1);
-  return `End stops: ${say(low)} to ${say(high)} ${s.unit}`;
+  const asText = (/** @type {number} */ si) => number(toShown(si, s), 1);
+  return `End stops: ${asText(low)} to ${asText(high)} ${s.unit}`;
 }
 
 export function loadCard() {

@@ -89,7 +89,7 @@ function reshape(s, shape) {
   const kept = typeof old === "object" && old ? old : {};
   const entries = SHAPES[shape][1].flatMap(([key, , kind, start]) => {
     const same = kept[key] !== undefined &&
-      SHAPES[kept.shape]?.[1].some(([k, , own]) => k === key && own === kind);
+      SHAPES[kept.shape]?.[1].some(([k, , itsKind]) => k === key && itsKind === kind);
     if (same) return [[key, kept[key]]];
     return NEEDED.has(key) || (LEVELS.has(key) && !isShare) || kind === "frequency" ? [[key, start(o)]] : [];
   });
@@ -110,11 +110,11 @@ const QUANTITIES = {
  * @param {string} path @param {any} signal @returns {{label: string, quantity: Quantity} | null} */
 export function signalField(path, signal) {
   const [, where, key] = /^(command|controller\.reference|load\.force)\.(\w+)$/.exec(path) ?? [];
-  const found = where && SHAPES[signal?.shape]?.[1].find(([name]) => name === key);
-  if (!found) return null;
+  const row = where && SHAPES[signal?.shape]?.[1].find(([name]) => name === key);
+  if (!row) return null;
   const level = where === "command" ? "ratio" : where === "load.force" ? "force" : "length";
   const whose = where === "command" ? "Command" : where === "load.force" ? "External force" : "Reference";
-  return { label: `${whose}: ${found[1].toLowerCase()}`, quantity: QUANTITIES[found[2]] ?? level };
+  return { label: `${whose}: ${row[1].toLowerCase()}`, quantity: QUANTITIES[row[2]] ?? level };
 }
 
 /** @param {Signal} s @param {Row} row */
@@ -134,8 +134,8 @@ function field(s, [key, label, kind, start]) {
 /** @param {Signal} s @param {string} label */
 export function signalFields(s, label) {
   const shape = computed(() => {
-    const given = at(drive.value, s.path);
-    return typeof given === "object" && given ? String(given.shape) : "constant";
+    const value = at(drive.value, s.path);
+    return typeof value === "object" && value ? String(value.shape) : "constant";
   });
   /** @returns {[string, string][]} */
   const options = () => [

@@ -1,36 +1,15 @@
 // @ts-check
 // The air supply: pressure, valve or regulator, tube; from presets or entered values.
-import { h, icon } from "../../../dom.js";
+import { h } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
 import { presets } from "../../../store.js";
 import { siOf } from "../../../format.js";
-import { openPopover } from "../../../ui/dialog.js";
-import { unverifiedNote } from "../../../ui/sources.js";
+import { unverifiedBadge } from "../../../ui/sources.js";
 import { at } from "../../../paths.js";
 import { choiceField, driveField, partMessage } from "./fields.js";
 import { changePart, drive, numberAt, partPreset, regulated } from "../model.js";
 
-/** @typedef {import("../../../types.js").Preset} Preset */
-
 const OWN = "own", NONE = "none";
-
-/** @param {() => Preset | null} of */
-const doubt = (of) => () => {
-  const p = of();
-  if (!p || p.verified) return null;
-  const button = h(
-    "button",
-    {
-      type: "button",
-      class: "badge warn",
-      "aria-expanded": "false",
-      onclick: () => openPopover(button, "Unverified values", () => unverifiedNote(p)),
-    },
-    icon("warn"),
-    "unverified",
-  );
-  return button;
-};
 
 /** @param {"valves" | "tubes"} kind @returns {[string, string][]} */
 const partOptions = (kind) => (presets.value[kind] ?? []).map((p) => [p.id, p.title]);
@@ -69,7 +48,7 @@ export function supplyCard() {
       "div",
       { class: "card-head" },
       h("h2", null, "Air supply"),
-      doubt(() => partPreset("valves", "valve.preset")),
+      () => unverifiedBadge(partPreset("valves", "valve.preset"), "unverified"),
     ),
     driveField("supply.pressure"),
     choiceField(

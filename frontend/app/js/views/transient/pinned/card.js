@@ -23,15 +23,15 @@ const colours = computed(() => pinColours(palette.value));
 
 /** A short name for a drive: muscle, mass, pressure. @param {Drive} d */
 function nameOf(d) {
-  const say = (/** @type {string} */ path, /** @type {Quantity} */ q) => {
+  const asText = (/** @type {string} */ path, /** @type {Quantity} */ q) => {
     const si = siNumber(at(d, path));
     const s = scaleOf(q, units.peek());
     return si === null ? "" : `${number(toShown(si, s), 2)} ${s.unit}`;
   };
   const base = [
     muscleName.peek().replace(/^Festo /, ""),
-    say("load.mass", "mass"),
-    say("supply.pressure", "pressure"),
+    asText("load.mass", "mass"),
+    asText("supply.pressure", "pressure"),
   ];
   const name = base.filter(Boolean).join(" · ");
   const taken = new Set(pins.peek().map((p) => p.name));
@@ -48,14 +48,14 @@ const unpin = (index) => editTransient({ pins: pins.peek().filter((_, i) => i !=
 
 /** @returns {Column[]} the pinned runs and the current one */
 function columns() {
-  const known = pinRuns.value;
+  const runs = pinRuns.value;
   const pinned = pins.value.map((p, i) => {
-    const found = known.get(pinKey(p.drive));
-    const wrong = found instanceof ApiError ? found.words : null;
+    const answer = runs.get(pinKey(p.drive));
+    const wrong = answer instanceof ApiError ? answer.words : null;
     return {
       name: p.name,
       drive: p.drive,
-      run: found instanceof ApiError ? null : found ?? null,
+      run: answer instanceof ApiError ? null : answer ?? null,
       color: colours.value[i],
       wrong,
     };

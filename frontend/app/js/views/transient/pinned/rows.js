@@ -2,8 +2,16 @@
 // The rows of the table of pinned runs: different inputs, and figures with their change from the baseline.
 import { units } from "../../../state.js";
 import { effectsById } from "../../../store.js";
-import { brief, number, plainScale, quantityOf, scaleOf, toShown } from "../../../format.js";
-import { spoken } from "../../../ui/sources.js";
+import {
+  brief,
+  capitalized,
+  number,
+  plainScale,
+  quantityOf,
+  readable,
+  scaleOf,
+  toShown,
+} from "../../../format.js";
 import { at } from "../../../paths.js";
 import { SPECS } from "../inputs/fields.js";
 import { greatestOf, JOINT } from "../plots/joint.js";
@@ -49,7 +57,7 @@ function inputOf(path, drive) {
   if (effect) {
     const unit = effect.parameters.find((p) => p.name === name)?.unit ?? "1";
     const quantity = quantityOf(unit, name);
-    const label = name ? `${effect.title}: ${spoken(name)}` : effect.title;
+    const label = name ? `${effect.title}: ${readable(name)}` : effect.title;
     return { label, scale: quantity ? scaleOf(quantity, system) : plainScale(unit) };
   }
   const spec = SPECS[path];
@@ -60,7 +68,7 @@ function inputOf(path, drive) {
   const signal = signalField(path, at(drive, path.replace(/\.[^.]*$/, "")));
   if (signal) return { label: signal.label, scale: scaleOf(signal.quantity, system) };
   const isLength = /length|diameter|thickness/.test(path);
-  const label = NAMES[path] ?? spoken(path.replaceAll(".", ", ")).replace(/^./, (c) => c.toUpperCase());
+  const label = NAMES[path] ?? capitalized(readable(path.replaceAll(".", ", ")));
   return { label, scale: isLength ? scaleOf("length", system) : null };
 }
 

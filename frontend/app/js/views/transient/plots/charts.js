@@ -63,8 +63,8 @@ const lowerKind = computed(() => transient.value.lower);
 function viewNow() {
   const answer = run.value;
   if (!answer) return null;
-  const signal_ = mode.peek() === "controller" ? null : at(drive.peek(), "command");
-  const known = pinRuns.value;
+  const command = mode.peek() === "controller" ? null : at(drive.peek(), "command");
+  const runs = pinRuns.value;
   return {
     run: answer,
     system: units.value,
@@ -73,11 +73,11 @@ function viewNow() {
     lower: lowerKind.value,
     supply: siNumber(at(drive.peek(), "supply.pressure")),
     pinned: pins.value.flatMap((pin, index) => {
-      const found = known.get(pinKey(pin.drive));
-      return found && "time" in found ? [{ name: pin.name, run: found, index }] : [];
+      const pinnedRun = runs.get(pinKey(pin.drive));
+      return pinnedRun && "time" in pinnedRun ? [{ name: pin.name, run: pinnedRun, index }] : [];
     }),
     measured: measured.value,
-    switches: switchings(signal_, answer.duration),
+    switches: switchings(command, answer.duration),
     brush: setWindow,
   };
 }

@@ -18,7 +18,7 @@ import { middleOf } from "../series.js";
 
 const PIECES = 14, HALVINGS = 22, LEAST_PERCENT = 2, SLACK = 0.5;
 
-/** The row before a value in an ascending column, and how far the value is on the way to the next.
+/** The row before a value in an ascending column, and the position of the value between that row and the next, 0…1.
  * @param {number[]} column @param {number} x @returns {[number, number]} */
 function between(column, x) {
   let low = 0, high = column.length - 1;
