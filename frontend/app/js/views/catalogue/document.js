@@ -1,7 +1,6 @@
 // @ts-check
 // The Catalogue view's part of the document: which parts are listed, and which of them is shown in full.
-import { addPart, doc, look } from "../../state.js";
-import { computed } from "../../reactive.js";
+import { addPart } from "../../state.js";
 
 /** @typedef {import("../../types.js").CatalogueFilter} CatalogueFilter */
 
@@ -33,7 +32,3 @@ function readFilter(raw) {
 }
 
 addPart("catalogue", { start: defaultFilter, read: readFilter });
-
-export const filter = computed(() => doc.value.catalogue);
-/** @param {Partial<CatalogueFilter>} patch */
-export const setFilter = (patch) => look((d) => ({ ...d, catalogue: { ...d.catalogue, ...patch } }));

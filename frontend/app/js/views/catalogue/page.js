@@ -8,8 +8,7 @@ import { scaleOf } from "../../format.js";
 import { quantityField } from "../../ui/field.js";
 import { KIND_TITLES } from "./columns.js";
 import { detailPanel } from "./detail.js";
-import { filter, setFilter } from "./document.js";
-import { partsTable } from "./table.js";
+import { filter, partsTable, setFilter } from "./table.js";
 
 const kind = computed(() => filter.value.kind);
 const makers = computed(() =>

@@ -2,12 +2,16 @@
 // The table of presets: filtered, sorted, one row selected.
 import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
-import { units } from "../../state.js";
+import { doc, look, units } from "../../state.js";
 import { presets } from "../../store.js";
-import { filter, setFilter } from "./document.js";
 import { cellText, columnsOf, KIND_TITLES, sizeOf, sortKey } from "./columns.js";
 
+/** @typedef {import("../../types.js").CatalogueFilter} CatalogueFilter */
 /** @typedef {import("../../types.js").Preset} Preset */
+
+export const filter = computed(() => doc.value.catalogue);
+/** @param {Partial<CatalogueFilter>} patch */
+export const setFilter = (patch) => look((d) => ({ ...d, catalogue: { ...d.catalogue, ...patch } }));
 
 const list = computed(() => presets.value[filter.value.kind] ?? null);
 const columns = computed(() => columnsOf(filter.value.kind, list.value ?? []));

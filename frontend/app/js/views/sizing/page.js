@@ -84,7 +84,7 @@ function start() {
     h(
       "p",
       { class: "muted" },
-      "The task on the left is an example. Use it, change it, or open another.",
+      "An example is filled in. Use it, change it, or open another.",
     ),
     proposeButton(),
     h("h3", null, "Example tasks"),

@@ -154,7 +154,7 @@ function next({ experiments, next_measurement: advice }) {
   return h(
     "details",
     { class: "next", open: items.length <= FEW },
-    h("summary", null, `Measure next: ${items.length} ${items.length > 1 ? "tests" : "test"} would tell`),
+    h("summary", null, `Measure next: ${items.length} ${items.length > 1 ? "tests" : "test"} would decide`),
     h("ol", { class: "experiments" }, ...items),
   );
 }

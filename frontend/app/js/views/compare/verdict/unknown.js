@@ -73,16 +73,14 @@ export function unknownCard() {
       h(
         "p",
         null,
-        `${verdict.effects.length ? "After adding the missing effects" : "The residual"}: ${
-          whatIsLeft(verdict)
-        }.`,
+        `${verdict.effects.length ? "After adding the missing effects, " : ""}${whatIsLeft(verdict)}.`,
       ),
       proposed
         ? [
           proposed.curve ? plot() : null,
           proposedTerm(
             proposed,
-            `A formula that explains ${brief(100 * proposed.share)} % of it`,
+            `A formula that explains ${brief(100 * proposed.share)} % of this part`,
             verdict.effects.length > 0,
           ),
         ]
