@@ -65,7 +65,7 @@ def test_a_run_of_a_drive_shows_what_its_valve_does(page: Page) -> None:
     page.get_by_label("Drive document as JSON").fill(json.dumps(rig))
     page.unroute("**/api/diagnoses")
     with page.expect_request("**/api/comparisons") as asked:
-        page.get_by_role("button", name="Use it").click()
+        page.get_by_role("button", name="Use this drive").click()
     assert "command" not in asked.value.post_data_json["drive"]
     expect(page.locator(".in-model")).to_have_count(len(made.effects), timeout=20_000)
     diagnosed(page, A_DRIVE)
@@ -200,7 +200,7 @@ def test_a_proposed_term_explains_what_no_effect_does(page: Page) -> None:
 def test_what_is_left_as_autocorrelation_and_loops(page: Page, sweeps: FilePayload) -> None:
     opened(page, sweeps)
     page.get_by_role("button", name="Autocorrelation of the residual").click()
-    expect(page.locator("#white")).to_contain_text("Outside")
+    expect(page.locator("#white")).to_contain_text("not only noise")
     expect(page.locator("#residual .trace .point").first).to_be_attached()
     expect(page.locator(".brush-handle").first).to_be_hidden()
     page.get_by_role("button", name="Area of each loop of the residual").click()

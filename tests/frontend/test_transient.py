@@ -233,9 +233,8 @@ def test_the_link_restores_drive_window_and_pins(page: Page) -> None:
     open_transient(other, link_of(page))
     expect(field(other, "Mass")).to_have_value("42")
     expect(other.get_by_label("Window to, in seconds")).to_have_value("0.800")
-    expect(other.get_by_role("region", name="Pinned runs and the current run").locator("thead")).to_contain_text(
-        "42 kg"
-    )
+    pinned = other.get_by_role("region", name="Pinned runs and the current run")
+    expect(pinned.locator("thead")).to_contain_text("42 kg")
     other.close()
 
 
