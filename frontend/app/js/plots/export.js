@@ -154,7 +154,7 @@ export async function saveSheet(charts, format, name) {
 
 /** The values of a plot: its own table, else one column for x and one for each line. @param {Chart} chart
  * @returns {import("../ui/table.js").Table} */
-export function chartTable(chart) {
+function chartTable(chart) {
   const spec = chart.spec;
   if (spec?.table) return spec.table;
   const lines = spec?.traces.filter((t) => t.line) ?? [];

@@ -22,7 +22,7 @@ export const LIGHT = {
 };
 
 /** @type {Palette} */
-export const DARK = {
+const DARK = {
   dark: true,
   ink: "#e8edf3",
   soft: "#a7b4c2",

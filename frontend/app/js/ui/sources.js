@@ -16,7 +16,7 @@ export const GRADES = {
 };
 
 /** @param {string} grade */
-export const isUnverified = (grade) => grade === "M" || grade === "E";
+const isUnverified = (grade) => grade === "M" || grade === "E";
 
 /** @param {string} grade */
 export const gradeTag = (grade) =>

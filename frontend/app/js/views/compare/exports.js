@@ -17,7 +17,7 @@ import { channelScale, titleOf, VARIABLES } from "./words.js";
 
 /** Every point with its residual, in shown units. @param {import("./types.js").Comparison} a
  * @returns {import("../../ui/table.js").Table} */
-export function residualTable(a) {
+function residualTable(a) {
   const system = units.peek(), all = allSeries(a);
   const names = Object.keys(VARIABLES).filter((name) => all.some((s) => VARIABLES[name].of(s)?.length));
   const scales = names.map((name) => scaleOf(VARIABLES[name].quantity, system));

@@ -16,7 +16,7 @@ import { AIMS, driveWords, limitName } from "./words.js";
 
 const GRAVITY = 9.80665, NEAR = 0.3 * BAR;
 /** What one muscle holds at the end of the stroke at rest [N]. @param {Proposal} p */
-export function staticLoad({ drive, nominal_length: length, contraction }) {
+function staticLoad({ drive, nominal_length: length, contraction }) {
   const { mass = 0, force = 0, spring = 0, inclination = 0, lever_ratio: ratio = 1 } =
     /** @type {Record<string, number | undefined>} */ (drive.load);
   const stroke = (length * contraction) / ratio;

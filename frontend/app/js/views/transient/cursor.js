@@ -24,7 +24,7 @@ export const row = computed(() => run.value ? rowAt(run.value.time, cursor.value
 export const moveCursor = (t) => (wanted.value = t);
 
 /** @param {number} rows */
-export function stepCursor(rows) {
+function stepCursor(rows) {
   const time = run.peek()?.time;
   if (!time) return;
   moveCursor(time[Math.min(time.length - 1, Math.max(0, row.peek() + rows))]);

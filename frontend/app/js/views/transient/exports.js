@@ -48,7 +48,7 @@ const JOINT = [
 ];
 
 /** @param {Run} r @returns {import("../../ui/table.js").Table} every column of a run in shown units */
-export function runTable(r) {
+function runTable(r) {
   const system = units.peek();
   /** @param {string} title @param {Quantity} quantity @param {unknown} values
    * @returns {{title: string, quantity: Quantity, values: (number | null)[]}[]} */

@@ -29,7 +29,7 @@ export const mode = computed(() => transient.value.mode);
 
 /** @typedef {import("../../types.js").Doc} Doc */
 /** @param {Partial<Transient>} patch @returns {(d: Doc) => Doc} */
-export const patchTransient = (patch) => (d) => ({ ...d, transient: { ...d.transient, ...patch } });
+const patchTransient = (patch) => (d) => ({ ...d, transient: { ...d.transient, ...patch } });
 /** @param {Partial<Transient>} patch @param {string} label */
 export const editTransient = (patch, label) => edit(patchTransient(patch), label);
 /** Changes what is shown, without an undo step. @param {Partial<Transient>} patch */

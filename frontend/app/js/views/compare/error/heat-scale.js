@@ -21,7 +21,7 @@ export const bin = (edges, i) => [edges[i] ?? 0, edges[i + 1] ?? edges[i] ?? 0];
 
 /** @param {HeatMap} map @param {number} first error of the first model @param {Heat} choice
  * @returns {HeatScale} */
-export function heatScale(map, first, choice) {
+function heatScale(map, first, choice) {
   const start = 2 * first || 1;
   let largest = 0, at = /** @type {[number, number]} */ ([0, 0]);
   map.mean.forEach((row, iy) =>

@@ -15,7 +15,7 @@ export const allSeries = (a) =>
   a.series.some((s) => s.use === "validation") ? a.series : [...a.series, ...(a.validation?.series ?? [])];
 
 /** @param {Comparison} a @returns {string[]} */
-export const channelsOf = (a) => [...new Set(allSeries(a).map((s) => s.channel ?? a.predicted))];
+const channelsOf = (a) => [...new Set(allSeries(a).map((s) => s.channel ?? a.predicted))];
 
 /** @param {Comparison} a @param {string} channel */
 const ofChannel = (a, channel) => allSeries(a).filter((s) => (s.channel ?? a.predicted) === channel);

@@ -56,7 +56,7 @@ function pieces(s, over, belongs) {
 }
 
 /** Whether each point has its own pressure: no line is drawn then. @param {Series} s @param {string} over */
-export const isScattered = (s, over) =>
+const isScattered = (s, over) =>
   s.pressure === null && over !== "time" && !(s.direction ?? []).some((d) => d);
 
 /** A range with room for the points at its ends. @param {[number, number]} range @returns {[number, number]} */

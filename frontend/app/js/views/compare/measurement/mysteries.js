@@ -29,7 +29,7 @@ export async function fetchMysteries() {
 }
 
 /** @param {Mystery} m */
-export function openMystery(m) {
+function openMystery(m) {
   revealed.value = null;
   edit((d) => ({
     ...d,

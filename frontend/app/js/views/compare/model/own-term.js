@@ -38,7 +38,7 @@ const effectsNow = () => compare.peek().effects ?? effectValues(preset.peek());
  * @param {{label: string, formula: string, button: string, id: string, effects: () => Effects,
  *   plain?: boolean, unchanged?: () => void, done?: () => void, cancel?: () => void}} o  `effects`: the model it is added to;
  *   `unchanged`: what to do with a proposed formula that was not changed */
-export function termForm(o) {
+function termForm(o) {
   const wrong = signal("");
   const fieldId = `${o.id}-${++count}`;
   const field = h("textarea", {

@@ -25,7 +25,7 @@ const asText = (si) => {
 
 /** "24.1 ± 0.3 N", with a mark at a bound.
  * @param {string} name @param {{value: number, stderr: number | null, unit: string, at_bound: boolean}} p */
-export function valueText(name, p) {
+function valueText(name, p) {
   const quantity = quantityOf(p.unit, name);
   const s = quantity ? scaleOf(quantity, units.value) : plainScale(p.unit);
   const error = p.stderr === null ? "" : ` ± ${figures(p.stderr / s.factor, 2)}`;

@@ -161,7 +161,7 @@ function tracking() {
 }
 
 /** How long the simulation took, and with what. */
-export function runLine() {
+function runLine() {
   const r = run.value;
   if (!r) return "";
   return `${r.outcome === "completed" ? "Completed" : r.outcome.replace("_", " ")} in ${

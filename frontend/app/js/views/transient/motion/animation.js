@@ -93,7 +93,7 @@ function picture() {
   return box;
 }
 
-export const playing = signal(false);
+const playing = signal(false);
 const speed = signal(0);
 
 /** Seconds of the run per second: real time, unless the user chose a speed or the run is long. */

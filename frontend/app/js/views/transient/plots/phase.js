@@ -50,7 +50,7 @@ function mapOf(c) {
 
 /** Static force at a pressure and a contraction, interpolated linearly.
  * @param {Curves} c @param {number} p @param {number} k */
-export function forceAt(c, p, k) {
+function forceAt(c, p, k) {
   const map = mapOf(c), [i, up] = between(c.pressure, p), [j, along] = between(c.contraction, k);
   const row = (/** @type {number} */ n) => {
     const line = map[Math.min(n, map.length - 1)];
