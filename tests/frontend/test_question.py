@@ -236,8 +236,7 @@ def test_messages_belong_to_fields(blank: Page) -> None:
     result = run(
         blank,
         """
-        const { fieldMessages } = await import("/js/server/messages.js");
-        const { ApiError } = await import("/js/server/client.js");
+        const { ApiError, fieldMessages } = await import("/js/server/client.js");
         const error = new ApiError("must be positive", { field: "body.drive.load.mass", status: 422 });
         const m = fieldMessages(() => error, (path) => path.replace(/^drive\\./, ""));
         const none = fieldMessages(() => null, (path) => path);

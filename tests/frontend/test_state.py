@@ -210,7 +210,7 @@ def test_numbers_have_sensible_digits(blank: Page) -> None:
 
 PARTS = [
     "/js/muscle/document.js",
-    *(f"/js/views/{view}/document.js" for view in ("sizing", "transient", "compare", "catalogue")),
+    *(f"/js/views/{view}/index.js" for view in ("sizing", "transient", "compare", "catalogue")),
 ]
 
 

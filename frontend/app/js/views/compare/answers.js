@@ -2,8 +2,7 @@
 // The answers of the server: first the comparison of model and measurement, then the diagnosis.
 import { batch, computed, signal } from "../../reactive.js";
 import { doc, edit, look, view } from "../../state.js";
-import { post, postForEvents } from "../../server/client.js";
-import { fieldMessages } from "../../server/messages.js";
+import { fieldMessages, post, postForEvents } from "../../server/client.js";
 import { Memory, Question } from "../../server/question.js";
 import { musclesById } from "../../store.js";
 import { keyOf, used } from "./request.js";

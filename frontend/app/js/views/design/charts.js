@@ -1,8 +1,9 @@
 // @ts-check
 // The four plots: cards with title, legend and menu; all are drawn when an answer arrives.
 import { h, icon } from "../../dom.js";
-import { computed, effect } from "../../reactive.js";
+import { computed, effect, signal } from "../../reactive.js";
 import { commit, look, preview, units } from "../../state.js";
+import { status } from "../../store.js";
 import { design, editDesign, patchDesign } from "../../muscle/document.js";
 import { brief, niceStep, scaleOf, toShown, toSi, withUnit } from "../../format.js";
 import { Chart } from "../../plots/chart.js";
@@ -15,8 +16,6 @@ import { faultNotice, goToField } from "../../ui/fault.js";
 import { forgetRanges } from "../../plots/axes.js";
 import { ACROSS, OVER, pressureName, shareOf } from "../../muscle/curve-axes.js";
 import { cursor, readout } from "./readout.js";
-import { overPressureSpec, stiffnessSpec, volumeSpec } from "./specs.js";
-import { forceSpec } from "../../muscle/force-plot.js";
 
 /** @typedef {import("../../muscle/curve-axes.js").View} View */
 
@@ -159,6 +158,16 @@ function loadHandle() {
   });
 }
 
+/** What the plots show; fetched together with Plotly, without which nothing is drawn. */
+const specs = signal(/** @type {typeof import("./specs.js") | null} */ (null));
+async function fetchSpecs() {
+  try {
+    specs.value = await import("./specs.js");
+  } catch {
+    status.value = "The plots did not load. Reload the page.";
+  }
+}
+
 let drawings = 0;
 
 /** Changes when the axes need new ranges; until then they stay the same while a slider moves. */
@@ -181,17 +190,17 @@ let outdated = null;
 
 /** Redraws every plot; the count and the performance marks are for tests. */
 function drawAll() {
-  const v = viewNow();
+  const v = viewNow(), draw = specs.value;
   palette.value;
-  if (!v) return;
+  if (!v || !draw) return;
   performance.mark("draw-start");
   if (picture.peek() !== drawnPicture) outdated = v.curves;
   else if (outdated && outdated !== v.curves) outdated = forgetRanges();
   drawnPicture = picture.peek();
-  force.chart.show((p) => forceSpec(v, p));
-  stiffness.chart.show((p) => stiffnessSpec(v, p));
-  volume.chart.show((p) => volumeSpec(v, p));
-  over.chart.show((p) => overPressureSpec(v, p));
+  force.chart.show((p) => draw.forceSpec(v, p));
+  stiffness.chart.show((p) => draw.stiffnessSpec(v, p));
+  volume.chart.show((p) => draw.volumeSpec(v, p));
+  over.chart.show((p) => draw.overPressureSpec(v, p));
   if (!force.chart.axes) return;
   performance.measure("draw", "draw-start");
   document.documentElement.dataset.drawn = String(++drawings);
@@ -243,7 +252,8 @@ export function chartColumn() {
     placeLoad();
   });
   effect(() => {
-    if (plotlyReady.value) drawAll();
+    if (plotlyReady.value) fetchSpecs();
   });
+  effect(drawAll);
   return column;
 }

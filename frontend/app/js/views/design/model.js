@@ -5,8 +5,7 @@ import { siOf } from "../../format.js";
 import { design, modelInput, muscleInput } from "../../muscle/document.js";
 import { muscle, preset } from "../../muscle/preset.js";
 import { computed } from "../../reactive.js";
-import { post } from "../../server/client.js";
-import { fieldMessages } from "../../server/messages.js";
+import { fieldMessages, post } from "../../server/client.js";
 import { Question } from "../../server/question.js";
 import { references } from "../../store.js";
 

@@ -6,6 +6,8 @@ import { OVER, xAxis, xColumn } from "../../muscle/curve-axes.js";
 import { curveFamily, limitZones } from "../../muscle/force-plot.js";
 import { axisTitle, extent, shown, steadyRange, steadyX } from "../../plots/axes.js";
 
+export { forceSpec } from "../../muscle/force-plot.js";
+
 /** @typedef {import("../../plots/chart.js").Spec} Spec */
 /** @typedef {import("../../plots/chart.js").Zone} Zone */
 /** @typedef {import("../../plots/theme.js").Palette} Palette */

@@ -2,8 +2,7 @@
 // From the task to the server's search and its answer. The search goes on while another view is shown.
 import { computed, effect, signal } from "../../reactive.js";
 import { doc, edit, look } from "../../state.js";
-import { postForEvents } from "../../server/client.js";
-import { fieldMessages } from "../../server/messages.js";
+import { fieldMessages, postForEvents } from "../../server/client.js";
 import { Memory, Question } from "../../server/question.js";
 import { status } from "../../store.js";
 import { opened, requestOf } from "./document.js";

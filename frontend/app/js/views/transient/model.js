@@ -3,8 +3,7 @@
 import { computed } from "../../reactive.js";
 import { commit, doc, edit, look, preview, view } from "../../state.js";
 import { design, muscleInput } from "../../muscle/document.js";
-import { post } from "../../server/client.js";
-import { fieldMessages } from "../../server/messages.js";
+import { fieldMessages, post } from "../../server/client.js";
 import { Question } from "../../server/question.js";
 import { presets, status } from "../../store.js";
 import { openDrive } from "../../drive/open.js";
