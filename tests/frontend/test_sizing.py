@@ -85,7 +85,7 @@ def test_from_the_empty_page_to_the_printed_report(page: Page, tmp_path: Path) -
         do()
 
     act(lambda: page.get_by_role("radio", name="Task", exact=True).click())
-    expect(page.locator(".empty-state")).to_contain_text("The task on the left is an example")
+    expect(page.locator(".empty-state")).to_contain_text("An example is filled in")
     act(lambda: page.get_by_role("button", name="Examples of tasks").click())
     act(lambda: page.get_by_role("menuitem").filter(has_text="Lift 20 kg").click())
     act(lambda: enter(page, "Mass", "18 kg"))
