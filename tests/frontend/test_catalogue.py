@@ -39,7 +39,7 @@ def test_filter_by_kind_maker_size_and_words(page: Page) -> None:
     page.get_by_label("Search the catalogue").fill("mas")
     expect(page.locator(".parts .part")).to_have_count(1)
     page.get_by_label("Search the catalogue").fill("nothing like this")
-    expect(page.locator(".empty")).to_contain_text("No part fits")
+    expect(page.locator(".empty")).to_contain_text("No part matches")
     page.get_by_role("button", name="Clear the filter").click()
     expect(page.locator(".parts .part")).to_have_count(total)
     page.get_by_label("Maker").select_option("Festo")

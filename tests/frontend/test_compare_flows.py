@@ -45,7 +45,7 @@ def over_noise(page: Page) -> float:
 
 def own_term(page: Page) -> Locator:
     """The field of a term by hand."""
-    return page.get_by_role("textbox", name="Your own term of the force")
+    return page.get_by_role("textbox", name="Formula of your own term")
 
 
 def test_a_run_of_a_drive_shows_what_its_valve_does(page: Page) -> None:
@@ -65,7 +65,7 @@ def test_a_run_of_a_drive_shows_what_its_valve_does(page: Page) -> None:
     page.get_by_label("Drive document as JSON").fill(json.dumps(rig))
     page.unroute("**/api/diagnoses")
     with page.expect_request("**/api/comparisons") as asked:
-        page.get_by_role("button", name="Use it").click()
+        page.get_by_role("button", name="Use this drive").click()
     assert "command" not in asked.value.post_data_json["drive"]
     expect(page.locator(".in-model")).to_have_count(len(made.effects), timeout=20_000)
     diagnosed(page, A_DRIVE)
@@ -90,7 +90,7 @@ def test_a_mystery_is_diagnosed_and_revealed(page: Page) -> None:
     expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
     diagnosed(page)
     card = page.get_by_role("region", name="Mystery")
-    expect(card).to_contain_text("Add what you think is missing")
+    expect(card).to_contain_text("Add the effects you think are missing")
     changed(page, page.locator("#add-all").click)
     expect(card).to_contain_text("Your diagnosis so far")
     card.get_by_role("button", name="Reveal what is hidden").click()
@@ -151,7 +151,7 @@ def test_a_term_by_hand_is_checked_fitted_changed_and_removed(
     page.get_by_role("button", name="Add a term of your own…").click()
     form = page.locator(".model-card .term-form")
     form.get_by_role("button", name="Add and fit").click()
-    expect(form.get_by_role("alert")).to_contain_text("Write a term")
+    expect(form.get_by_role("alert")).to_contain_text("Enter a formula")
     own_term(page).fill("loss*'P'")
     form.get_by_role("button", name="Add and fit").click()
     expect(form.get_by_role("alert")).to_contain_text("single quote")
@@ -168,7 +168,7 @@ def test_a_term_by_hand_is_checked_fitted_changed_and_removed(
     expect(row.locator(".parameter")).to_have_count(2)
     row.get_by_role("button", name="Edit…").click()
     own_term(page).fill(LINEAR)
-    lossy = changed(page, form.get_by_role("button", name="Take it and fit").click)
+    lossy = changed(page, form.get_by_role("button", name="Change and fit").click)
     assert lossy < linear
     loss = float(row.get_by_label("loss").input_value())
     assert loss == pytest.approx(FRICTION, rel=0.3)
@@ -191,19 +191,23 @@ def test_a_proposed_term_explains_what_no_effect_does(page: Page) -> None:
     assert error(page) < 0.6 * start
     page.get_by_role("button", name="Reveal what is hidden").click()
     expect(page.locator(".revealed.good")).to_have_count(1)
+    page.get_by_role("button", name="Export").click()
+    page.get_by_role("menuitem", name="Use this model in Design").click()
+    expect(page.locator(".status")).to_contain_text("Left out")
+    expect(page.locator(".status")).to_contain_text("Own term")
 
 
 def test_what_is_left_as_autocorrelation_and_loops(page: Page, sweeps: FilePayload) -> None:
     opened(page, sweeps)
     page.get_by_role("button", name="Autocorrelation of the residual").click()
-    expect(page.locator("#white")).to_contain_text("Outside")
+    expect(page.locator("#white")).to_contain_text("not only noise")
     expect(page.locator("#residual .trace .point").first).to_be_attached()
     expect(page.locator(".brush-handle").first).to_be_hidden()
     page.get_by_role("button", name="Area of each loop of the residual").click()
     # Friction alone takes 2 F per way out of a cycle, whatever else the model lacks.
     told = page.locator(".brush-line")
     expect(told).to_contain_text(f"{len(REACH)} loops")
-    found = re.search(r"with ([\d.]+)\s*N of friction", told.inner_text())
+    found = re.search(r"equivalent to ([\d.]+)\s*N of friction", told.inner_text())
     assert found
     assert float(found[1]) == pytest.approx(FRICTION, rel=0.15)
     page.get_by_role("button", name=re.compile("Residual.*save or show as table")).click()
@@ -211,9 +215,9 @@ def test_what_is_left_as_autocorrelation_and_loops(page: Page, sweeps: FilePaylo
     expect(page.get_by_role("dialog").locator("tbody tr")).to_have_count(len(REACH))
     page.keyboard.press("Escape")
     changed(page, page.locator("#add-all").click)
-    expect(told).to_contain_text("nothing is left")
+    expect(told).to_contain_text("within the noise")
     page.get_by_role("button", name="Autocorrelation of the residual").click()
-    expect(page.locator("#white")).to_contain_text("nothing left")
+    expect(page.locator("#white")).to_contain_text("residual is noise")
 
 
 def test_data_without_loops_say_so(page: Page) -> None:

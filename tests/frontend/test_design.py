@@ -205,7 +205,7 @@ def test_changed_values_are_marked_and_reset(page: Page) -> None:
 
 def test_pressures_of_the_family(page: Page) -> None:
     open_design(page)
-    chips = page.get_by_role("list", name="Pressures of the family").get_by_role("listitem")
+    chips = page.get_by_role("list", name="Pressures of the curves").get_by_role("listitem")
     page.get_by_label("Pressure to add").fill("250 kPa")
     redrawn(page, lambda: page.keyboard.press("Enter"))
     expect(chips).to_have_count(7)
@@ -222,12 +222,12 @@ def test_effects_come_from_the_server(page: Page) -> None:
     listed = run(page, "return (await (await fetch('/api/effects')).json()).effects.map((e) => e.title);")
     expect(page.locator("[data-effect]")).to_have_count(len(listed))
     families = page.locator(".family > summary > span").all_inner_texts()
-    assert families[-1] == "Only over time"
+    assert families[-1] == "Dynamic effects"
     own = rmse(page)
     redrawn(page, lambda: page.get_by_role("button", name="Ideal", exact=True).click())
     expect(page.locator("[data-effect].on")).to_have_count(0)
     expect(page.locator("#rmse .rmse.first b")).not_to_contain_text(f"{own}")
-    redrawn(page, lambda: page.get_by_role("button", name="Preset’s own").click())
+    redrawn(page, lambda: page.get_by_role("button", name="Preset’s effects").click())
     expect(page.locator("[data-effect].on")).to_have_count(2)
     expect(page.locator("#rmse .rmse.first b")).to_contain_text(f"{own}")
 
@@ -251,7 +251,7 @@ def test_an_effect_is_found_switched_and_set(page: Page) -> None:
     found.first.get_by_role("button", name=f"About {title}").click()
     note = page.get_by_role("dialog", name=title)
     expect(note.locator("math").first).to_be_visible()
-    for heading in ("How it shows in the residual", "Range", "References"):
+    for heading in ("What it looks like in the residual", "Range", "References"):
         expect(note).to_contain_text(heading)
 
 
@@ -294,7 +294,7 @@ def test_verdicts_name_the_limit(page: Page) -> None:
 
 def test_inverse_questions(page: Page) -> None:
     open_design(page)
-    card = page.get_by_role("region", name="Inverse questions")
+    card = page.get_by_role("region", name="Inverse calculation")
     expect(card.locator(".answer")).to_contain_text("bar")
     card.get_by_role("radio", name="Contraction").click()
     expect(card.locator(".answer")).to_contain_text("%")
@@ -343,7 +343,7 @@ def test_the_figures_of_the_paper(page: Page) -> None:
     # Figure 9 has the printed forces.
     example(page, "Figure 9:")
     rows = page.get_by_role("region", name="Characteristics per pressure").locator("tbody tr")
-    assert [row.locator("td").first.inner_text() for row in rows.all()] == ["64", "193", "386"]
+    expect(rows.locator("td:first-of-type")).to_have_text(["64", "193", "386"])
     table = list(csv.DictReader(Path(download(page, "Curves as CSV").path()).read_text().splitlines()))
     first = [float(row["force [N]"]) for row in table if float(row["contraction [%]"]) == 0]
     assert first == pytest.approx([64.39, 193.16, 386.31], abs=0.01)

@@ -85,13 +85,13 @@ def test_from_the_empty_page_to_the_printed_report(page: Page, tmp_path: Path) -
         do()
 
     act(lambda: page.get_by_role("radio", name="Task", exact=True).click())
-    expect(page.locator(".empty-state")).to_contain_text("The task on the left is an example")
+    expect(page.locator(".empty-state")).to_contain_text("An example is filled in")
     act(lambda: page.get_by_role("button", name="Examples of tasks").click())
     act(lambda: page.get_by_role("menuitem").filter(has_text="Lift 20 kg").click())
     act(lambda: enter(page, "Mass", "18 kg"))
     act(lambda: enter(page, "Stroke", "5 cm"))
     act(lambda: searched(page))
-    expect(page.locator(".chosen-drive")).to_contain_text("probability that what is built does the task")
+    expect(page.locator(".chosen-drive")).to_contain_text("probability that the real drive does the task")
     drive = page.locator(".chosen-drive h3").first.inner_text()
     time = number(fact(page, "Time for the stroke"))
 
@@ -149,7 +149,7 @@ def test_the_list_says_what_the_server_found(page: Page) -> None:
     )
     badge = page.locator(".chosen-drive .badge")
     badge.click()
-    expect(page.get_by_role("dialog", name="Unverified figures")).to_contain_text(proposals[2]["valve"])
+    expect(page.get_by_role("dialog", name="Unverified values")).to_contain_text(proposals[2]["valve"])
 
 
 def test_trade_offs(page: Page) -> None:
@@ -159,8 +159,8 @@ def test_trade_offs(page: Page) -> None:
     marks = page.locator(".rank-mark")
     expect(marks).to_have_count(len(proposals))
     expect(page.locator(".rank-mark.front")).to_have_count(sum(p["front"] for p in proposals))
-    page.get_by_label("Aim upwards").select_option("stiffness")
-    page.get_by_label("Aim to the right").select_option("length")
+    page.get_by_label("Aim on the vertical axis").select_option("stiffness")
+    page.get_by_label("Aim on the horizontal axis").select_option("length")
     expect(page.locator("#pareto .xtitle")).to_have_text("Installed length (mm)")
     expect(page.locator("#pareto .ytitle")).to_have_text("Stiffness (N/mm)")
     marks.nth(3).focus()
@@ -293,7 +293,7 @@ def test_cancel_keeps_what_was_there(page: Page) -> None:
     # The server is free again: the next search is answered.
     enter(page, "Specimens", "0")
     searched(page)
-    expect(page.locator(".chosen-drive")).to_contain_text("no specimens were asked for")
+    expect(page.locator(".chosen-drive")).to_contain_text("no specimens were simulated")
 
 
 def test_undo_brings_back_task_and_drives(page: Page) -> None:

@@ -1,4 +1,4 @@
-"""The modules without a page: signals, the document, links, units, one request at a time."""
+"""The modules without a page: signals, the document, links, units."""
 
 from __future__ import annotations
 
@@ -61,7 +61,8 @@ def test_a_drag_is_one_undo_step_with_a_name(blank: Page) -> None:
         blank,
         """
         const s = await import("/js/state.js");
-        for (const load of [510, 520, 530]) s.preview(s.patchDesign({ load }));
+        const { patchDesign } = await import("/js/muscle/document.js");
+        for (const load of [510, 520, 530]) s.preview(patchDesign({ load }));
         s.commit("load");
         const steps = s.past.peek().map((step) => step.label), moved = s.doc.peek().design.load;
         s.undo();
@@ -78,14 +79,42 @@ def test_a_new_change_ends_the_redo_branch(blank: Page) -> None:
         blank,
         """
         const s = await import("/js/state.js");
-        s.editDesign({ load: 1 }, "a");
-        s.editDesign({ load: 2 }, "b");
+        const { editDesign } = await import("/js/muscle/document.js");
+        editDesign({ load: 1 }, "a");
+        editDesign({ load: 2 }, "b");
         s.undo();
-        s.editDesign({ load: 3 }, "c");
+        editDesign({ load: 3 }, "c");
         return [s.future.peek().length, s.past.peek().map((step) => step.label), s.redo()];
         """,
     )
     assert left == [0, ["a", "c"], None]
+
+
+def test_a_part_of_the_document_is_registered_with_its_start_and_its_reader(blank: Page) -> None:
+    outcome = run(
+        blank,
+        """
+        const s = await import("/js/state.js");
+        const read = (raw) => {
+          if (raw === undefined) return { size: 1 };
+          if (typeof raw.size !== "number") throw new Error("the size of the part is no number");
+          return { size: raw.size };
+        };
+        s.addPart("part", { start: () => ({ size: 1 }), read });
+        const wrong = () => s.readDoc({ schema: 1, part: { size: "much" } });
+        let message = "";
+        try { wrong(); } catch (error) { message = error.message; }
+        return [s.doc.peek().part, s.defaultDoc().part, s.readDoc({ schema: 1 }).part,
+          s.readDoc({ schema: 1, part: { size: 3, more: 4 } }).part, message];
+        """,
+    )
+    assert outcome == [
+        {"size": 1},
+        {"size": 1},
+        {"size": 1},
+        {"size": 3},
+        "the size of the part is no number",
+    ]
 
 
 def test_what_is_looked_at_is_no_step(blank: Page) -> None:
@@ -177,29 +206,12 @@ def test_numbers_have_sensible_digits(blank: Page) -> None:
     assert texts == ["0.3", "0", "1548.5", "–", "0.004", "15.8", ["0.0", "4.3", "15.8", "–"]]
 
 
-def test_one_request_in_flight_and_the_latest_wins(blank: Page) -> None:
-    result = run(
-        blank,
-        """
-        const { latest } = await import("/js/api.js");
-        const asked = [], done = [];
-        let most = 0, now = 0;
-        const ask = latest(async (body) => {
-          asked.push(body);
-          most = Math.max(most, ++now);
-          await new Promise((r) => setTimeout(r, 20));
-          now--;
-          return body * 10;
-        }, (answer) => done.push(answer), () => {});
-        for (let i = 1; i <= 50; i++) ask(i);
-        await new Promise((r) => setTimeout(r, 120));
-        return { asked, done, most };
-        """,
-    )
-    assert result == {"asked": [1, 50], "done": [10, 500], "most": 1}
-
-
 # ---- links
+
+PARTS = [
+    "/js/muscle/document.js",
+    *(f"/js/views/{view}/index.js" for view in ("sizing", "transient", "compare", "catalogue")),
+]
 
 
 def packed(text: str) -> str:
@@ -214,6 +226,7 @@ def test_a_link_holds_the_whole_document(blank: Page) -> None:
         blank,
         """
         const { toHash, fromHash } = await import("/js/link.js");
+        for (const part of argument) await import(part);
         const { defaultDoc } = await import("/js/state.js");
         const doc = defaultDoc();
         doc.units = "us";
@@ -222,6 +235,7 @@ def test_a_link_holds_the_whole_document(blank: Page) -> None:
         const hash = await toHash(doc);
         return [hash.startsWith("#v1."), JSON.stringify(await fromHash(hash)) === JSON.stringify(doc)];
         """,
+        PARTS,
     )
     assert same == [True, True]
 
@@ -250,6 +264,7 @@ def test_wrong_documents_are_refused_in_words(blank: Page) -> None:
         blank,
         """
         const { fromHash } = await import("/js/link.js");
+        await import("/js/muscle/document.js");
         return Promise.all(argument.map((hash) => fromHash(hash).then(() => "", (error) => error.message)));
         """,
         [packed(text) for text in WRONG_DOCUMENTS],
@@ -272,6 +287,7 @@ def test_damaged_links_never_break_the_reader(blank: Page) -> None:
         blank,
         """
         const { fromHash } = await import("/js/link.js");
+        await import("/js/muscle/document.js");
         const outcome = (hash) => fromHash(hash).then(
           (doc) => doc === null || Array.isArray(doc.design.pressures) ? "read" : "broken",
           (error) => error instanceof Error && error.message.length > 10 ? "refused" : "mute");

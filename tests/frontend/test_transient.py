@@ -137,7 +137,7 @@ def test_units_of_drive_documents_are_read_and_every_scenario_runs(page: Page) -
     read = run(
         page,
         """
-        const { siNumber } = await import("/js/views/transient/units.js");
+        const { siNumber } = await import("/js/quantities.js");
         return argument.map(siNumber);
         """,
         texts,
@@ -178,7 +178,7 @@ def test_shapes_and_controller(page: Page) -> None:
     for name in ("step", "square", "triangle", "ramp", "sine", "chirp", "random", "table"):
         rerun(page, lambda name=name: shape.select_option(name))
         expect(page.locator(".transient .notice")).to_be_hidden()
-    rows = page.get_by_label("Time (s) and value (%), a row each")
+    rows = page.get_by_label("Rows of time (s) and value (%)")
     rows.fill("0 0\nlater 5")
     rows.blur()
     expect(page.locator(".signal .error", has_text="Row")).to_contain_text("Row 2")
@@ -196,7 +196,7 @@ def test_another_valve_brings_its_dead_time(page: Page) -> None:
     expect(own).to_have_count(3)
     rerun(page, lambda: page.get_by_label("Valve", exact=True).select_option("own"))
     expect(own).to_have_count(2)
-    expect(field(page, "Conductance filling")).to_have_value("3")
+    expect(field(page, "Conductance, filling")).to_have_value("3")
     rerun(page, lambda: page.get_by_label("Tube", exact=True).select_option("none"))
     expect(page.locator(".run-pressure .legend")).not_to_contain_text("tube")
 
@@ -204,7 +204,7 @@ def test_another_valve_brings_its_dead_time(page: Page) -> None:
 def test_pin_and_difference(page: Page) -> None:
     open_transient(page)
     page.get_by_role("button", name="Pin this run").click()
-    table = page.get_by_role("region", name="Pinned runs and the run now")
+    table = page.get_by_role("region", name="Pinned runs and the current run")
     expect(table.locator("thead")).to_contain_text("50 kg")
     rerun(page, lambda: enter(page, "Mass", "40"))
     expect(table.locator("tr", has=page.get_by_role("rowheader", name="Mass", exact=True))).to_contain_text(
@@ -233,9 +233,8 @@ def test_the_link_restores_drive_window_and_pins(page: Page) -> None:
     open_transient(other, link_of(page))
     expect(field(other, "Mass")).to_have_value("42")
     expect(other.get_by_label("Window to, in seconds")).to_have_value("0.800")
-    expect(other.get_by_role("region", name="Pinned runs and the run now").locator("thead")).to_contain_text(
-        "42 kg"
-    )
+    pinned = other.get_by_role("region", name="Pinned runs and the current run")
+    expect(pinned.locator("thead")).to_contain_text("42 kg")
     other.close()
 
 
@@ -351,7 +350,7 @@ def test_an_antagonist_pair_turns_a_pulley(page: Page, page_guard: PageGuard) ->
     expect(field(page, "Pulley radius")).to_be_hidden()
     expect(page.locator("#run-torque")).to_be_hidden()
     arrange(page, "antagonist")
-    expect(field(page, "Middle")).to_have_value("6")
+    expect(field(page, "Precontraction")).to_have_value("6")
     rerun(page, lambda: enter(page, "Pulley radius", "36 mm"))
     joint = page.get_by_role("region", name="Joint", exact=True)
     # Stops at 0 and 12 % of 300 mm: 18 mm either way, on 36 mm half a radian.
@@ -424,13 +423,13 @@ def test_a_table_comes_from_a_file(page: Page, tmp_path: Path) -> None:
     expect(card.locator(".points")).to_contain_text(
         "force.csv: 3 points, 0 to 1.5 s; times in ms, values in kN"
     )
-    expect(page.get_by_label("Time (s) and value (N), a row each")).to_have_value("0  0\n0.5  400\n1.5  100")
-    expect(page.locator("[id^=run-phase] ~ .hint")).to_contain_text("external force of the instant")
+    expect(page.get_by_label("Rows of time (s) and value (N)")).to_have_value("0  0\n0.5  400\n1.5  100")
+    expect(page.locator("[id^=run-phase] ~ .hint")).to_contain_text("external force at that time")
     wrong = card.locator(".table > .error")
     for text, words in {
-        "0;0\n0,5;12\nlater;3\n": "force.csv: Row 3: “later” is no number",
+        "0;0\n0,5;12\nlater;3\n": "force.csv: Row 3: “later” is not a number",
         "0;0;1\n": "has 3 columns",
-        "t;F\n": "no row of numbers",
+        "t;F\n": "no rows of numbers",
         "t [s];p [bar]\n0;1\n": "“bar” measures a pressure",
         "0;0\n1;1\n0,5;2\n": "Row 3: the time 0.5 is earlier",
     }.items():
@@ -444,7 +443,7 @@ def test_a_table_comes_from_a_file(page: Page, tmp_path: Path) -> None:
 
 
 READ = """
-const { readTable } = await import("/js/views/transient/table-file.js");
+const { readTable } = await import("/js/views/transient/inputs/table-file.js");
 return argument[0].map((text) => {
   const { times, values, words } = readTable(text, argument[1], "bar", { header: true });
   return { times, values, words };
@@ -468,7 +467,7 @@ def test_tables_as_instruments_write_them(page: Page) -> None:
         assert one["values"] == pytest.approx([0, 0.02]), text
     shares = run(page, READ, [["0;0\n1;0,5\n", "0;0\n1;50\n", "t;u [%]\n0;0\n1;50\n"], "ratio"])
     assert [one["values"] for one in shares] == [[0, 0.5]] * 3
-    assert "shares of 1 (it names no unit)" in shares[0]["words"]
+    assert "shares of 1 (the file names no unit)" in shares[0]["words"]
     # A triangle of 5001 points is three; noise keeps as many as a link can carry, and says what that costs.
     triangle = "\n".join(f"{k / 1000:.3f} {min(k, 5000 - k) / 100:.2f}" for k in range(5001))
     noise = "\n".join(f"{k} {math.sin(k * k):.6f}" for k in range(5001))
@@ -587,7 +586,7 @@ def test_a_window_never_outlasts_the_run(page: Page) -> None:
 
 
 RESTING = """
-const { resting } = await import("/js/views/transient/phase.js");
+const { resting } = await import("/js/views/transient/plots/phase.js");
 // F = p A (1 - k / k_max): straight, so that the balance has a closed form.
 const contraction = [...Array(51).keys()].map((i) => 0.005 * i), pressure = [0, 2e5, 4e5, 6e5];
 const force = pressure.map((p) => contraction.map((k) => p * argument.area * (1 - k / 0.25)));
@@ -630,7 +629,7 @@ def test_axe_finds_nothing(page: Page) -> None:
     arrange(page, "antagonist")
     rerun(page, lambda: page.get_by_label("Force over time", exact=True).select_option("table"))
     page.evaluate("document.querySelectorAll('details').forEach((el) => { el.open = true; })")
-    expect(page.get_by_role("region", name="Pinned runs and the run now")).to_be_visible()
+    expect(page.get_by_role("region", name="Pinned runs and the current run")).to_be_visible()
     for theme in ("light", "dark"):
         page.emulate_media(color_scheme="dark" if theme == "dark" else "light")
         marked(page, f'[data-theme="{theme}"]')

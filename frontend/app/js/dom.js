@@ -1,11 +1,12 @@
 // @ts-check
-// Elements out of function calls: a function given as an attribute or a child follows the signals it reads.
+// Elements built by function calls. A function as attribute or child is evaluated again whenever a signal it
+// reads changes.
 import { effect } from "./reactive.js";
 
 /** @typedef {Node | string | number | null | undefined | false} Leaf */
 /** @typedef {Leaf | Leaf[] | (() => Leaf | Leaf[])} Child */
 
-/** Set as properties, because the attribute of the same name is only the start value. */
+/** Set as properties, because the attribute of the same name is only the initial value. */
 const PROPERTIES = new Set([
   "value",
   "checked",
@@ -17,7 +18,7 @@ const PROPERTIES = new Set([
 ]);
 
 /** @template {keyof HTMLElementTagNameMap} K
- * @param {K} tag @param {Record<string, unknown> | null} [props] on… = listener, ref = gets the element
+ * @param {K} tag @param {Record<string, unknown> | null} [props] "on…": a listener; "ref": called with the element
  * @param {Child[]} kids @returns {HTMLElementTagNameMap[K]} */
 export function h(tag, props, ...kids) {
   const el = document.createElement(tag);
@@ -106,7 +107,7 @@ export function icon(name) {
   return svg;
 }
 
-/** Server text in MathML as nodes; only elements of MathML are taken over.
+/** MathML of the server as nodes, without anything that is not MathML.
  * @param {string} markup @returns {Node} */
 export function mathml(markup) {
   const parsed = new DOMParser().parseFromString(markup, "application/xml").documentElement;

@@ -1,12 +1,14 @@
 // @ts-check
-// Quantities: SI inside, the user's units at the edge. Reading typed units, writing numbers with sensible
-// digits.
+// Quantities: SI in the program, the user's units on the page. Reading numbers with units, writing numbers with
+// sensible digits.
 
 /** @typedef {"si" | "bar" | "us"} System */
 /** SI = shown × factor + offset.
  * @typedef {{unit: string, factor: number, offset?: number, digits: number}} Scale */
 /** @typedef {keyof typeof SCALES} Quantity */
 
+/** [Pa] */
+export const BAR = 1e5;
 const DEG = Math.PI / 180;
 const INCH = 0.0254, LBF = 4.4482216152605, PSI = 6894.757293168, POUND = 0.45359237;
 
@@ -124,7 +126,7 @@ const TYPED = {
   "m3/(s*pa)": ["conductance", 1],
 };
 
-/** What the server's SI unit of a value means on screen. @type {Record<string, Quantity>} */
+/** The quantity of a value by its SI unit. @type {Record<string, Quantity>} */
 const OF_SI = {
   m: "length",
   Pa: "pressure",
@@ -140,16 +142,16 @@ const OF_SI = {
   "m/s": "speed",
 };
 
-/** The quantity of a parameter: its SI unit decides; a modulus of rubber is not shown in bar.
+/** The quantity of a parameter by its SI unit; a modulus is shown in N/mm², not in bar.
  * @param {string} unit @param {string} [name]
- * @returns {Quantity | null} null = unit without a scale of its own */
+ * @returns {Quantity | null} null: the unit has no scale of its own */
 export function quantityOf(unit, name = "") {
   if (unit === "Pa" && /modulus|constant/.test(name)) return "modulus";
   if (unit === "1" || unit === "") return "number";
   return OF_SI[unit] ?? null;
 }
 
-/** A scale for a unit the table does not know: shown as it is. @param {string} unit */
+/** A scale for a unit that has none: values are shown as they are. @param {string} unit */
 export const plainScale = (unit) => scale(tidyUnit(unit), 1, 6);
 
 /** "N*s/m" → "N·s/m", "m3" → "m³". @param {string} unit */
@@ -204,45 +206,46 @@ export function withUnit(si, quantity, system) {
 
 /** Reads "30 cm", "6 bar", "25°", "1,5"; a bare number is in the shown unit.
  * @param {string} text @param {Scale} s @param {Quantity | null} quantity
- * @param {string} [usual] for the example
+ * @param {string} [sample] the number of the example
  * @returns {{value: number} | {error: string}} SI */
-export function parse(text, s, quantity, usual) {
+export function parse(text, s, quantity, sample) {
   const tidy = text.trim().replace("−", "-").replace(/^([+-]?\d+),(\d+)(?=\D|$)/, "$1.$2");
-  const example = `${usual || "1.5"} ${s.unit}`.trim();
+  const example = `${sample || "1.5"} ${s.unit}`.trim();
   if (tidy === "") return { error: `Enter a number, for example ${example}.` };
   const match = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i.exec(tidy);
-  if (!match) return { error: `“${text.trim()}” is not a number. Write for example ${example}.` };
+  if (!match) return { error: `“${text.trim()}” is not a number. Enter for example ${example}.` };
   const value = Number(match[1]);
   const unit = match[2].trim();
   if (!unit || unit === s.unit) return { value: toSi(value, s) };
   const known = TYPED[unit.toLowerCase()];
-  if (!known) return { error: `The unit “${unit}” is not known here. Write for example ${example}.` };
+  if (!known) return { error: `The unit “${unit}” is not known. Enter for example ${example}.` };
   const [kind, factor, offset = 0] = known;
-  const wanted = plainly(quantity);
+  const wanted = basicQuantity(quantity);
   if (kind === "ratio" && wanted === "number") return { value: value * factor };
-  if (plainly(kind) !== wanted) {
+  if (basicQuantity(kind) !== wanted) {
     return { error: `“${unit}” measures ${noun(kind)}, this is ${noun(wanted)}.` };
   }
   return { value: value * factor + offset };
 }
 
-/** What is measured, however it is shown. @param {Quantity | null} quantity */
-const plainly = (quantity) => quantity === "modulus" ? "pressure" : quantity === "lapse" ? "time" : quantity;
+/** The same quantity may be shown on different scales. @param {Quantity | null} quantity */
+const basicQuantity = (quantity) =>
+  quantity === "modulus" ? "pressure" : quantity === "lapse" ? "time" : quantity;
 
 /** @param {Quantity | null} quantity */
 function noun(quantity) {
   if (quantity === null || quantity === "number") return "a plain number";
-  if (quantity === "ratio") return "a share";
+  if (quantity === "ratio") return "a ratio";
   return (/^[aeiou]/.test(quantity) ? "an " : "a ") + quantity;
 }
 
-/** The quantity a unit of a preset measures, if it is shown in the user's units. @param {string} unit
+/** The quantity of a unit as presets write it; null: it is not converted. @param {string} unit
  * @returns {Quantity | null} */
 export function quantityOfUnit(unit) {
   return TYPED[unit.toLowerCase()]?.[0] ?? null;
 }
 
-/** The numbers of one column with the same number of decimals, so that they stand under each other.
+/** The numbers of a column with the same number of decimals.
  * @param {(number | null)[]} values */
 export function aligned(values) {
   const most = Math.max(...values.map((v) => Math.abs(v ?? 0)));
@@ -256,3 +259,9 @@ export function siOf(q) {
   const known = TYPED[q.unit.toLowerCase()];
   return known ? q.value * known[1] + (known[2] ?? 0) : q.value;
 }
+
+/** A name of a document or request in words: "max_contraction" → "max contraction". @param {string} key */
+export const readable = (key) => key.replaceAll("_", " ");
+
+/** @param {string} text */
+export const capitalized = (text) => text.replace(/^./, (letter) => letter.toUpperCase());

@@ -18,8 +18,8 @@ export async function toHash(doc) {
   return PREFIX + text.replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
 }
 
-/** @param {string} hash @returns {Promise<import("./types.js").Doc | null>} null = no link in the address
- * @throws {Error} says in words why the link cannot be read */
+/** @param {string} hash @returns {Promise<import("./types.js").Doc | null>} null: the address holds no link
+ * @throws {Error} says why the link cannot be read */
 export async function fromHash(hash) {
   if (hash.length < 2) return null;
   if (!hash.startsWith(PREFIX)) throw new Error("it does not start with “v1.”");
@@ -31,7 +31,7 @@ export async function fromHash(hash) {
     const bytes = await through(packed, new DecompressionStream("deflate-raw"));
     raw = JSON.parse(new TextDecoder().decode(bytes));
   } catch {
-    throw new Error("it is incomplete or was changed on the way");
+    throw new Error("it is incomplete or damaged");
   }
   return readDoc(raw);
 }

@@ -1,5 +1,5 @@
 // @ts-check
-// Signals and DOM building on one page: no dependency, no build.
+// Signals: values that effects follow.
 
 /** @typedef {{fn: () => void, deps: Set<Set<Effect>>, kids: Effect[], live: boolean}} Effect */
 let running = /** @type {Effect | null} */ (null);
@@ -34,7 +34,8 @@ export class Signal {
 /** @template T @param {T} start @returns {Signal<T>} */
 export const signal = (start) => new Signal(start);
 
-/** Lets go of what the effect read and made. @param {Effect} e @param {boolean} [live] it runs again */
+/** Unsubscribes an effect from the signals it read and stops the effects made inside it.
+ * @param {Effect} e @param {boolean} [live] it will run again */
 function clear(e, live = false) {
   e.live = live;
   e.deps.forEach((subs) => subs.delete(e));
@@ -71,7 +72,7 @@ export function effect(fn) {
   return () => clear(e);
 }
 
-/** Effects made inside fn outlive the one that is running. @template T @param {() => T} fn */
+/** Effects made inside fn are not stopped with the effect that is running. @template T @param {() => T} fn */
 export const apart = (fn) => within(null, fn);
 
 /** A signal that follows others. @template T @param {() => T} fn @returns {Signal<T>} */

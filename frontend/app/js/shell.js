@@ -1,36 +1,25 @@
 // @ts-check
-// The bar over every view: tabs, history, units, export, share, theme, help, status.
+// The bar above every view: tabs, undo, units, export, link, theme, help; and the status line.
 import { h, icon } from "./dom.js";
-import { apart } from "./reactive.js";
-import { doc, edit, future, look, past, readDoc, redo, undo, units, view } from "./state.js";
 import { toHash } from "./link.js";
-import { loadAll, outage, presets, status } from "./store.js";
 import { setTheme, themeChoice } from "./plots/theme.js";
-import { menuButton } from "./ui/menu.js";
+import { apart } from "./reactive.js";
+import { loadAll } from "./server/presets.js";
+import { doc, edit, future, goTo, past, units, view } from "./state.js";
+import { outage, status } from "./store.js";
 import { openDialog } from "./ui/dialog.js";
-import { downloadText, toCsv } from "./ui/table.js";
-import { saveSheet } from "./plots/export.js";
-import { charts } from "./views/design/charts.js";
-import { curvesTable } from "./views/design/curves-table.js";
-import { openExample } from "./views/design/examples.js";
-import { isTaskDocument } from "./views/sizing/document.js";
-import { isDriveDocument } from "./views/transient/document.js";
+import { redoAndReport, undoAndReport } from "./ui/history.js";
+import { menuButton } from "./ui/menu.js";
 
-/** `exports`: what the Export menu offers besides the document; without, that of the Design view.
- * @typedef {{id: string, title: string, build: () => HTMLElement,
- *   exports?: () => import("./ui/menu.js").Item[]}} View */
+/** A tab. `exports`: what the Export menu offers besides the document; `files`: other JSON files that are opened
+ * here.
+ * @typedef {{id: string, title: string, build: () => HTMLElement, exports: () => import("./ui/menu.js").Item[],
+ *   files?: import("./ui/files.js").Opener[]}} View */
 
 /** @type {Record<import("./format.js").System, string>} */
 const SYSTEMS = { si: "SI", bar: "bar · mm", us: "US" };
 
-export const undoAndTell = () => tell(undo(), "Undone");
-export const redoAndTell = () => tell(redo(), "Redone");
-/** @param {string | null} label @param {string} verb */
-function tell(label, verb) {
-  if (label) status.value = `${verb}: ${label}`;
-}
-
-export async function share() {
+async function share() {
   const url = new URL(location.href);
   url.hash = await toHash(doc.peek());
   history.replaceState(null, "", url);
@@ -38,80 +27,27 @@ export async function share() {
     await navigator.clipboard.writeText(url.href);
     status.value = "Link copied: it holds the whole state of this page.";
   } catch {
-    // Without permission for the clipboard the link is shown, to be copied by hand.
+    // Without permission for the clipboard the link is shown, so that the user can copy it.
     const field = h("input", { type: "text", readonly: true, value: url.href, "aria-label": "Link" });
     openDialog({ title: "Link to this state" }, field);
     field.select();
   }
 }
 
-const stamp = () => new Date().toISOString().slice(0, 10);
-
-function saveJson() {
-  downloadText(`mckibben-${stamp()}.json`, JSON.stringify(doc.peek(), null, 2) + "\n", "application/json");
-}
-
-/** @param {File | undefined} file */
-async function openJson(file) {
-  if (!file) return;
-  try {
-    if (file.size > 1e6) throw new Error("it is larger than any document of this program");
-    const raw = JSON.parse(await file.text());
-    if (isDriveDocument(raw)) {
-      const { openDrive } = await import("./views/transient/model.js");
-      openDrive(raw, null, `open ${file.name}`);
-    } else if (isTaskDocument(raw)) {
-      const { openTask } = await import("./views/sizing/model.js");
-      openTask(raw, `open ${file.name}`);
-    } else {
-      const opened = readDoc(raw);
-      edit(() => opened, `open ${file.name}`);
-    }
-    status.value = `Opened ${file.name}.`;
-  } catch (error) {
-    const why = error instanceof SyntaxError ? "it is not JSON" : /** @type {Error} */ (error).message;
-    status.value = `${file.name} cannot be opened: ${why}.`;
-  }
-}
-
-function chooseFile() {
-  const input = h("input", { type: "file", accept: ".json,application/json" });
-  input.addEventListener("change", () => openJson(input.files?.[0]));
-  input.click();
-}
-
-/** @param {"png" | "svg"} format */
-async function savePlots(format) {
-  try {
-    await saveSheet(charts, format, `mckibben-plots-${stamp()}`);
-  } catch (error) {
-    status.value = `The plots could not be saved: ${/** @type {Error} */ (error).message}`;
-  }
-}
-
-const designExports = () => [
-  {
-    label: "Curves as CSV",
-    note: "all values, shown units",
-    run: () => downloadText(`mckibben-curves-${stamp()}.csv`, toCsv(curvesTable()), "text/csv"),
-  },
-  { label: "Plots as PNG", note: "one sheet", run: () => savePlots("png") },
-  { label: "Plots as SVG", note: "one sheet", run: () => savePlots("svg") },
-];
-
 /** @param {View[]} views */
 const exportItems = (views) => () => [
-  ...(views.find((v) => v.id === view.peek())?.exports ?? designExports)(),
+  ...views.find((v) => v.id === view.peek())?.exports() ?? [],
   { heading: "Document" },
-  { label: "Save JSON", note: "opens here again", run: saveJson },
-  { label: "Open JSON…", run: chooseFile },
+  {
+    label: "Save JSON",
+    note: "opens here again",
+    run: async () => (await import("./ui/files.js")).saveDocument(),
+  },
+  {
+    label: "Open JSON…",
+    run: async () => (await import("./ui/files.js")).chooseDocument(views.flatMap((v) => v.files ?? [])),
+  },
 ];
-
-const exampleItems = () => {
-  const designs = presets.peek().designs ?? [];
-  if (!designs.length) return [{ heading: "No example documents on this server" }];
-  return designs.map((d) => ({ label: d.title, note: d.description, run: () => openExample(d) }));
-};
 
 /** @param {() => string | undefined} label @param {"undo" | "redo"} name @param {() => void} run
  * @param {string} keys */
@@ -140,8 +76,9 @@ const themeItems = () =>
     run: () => setTheme(id),
   }));
 
-/** @param {View[]} views @param {() => void} help */
-export function shell(views, help) {
+/** @param {View[]} views
+ * @param {{examples: () => import("./ui/menu.js").Item[], help: () => void}} o */
+export function shell(views, { examples, help }) {
   /** @type {Map<string, HTMLElement>} */
   const built = new Map();
   const main = h("main", { id: "main", tabindex: -1 });
@@ -170,10 +107,10 @@ export function shell(views, help) {
         }, v.title)
       ),
     ),
-    menuButton({ label: ["Examples", icon("down")], name: "Examples", class: "quiet", items: exampleItems }),
+    menuButton({ label: ["Examples", icon("down")], name: "Examples", class: "quiet", items: examples }),
     h("span", { class: "space" }),
-    historyButton(() => past.value.at(-1)?.label, "undo", undoAndTell, "Ctrl+Z"),
-    historyButton(() => future.value.at(-1)?.label, "redo", redoAndTell, "Ctrl+Shift+Z"),
+    historyButton(() => past.value.at(-1)?.label, "undo", undoAndReport, "Ctrl+Z"),
+    historyButton(() => future.value.at(-1)?.label, "redo", redoAndReport, "Ctrl+Shift+Z"),
     h(
       "select",
       {
@@ -221,9 +158,6 @@ export function shell(views, help) {
       : null;
   return { bar, main, show, banner, status: h("p", { role: "status", class: "status" }, () => status.value) };
 }
-
-/** @param {string} id */
-export const goTo = (id) => look((d) => ({ ...d, view: id }));
 
 function mark() {
   return h("img", { src: "/icon.svg", alt: "", width: 22, height: 22 });

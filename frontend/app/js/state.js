@@ -1,77 +1,56 @@
 // @ts-check
-// The one document: what undo steps through, what the link carries, what a saved file holds.
+// The one document: what undo steps through, what the link carries, what a saved file holds. Its parts are
+// defined elsewhere and registered here by name.
 import { batch, computed, signal } from "./reactive.js";
-import { defaultCompare, readCompare } from "./views/compare/document.js";
-import { defaultSizing, readSizing } from "./views/sizing/document.js";
-import { defaultTransient, readTransient } from "./views/transient/document.js";
 
 /** @typedef {import("./types.js").Doc} Doc */
-/** @typedef {import("./types.js").Design} Design */
-/** @typedef {import("./types.js").CatalogueFilter} CatalogueFilter */
+/** @typedef {Omit<Doc, "schema" | "view" | "units">} Parts */
 /** @typedef {{doc: Doc, label: string, at: number}} Step */
+/** A part of the document: its value in a new document, and how it is read from a link or file, where undefined
+ * means that it is missing; `read` throws an Error that says what is wrong.
+ * @template T @typedef {{start: () => T, read: (raw: unknown) => T}} Part */
 
-export const BAR = 1e5;
+/** @type {Map<string, Part<unknown>>} */
+const parts = new Map();
 
-/** @returns {Design} a real muscle with measured points beside it */
-export const defaultDesign = () => ({
-  muscle: { preset: "DMSP-20", form: "braid", values: { nominal_length: 0.3 } },
-  effects: null,
-  pressures: [1, 2, 3, 4, 5, 6].map((p) => p * BAR),
-  load: 500,
-  direction: 0,
-  temperature: 293.15,
-  dead_volume: 0,
-  fixed_length: null,
-  range: null,
-  clipped: true,
-  across: "contraction",
-  over: "contraction",
-  reference: "auto",
-});
-
-/** @returns {Doc} */
-export const defaultDoc = () => ({
+/** @returns {Doc} a new document, with the parts registered so far */
+export const defaultDoc = () => /** @type {Doc} */ ({
   schema: 1,
   view: "design",
   units: "bar",
-  design: defaultDesign(),
-  sizing: defaultSizing(),
-  transient: defaultTransient(),
-  compare: defaultCompare(),
-  catalogue: {
-    kind: "muscles",
-    search: "",
-    maker: "",
-    from: null,
-    to: null,
-    sort: "title",
-    descending: false,
-    selected: null,
-  },
+  ...Object.fromEntries([...parts].map(([name, part]) => [name, part.start()])),
 });
 
 export const doc = signal(defaultDoc());
+
+/** Registers a part of the document. Called once for each part, while the modules load.
+ * @template {keyof Parts} K @param {K} name @param {Part<Parts[K]>} part */
+export function addPart(name, part) {
+  parts.set(name, part);
+  doc.value = { ...doc.peek(), [name]: part.start() };
+}
+
 /** @type {import("./reactive.js").Signal<Step[]>} */
 export const past = signal(/** @type {Step[]} */ ([]));
 /** @type {import("./reactive.js").Signal<Step[]>} */
 export const future = signal(/** @type {Step[]} */ ([]));
 
-export const design = computed(() => doc.value.design);
 export const units = computed(() => doc.value.units);
 export const view = computed(() => doc.value.view);
 
 const MERGE_MS = 800, HISTORY = 200;
-/** @type {Doc | null} the document before the gesture that is under way */
+/** @type {Doc | null} the document before the change that is under way */
 let before = null;
 
-/** Shows a change without a history step: a slider that is still moving. @param {(d: Doc) => Doc} change */
+/** Changes the document without an undo step yet, while a slider moves; commit() ends the change. @param {(d: Doc) => Doc} change */
 export function preview(change) {
   const start = doc.peek();
   before ??= start;
   doc.value = change(start);
 }
 
-/** Ends a gesture: one undo step, however many previews it had. Quick repeats of one label merge.
+/** Ends a change: one undo step for all its previews. Changes with the same label shortly after each other are
+ * one step too.
  * @param {string} label */
 export function commit(label) {
   const start = before;
@@ -87,7 +66,7 @@ export function commit(label) {
   });
 }
 
-/** One change, one undo step. @param {(d: Doc) => Doc} change @param {string} label */
+/** Changes the document in one undo step. @param {(d: Doc) => Doc} change @param {string} label */
 export function edit(change, label) {
   batch(() => {
     preview(change);
@@ -95,18 +74,13 @@ export function edit(change, label) {
   });
 }
 
-/** @param {Partial<Design>} patch @returns {(d: Doc) => Doc} */
-export const patchDesign = (patch) => (d) => ({ ...d, design: { ...d.design, ...patch } });
-/** @param {Partial<CatalogueFilter>} patch @returns {(d: Doc) => Doc} */
-export const patchCatalogue = (patch) => (d) => ({ ...d, catalogue: { ...d.catalogue, ...patch } });
-/** @param {Partial<Design>} patch @param {string} label */
-export const editDesign = (patch, label) => edit(patchDesign(patch), label);
-
-/** What is looked at is not a design decision: it changes without an undo step.
+/** Changes without an undo step what is shown, as opposed to what is designed.
  * @param {(d: Doc) => Doc} change */
 export function look(change) {
   doc.value = change(doc.peek());
 }
+/** Shows another view. @param {string} id */
+export const goTo = (id) => look((d) => ({ ...d, view: id }));
 
 /** @param {typeof past} from @param {typeof past} to @returns {string | null} label of the step */
 function travel(from, to) {
@@ -124,76 +98,22 @@ function travel(from, to) {
 export const undo = () => travel(past, future);
 export const redo = () => travel(future, past);
 
-/** @param {unknown} x @returns {x is Record<string, unknown>} */
-const isObject = (x) => typeof x === "object" && x !== null && !Array.isArray(x);
-/** @param {unknown} x @returns {x is number} */
-const isNumber = (x) => typeof x === "number" && Number.isFinite(x);
-
-/** Checks by the key of the document; a missing key takes its default, a wrong one is refused by name.
- * @type {Record<string, (x: unknown) => boolean>} */
-const DESIGN_CHECKS = {
-  muscle: (x) =>
-    isObject(x) && (x.preset === null || typeof x.preset === "string") &&
-    ["braid", "thread", "rhombus"].includes(String(x.form)) && isObject(x.values) &&
-    Object.values(x.values).every(isNumber),
-  effects: (x) =>
-    x === null ||
-    (isObject(x) && Object.values(x).every((p) => isObject(p) && Object.values(p).every(isNumber))),
-  pressures: (x) => Array.isArray(x) && x.length >= 1 && x.length <= 12 && x.every(isNumber),
-  load: isNumber,
-  direction: (x) => [-1, 0, 1].includes(/** @type {number} */ (x)),
-  temperature: isNumber,
-  dead_volume: isNumber,
-  fixed_length: (x) => x === null || isNumber(x),
-  range: (x) => x === null || (Array.isArray(x) && x.length === 2 && x.every(isNumber)),
-  clipped: (x) => typeof x === "boolean",
-  across: (x) => ["contraction", "length", "braid_angle"].includes(String(x)),
-  over: (x) => ["contraction", "length", "diameter", "outer_diameter", "force"].includes(String(x)),
-  reference: (x) => x === null || typeof x === "string",
-};
-
-/** Reads the Design part of a link or file. @param {unknown} raw @returns {Design}
- * @throws {Error} names the key */
-export function readDesign(raw) {
-  if (!isObject(raw)) throw new Error("the design is missing");
-  for (const [key, value] of Object.entries(raw)) {
-    if (!Object.hasOwn(DESIGN_CHECKS, key)) throw new Error(`“${key}” is not a part of a design`);
-    if (!DESIGN_CHECKS[key](value)) throw new Error(`“${key}” has a value that makes no sense`);
-  }
-  return { ...defaultDesign(), ...raw };
-}
-
 /** Reads a whole document. @param {unknown} raw @returns {Doc} @throws {Error} says what is wrong */
 export function readDoc(raw) {
-  if (!isObject(raw)) throw new Error("it holds no document");
-  if (raw.schema !== 1) throw new Error(`it is of version ${raw.schema}; this program reads version 1`);
+  if (typeof raw !== "object" || raw === null || Array.isArray(raw)) {
+    throw new Error("it is not a document of this program");
+  }
+  const document = /** @type {Record<string, unknown>} */ (raw);
+  if (document.schema !== 1) {
+    throw new Error(`it is a document of version ${document.schema}; this program reads version 1`);
+  }
   const start = defaultDoc();
-  const units = ["si", "bar", "us"].includes(String(raw.units))
-    ? /** @type {Doc["units"]} */ (raw.units)
-    : "bar";
   return {
     ...start,
-    view: typeof raw.view === "string" ? raw.view : start.view,
-    units,
-    design: readDesign(raw.design),
-    sizing: readSizing(raw.sizing),
-    transient: readTransient(raw.transient),
-    compare: readCompare(raw.compare),
-    catalogue: readFilter(raw.catalogue),
+    view: typeof document.view === "string" ? document.view : start.view,
+    units: ["si", "bar", "us"].includes(String(document.units))
+      ? /** @type {Doc["units"]} */ (document.units)
+      : start.units,
+    ...Object.fromEntries([...parts].map(([name, part]) => [name, part.read(document[name])])),
   };
-}
-
-/** Anything unusable in a catalogue filter is dropped: it hides nothing. @param {unknown} raw
- * @returns {CatalogueFilter} */
-function readFilter(raw) {
-  const start = defaultDoc().catalogue;
-  if (!isObject(raw)) return start;
-  const sound = Object.entries(raw).filter(([key, value]) => {
-    const usual = /** @type {Record<string, unknown>} */ (start)[key];
-    if (usual === null) {
-      return value === null || (key === "selected" ? typeof value === "string" : isNumber(value));
-    }
-    return Object.hasOwn(start, key) && typeof usual === typeof value;
-  });
-  return { ...start, ...Object.fromEntries(sound) };
 }

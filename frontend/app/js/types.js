@@ -35,10 +35,53 @@
  *   reference: string | null}} Design */
 /** @typedef {{kind: string, search: string, maker: string, from: number | null, to: number | null,
  *   sort: string, descending: boolean, selected: string | null}} CatalogueFilter */
-/** @typedef {import("./views/compare/document.js").Compare} Compare */
-/** @typedef {{schema: 1, view: string, units: import("./format.js").System, design: Design,
- *   sizing: import("./views/sizing/document.js").Sizing,
- *   transient: import("./views/transient/document.js").Transient,
- *   compare: Compare, catalogue: CatalogueFilter}} Doc */
+
+/** Effect -> parameter -> SI value, or the text of a formula.
+ * @typedef {Record<string, Record<string, number | string>>} Effects */
+/** @typedef {"fit" | "validation" | "off"} Use */
+/** A measurement file or preset. @typedef {{id: string, name: string, use: Use}} Chosen */
+/** Errors of fitted values: effect -> parameter -> standard error, and whether the fit stopped at a bound.
+ * @typedef {Record<string, Record<string, {stderr: number | null, at_bound: boolean}>>} Fit */
+/** A model and its error; `values`: of the geometry; `label`: the change that led to this model.
+ * @typedef {{label: string, effects: Effects | null, freed: string[], values: Record<string, number>,
+ *   fit: Fit, rmse: number | null, holdout: number | null}} Step */
+/** What the residual is plotted over; "auto": the variable of the overlay.
+ * @typedef {"auto" | "contraction" | "pressure" | "velocity" | "time" | "histogram" | "autocorrelation" |
+ *   "loops"} Tab */
+/** The colour scale of the heat map: that of the first model ("start") or that of this map ("own"); "auto": the
+ * former as long as it shows anything. @typedef {"auto" | "start" | "own"} Heat */
+/** Ranges of variables in SI. @typedef {Record<string, [number, number]>} Brush */
+/** The Compare view's part of the document. `effects`: null = those of the preset. `history`: the models before
+ * this one, the first one first.
+ * @typedef {{files: Chosen[], muscle: Muscle, start: "ideal" | "preset", effects: Effects | null,
+ *   freed: string[], free: string[], fit: Fit, label: string, holdout: number | null, history: Step[],
+ *   drive: Drive | null, noise: number | null, mystery: string | null, guided: boolean,
+ *   tab: Tab, over: string | null, channel: string | null, heat: Heat, brush: Brush | null,
+ *   before: boolean}} Compare */
+
+/** Supply, valve, tube, load, command, controller, …; numbers in SI. @typedef {Record<string, any>} Drive */
+/** How the load of a drive is arranged.
+ * @typedef {"hanging" | "inclined" | "horizontal" | "lever" | "antagonist"} DriveArrangement */
+/** A whole drive document, muscle and effects included. @typedef {{name: string, drive: Drive}} Pin */
+/** The quantity of the plot that shows one of several. @typedef {"flow" | "force" | "valve"} Lower */
+/** What the phase plot shows when it is zoomed.
+ * @typedef {{pressure: [number, number], contraction: [number, number]}} Zoom */
+/** The Transient view's part of the document.
+ * @typedef {{drive: Drive, mode: "command" | "controller", scenario: string | null, lower: Lower,
+ *   window: [number, number] | null, phase: Zoom | null, pins: Pin[], differing: boolean,
+ *   measurement: {id: string, name: string} | null}} Transient */
+
+/** A task with some of its fields. @typedef {Record<string, any>} Task */
+/** How muscle and load are arranged in a task. @typedef {"lift" | "lever" | "antagonist"} TaskArrangement */
+/** What drives are compared by, and an axis of the trade-off plot.
+ * @typedef {"air" | "time" | "length" | "reserve" | "stiffness"} Aim */
+/** The part of the document about a task. `mode`: what the Design view starts from; `selected`: index of the
+ * proposal shown.
+ * @typedef {{mode: "muscle" | "task", arrangement: TaskArrangement, task: Task, selected: number,
+ *   axes: [Aim, Aim]}} Sizing */
+
+/** What undo steps through, links carry and saved files hold.
+ * @typedef {{schema: 1, view: string, units: import("./format.js").System, design: Design, sizing: Sizing,
+ *   transient: Transient, compare: Compare, catalogue: CatalogueFilter}} Doc */
 
 export {};

@@ -2,6 +2,7 @@
 // One plot: a specification drawn by Plotly; when only data changed, its lines are moved in place (patch.js).
 import { palette } from "./theme.js";
 import { canPatch, patch } from "./patch.js";
+import { plotly } from "./library.js";
 
 /** @typedef {import("./theme.js").Palette} Palette */
 /** @typedef {{title: string, range: [number, number], right?: boolean}} Axis */
@@ -11,20 +12,17 @@ import { canPatch, patch } from "./patch.js";
  *   edge?: string}, axis?: 2, column?: string}} Trace */
 /** @typedef {{x: [number, number] | null, y: [number, number] | null, text: string}} Zone */
 /** @typedef {{text: string, x: number, y: number, color: string}} Label */
-/** A time in which something holds, shaded by kind. @typedef {{x: [number, number], kind: string}} Band */
+/** A shaded range of x; `kind` is its CSS class. @typedef {{x: [number, number], kind: string}} Band */
 /** What both axes show, in shown units. @typedef {{x: [number, number], y: [number, number]}} Ranges */
-/** `level`: the handle; `marks`: instants; `brush`: dragging chooses a range of x, null = all of it; `zoomed`:
- * the zoom is kept outside and comes back as the ranges of the axes; `table`: the values, where the lines are
- * not the columns.
+/** `level`: the load line; `marks`: vertical lines; `brush`: dragging chooses a range of x, null: all of it;
+ * `zoomed`: called with the zoom, which the caller gives back as the ranges of the axes; `table`: the values to
+ * export if they are not simply the lines.
  * @typedef {{x: Axis, y: Axis, y2?: Axis, traces: Trace[], zones: Zone[], labels?: Label[],
  *   revision: string, level?: {y: number, text: string}, bands?: Band[], marks?: number[],
  *   brush?: (range: [number, number] | null) => void, zoomed?: (ranges: Ranges | null) => void,
  *   table?: import("../ui/table.js").Table}} Spec */
 
 const SETTLE_MS = 300;
-
-/** The Plotly global once its script has arrived. @returns {any} */
-export const plotly = () => /** @type {any} */ (globalThis).Plotly;
 
 /** @param {Axis} axis @param {Palette} p */
 const axisLayout = (axis, p) => ({
@@ -92,12 +90,12 @@ export function figure(spec, p, box) {
   return { data, layout };
 }
 
-/** Everything of a figure but the numbers of its lines: if this stays, the picture can be patched.
+/** Everything of a figure except the numbers of its lines: if this stays the same, the plot can be patched.
  * @param {{data: any[], layout: any}} fig */
 const signature = ({ data, layout }) =>
   JSON.stringify([layout, data.map(({ x: _x, y: _y, ...style }) => style)]);
 
-/** Between other work; Safari has no idle callbacks. @param {() => void} fn */
+/** When the browser has time; Safari has no idle callbacks. @param {() => void} fn */
 const whenIdle = (fn) => "requestIdleCallback" in globalThis ? requestIdleCallback(fn) : setTimeout(fn);
 
 export class Chart {
@@ -123,8 +121,7 @@ export class Chart {
     host.append(this.canvas, this.over);
     this.width = 0;
     this.height = 0;
-    // The size is kept, not asked for: asking would make the browser lay out the page in the middle of a
-    // redraw.
+    // Reading the size during a redraw would make the browser lay out the page in the middle of it.
     new ResizeObserver(([entry]) => {
       this.width = Math.round(entry.contentRect.width);
       this.height = Math.round(entry.contentRect.height);

@@ -1,6 +1,7 @@
 // @ts-check
-// Plots as PNG, SVG, CSV or table: always on white, whatever the theme, and with the whole data.
-import { figure, plotly } from "./chart.js";
+// Plots as PNG, SVG, CSV or table: always on white, whatever the theme, with all data.
+import { figure } from "./chart.js";
+import { plotly } from "./library.js";
 import { LIGHT } from "./theme.js";
 import { openDialog } from "../ui/dialog.js";
 import { dataTable, download, downloadText, toCsv } from "../ui/table.js";
@@ -17,11 +18,11 @@ async function svgOf(chart, title) {
   const { data, layout } = figure(spec, LIGHT, { width: WIDTH, height: HEIGHT, font: FONT });
   const x = chart.axes?.xaxis.range ?? spec.x.range, y = chart.axes?.yaxis.range ?? spec.y.range;
   const names = new Map((spec.labels ?? []).map((l) => [l.color, l.text]));
-  const told = new Set(); // a line drawn in pieces is told once
+  const named = new Set(); // a line drawn in pieces has one entry in the legend
   for (const t of /** @type {any[]} */ (data)) {
     t.name = names.get(t.line?.color) ?? t.name;
-    t.showlegend = !told.has(t.name) && (t.mode === "lines" || t.uid === "points");
-    told.add(t.name);
+    t.showlegend = !named.has(t.name) && (t.mode === "lines" || t.uid === "points");
+    named.add(t.name);
   }
   const full = {
     ...layout,
@@ -39,7 +40,7 @@ async function svgOf(chart, title) {
   return decodeURIComponent(url.slice(url.indexOf(",") + 1));
 }
 
-/** Bands and marks, which lie under the plot on the page. @param {import("./chart.js").Spec} spec */
+/** Bands and marks, which the page draws under the plot. @param {import("./chart.js").Spec} spec */
 const bands = (spec) => [
   ...(spec.bands ?? []).map(({ x, kind }) => ({
     type: "rect",
@@ -74,7 +75,7 @@ const level = (y) => ({
   line: { color: LIGHT.load, dash: "dash", width: 2 },
 });
 
-/** What the page writes over the plot: the load and the reasons of the shaded zones.
+/** The texts that the page writes over the plot: the load, and the names of the shaded zones.
  * @param {import("./chart.js").Spec} spec */
 function notes(spec) {
   const common = { showarrow: false, font: { size: 11, color: LIGHT.soft } };
@@ -151,9 +152,9 @@ export async function saveSheet(charts, format, name) {
   else download(`${name}.png`, await pngOf(svg, width, height));
 }
 
-/** The values of a plot: what it says they are, else its lines as columns beside their x. @param {Chart} chart
+/** The values of a plot: its own table, else one column for x and one for each line. @param {Chart} chart
  * @returns {import("../ui/table.js").Table} */
-export function chartTable(chart) {
+function chartTable(chart) {
   const spec = chart.spec;
   if (spec?.table) return spec.table;
   const lines = spec?.traces.filter((t) => t.line) ?? [];

@@ -1,12 +1,11 @@
 // @ts-check
-// What lies over the plots and moves without a redraw: the linked cursor, the load line, labels of lines
-// and zones.
+// What is drawn over the plots and moves without a redraw: cursor, load line, labels of lines and zones.
 import { h } from "../dom.js";
 
 /** @typedef {import("./chart.js").Chart} Chart */
 
 /** One vertical cursor over all plots that share an x quantity.
- * @param {Chart[]} charts @param {(x: number | null) => void} moved in shown units; null = left the plots */
+ * @param {Chart[]} charts @param {(x: number | null) => void} moved in shown units; null: over no plot */
 export function linkCursor(charts, moved) {
   const lines = charts.map((chart) => {
     const line = h("div", { class: "cursor", hidden: true });
@@ -42,10 +41,11 @@ export function linkCursor(charts, moved) {
   }
 }
 
-/** A horizontal line that pointer or arrow keys move: Plotly sends no event while one of its shapes moves.
+/** A horizontal line moved by pointer or arrow keys. It is not a shape of Plotly, which sends no events while a
+ * shape moves.
  * @param {Chart} chart
  * @param {{label: string, get: () => number, text: () => string, set: (shown: number, done: boolean) => void,
- *   step: () => number, left: () => boolean}} o in shown units; `left`: where the tag stands */
+ *   step: () => number, left: () => boolean}} o in shown units; `left`: whether the tag is at the left end */
 export function dragLine(chart, o) {
   const tag = h("span", { class: "tag" });
   const line = h("div", {
@@ -102,7 +102,7 @@ export function dragLine(chart, o) {
 
 const CLEAR_PX = 15;
 
-/** Writes the name of each line beside its start, and the reason into each shaded zone.
+/** Writes the name of each line beside its start, and the name of each shaded zone into it.
  * @param {Chart} chart */
 export function writeLabels(chart) {
   const box = h("div", { class: "labels" });
@@ -151,7 +151,7 @@ function place(el, axes, x, y, more = "") {
   return el;
 }
 
-/** Shades the bands of a plot behind its lines, marks its instants; no redraw. @param {Chart} chart */
+/** Draws the bands and marks of a plot behind its lines, without a redraw. @param {Chart} chart */
 export function drawBands(chart) {
   const box = h("div", { class: "under", "aria-hidden": "true" });
   chart.host.prepend(box);

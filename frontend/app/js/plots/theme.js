@@ -1,6 +1,5 @@
 // @ts-check
-// Colours of the plots, light and dark. The pressure family runs through viridis: its lightness alone tells
-// the order.
+// Colours of the plots, light and dark. Pressures take the viridis colours, whose lightness follows the order.
 import { signal } from "../reactive.js";
 
 /** @typedef {{dark: boolean, ink: string, soft: string, grid: string, line: string, card: string,
@@ -23,7 +22,7 @@ export const LIGHT = {
 };
 
 /** @type {Palette} */
-export const DARK = {
+const DARK = {
   dark: true,
   ink: "#e8edf3",
   soft: "#a7b4c2",
@@ -37,7 +36,7 @@ export const DARK = {
   pressures: [[92, 126, 196], [52, 148, 172], [41, 172, 140], [94, 201, 98], [173, 220, 48], [253, 231, 37]],
 };
 
-/** @param {number} share 0…1 over the family @param {Palette} palette */
+/** @param {number} share 0…1 from the lowest to the highest pressure @param {Palette} palette */
 export function pressureColour(share, palette) {
   const stops = palette.pressures;
   const at = Math.min(1, Math.max(0, share)) * (stops.length - 1);
@@ -50,7 +49,7 @@ export function pressureColour(share, palette) {
 const KEY = "mckibben-theme";
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
-/** Private windows may refuse storage; the choice then lasts as long as the page. */
+/** Private windows may refuse storage; the choice then lasts until the page is closed. */
 function stored() {
   try {
     return /** @type {Choice} */ (localStorage.getItem(KEY) ?? "system");
@@ -75,7 +74,7 @@ export function setTheme(choice) {
   try {
     localStorage.setItem(KEY, choice);
   } catch {
-    // lasts as long as the page
+    // then it lasts until the page is closed
   }
   apply();
 }

@@ -40,7 +40,7 @@ export function openPopover(anchor, label, body, { role = "dialog", kind = "" } 
   const box = h("div", { popover: "auto", role, "aria-label": label, class: `popover ${kind}` });
   const close = () => box.hidePopover();
   append(box, body(close));
-  // In the landmark of its button, so that screen readers know where it belongs.
+  // Inside the landmark of its button, so that screen readers know where it belongs.
   (anchor.closest("section, header") ?? document.body).append(box);
   box.addEventListener("toggle", (event) => {
     const shown = /** @type {any} */ (event).newState === "open";

@@ -1,5 +1,5 @@
 // @ts-check
-// A quantity one can type (with a unit), step, slide and reset.
+// A field for a quantity: typed with a unit, stepped with arrow keys, moved with a slider, reset.
 import { computed, effect, signal } from "../reactive.js";
 import { h, icon } from "../dom.js";
 import { niceStep, number, parse, toShown, toSi } from "../format.js";
@@ -12,7 +12,13 @@ import { niceStep, number, parse, toShown, toSi } from "../format.js";
  *   bounds?: () => [number, number], strict?: boolean, log?: boolean, slider?: boolean,
  *   changed?: () => boolean, reset?: () => void, message?: () => string | null, hint?: string,
  *   clear?: () => void, empty?: string}} FieldOptions  `bounds` in SI: the range of the slider,
- *   and with `strict` of what the model accepts; `clear` allows an empty field, which then reads `empty` */
+ *   and with `strict` of accepted values; `clear` allows an empty field, which then shows `empty` */
+
+/** A symbol with its subscript: "p_s". @param {string} symbol */
+export const subscript = (symbol) => {
+  const [letter, below] = symbol.split("_");
+  return below ? h("span", null, letter, h("sub", null, below)) : symbol;
+};
 
 let count = 0;
 const STEPS = 200;
@@ -58,8 +64,8 @@ export function quantityField(o) {
     if ("error" in got || !o.strict || !o.bounds) return got;
     const [low, high] = o.bounds(), slack = 1e-9 * Math.max(Math.abs(low), Math.abs(high));
     if (got.value >= low - slack && got.value <= high + slack) return got;
-    const say = (/** @type {number} */ si) => number(toShown(si, o.scale()), 6);
-    const wanted = `${say(low)} to ${say(high)} ${o.scale().unit}`.trim();
+    const asText = (/** @type {number} */ si) => number(toShown(si, o.scale()), 6);
+    const wanted = `${asText(low)} to ${asText(high)} ${o.scale().unit}`.trim();
     return { error: `${o.label} must be ${wanted}.` };
   };
   const take = () => {

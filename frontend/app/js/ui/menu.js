@@ -1,11 +1,12 @@
 // @ts-check
-// A button that opens a list of actions; arrow keys walk through it.
+// A button that opens a list of actions; arrow keys move through it.
 import { h } from "../dom.js";
 import { openPopover } from "./dialog.js";
 
 /** @typedef {{label: string, note?: string, run: () => void, checked?: boolean} | {heading: string}} Item */
 
-/** @param {{label: import("../dom.js").Child, name: string, class?: string, items: () => Item[]}} o */
+/** @param {{label: import("../dom.js").Child, name: string, class?: string,
+ *   items: () => Item[] | Promise<Item[]>}} o */
 export function menuButton(o) {
   const button = h("button", {
     type: "button",
@@ -14,8 +15,10 @@ export function menuButton(o) {
     "aria-expanded": "false",
     "aria-label": o.name,
     title: o.name,
-    onclick: () =>
-      openPopover(button, o.name, (close) => list(o.items(), close), { role: "menu", kind: "menu" }),
+    onclick: async () => {
+      const items = await o.items();
+      openPopover(button, o.name, (close) => list(items, close), { role: "menu", kind: "menu" });
+    },
   }, o.label);
   return button;
 }

@@ -1,7 +1,8 @@
 // @ts-check
-// How sure a figure is: grades in words, and the list of values of a preset that nobody has verified.
-import { h } from "../dom.js";
-import { tidyUnit } from "../format.js";
+// How reliable a value is: grades in words, and the values of a preset that nobody has verified.
+import { h, icon } from "../dom.js";
+import { readable, tidyUnit } from "../format.js";
+import { openPopover } from "./dialog.js";
 
 /** @type {Record<string, string>} */
 export const GRADES = {
@@ -11,21 +12,18 @@ export const GRADES = {
   D: "derived or fitted for this program",
   M: "general knowledge, not verified",
   E: "estimate, not verified",
-  user: "given by you",
+  user: "entered by you",
 };
 
 /** @param {string} grade */
-export const isUnverified = (grade) => grade === "M" || grade === "E";
+const isUnverified = (grade) => grade === "M" || grade === "E";
 
 /** @param {string} grade */
 export const gradeTag = (grade) =>
   h("abbr", { class: `grade${isUnverified(grade) ? " warn" : ""}`, title: GRADES[grade] ?? grade }, grade);
 
-/** "max_contraction" → "max contraction". @param {string} key */
-export const spoken = (key) => key.replaceAll("_", " ");
-
 /** @param {import("../types.js").Preset} preset */
-export function unverifiedNote(preset) {
+function unverifiedNote(preset) {
   /** @type {[string, import("../types.js").PresetValue][]} */
   const doubtful = [preset.geometry, preset.limits, preset.data, ...Object.values(preset.effects ?? {})]
     .flatMap((part) => Object.entries(part ?? {})).filter(([, q]) => isUnverified(q.grade));
@@ -46,11 +44,29 @@ export function unverifiedNote(preset) {
         h(
           "li",
           null,
-          h("b", null, spoken(key)),
+          h("b", null, readable(key)),
           ` ${q.value} ${tidyUnit(q.unit)} `,
           h("small", null, q.source),
         )
       ),
     ),
   );
+}
+
+/** A badge that opens the unverified values of a preset; null if there are none.
+ * @param {import("../types.js").Preset | null} preset @param {string} [text] */
+export function unverifiedBadge(preset, text = "unverified values") {
+  if (!preset || preset.verified) return null;
+  const badge = h(
+    "button",
+    {
+      type: "button",
+      class: "badge warn",
+      "aria-expanded": "false",
+      onclick: () => openPopover(badge, "Unverified values", () => unverifiedNote(preset)),
+    },
+    icon("warn"),
+    text,
+  );
+  return badge;
 }

@@ -1,10 +1,10 @@
 // @ts-check
-// Tables of numbers, for the eye and for the clipboard.
+// Tables of numbers: on the page and as CSV; saving files.
 import { h } from "../dom.js";
 import { aligned } from "../format.js";
 
 /** @typedef {{title: string, unit?: string, text?: boolean}} Column */
-/** @typedef {{columns: Column[], rows: (string | number | null)[][]}} Table  null = there is no value */
+/** @typedef {{columns: Column[], rows: (string | number | null)[][]}} Table  null: no value */
 
 /** @param {Table} table @param {string} caption */
 export function dataTable(table, caption) {
@@ -59,6 +59,13 @@ export function toCsv({ columns, rows }) {
   const write = (/** @type {string | number | null} */ v) =>
     v == null ? "" : typeof v === "number" ? String(Number(v.toPrecision(7))) : quote(v);
   return [head.join(","), ...rows.map((row) => row.map(write).join(","))].join("\n") + "\n";
+}
+
+/** The name of a saved file with the date of today: "mckibben-run-2024-05-01.csv".
+ * @param {string} what "": the whole document @param {string} [ending] */
+export function fileName(what, ending) {
+  const name = ["mckibben", what, new Date().toISOString().slice(0, 10)].filter(Boolean).join("-");
+  return ending ? `${name}.${ending}` : name;
 }
 
 /** @param {string} name @param {Blob} blob */

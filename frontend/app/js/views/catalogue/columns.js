@@ -1,7 +1,15 @@
 // @ts-check
 // Which columns the table of each kind has, and how a value of a preset is read, sorted and written.
-import { number, quantityOf, quantityOfUnit, scaleOf, siOf, tidyUnit, toShown } from "../../format.js";
-import { spoken } from "../../ui/sources.js";
+import {
+  number,
+  quantityOf,
+  quantityOfUnit,
+  readable,
+  scaleOf,
+  siOf,
+  tidyUnit,
+  toShown,
+} from "../../format.js";
 
 /** @typedef {import("../../types.js").Preset} Preset */
 /** @typedef {import("../../types.js").PresetValue} PresetValue */
@@ -50,7 +58,7 @@ const COLUMNS = {
 
 const MOST_DATA = 4;
 
-/** For parts: the data most of them have. @param {string} kind @param {Preset[]} list @returns {Column[]} */
+/** The columns of a kind; of parts, the data most of them have. @param {string} kind @param {Preset[]} list @returns {Column[]} */
 export function columnsOf(kind, list) {
   if (COLUMNS[kind]) return COLUMNS[kind];
   /** @type {Map<string, number>} */
@@ -61,11 +69,11 @@ export function columnsOf(kind, list) {
   return [
     maker,
     ...(kind === "valves" ? [job] : []),
-    ...common.map((key) => value(key, spoken(key), "data")),
+    ...common.map((key) => value(key, readable(key), "data")),
   ];
 }
 
-/** A value in the user's units where its unit is known, else as it is in the file.
+/** A value in the user's units if its unit is known, else as it is in the file.
  * @param {PresetValue} q @param {System} system @param {string} [name]
  * @returns {{text: string, unit: string}} */
 export function shownValue(q, system, name = "") {
@@ -88,7 +96,7 @@ export function cellText(cell, system) {
 export const sortKey = (cell) =>
   cell == null ? null : typeof cell === "string" ? cell.toLowerCase() : siOf(cell);
 
-/** What the size filter looks at: the bore of a muscle or tube. @param {Preset} p */
+/** The size for the filter: the inside diameter of a muscle or tube. @param {Preset} p */
 export function sizeOf(p) {
   const q = p.geometry?.inside_diameter ?? p.data?.inside_diameter;
   return q ? siOf(q) : null;

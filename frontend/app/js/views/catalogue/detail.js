@@ -1,21 +1,20 @@
 // @ts-check
-// One part in full: a small force–contraction plot for muscles, every value with unit, source and grade,
-// references.
+// One part in full: every value with unit, source and grade; references; for muscles a force plot.
 import { h, icon } from "../../dom.js";
 import { effect } from "../../reactive.js";
 import { units } from "../../state.js";
 import { effectsById } from "../../store.js";
-import { latest, post } from "../../api.js";
-import { siOf } from "../../format.js";
+import { post } from "../../server/client.js";
+import { Question } from "../../server/question.js";
+import { readable, siOf } from "../../format.js";
 import { Chart } from "../../plots/chart.js";
 import { writeLabels } from "../../plots/overlay.js";
 import { palette } from "../../plots/theme.js";
-import { openPopover } from "../../ui/dialog.js";
-import { gradeTag, spoken, unverifiedNote } from "../../ui/sources.js";
-import { plotlyReady } from "../design/charts.js";
-import { usePreset } from "../design/muscle.js";
-import { forceSpec } from "../design/specs.js";
-import { showMuscle } from "../sizing/index.js";
+import { gradeTag, unverifiedBadge } from "../../ui/sources.js";
+import { plotlyReady } from "../../plots/library.js";
+import { usePreset } from "../../muscle/preset.js";
+import { forceSpec } from "../../muscle/force-plot.js";
+import { showMuscle } from "../../muscle/document.js";
 import { shownValue } from "./columns.js";
 import { selected } from "./table.js";
 
@@ -38,7 +37,7 @@ function valueTable(title, values) {
         h(
           "li",
           null,
-          h("span", null, spoken(key)),
+          h("span", null, readable(key)),
           h("b", null, () => {
             const { text, unit } = shownValue(q, units.value, key);
             return `${text} ${unit}`;
@@ -50,7 +49,7 @@ function valueTable(title, values) {
   );
 }
 
-/** Measured points and reference curves: what there is of each column. @param {Preset} p */
+/** The columns of measured points and reference curves. @param {Preset} p */
 function columnList(p) {
   const entries = Object.entries(p.data_columns ?? {});
   if (!entries.length) return null;
@@ -61,7 +60,7 @@ function columnList(p) {
       h(
         "li",
         null,
-        h("span", null, spoken(key)),
+        h("span", null, readable(key)),
         h("b", null, `${Math.min(...c.values)} … ${Math.max(...c.values)} ${c.unit}`),
         h("small", { class: "source" }, `${c.values.length} values`),
       )
@@ -70,21 +69,8 @@ function columnList(p) {
 }
 
 /** @param {Preset} p */
-function badge(p) {
-  if (p.verified) return h("span", { class: "badge good" }, icon("check"), "all values sourced");
-  const button = h(
-    "button",
-    {
-      type: "button",
-      class: "badge warn",
-      "aria-expanded": "false",
-      onclick: () => openPopover(button, "Unverified values", () => unverifiedNote(p)),
-    },
-    icon("warn"),
-    "unverified values",
-  );
-  return button;
-}
+const badge = (p) =>
+  unverifiedBadge(p) ?? h("span", { class: "badge good" }, icon("check"), "all values sourced");
 
 const SHOWN = 6;
 
@@ -103,43 +89,31 @@ function smallPlot() {
   });
   const chart = new Chart(host, "catalogue-force");
   writeLabels(chart);
-  /** @type {Curves | null} */
-  let shown = null;
-  const draw = () => {
-    if (!shown) return;
-    /** @type {import("../design/axes.js").View} */
-    const view = {
-      place: "catalogue",
-      curves: shown,
-      across: "contraction",
-      over: "contraction",
-      system: units.peek(),
-      reference: null,
-    };
-    chart.show((p) => forceSpec(view, p));
-  };
-  const ask = latest(
-    (/** @type {object} */ body, control) => post("/api/curves", body, control),
-    (answer) => {
-      shown = answer;
-      draw();
-    },
-    () => (shown = null),
+  const curves = new Question(
+    (text, signal) => /** @type {Promise<Curves>} */ (post("/api/curves", JSON.parse(text), signal)),
   );
-  effect(() => {
+  curves.follow(() => {
     const p = selected.value;
-    if (p?.kind === "muscle") ask(request(p));
+    return p?.kind === "muscle" ? JSON.stringify(request(p)) : null;
   });
   effect(() => {
-    units.value;
+    const answer = curves.error.value ? null : curves.answer.value;
     palette.value;
-    if (plotlyReady.value) draw();
+    /** @type {Omit<import("../../muscle/curve-axes.js").View, "curves">} */
+    const view = {
+      place: "catalogue",
+      across: "contraction",
+      over: "contraction",
+      system: units.value,
+      reference: null,
+    };
+    if (answer && plotlyReady.value) chart.show((p) => forceSpec({ ...view, curves: answer }, p));
   });
   return host;
 }
 
 /** @param {string} id */
-const effectTitle = (id) => effectsById.value.get(id)?.title ?? spoken(id);
+const effectTitle = (id) => effectsById.value.get(id)?.title ?? readable(id);
 
 /** @param {Preset} p */
 function facts(p) {
@@ -177,7 +151,7 @@ export function detailPanel() {
     { class: "card detail", "aria-label": "Detail" },
     () => {
       const p = selected.value;
-      if (!p) return h("p", { class: "muted" }, "Choose a part to see everything known about it.");
+      if (!p) return h("p", { class: "muted" }, "Select a part to see all its values.");
       return [
         h("div", { class: "card-head" }, h("h2", null, p.title), badge(p)),
         h("p", { class: "muted" }, [p.maker, p.function, p.description].filter(Boolean).join(" · ")),

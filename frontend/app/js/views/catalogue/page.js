@@ -1,5 +1,5 @@
 // @ts-check
-// The page of the Catalogue view: filter, table, detail; preset files that were refused are named with the reason.
+// The page of the Catalogue view: filter, table, detail, and preset files that could not be read.
 import { h, icon } from "../../dom.js";
 import { computed, effect } from "../../reactive.js";
 import { units } from "../../state.js";

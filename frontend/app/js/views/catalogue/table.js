@@ -2,15 +2,16 @@
 // The table of presets: filtered, sorted, one row selected.
 import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
-import { doc, look, patchCatalogue, units } from "../../state.js";
+import { doc, look, units } from "../../state.js";
 import { presets } from "../../store.js";
 import { cellText, columnsOf, KIND_TITLES, sizeOf, sortKey } from "./columns.js";
 
+/** @typedef {import("../../types.js").CatalogueFilter} CatalogueFilter */
 /** @typedef {import("../../types.js").Preset} Preset */
 
 export const filter = computed(() => doc.value.catalogue);
-/** @param {Partial<import("../../types.js").CatalogueFilter>} patch */
-export const setFilter = (patch) => look(patchCatalogue(patch));
+/** @param {Partial<CatalogueFilter>} patch */
+export const setFilter = (patch) => look((d) => ({ ...d, catalogue: { ...d.catalogue, ...patch } }));
 
 const list = computed(() => presets.value[filter.value.kind] ?? null);
 const columns = computed(() => columnsOf(filter.value.kind, list.value ?? []));
@@ -32,18 +33,18 @@ const natural = new Intl.Collator("en", { numeric: true });
 export const rows = computed(() => {
   const f = filter.value;
   const by = [title, ...columns.value].find((c) => c.key === f.sort) ?? title;
-  const found = (list.value ?? []).filter(matches).map((p) => ({ p, key: sortKey(by.of(p)) }));
-  found.sort((a, b) => {
+  const matching = (list.value ?? []).filter(matches).map((p) => ({ p, key: sortKey(by.of(p)) }));
+  matching.sort((a, b) => {
     if (a.key === null || b.key === null) return Number(a.key === null) - Number(b.key === null);
     const order = typeof a.key === "number" && typeof b.key === "number"
       ? a.key - b.key
       : natural.compare(String(a.key), String(b.key));
     return f.descending ? -order : order;
   });
-  return found.map(({ p }) => p);
+  return matching.map(({ p }) => p);
 });
 
-/** The chosen part, or the first that fits. */
+/** The selected part, or the first of the list. */
 export const selected = computed(() => {
   const all = rows.value;
   return all.find((p) => p.id === filter.value.selected) ?? all[0] ?? null;
@@ -113,7 +114,7 @@ export function partsTable() {
     if (!list.value.length) {
       return `This server has no ${KIND_TITLES[filter.value.kind]?.toLowerCase() ?? "parts"}.`;
     }
-    return rows.value.length ? null : "No part fits the filter. Widen the size range or clear the search.";
+    return rows.value.length ? null : "No part matches the filter. Widen the size range or clear the search.";
   };
   return h(
     "section",
@@ -134,7 +135,7 @@ export function partsTable() {
       h(
         "table",
         { class: "data" },
-        h("caption", { class: "unseen" }, "Parts; the buttons in the head sort"),
+        h("caption", { class: "unseen" }, "Parts; the buttons in the header sort the table"),
         h(
           "thead",
           null,

@@ -1,29 +1,15 @@
 // @ts-check
-// The Compare view's part of the document: which measurements, which model, how it came about, what is looked
-// at. Pure functions; the server checks what the numbers mean.
+// The Compare view's part of the document: measurements, model, the models before it, and what is shown. The
+// server checks what the numbers mean.
+import { isObject } from "../../paths.js";
+import { addPart } from "../../state.js";
 
-/** @typedef {import("./types.js").Effects} Effects */
-/** @typedef {import("../../types.js").Muscle} Muscle */
-/** @typedef {import("../transient/document.js").Drive} Drive */
-/** @typedef {"fit" | "validation" | "off"} Use */
-/** A file or preset measurement. @typedef {{id: string, name: string, use: Use}} Chosen */
-/** Errors of fitted values: effect -> parameter -> what the fit said of it.
- * @typedef {Record<string, Record<string, {stderr: number | null, at_bound: boolean}>>} Fit */
-/** A model and its error; `values`: of the geometry. `label` says how it came about.
- * @typedef {{label: string, effects: Effects | null, freed: string[], values: Record<string, number>,
- *   fit: Fit, rmse: number | null, holdout: number | null}} Step */
-/** “auto”: what the overlay is drawn over. @typedef {typeof TABS[number]} Tab */
-/** What the colours of the map span: “auto” = the error of the first model as long as that shows anything.
- * @typedef {typeof HEATS[number]} Heat */
-/** Ranges of variables in SI. @typedef {Record<string, [number, number]>} Brush */
-/** `effects`: null = those of the preset. `history`: the models before this one, the start first.
- * @typedef {{files: Chosen[], muscle: Muscle, start: "ideal" | "preset", effects: Effects | null,
- *   freed: string[], free: string[], fit: Fit, label: string, holdout: number | null, history: Step[],
- *   drive: Drive | null, noise: number | null, mystery: string | null, guided: boolean,
- *   tab: Tab, over: string | null, channel: string | null, heat: Heat, brush: Brush | null,
- *   before: boolean}} Compare */
+/** @typedef {import("../../types.js").Compare} Compare */
+/** @typedef {import("../../types.js").Fit} Fit */
+/** @typedef {import("../../types.js").Step} Step */
 
-export const TABS = /** @type {const} */ ([
+/** @type {import("../../types.js").Tab[]} */
+const TABS = [
   "auto",
   "contraction",
   "pressure",
@@ -32,14 +18,16 @@ export const TABS = /** @type {const} */ ([
   "histogram",
   "autocorrelation",
   "loops",
-]);
-export const HEATS = /** @type {const} */ (["auto", "start", "own"]);
+];
+/** @type {import("../../types.js").Heat[]} */
+const HEATS = ["auto", "start", "own"];
 export const MOST_FILES = 16;
 const MOST_STEPS = 40;
-export const IDEAL = "Ideal muscle", GIVEN = "Start model";
+/** Labels of start models: the ideal one, and one that comes with a measurement or drive document. */
+export const IDEAL = "Ideal muscle", PROVIDED = "Start model";
 
 /** @returns {Compare} */
-export const defaultCompare = () => ({
+const defaultCompare = () => ({
   files: [],
   muscle: { preset: "DMSP-20", form: "braid", values: { nominal_length: 0.3 } },
   start: "ideal",
@@ -62,8 +50,6 @@ export const defaultCompare = () => ({
   before: false,
 });
 
-/** @param {unknown} x @returns {x is Record<string, any>} */
-const isObject = (x) => typeof x === "object" && x !== null && !Array.isArray(x);
 /** @param {unknown} x @returns {x is number} */
 const isNumber = (x) => typeof x === "number" && Number.isFinite(x);
 /** @param {unknown} x */
@@ -124,21 +110,23 @@ const CHECKS = {
 };
 
 /** Reads the Compare part of a link or file; a missing part takes its default.
- * @param {unknown} raw @returns {Compare} @throws {Error} names the part that makes no sense */
-export function readCompare(raw) {
+ * @param {unknown} raw @returns {Compare} @throws {Error} names the invalid part */
+function readCompare(raw) {
   const start = defaultCompare();
   if (raw === undefined) return start;
   if (!isObject(raw)) throw new Error("“compare” is not an object");
   const known = Object.entries(raw).filter(([key]) => Object.hasOwn(CHECKS, key));
   for (const [key, value] of known) {
     if (!CHECKS[/** @type {keyof Compare} */ (key)](value)) {
-      throw new Error(`“compare.${key}” makes no sense`);
+      throw new Error(`“compare.${key}” is invalid`);
     }
   }
   return { ...start, ...Object.fromEntries(known) };
 }
 
-/** The model as it is now, as one step of the history. @param {Compare} c @param {number | null} rmse
+addPart("compare", { start: defaultCompare, read: readCompare });
+
+/** The current model as a step of the history. @param {Compare} c @param {number | null} rmse
  * @param {number | null} holdout @returns {Step} */
 export const stepOf = (c, rmse, holdout) => ({
   label: c.label,
@@ -150,7 +138,7 @@ export const stepOf = (c, rmse, holdout) => ({
   holdout: c.holdout ?? holdout,
 });
 
-/** The document with a step's model in place of its own. @param {Compare} c @param {Step} step
+/** The document with the model of a step. @param {Compare} c @param {Step} step
  * @param {Step[]} history @returns {Compare} */
 export const withStep = (c, step, history) => ({
   ...c,
@@ -164,7 +152,23 @@ export const withStep = (c, step, history) => ({
   before: false,
 });
 
-/** What a fit said of its values, without the values themselves.
+/** The document with a new start model: without effects, or with those of the preset.
+ * @param {Compare} c @param {"ideal" | "preset"} start @returns {Compare} */
+export const withStartModel = (c, start = c.start) => ({
+  ...c,
+  start,
+  effects: start === "ideal" ? {} : null,
+  freed: [],
+  fit: {},
+  label: start === "ideal" ? IDEAL : "Effects of the preset",
+  holdout: null,
+  history: [],
+  heat: "auto",
+  brush: null,
+  before: false,
+});
+
+/** Standard errors of fitted values, and which of them are at a bound.
  * @param {Record<string, Record<string, import("./types.js").Fitted>>} parameters @returns {Fit} */
 export const fitOf = (parameters) =>
   Object.fromEntries(

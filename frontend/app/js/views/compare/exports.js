@@ -1,25 +1,23 @@
 // @ts-check
-// What leaves this view: data with residuals, plots, the report, the model for the Design view.
-import { edit, units } from "../../state.js";
-import { ApiError, postForText } from "../../api.js";
-import { goTo } from "../../shell.js";
+// Exports of this view: data with residuals, plots, the report, the model for the Design view.
+import { units } from "../../state.js";
+import { openDesign } from "../../muscle/document.js";
+import { ApiError, postForText } from "../../server/client.js";
 import { scaleOf, toShown } from "../../format.js";
 import { status } from "../../store.js";
 import { saveSheet } from "../../plots/export.js";
-import { downloadText, toCsv } from "../../ui/table.js";
-import { answer, compare, files, preset } from "./model.js";
-import { presetValues } from "./muscle-values.js";
-import { overlays } from "./overlay.js";
-import { allSeries } from "./pictures.js";
+import { downloadText, fileName, toCsv } from "../../ui/table.js";
+import { answer, compare, files, preset } from "./answers.js";
+import { effectValues } from "../../muscle/preset.js";
+import { overlays } from "./error/overlay.js";
+import { allSeries } from "./error/pictures.js";
 import { modelBody, used } from "./request.js";
-import { chart as residual, TITLE } from "./residual.js";
-import { channelScale, VARIABLES } from "./words.js";
-
-const stamp = () => new Date().toISOString().slice(0, 10);
+import { chart as residual, TITLE } from "./error/residual.js";
+import { channelScale, titleOf, VARIABLES } from "./words.js";
 
 /** Every point with its residual, in shown units. @param {import("./types.js").Comparison} a
  * @returns {import("../../ui/table.js").Table} */
-export function residualTable(a) {
+function residualTable(a) {
   const system = units.peek(), all = allSeries(a);
   const names = Object.keys(VARIABLES).filter((name) => all.some((s) => VARIABLES[name].of(s)?.length));
   const scales = names.map((name) => scaleOf(VARIABLES[name].quantity, system));
@@ -35,8 +33,8 @@ export function residualTable(a) {
       ...["measured", "predicted", "residual"].map((title) => ({ title, unit })),
     ],
     rows: all.flatMap((s) => {
-      const own = channelScale(s.unit, s.channel, system);
-      const value = (/** @type {number | null} */ si) => si === null ? null : toShown(si, own);
+      const scale = channelScale(s.unit, s.channel, system);
+      const value = (/** @type {number | null} */ si) => si === null ? null : toShown(si, scale);
       return s.measured.map((measured, i) => [
         s.label,
         s.use,
@@ -47,7 +45,7 @@ export function residualTable(a) {
         }),
         value(measured),
         value(s.predicted[i]),
-        s.residual[i] === null ? null : /** @type {number} */ (s.residual[i]) / own.factor,
+        s.residual[i] === null ? null : /** @type {number} */ (s.residual[i]) / scale.factor,
       ]);
     }),
   };
@@ -56,18 +54,18 @@ export function residualTable(a) {
 export function saveCsv() {
   const a = answer.peek();
   if (!a) return void (status.value = "There is no comparison to save.");
-  downloadText(`mckibben-residuals-${stamp()}.csv`, toCsv(residualTable(a)), "text/csv");
+  downloadText(fileName("residuals", "csv"), toCsv(residualTable(a)), "text/csv");
 }
 
 /** @param {"png" | "svg"} format */
 export const savePlots = (format) =>
-  saveSheet([...overlays, { title: TITLE, chart: residual }], format, `mckibben-compare-${stamp()}`).catch(
+  saveSheet([...overlays, { title: TITLE, chart: residual }], format, fileName("compare")).catch(
     (error) => {
       status.value = `The plots could not be saved: ${error.message}`;
     },
   );
 
-/** One file that holds data, model, plots and verdict. */
+/** Saves data, model, plots and verdict as one file. */
 export async function saveReport() {
   const c = compare.peek();
   const title = used({ ...c, files: files.peek() }).map((f) => f.name).join(", ");
@@ -77,7 +75,7 @@ export async function saveReport() {
       history: c.history.map(({ effects, freed, label }) => ({ effects, freed, label })),
       title,
     });
-    downloadText(`mckibben-report-${stamp()}.html`, text, "text/html");
+    downloadText(fileName("report", "html"), text, "text/html");
     status.value = "The report is saved.";
   } catch (error) {
     if (!(error instanceof ApiError)) throw error;
@@ -85,23 +83,19 @@ export async function saveReport() {
   }
 }
 
-/** The muscle and the effects found become those of the Design view. */
+/** Takes muscle and effects over into the Design view, which knows effects of the catalogue only. */
 export function useInDesign() {
   const c = compare.peek();
-  const all = c.effects ?? presetValues(preset.peek());
+  const all = c.effects ?? effectValues(preset.peek());
   const effects = Object.fromEntries(
     Object.entries(all).flatMap(([id, values]) => {
       const numbers = Object.entries(values).filter(([, v]) => typeof v === "number");
       return numbers.length === Object.keys(values).length ? [[id, /** @type {any} */ (values)]] : [];
     }),
   );
-  edit(
-    (d) => ({
-      ...d,
-      design: { ...d.design, muscle: c.muscle, effects, reference: "auto" },
-      sizing: { ...d.sizing, mode: "muscle" },
-    }),
-    "model of the comparison",
-  );
-  goTo("design");
+  openDesign({ muscle: c.muscle, effects, reference: "auto" }, "model of the comparison");
+  const left = Object.keys(all).filter((id) => !(id in effects)).map(titleOf);
+  if (left.length) {
+    status.value = `Left out, because Design takes effects of the catalogue only: ${left.join(", ")}.`;
+  }
 }

@@ -1,27 +1,28 @@
 // @ts-check
-// The Compare & diagnose view as the shell sees it: its page is fetched when it is first shown.
-import { later } from "../../later.js";
+// The Compare & diagnose view as the program sees it; its page is fetched when it is first shown.
+import { later } from "../../ui/later.js";
 import { view } from "../../state.js";
+import "./document.js";
 
-export { listenToDrops } from "./drop.js";
+export { listenToDrops } from "./measurement/drop.js";
 
 /** @param {string} key */
-const bare = (key) => (/** @type {KeyboardEvent} */ e) =>
+const inView = (key) => (/** @type {KeyboardEvent} */ e) =>
   view.peek() === "compare" && e.key.toLowerCase() === key && !e.ctrlKey && !e.metaKey && !e.altKey;
 
-/** @type {import("../../shortcuts.js").Shortcut[]} */
+/** @type {import("../../ui/shortcuts.js").Shortcut[]} */
 export const COMPARE_KEYS = [
   {
     keys: "B",
-    what: "Compare: flip between the model before and after",
-    match: bare("b"),
-    run: async () => (await import("./overlay.js")).toggleBefore(),
+    what: "Compare: switch between the model before and after",
+    match: inView("b"),
+    run: async () => (await import("./error/overlay.js")).toggleBefore(),
   },
   {
     keys: "R",
     what: "Compare: fit the parameters of the model again",
-    match: bare("r"),
-    run: async () => (await import("./history.js")).refitByKey(),
+    match: inView("r"),
+    run: async () => (await import("./model/history.js")).refitByKey(),
   },
 ];
 

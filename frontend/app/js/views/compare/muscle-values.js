@@ -1,19 +1,9 @@
 // @ts-check
-// What a muscle preset says, in SI; and which preset a measurement was taken on. Pure functions.
-import { siOf } from "../../format.js";
-import { siNumber } from "../transient/units.js";
+// Which muscle a measurement was taken on. Pure functions.
+import { siNumber } from "../../quantities.js";
 
 /** @typedef {import("../../types.js").Preset} Preset */
 /** @typedef {import("../../types.js").Muscle} Muscle */
-
-/** @param {Preset | null} preset @returns {Record<string, Record<string, number>>} */
-export const presetValues = (preset) =>
-  Object.fromEntries(
-    Object.entries(preset?.effects ?? {}).map(([id, values]) => [
-      id,
-      Object.fromEntries(Object.entries(values).map(([key, q]) => [key, siOf(q)])),
-    ]),
-  );
 
 /** The preset a file names, by id, title or the type code of a sample ("DMSP-20-300").
  * @param {Preset[]} muscles @param {unknown} name
@@ -32,22 +22,22 @@ export function presetNamed(muscles, name) {
   return { preset: longest, length: code ? Number(code[1]) / 1000 : null };
 }
 
-/** The muscle that conditions of a measurement name; null = they name none that is known here.
+/** The muscle named by the conditions of a measurement; null: none, or an unknown one.
  * @param {Preset[]} muscles @param {Record<string, unknown>} conditions @returns {Muscle | null} */
 export function muscleOf(muscles, conditions) {
   const named = presetNamed(muscles, conditions.muscle) ?? presetNamed(muscles, conditions.sample);
-  const given = conditions.nominal_length;
-  const length = typeof given === "number" ? given : named?.length;
+  const { nominal_length: measured } = conditions;
+  const length = typeof measured === "number" ? measured : named?.length;
   if (!named) return null;
   return { preset: named.preset.id, form: "braid", values: length ? { nominal_length: length } : {} };
 }
 
-/** A muscle of a request, "300 mm" or SI, as this page keeps it.
+/** The muscle of a request, with lengths such as "300 mm", as the document has it.
  * @param {Record<string, any>} input @returns {Muscle} */
 export function muscleFrom({ preset = null, ...rest }) {
   const values = Object.fromEntries(
-    Object.entries(rest).flatMap(([name, given]) => {
-      const si = siNumber(given);
+    Object.entries(rest).flatMap(([name, value]) => {
+      const si = siNumber(value);
       return si === null ? [] : [[name, si]];
     }),
   );

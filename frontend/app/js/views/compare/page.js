@@ -2,49 +2,48 @@
 // The page of the Compare & diagnose view: data and model, overlay and residual, error and missing effects.
 import { h, icon } from "../../dom.js";
 import { computed, effect } from "../../reactive.js";
-import { candidatesCard } from "./candidates.js";
-import { emptyCard, guide } from "./empty.js";
-import { errorCard } from "./error.js";
-import { dropping } from "./drop.js";
-import { followFiles } from "./files.js";
-import { whereCard } from "./heat.js";
-import { measurementsCard } from "./measurements.js";
-import { again, answer, chosen, diagnosis, fault, files, stage, startComparing } from "./model.js";
-import { modelCard } from "./model-card.js";
-import { fetchMysteries, mysteryCard } from "./mysteries.js";
-import { overlayCards } from "./overlay.js";
-import { pathCard } from "./path.js";
-import { residualCard } from "./residual.js";
-import { rigCard } from "./rig.js";
-import { setupCard } from "./setup.js";
-import { unknownCard } from "./unknown.js";
-import { verdictCard } from "./verdict.js";
+import { candidatesCard } from "./verdict/candidates.js";
+import { emptyCard, guide } from "./measurement/empty.js";
+import { errorCard } from "./error/card.js";
+import { dropping } from "./measurement/drop.js";
+import { followFiles } from "./measurement/files.js";
+import { whereCard } from "./error/heat.js";
+import { measurementsCard } from "./measurement/card.js";
+import { faultNotice, goToField } from "../../ui/fault.js";
+import {
+  again,
+  answer,
+  chosen,
+  diagnosis,
+  fault,
+  faultField,
+  files,
+  stage,
+  startComparing,
+} from "./answers.js";
+import { modelCard } from "./model/card.js";
+import { fetchMysteries, mysteryCard } from "./measurement/mysteries.js";
+import { overlayCards } from "./error/overlay.js";
+import { pathCard } from "./error/path.js";
+import { residualCard } from "./error/residual.js";
+import { rigCard } from "./model/rig.js";
+import { setupCard } from "./model/setup.js";
+import { unknownCard } from "./verdict/unknown.js";
+import { verdictCard } from "./verdict/card.js";
 
-/** @param {string} path */
-function goToField(path) {
-  const key = path.replace(/^body\./, "").replace(/^(muscle|effects)\./, "compare.").replace(
-    /^drive\./,
-    "rig.",
-  );
-  const box = document.querySelector(`.compare [data-field="${CSS.escape(key)}"]`);
-  box?.closest("details")?.setAttribute("open", "");
-  const input = box?.querySelector("input, select") ?? document.getElementById("compare-preset");
-  if (input instanceof HTMLElement) input.focus();
-}
+/** The field of the page for a path of the request. @param {string} path */
+const keyOf = (path) => path.replace(/^(muscle|effects)\./, "compare.").replace(/^drive\./, "rig.");
 
 function notice() {
-  const told = fault.value;
-  if (!told) return null;
-  const { field } = told;
-  return h(
-    "div",
-    { class: "notice bad", role: "alert" },
-    icon("warn"),
-    h("span", null, told.words, answer.value ? " The plots show the last comparison that was possible." : ""),
-    field && !field.includes("measurement")
-      ? h("button", { type: "button", onclick: () => goToField(field) }, "Go to the field")
-      : h("button", { type: "button", onclick: again }, "Try again"),
-  );
+  const error = fault.value, field = faultField();
+  if (!error) return null;
+  const kept = answer.value ? " The plots show the last valid comparison." : "";
+  return faultNotice(`${error.words}${kept}`, {
+    goTo: field === null || field.includes("measurement")
+      ? null
+      : () => goToField(keyOf(field), ".compare") || goToField("compare-preset"),
+    retry: again,
+  });
 }
 
 export function comparePage() {
@@ -56,7 +55,7 @@ export function comparePage() {
     errorCard(),
     verdictCard(),
     h("div", { class: "column" }, mysteryCard),
-    // Where effects are missing too, they come first.
+    // Missing effects of the catalogue come first.
     h(
       "div",
       { class: () => `column${diagnosis.value?.verdict.effects.length ? " after" : ""}` },
@@ -87,7 +86,7 @@ export function comparePage() {
             "p",
             { class: "notice" },
             icon("info"),
-            h("span", null, "No file is used for the fit: set one of them to “Fit”."),
+            h("span", null, "No file is used for the fit. Set one of them to “Fit”."),
           )
           : null,
       overlayCards(),

@@ -1,14 +1,14 @@
 // @ts-check
-// From the document to the body of a request. Pure functions.
-import { muscleInput } from "../design/model.js";
+// Requests of this view, from the document. Pure functions.
+import { muscleInput } from "../../muscle/document.js";
 
-/** @typedef {import("./document.js").Compare} Compare */
-/** @typedef {import("./document.js").Step} Step */
+/** @typedef {import("../../types.js").Compare} Compare */
+/** @typedef {import("../../types.js").Step} Step */
 
-/** Which files take part. @param {Compare} c */
+/** The files that are not switched off. @param {Compare} c */
 export const used = (c) => c.files.filter((file) => file.use !== "off");
 
-/** The model part of every request of this view; a step of the history stands in for the model of now.
+/** Data and model as every request of this view takes them; the model is the current one or a step of the history.
  * @param {Compare} c @param {Pick<Step, "effects" | "freed" | "values">} [model] */
 export function modelBody(c, model = { effects: c.effects, freed: c.freed, values: c.muscle.values }) {
   const muscle = muscleInput({ ...c.muscle, values: model.values });
@@ -22,7 +22,7 @@ export function modelBody(c, model = { effects: c.effects, freed: c.freed, value
   };
 }
 
-/** The body as text, by which answers are kept; null = there is nothing to compare with.
+/** The request as text; null: there is no file to fit to.
  * @param {Compare} c @param {Pick<Step, "effects" | "freed" | "values">} [model] */
 export const keyOf = (c, model) =>
   used(c).some((file) => file.use === "fit") ? JSON.stringify(modelBody(c, model)) : null;

@@ -1,10 +1,9 @@
 // @ts-check
-// Names for what the server answers in this view.
+// Names for the answers of the server in this view.
 
 /** @typedef {import("../../types.js").S} S */
-/** Effect -> parameter -> SI value, or the text of a formula.
- * @typedef {Record<string, Record<string, number | string>>} Effects */
-/** A model as the next request takes it.
+/** @typedef {import("../../types.js").Effects} Effects */
+/** A model as requests take it.
  * @typedef {{effects: Effects, muscle?: Record<string, any> | null}} Model */
 /** @typedef {S["FittedParameter"]} Fitted */
 /** @typedef {S["ComparisonAnswer"]} Comparison */
@@ -22,9 +21,7 @@
 /** @typedef {S["PreviewAnswer"]} Preview */
 /** @typedef {S["PreviewColumn"]} PreviewColumn */
 /** @typedef {S["MissingCondition"]} Missing */
-/** What the user says beyond a file.
- * @typedef {{columns?: Record<string, {channel: string, unit?: string, absolute?: boolean} | null>,
- *   kind?: string, conditions?: Record<string, string | null>, bad_rows?: "skip"}} Mapping */
+/** @typedef {import("../../server/measurements.js").Mapping} Mapping */
 
 /** A measurement with a hidden cause.
  * @typedef {{id: string, title: string, story: string, kind: string, muscle: Record<string, any> | null,

@@ -1,18 +1,23 @@
 // @ts-check
-// Errors and ranges as the page writes them.
-import { brief, number, plainScale, quantityOf, scaleOf, toShown } from "../../format.js";
+// Errors, ranges and names as the page writes them.
+import { effectsById } from "../../store.js";
+import { brief, number, plainScale, quantityOf, readable, scaleOf, toShown } from "../../format.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** @typedef {import("../../format.js").System} System */
 /** @typedef {import("./types.js").Series} Series */
 
-/** The effect that is a typed formula, and the parameter that holds its text. */
+/** The id of the effect that is a formula of the user, and its parameter that holds the formula. */
 export const OWN_TERM = "custom", FORMULA = "term";
 
-/** "62 % of it follows contraction and pressure" @param {import("./types.js").Diagnosis["verdict"]} verdict */
+/** @param {string} id */
+export const titleOf = (id) =>
+  id === OWN_TERM ? "Own term" : effectsById.value.get(id)?.title ?? readable(id);
+
+/** "62 % of the remaining residual follows contraction and pressure" @param {import("./types.js").Diagnosis["verdict"]} verdict */
 export function whatIsLeft({ unexplained_share: share, unexplained_in: names }) {
-  const where = names.map((name) => VARIABLES[name]?.title.toLowerCase() ?? name.replaceAll("_", " "));
-  return `${brief(100 * share)} % of it follows ${where.join(" and ") || "a pattern"}`;
+  const where = names.map((name) => VARIABLES[name]?.title.toLowerCase() ?? readable(name));
+  return `${brief(100 * share)} % of the remaining residual follows ${where.join(" and ") || "a pattern"}`;
 }
 
 /** The scale of a channel: a contraction is shown in percent.
@@ -23,7 +28,7 @@ export function channelScale(unit, channel, system) {
   return quantity ? scaleOf(quantity, system) : plainScale(unit);
 }
 
-/** The unit of an error: several channels together are told in units of their noise.
+/** The unit of an error; the error of several channels together is in units of their noise.
  * @param {string} unit @param {string} channel @param {System} system */
 export function errorUnit(unit, channel, system) {
   const s = channelScale(unit, channel, system);
@@ -38,7 +43,7 @@ export function errorText(si, unit, channel, system, withUnit = true) {
   return withUnit ? `${text}\u00a0${errorUnit(unit, channel, system)}`.trim() : text;
 }
 
-/** Variables of the residual by the name the server uses.
+/** Variables the residual is shown over, by their name in answers.
  * @type {Record<string, {title: string, quantity: Quantity, of: (s: Series) => (number | null)[] | null}>} */
 export const VARIABLES = {
   contraction: { title: "Contraction", quantity: "ratio", of: (s) => s.contraction },
@@ -69,11 +74,11 @@ export function rangeText(name, [from, to], system) {
   const v = VARIABLES[name];
   if (!v) return "";
   const s = scaleOf(v.quantity, system);
-  const say = (/** @type {number} */ si) => number(toShown(si, s), 2);
-  return `${v.title.toLowerCase()} ${say(from)} to ${say(to)} ${s.unit}`.trim();
+  const asText = (/** @type {number} */ si) => number(toShown(si, s), 2);
+  return `${v.title.toLowerCase()} ${asText(from)} to ${asText(to)} ${s.unit}`.trim();
 }
 
-/** @param {Series} s @param {number} i @param {import("./document.js").Brush | null} brush */
+/** @param {Series} s @param {number} i @param {import("../../types.js").Brush | null} brush */
 export function isInside(s, i, brush) {
   if (!brush) return true;
   return Object.entries(brush).every(([name, [from, to]]) => {
@@ -83,8 +88,8 @@ export function isInside(s, i, brush) {
   });
 }
 
-/** Root mean square and number of the residuals inside a brush.
- * @param {Series[]} all @param {import("./document.js").Brush | null} brush */
+/** RMS and number of the residuals in the selected range.
+ * @param {Series[]} all @param {import("../../types.js").Brush | null} brush */
 export function rmsInside(all, brush) {
   let sum = 0, rows = 0;
   for (const s of all) {
@@ -97,7 +102,7 @@ export function rmsInside(all, brush) {
   return { rms: rows ? Math.sqrt(sum / rows) : null, rows };
 }
 
-/** Share of the spread that the model explains, the mean of the channels: 100 % is perfect.
+/** How much of the variation the model explains, as the mean of the channels: 100 % is perfect.
  * @param {Series[]} all */
 export function fitPercent(all) {
   const shares = [...new Set(all.map((s) => s.channel))].flatMap((name) =>
@@ -116,7 +121,7 @@ function fitOfChannel(all) {
   return rms === null || spread === 0 ? null : 100 * (1 - Math.sqrt((rms * rms * rows) / spread));
 }
 
-/** A number with a few figures, whatever its size: 2.03·10⁻⁶. @param {number} x @param {number} digits */
+/** A number of any size with some significant digits: 2.03·10⁻⁶. @param {number} x @param {number} digits */
 export function figures(x, digits) {
   const size = Math.abs(x);
   if (size >= 1e-3 && size < 1e5 || x === 0) {

@@ -1,25 +1,29 @@
 // @ts-check
-// The four plots: cards with title, legend and menu; one drawing of all of them when an answer arrives.
+// The four plots: cards with title, legend and menu; all are drawn when an answer arrives.
 import { h, icon } from "../../dom.js";
 import { computed, effect, signal } from "../../reactive.js";
-import { commit, design, editDesign, look, patchDesign, preview, units } from "../../state.js";
+import { commit, look, preview, units } from "../../state.js";
+import { status } from "../../store.js";
+import { design, editDesign, patchDesign } from "../../muscle/document.js";
 import { brief, niceStep, scaleOf, toShown, toSi, withUnit } from "../../format.js";
 import { Chart } from "../../plots/chart.js";
+import { plotlyReady } from "../../plots/library.js";
 import { dragLine, linkCursor, writeLabels } from "../../plots/overlay.js";
 import { palette, pressureColour } from "../../plots/theme.js";
 import { menuButton } from "../../ui/menu.js";
-import { chartMenu } from "../../plots/export.js";
-import { curves, fault, fieldOf, reference, retry } from "./model.js";
-import { ACROSS, forgetRanges, OVER, pressureName, shareOf } from "./axes.js";
+import { curves, fault, faultField, reference, retry } from "./model.js";
+import { faultNotice, goToField } from "../../ui/fault.js";
+import { forgetRanges } from "../../plots/axes.js";
+import { ACROSS, OVER, pressureName, shareOf } from "../../muscle/curve-axes.js";
 import { cursor, readout } from "./readout.js";
-import { forceSpec, overPressureSpec, stiffnessSpec, volumeSpec } from "./specs.js";
 
-/** @typedef {import("./axes.js").View} View */
+/** @typedef {import("../../muscle/curve-axes.js").View} View */
 
 const across = computed(() => design.value.across);
 const overWhat = computed(() => design.value.over);
 
-/** Follows the answers and what is looked at, not the inputs: new inputs with old curves would be wrong.
+/** What is drawn. It follows the answers and the display, not the inputs: new inputs with old curves would be
+ * wrong.
  * @returns {View | null} */
 const viewNow = () => {
   const answer = curves.value;
@@ -48,7 +52,7 @@ const over = chartCard(
   "Position or force over pressure, filling and venting",
 );
 
-/** All plots with their titles, for the export of the sheet. */
+/** All plots with their titles, for the export as one sheet. */
 export const charts = [force, stiffness, volume, over].map(({ title, chart }) => ({ title, chart }));
 
 /** @param {ReturnType<typeof chartCard>} card @param {import("../../dom.js").Child[]} head */
@@ -65,14 +69,14 @@ function frame(card, ...head) {
         label: icon("more"),
         name: `${card.title}: save or show as table`,
         class: "mini",
-        items: () => chartMenu(card.chart, card.title),
+        items: async () => (await import("../../plots/export.js")).chartMenu(card.chart, card.title),
       }),
     ),
     card.host,
   );
 }
 
-function familyLegend() {
+function pressureLegend() {
   const answer = curves.value;
   if (!answer) return null;
   const v = /** @type {View} */ ({ system: units.value, curves: answer });
@@ -92,7 +96,7 @@ function familyLegend() {
     reference.value ? h("li", null, h("i", { class: "ring" }), "points") : null,
   );
 }
-/** The family's legend changes with the pressures only, not with every answer. */
+/** The legend changes with the pressures only, not with every answer. */
 const legendKey = computed(() => JSON.stringify([curves.value?.pressure, units.value, reference.value?.id]));
 
 /** @param {string} solid @param {string} dashed @param {boolean} [coloured] */
@@ -116,29 +120,12 @@ const choice = (label, options, get, set) =>
   }, () => options.map(([value, text]) => h("option", { value, selected: value === get() }, text)));
 
 function stateNote() {
-  const told = fault.value;
-  if (!told && curves.value) return null;
-  if (!told) return h("p", { class: "notice" }, "Asking the server for the curves…");
-  return h(
-    "div",
-    { class: "notice bad", role: "alert" },
-    icon("warn"),
-    h("span", null, told.words, curves.value ? " The plots show the last valid model." : ""),
-    told.field
-      ? h(
-        "button",
-        { type: "button", onclick: () => goToField(fieldOf(told.field ?? "")) },
-        "Go to the field",
-      )
-      : h("button", { type: "button", onclick: retry }, "Try again"),
-  );
-}
-
-/** @param {string} key */
-function goToField(key) {
-  const box = document.querySelector(`[data-field="${CSS.escape(key)}"]`) ?? document.getElementById(key);
-  const input = box?.querySelector("input") ?? box;
-  if (input instanceof HTMLElement) input.focus();
+  const error = fault.value, field = faultField();
+  if (!error) return curves.value ? null : h("p", { class: "notice" }, "Asking the server for the curves…");
+  return faultNotice(`${error.words}${curves.value ? " The plots show the last valid model." : ""}`, {
+    goTo: field === null ? null : () => goToField(field, ".design"),
+    retry,
+  });
 }
 
 function overHint() {
@@ -151,10 +138,10 @@ function overHint() {
     class: "link",
     onclick: () =>
       editDesign({ fixed_length: curves.peek()?.geometry.nominal_length ?? 0.3 }, "fixed length"),
-  }, "hold the muscle at its length");
+  }, "fix the length");
 }
 
-/** The load as a handle on the force plot. */
+/** The load as a line in the force plot that can be dragged. */
 function loadHandle() {
   const scale = () => scaleOf("force", units.peek());
   return dragLine(force.chart, {
@@ -171,9 +158,19 @@ function loadHandle() {
   });
 }
 
+/** What the plots show; fetched together with Plotly, without which nothing is drawn. */
+const specs = signal(/** @type {typeof import("./specs.js") | null} */ (null));
+async function fetchSpecs() {
+  try {
+    specs.value = await import("./specs.js");
+  } catch {
+    status.value = "The plots did not load. Reload the page.";
+  }
+}
+
 let drawings = 0;
 
-/** What makes another picture; while it stays, the axes stand still under a moving slider. */
+/** Changes when the axes need new ranges; until then they stay the same while a slider moves. */
 const picture = computed(() => {
   const { muscle, pressures, clipped, range } = design.value;
   return JSON.stringify([
@@ -186,31 +183,28 @@ const picture = computed(() => {
     reference.value?.id,
   ]);
 });
-let pictured = "";
-/** The answer that was on screen when the picture changed: it sets no range for the next one.
+let drawnPicture = "";
+/** The answer that was on screen when the picture changed: it sets no ranges for the next one.
  * @type {unknown} */
 let outdated = null;
 
-/** Redraws every plot; the count tells tests, and the marks tell how long it took since the answer came. */
+/** Redraws every plot; the count and the performance marks are for tests. */
 function drawAll() {
-  const v = viewNow();
+  const v = viewNow(), draw = specs.value;
   palette.value;
-  if (!v) return;
+  if (!v || !draw) return;
   performance.mark("draw-start");
-  if (picture.peek() !== pictured) outdated = v.curves;
+  if (picture.peek() !== drawnPicture) outdated = v.curves;
   else if (outdated && outdated !== v.curves) outdated = forgetRanges();
-  pictured = picture.peek();
-  force.chart.show((p) => forceSpec(v, p));
-  stiffness.chart.show((p) => stiffnessSpec(v, p));
-  volume.chart.show((p) => volumeSpec(v, p));
-  over.chart.show((p) => overPressureSpec(v, p));
+  drawnPicture = picture.peek();
+  force.chart.show((p) => draw.forceSpec(v, p));
+  stiffness.chart.show((p) => draw.stiffnessSpec(v, p));
+  volume.chart.show((p) => draw.volumeSpec(v, p));
+  over.chart.show((p) => draw.overPressureSpec(v, p));
   if (!force.chart.axes) return;
   performance.measure("draw", "draw-start");
   document.documentElement.dataset.drawn = String(++drawings);
 }
-
-/** Draws when Plotly has arrived; before, the page is usable and says so. */
-export const plotlyReady = signal(false);
 
 export function chartColumn() {
   const acrossOptions = /** @type {[import("../../types.js").Across, string][]} */ (
@@ -231,7 +225,7 @@ export function chartColumn() {
         () => across.value,
         (key) => editDesign({ across: key }, `plots over ${ACROSS[key].title.toLowerCase()}`),
       ),
-      () => (legendKey.value, familyLegend()),
+      () => (legendKey.value, pressureLegend()),
     ),
     h("div", { class: "readout", "aria-live": "off" }, () => readout(viewNow())),
     frame(stiffness, dashLegend("open valve", "closed valve")),
@@ -258,7 +252,8 @@ export function chartColumn() {
     placeLoad();
   });
   effect(() => {
-    if (plotlyReady.value) drawAll();
+    if (plotlyReady.value) fetchSpecs();
   });
+  effect(drawAll);
   return column;
 }

@@ -1,8 +1,8 @@
 // @ts-check
-// The answer of the server as one long table: what "Curves as CSV" writes.
+// The curves as one table, for "Curves as CSV".
 import { units } from "../../state.js";
 import { scaleOf, toShown } from "../../format.js";
-import { acrossAt } from "./axes.js";
+import { acrossAt } from "../../muscle/curve-axes.js";
 import { curves } from "./model.js";
 
 /** Every number behind the plots, one row per pressure and contraction.

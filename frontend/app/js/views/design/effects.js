@@ -1,258 +1,34 @@
 // @ts-check
-// The effects card: everything the server's catalogue holds, by family, each with a switch and its
-// parameters.
-import { h, icon, mathml } from "../../dom.js";
-import { computed, signal } from "../../reactive.js";
-import { commit, design, editDesign, patchDesign, preview, units } from "../../state.js";
-import { effects } from "../../store.js";
-import { number, plainScale, quantityOf, scaleOf, toShown } from "../../format.js";
-import { quantityField } from "../../ui/field.js";
-import { openPopover } from "../../ui/dialog.js";
-import { effectNote } from "./effect-note.js";
-import { activeEffects, curves, messageFor, presetEffects } from "./model.js";
+// The effects card of the Design view: which effects there are and in which order.
+import { effectsCard, isStatic } from "../../muscle/effects.js";
+import { activeEffects, presetEffects } from "../../muscle/preset.js";
+import { curves, messageFor } from "./model.js";
 
 /** @typedef {import("../../types.js").Effect} Effect */
-/** @typedef {import("../../types.js").Parameter} Parameter */
-/** @typedef {Record<string, Record<string, number>>} Chosen */
-/** The card of one view: the effects that come along by themselves, those that are on, the message for one,
- * which families stand under which heading, how many are on.
- * @typedef {{own: Signal<Chosen>, chosen: Signal<Chosen>, wanted: Signal<string>, count: () => number,
- *   message: (key: string) => string | null, families: (all: Effect[]) => Map<string, Effect[]>,
- *   hints?: Record<string, string>}} Panel */
-/** @template T @typedef {import("../../reactive.js").Signal<T>} Signal */
 
-/** @param {Panel} c @param {Effect} e @param {Parameter} p what comes along, else the effect's default */
-const usual = (c, e, p) => c.own.value[e.id]?.[p.name] ?? p.default;
-/** @param {Panel} c @param {Effect} e @param {Parameter} p */
-const valueOf = (c, e, p) => c.chosen.value[e.id]?.[p.name] ?? usual(c, e, p);
+const DYNAMIC = "Dynamic effects";
 
-/** @param {Chosen} next @param {string} label */
-const choose = (next, label) => editDesign({ effects: next }, label);
-
-/** @param {Panel} c @param {Effect} e @param {boolean} on */
-function turn(c, e, on) {
-  const next = { ...c.chosen.peek() };
-  if (on) next[e.id] = { ...c.own.peek()[e.id] };
-  else delete next[e.id];
-  choose(next, `${e.title} ${on ? "on" : "off"}`);
-}
-
-/** @param {Panel} c @param {Effect} e @param {Parameter} p */
-function parameterField(c, e, p) {
-  const quantity = quantityOf(p.unit, p.name);
-  /** @param {number | null} si */
-  const set = (si) => {
-    const own = { ...c.chosen.peek()[e.id] };
-    if (si === null) delete own[p.name];
-    else own[p.name] = si;
-    if (si === null && c.own.peek()[e.id]?.[p.name] !== undefined) own[p.name] = usual(c, e, p);
-    return { effects: { ...c.chosen.peek(), [e.id]: own } };
-  };
-  return quantityField({
-    key: `${e.id}.${p.name}`,
-    label: p.name.replaceAll("_", " ").replace(/^./, (c) => c.toUpperCase()),
-    symbol: mathml(p.symbol_mathml),
-    quantity,
-    strict: true,
-    scale: () => quantity ? scaleOf(quantity, units.value) : plainScale(p.unit),
-    bounds: () => [p.lower, p.upper],
-    get: () => valueOf(c, e, p),
-    put: (si, done) => {
-      preview(patchDesign(set(si)));
-      if (done) commit(`${e.title}: ${p.name.replaceAll("_", " ")}`);
-    },
-    changed: () =>
-      Math.abs(valueOf(c, e, p) - usual(c, e, p)) > 1e-9 * Math.max(Math.abs(p.lower), Math.abs(p.upper)),
-    reset: () => editDesign(set(null), `reset ${p.name.replaceAll("_", " ")}`),
-    message: () => c.message(`${e.id}.${p.name}`),
-  });
-}
-
-/** The parameters in one line, for an effect that is folded. @param {Panel} c @param {Effect} e */
-function summary(c, e) {
-  return e.parameters.slice(0, 3).flatMap((p, i) => {
-    const quantity = quantityOf(p.unit, p.name);
-    const s = quantity ? scaleOf(quantity, units.value) : plainScale(p.unit);
-    const value = ` = ${number(toShown(valueOf(c, e, p), s), s.digits)} ${s.unit}`;
-    return [i ? ", " : "", h("span", { class: "pair" }, mathml(p.symbol_mathml), value)];
-  });
-}
-
-/** @param {Panel} c @param {Effect} e */
-function row(c, e) {
-  const on = computed(() => e.id in c.chosen.value);
-  const open = signal(false);
-  const info = h("button", {
-    type: "button",
-    class: "mini",
-    "aria-label": `About ${e.title}`,
-    "aria-expanded": "false",
-    onclick: () => openPopover(info, e.title, () => effectNote(e), { kind: "about" }),
-  }, icon("info"));
-  const matches = () => {
-    const words = c.wanted.value.trim().toLowerCase();
-    return !words || [e.title, e.family, e.cause, e.id].some((text) => text.toLowerCase().includes(words));
-  };
-  const body = () => {
-    if (!on.value || !e.parameters.length) return null;
-    if (open.value) {
-      return h(
-        "div",
-        { class: "parameters" },
-        ...e.parameters.map((p) => parameterField(c, e, p)),
-      );
-    }
-    return h("button", {
-      type: "button",
-      class: "summary",
-      title: "Change the parameters",
-      onclick: () => (open.value = true),
-    }, () => summary(c, e));
-  };
-  return h(
-    "li",
-    { class: () => `effect${on.value ? " on" : ""}`, hidden: () => !matches(), "data-effect": e.id },
-    h(
-      "div",
-      { class: "effect-head" },
-      h(
-        "label",
-        { class: "switch" },
-        h("input", {
-          type: "checkbox",
-          role: "switch",
-          checked: () => on.value,
-          onchange: (/** @type {Event} */ event) => {
-            const want = /** @type {HTMLInputElement} */ (event.target).checked;
-            open.value = want;
-            turn(c, e, want);
-          },
-        }),
-        h("span", null, e.title),
-      ),
-      () =>
-        on.value && e.parameters.length
-          ? h("button", {
-            type: "button",
-            class: `mini fold${open.value ? " up" : ""}`,
-            "aria-label": `Parameters of ${e.title}`,
-            "aria-expanded": String(open.value),
-            onclick: () => (open.value = !open.peek()),
-          }, icon("down"))
-          : null,
-      info,
-    ),
-    body,
-    () => {
-      const text = c.message(e.id);
-      return text && !e.parameters.some((p) => c.message(`${e.id}.${p.name}`))
-        ? h("p", { class: "error" }, text)
-        : null;
-    },
-  );
-}
-
-/** A family is open while one of its effects is on, until the user folds or unfolds it.
- * @param {Panel} c @param {string} family @param {Effect[]} list */
-function group(c, family, list) {
-  const count = computed(() => list.filter((e) => e.id in c.chosen.value).length);
-  const folded = signal(/** @type {boolean | null} */ (null));
-  const open = () => c.wanted.value.trim() !== "" || !(folded.value ?? count.value === 0);
-  const box = h(
-    "details",
-    { class: "family", open, onchange: () => (folded.value = false) },
-    h(
-      "summary",
-      {
-        onclick: (/** @type {Event} */ event) => {
-          event.preventDefault();
-          folded.value = box.open;
-        },
-      },
-      h("span", null, family),
-      h("small", null, () => `${count.value} of ${list.length}`),
-    ),
-    c.hints?.[family] ? h("p", { class: "hint" }, c.hints[family]) : null,
-    h("ul", null, ...list.map((e) => row(c, e))),
-  );
-  return box;
-}
-
-/** A static test shows it. @param {Effect} e */
-export const isStatic = (e) => e.kinds.some((kind) => kind === "static" || kind === "diameter");
-
-const LATER = "Only over time";
-
-/** What moves nothing in static curves stands last, under one heading. @param {Effect[]} all */
+/** Effects that do not change static curves come last, under one heading. @param {Effect[]} all */
 function byFamily(all) {
   /** @type {Map<string, Effect[]>} */
   const families = new Map();
   for (const e of [...all].sort((a, b) => Number(isStatic(b)) - Number(isStatic(a)))) {
-    const name = isStatic(e) ? e.family : LATER;
+    const name = isStatic(e) ? e.family : DYNAMIC;
     families.set(name, [...families.get(name) ?? [], e]);
   }
   return families;
 }
 
-/** @type {Omit<Panel, "wanted">} */
-const OF_DESIGN = {
-  own: presetEffects,
-  chosen: computed(activeEffects),
-  count: () => Object.keys(curves.value?.model.effects ?? activeEffects()).length,
+/** @type {Parameters<typeof effectsCard>[0]} */
+const PANEL = {
+  preset: presetEffects,
+  active: activeEffects,
+  count: () => Object.keys(curves.value?.model.effects ?? activeEffects.value).length,
   message: messageFor,
   families: byFamily,
-  hints: { [LATER]: "These act while the muscle moves or fills; the curves here do not show them." },
+  hints: {
+    [DYNAMIC]: "They act while the muscle moves or fills. The curves here are static and do not show them.",
+  },
 };
 
-export function effectsCard(panel = OF_DESIGN) {
-  /** @type {Panel} */
-  const c = { ...panel, wanted: signal("") };
-  const own = () => Object.keys(c.own.value).length > 0;
-  return h(
-    "section",
-    { class: "card", "aria-label": "Effects" },
-    h(
-      "div",
-      { class: "card-head" },
-      h("h2", null, "Effects"),
-      h("span", { class: "muted" }, () => {
-        const n = c.count();
-        return n ? `${n} on` : "";
-      }),
-      h(
-        "span",
-        { class: "group" },
-        h("button", {
-          type: "button",
-          title: "Switch all effects off: the ideal braid",
-          "aria-pressed": () => String(Object.keys(c.chosen.value).length === 0),
-          onclick: () => choose({}, "ideal model"),
-        }, "Ideal"),
-        h("button", {
-          type: "button",
-          title: "The effects that come with the preset",
-          disabled: () => !own(),
-          "aria-pressed": () => String(design.value.effects === null && Boolean(own())),
-          onclick: () => editDesign({ effects: null }, "the preset’s own effects"),
-        }, "Preset’s own"),
-      ),
-    ),
-    h(
-      "label",
-      { class: "search" },
-      icon("search"),
-      h("input", {
-        type: "search",
-        placeholder: "Search effects  ( / )",
-        "aria-label": "Search effects",
-        oninput: (
-          /** @type {Event} */ e,
-        ) => (c.wanted.value = /** @type {HTMLInputElement} */ (e.target).value),
-      }),
-    ),
-    () =>
-      effects.value.length
-        ? [...c.families(effects.value)].map(([family, list]) => group(c, family, list))
-        : h("p", { class: "muted" }, "Loading the catalogue of effects…"),
-  );
-}
+export const designEffectsCard = () => effectsCard(PANEL);

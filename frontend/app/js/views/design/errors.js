@@ -1,12 +1,12 @@
 // @ts-check
-// The model's error: against which points, in newtons and in % of full scale, beside the ideal braid.
+// The error of the model against measured points, in newtons and in % of full scale, beside the ideal braid.
 import { h, icon } from "../../dom.js";
-import { computed } from "../../reactive.js";
-import { design, editDesign, units } from "../../state.js";
+import { units } from "../../state.js";
+import { design, editDesign } from "../../muscle/document.js";
 import { presets, references } from "../../store.js";
-import { brief, siOf, withUnit } from "../../format.js";
-import { saveDialog } from "./save-preset.js";
-import { curves, errors, errorsOutdated, fault, preset, reference, referenceId } from "./model.js";
+import { brief, capitalized, readable, siOf, withUnit } from "../../format.js";
+import { curves, errorFault, errors, errorsOutdated, fault, reference, referenceId } from "./model.js";
+import { preset } from "../../muscle/preset.js";
 
 /** @typedef {import("../../types.js").Comparison} Comparison */
 
@@ -24,19 +24,14 @@ function referenceSelect() {
       editDesign({ reference: id === NONE ? null : id }, "points to compare with");
     },
   }, () => {
-    const own = preset.value?.id;
-    const mine = references.value.filter((r) => r.muscle === own);
+    const ofMuscle = references.value.filter((r) => r.muscle === preset.value?.id);
     return [
       h("option", { value: NONE, selected: !referenceId.value }, "No points"),
-      group("Of this muscle", mine),
-      group("Of other muscles", references.value.filter((r) => !mine.includes(r))),
+      group("Of this muscle", ofMuscle),
+      group("Of other muscles", references.value.filter((r) => !ofMuscle.includes(r))),
     ];
   });
 }
-
-/** The newest figures of one kind stay on screen while new ones are asked for. */
-const model = computed(() => errors.value.model);
-const ideal = computed(() => errors.value.ideal);
 
 /** @param {string} name @param {Comparison} c @param {boolean} first @param {number} widest */
 function figure(name, c, first, widest) {
@@ -55,19 +50,18 @@ function source() {
   return r?.source ? h("li", null, `Source: ${r.source}`, r.verified ? "." : " (unverified).") : null;
 }
 
-/** The "Used" opens the reasons and the source of the points. */
 function body() {
-  const { words } = errors.value, now = model.value, bare = ideal.value;
+  const { model: now, ideal } = errors.value ?? {};
   if (!reference.value) {
-    return h("p", { class: "muted" }, "Choose points above: the model’s error against them is shown here.");
+    return h("p", { class: "muted" }, "Choose points above to see the error of the model.");
   }
-  if (words) return h("p", { class: "error" }, words);
-  if (!now || !bare) return h("p", { class: "muted" }, "Comparing…");
-  const widest = Math.max(now.rmse ?? 0, bare.rmse ?? 0, 1e-9);
+  if (errorFault.value) return h("p", { class: "error" }, errorFault.value.words);
+  if (!now || !ideal) return h("p", { class: "muted" }, "Comparing…");
+  const widest = Math.max(now.rmse ?? 0, ideal.rmse ?? 0, 1e-9);
   const left = Object.entries(now.excluded).filter(([, n]) => n > 0);
   return [
     figure("This model", now, true, widest),
-    figure("Ideal braid", bare, false, widest),
+    figure("Ideal braid", ideal, false, widest),
     h(
       "details",
       null,
@@ -75,16 +69,16 @@ function body() {
       h(
         "ul",
         { class: "plain muted" },
-        ...left.map(([why, n]) => h("li", null, `Left out: ${n} ${why.replaceAll("_", " ")}.`)),
+        ...left.map(([why, n]) => h("li", null, `Left out: ${n} ${readable(why)}.`)),
         h("li", null, `Mean residual ${withUnit(now.residual_mean, "force", units.value)}.`),
-        ...now.messages.map((m) => h("li", null, m.replace(/^./, (c) => c.toUpperCase()))),
+        ...now.messages.map((m) => h("li", null, capitalized(m))),
         source(),
       ),
     ),
   ];
 }
 
-/** Points of another length than the muscle's compare badly, and the number alone would not tell. */
+/** Points of a muscle of another length do not compare, which the number alone would not show. */
 function lengthNote() {
   const at = reference.value?.nominal_length, length = curves.value?.geometry.nominal_length;
   if (!at || !length || Math.abs(siOf(at) / length - 1) < 0.002) return null;
@@ -96,17 +90,17 @@ function lengthNote() {
     h(
       "span",
       null,
-      `Measured on a muscle ${withUnit(measured, "length", units.value)} long, yours has `,
-      `${withUnit(length, "length", units.value)}: the error compares different muscles. `,
+      `The points were measured on a muscle ${withUnit(measured, "length", units.value)} long. Yours is `,
+      `${withUnit(length, "length", units.value)} long, so the error compares different muscles. `,
       h("button", {
         type: "button",
         class: "link",
         onclick: () => {
           const { muscle } = design.peek();
           const values = { ...muscle.values, nominal_length: measured };
-          editDesign({ muscle: { ...muscle, values } }, "length of the sample");
+          editDesign({ muscle: { ...muscle, values } }, "measured length");
         },
-      }, "Take the sample’s length"),
+      }, "Use the measured length"),
     ),
   );
 }
@@ -129,7 +123,7 @@ export function errorCard() {
       h("button", {
         type: "button",
         disabled: () => !curves.value || Boolean(fault.value) || !presets.value.muscles,
-        onclick: saveDialog,
+        onclick: async () => (await import("./save-preset.js")).saveDialog(),
       }, "Save as my preset…"),
     ),
   );

@@ -1,16 +1,13 @@
 // @ts-check
-// Example documents of the server (presets/designs): one click replaces the design, one undo brings it back.
-import { defaultDesign, edit, readDesign } from "../../state.js";
+// Example designs of the server (presets/designs): one click replaces the design, in one undo step.
+import { defaultDesign, openDesign, readDesign } from "../../muscle/document.js";
 import { status } from "../../store.js";
 
 /** @param {import("../../types.js").Preset} preset */
 export function openExample(preset) {
   try {
     const design = readDesign({ ...defaultDesign(), ...preset.document });
-    edit(
-      (d) => ({ ...d, view: "design", design, sizing: { ...d.sizing, mode: "muscle" } }),
-      `example ${preset.title}`,
-    );
+    openDesign(design, `example ${preset.title}`);
     status.value = `${preset.title}: ${preset.description}`;
   } catch (error) {
     const why = /** @type {Error} */ (error).message;

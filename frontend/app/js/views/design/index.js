@@ -1,22 +1,22 @@
 // @ts-check
-// The Design view: from a muscle (inputs, plots, results), or from a task.
+// The muscle side of the Design view: inputs, plots, results.
 import { h } from "../../dom.js";
+import { presets } from "../../store.js";
+import { chartColumn } from "./charts.js";
+import { designEffectsCard } from "./effects.js";
+import { errorCard } from "./errors.js";
+import { inverseCard } from "./inverse.js";
+import { fault, startModel } from "./model.js";
 import { muscleCard } from "./muscle.js";
 import { operationCard } from "./operation.js";
-import { effectsCard } from "./effects.js";
-import { chartColumn } from "./charts.js";
 import { resultCards } from "./results.js";
-import { inverseCard } from "./inverse.js";
-import { errorCard } from "./errors.js";
-import { fault, startModel } from "./model.js";
-import { inTask, modeSwitch, taskSide } from "../sizing/index.js";
 
 export function designView() {
   const verdict = resultCards();
-  const muscle = h(
+  const view = h(
     "div",
-    { class: "design", hidden: () => inTask.value },
-    h("div", { class: "column inputs" }, muscleCard(), operationCard(), effectsCard()),
+    { class: "design" },
+    h("div", { class: "column inputs" }, muscleCard(), operationCard(), designEffectsCard()),
     chartColumn(),
     h(
       "div",
@@ -27,5 +27,35 @@ export function designView() {
     ),
   );
   startModel();
-  return h("div", { class: "start-from" }, modeSwitch(), muscle, taskSide());
+  return view;
+}
+
+/** @returns {import("../../ui/menu.js").Item[]} */
+export const designExports = () => [
+  {
+    label: "Curves as CSV",
+    note: "all values, shown units",
+    run: async () => (await import("./exports.js")).saveCsv(),
+  },
+  {
+    label: "Plots as PNG",
+    note: "one sheet",
+    run: async () => (await import("./exports.js")).savePlots("png"),
+  },
+  {
+    label: "Plots as SVG",
+    note: "one sheet",
+    run: async () => (await import("./exports.js")).savePlots("svg"),
+  },
+];
+
+/** The example designs of the server. @returns {import("../../ui/menu.js").Item[]} */
+export function designExamples() {
+  const designs = presets.peek().designs ?? [];
+  if (!designs.length) return [{ heading: "No example documents on this server" }];
+  return designs.map((d) => ({
+    label: d.title,
+    note: d.description,
+    run: async () => (await import("./examples.js")).openExample(d),
+  }));
 }

@@ -1,42 +1,44 @@
 // @ts-check
-// Inverse questions: what pressure, what contraction, what range. Asked again whenever the model changes.
+// Inverse calculations: which pressure, contraction or range is needed. Repeated whenever the model changes.
 import { h, icon } from "../../dom.js";
-import { effect, signal } from "../../reactive.js";
-import { design, units } from "../../state.js";
-import { scaleOf, withUnit } from "../../format.js";
-import { latest, post } from "../../api.js";
+import { signal } from "../../reactive.js";
+import { units } from "../../state.js";
+import { design, modelInput } from "../../muscle/document.js";
+import { readable, scaleOf, withUnit } from "../../format.js";
+import { post } from "../../server/client.js";
+import { Question } from "../../server/question.js";
 import { quantityField } from "../../ui/field.js";
-import { curves, modelInput } from "./model.js";
+import { curves, curvesAreCurrent } from "./model.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** @typedef {import("../../types.js").Answer} Answer */
-/** @typedef {{label: string, short: string, inputs: string[], found: string}} Question */
+/** @typedef {{label: string, short: string, inputs: string[], result: string}} Inverse */
 
-/** @type {Record<string, Question>} */
+/** @type {Record<string, Inverse>} */
 const QUESTIONS = {
   pressure: {
     label: "Pressure for a force at a length",
     short: "Pressure",
     inputs: ["force", "length"],
-    found: "Pressure",
+    result: "Pressure",
   },
   contraction: {
     label: "Contraction for a force at a pressure",
     short: "Contraction",
     inputs: ["force", "pressure"],
-    found: "Contraction",
+    result: "Contraction",
   },
   stroke_pressure: {
     label: "Pressure for a stroke under load",
     short: "Stroke",
     inputs: ["load", "stroke"],
-    found: "Pressure",
+    result: "Pressure",
   },
   working_range: {
     label: "Working range between preload and load",
     short: "Range",
     inputs: ["preload", "load", "pressure"],
-    found: "Usable contraction",
+    result: "Usable contraction",
   },
 };
 
@@ -50,7 +52,7 @@ const INPUTS = {
   preload: { label: "Preload", quantity: "force" },
 };
 
-/** What the details of an answer measure, by their name's last word or unit. @type {[RegExp, Quantity][]} */
+/** The quantity of a detail of an answer, by its name. @type {[RegExp, Quantity][]} */
 const DETAILS = [
   [/length|stroke|diameter/, "length"],
   [/contraction/, "ratio"],
@@ -60,12 +62,12 @@ const DETAILS = [
   [/volume/, "volume"],
 ];
 
+const ASK_AFTER_MS = 90;
+
 const kind = signal("pressure");
 const values = signal(/** @type {Record<string, number>} */ ({}));
-const answer = signal(/** @type {Answer | null} */ (null));
-const wrong = signal("");
 
-/** A sensible start for each input, from the design. @param {string} key */
+/** The start value of each input, from the design. @param {string} key */
 function start(key) {
   const d = design.value, length = curves.value?.geometry.nominal_length ?? 0.3;
   /** @type {Record<string, number>} */
@@ -79,16 +81,8 @@ const value = (key) => values.value[key] ?? start(key);
 const quantityOfAnswer = (unit, name) =>
   unit === "Pa" ? "pressure" : DETAILS.find(([pattern]) => pattern.test(name))?.[1] ?? "ratio";
 
-const ask = latest(
-  (/** @type {unknown} */ body, control) => post("/api/inverse", body, control),
-  (got) => {
-    wrong.value = "";
-    answer.value = got;
-  },
-  (error) => {
-    answer.value = null;
-    wrong.value = error.words;
-  },
+const inverse = new Question(
+  (text, signal) => /** @type {Promise<Answer>} */ (post("/api/inverse", JSON.parse(text), signal)),
 );
 
 /** @param {string} key */
@@ -105,8 +99,8 @@ const inputField = (key) =>
   });
 
 function shown() {
-  if (wrong.value) return h("p", { class: "error" }, wrong.value);
-  const got = answer.value;
+  if (inverse.error.value) return h("p", { class: "error" }, inverse.error.value.words);
+  const got = inverse.answer.value;
   if (!got || got.question !== kind.value) return h("p", { class: "muted" }, "…");
   const quantity = quantityOfAnswer(got.unit, got.unit === "m" ? "length" : got.question);
   const details = Object.entries(got.details).filter(([, v]) => v != null);
@@ -114,7 +108,7 @@ function shown() {
     h(
       "p",
       { class: "answer" },
-      h("span", null, QUESTIONS[kind.value].found),
+      h("span", null, QUESTIONS[kind.value].result),
       h("b", null, got.value == null ? "none" : withUnit(got.value, quantity, units.value)),
     ),
     details.length
@@ -122,7 +116,7 @@ function shown() {
         "dl",
         null,
         ...details.flatMap(([name, v]) => [
-          h("dt", null, name.replaceAll("_", " ")),
+          h("dt", null, readable(name)),
           h("dd", null, withUnit(v, quantityOfAnswer("", name), units.value)),
         ]),
       )
@@ -136,18 +130,18 @@ function shown() {
 }
 
 export function inverseCard() {
-  let timer = 0;
-  effect(() => {
-    const { inputs } = QUESTIONS[kind.value];
-    const given = Object.fromEntries(inputs.map((key) => [key, value(key)]));
-    if (!curves.value) return;
-    clearTimeout(timer);
-    timer = setTimeout(() => ask({ ...modelInput(design.peek()), question: kind.peek(), ...given }), 90);
-  });
+  inverse.follow(() => {
+    const inputs = QUESTIONS[kind.value].inputs.map((key) => [key, value(key)]);
+    return JSON.stringify({
+      ...modelInput(design.value),
+      question: kind.value,
+      ...Object.fromEntries(inputs),
+    });
+  }, { delay: ASK_AFTER_MS, active: () => curvesAreCurrent.value });
   return h(
     "section",
-    { class: "card", "aria-label": "Inverse questions" },
-    h("div", { class: "card-head" }, h("h2", null, "What is needed?")),
+    { class: "card", "aria-label": "Inverse calculation" },
+    h("div", { class: "card-head" }, h("h2", null, "Inverse calculation")),
     h(
       "div",
       { class: "segments", role: "radiogroup", "aria-label": "Question" },

@@ -1,11 +1,13 @@
 // @ts-check
 // From the document to the server's answers: curves, errors against points, and which message belongs to
 // which field.
-import { batch, computed, effect, signal } from "../../reactive.js";
-import { design } from "../../state.js";
-import { latest, post } from "../../api.js";
-import { musclesById, references } from "../../store.js";
 import { siOf } from "../../format.js";
+import { design, modelInput, muscleInput } from "../../muscle/document.js";
+import { muscle, preset } from "../../muscle/preset.js";
+import { computed } from "../../reactive.js";
+import { fieldMessages, post } from "../../server/client.js";
+import { Question } from "../../server/question.js";
+import { references } from "../../store.js";
 
 /** @typedef {import("../../types.js").Curves} Curves */
 /** @typedef {import("../../types.js").Design} Design */
@@ -23,33 +25,8 @@ export const FORM_KEYS = {
   rhombus: ["side", "along", "around"],
 };
 
-export const muscle = computed(() => design.value.muscle);
-export const preset = computed(() => musclesById.value.get(muscle.value.preset ?? "") ?? null);
-
-export const curves = signal(/** @type {Curves | null} */ (null));
-/** Why there are no new curves: the plots keep the last ones, dimmed. */
-export const fault = signal(/** @type {import("../../api.js").ApiError | null} */ (null));
-
-/** The muscle as a request gives it. @param {Muscle} m */
-export function muscleInput({ preset: id, form, values }) {
-  const { side, along, around, ...rest } = values;
-  /** @type {Record<string, unknown>} */
-  const input = { ...rest };
-  if (id) input.preset = id;
-  if (form === "rhombus" && side) input.rhombus = { side, along, around };
-  return input;
-}
-
-/** What every question about the model needs. @param {Design} d */
-export const modelInput = (d) => ({
-  muscle: muscleInput(d.muscle),
-  effects: d.effects,
-  direction: d.direction,
-  temperature: d.temperature,
-});
-
 /** @param {Design} d */
-export const curvesRequest = (d) => ({
+const curvesRequest = (d) => ({
   ...modelInput(d),
   pressures: d.pressures,
   points: POINTS,
@@ -61,35 +38,28 @@ export const curvesRequest = (d) => ({
   fixed_length: d.fixed_length,
 });
 
-const request = computed(() => JSON.stringify(curvesRequest(design.value)));
-
-const askCurves = latest(
-  (/** @type {string} */ body, control) => post("/api/curves", JSON.parse(body), control),
-  (answer) =>
-    batch(() => {
-      fault.value = null;
-      curves.value = answer;
-    }),
-  (error) => {
-    fault.value = error;
-  },
+const curvesQuestion = new Question(
+  (text, signal) => /** @type {Promise<Curves>} */ (post("/api/curves", JSON.parse(text), signal)),
 );
-
+/** The newest curves, and why there are no newer ones: the plots then keep the last ones, dimmed. */
+export const { answer: curves, error: fault } = curvesQuestion;
 /** Asks once more, after the server was away. */
-export const retry = () => askCurves(request.peek());
+export const retry = () => curvesQuestion.again();
+/** The curves on screen are those of the design now. */
+export const curvesAreCurrent = computed(() => curvesQuestion.stage.value === "answered");
 
-/** The geometry value shown in a field: what the user set, else what the server made of preset and form.
+/** The geometry value shown in a field: what the user set, else that of the preset, else what the server derived.
  * @param {string} key @returns {number | null} */
 export function geometryValue(key) {
-  const own = muscle.value.values[key];
-  if (own !== undefined) return own;
-  const given = preset.value?.geometry?.[key];
-  if (given) return siOf(given);
+  const set = muscle.value.values[key];
+  if (set !== undefined) return set;
+  const ofPreset = preset.value?.geometry?.[key];
+  if (ofPreset) return siOf(ofPreset);
   const answer = /** @type {any} */ (curves.value?.geometry);
   return answer?.[key] ?? answer?.rhombus?.[key] ?? null;
 }
 
-/** What the preset says in each form, to mark and reset changed values. @param {string} key
+/** The value of the preset in any form of the geometry, to mark and reset changed values. @param {string} key
  * @returns {number | null} */
 export function presetValue(key) {
   const g = preset.value?.geometry;
@@ -110,10 +80,10 @@ export function presetValue(key) {
   return derived[key] ?? null;
 }
 
-/** Side of the rhombus that a conversion starts from: the lattice of one braid has any size of mesh. */
+/** The side of the rhombus after a conversion [m]: a braid fits a lattice of any mesh size. */
 const SIDE = 2e-3;
 
-/** The same muscle in another form; without an answer of the server yet it stays as it is.
+/** The same muscle in another form of the geometry; unchanged while there is no answer of the server yet.
  * @param {Muscle} m @param {Form} form @returns {Muscle} */
 export function inForm(m, form) {
   const g = curves.peek()?.geometry;
@@ -128,39 +98,17 @@ export function inForm(m, form) {
   if (form === "braid") {
     const { braid_diameter, braid_angle } = g;
     for (const [key, value] of Object.entries({ braid_diameter, braid_angle })) {
-      const own = m.preset && presetValue(key);
-      if (!own || Math.abs(value / own - 1) > 1e-6) values[key] = value;
+      const ofPreset = m.preset && presetValue(key);
+      if (!ofPreset || Math.abs(value / ofPreset - 1) > 1e-6) values[key] = value;
     }
   }
   return { ...m, form, values };
 }
 
-/** The effects of the model now: the user's choice, or the preset's own.
- * @returns {Record<string, Record<string, number>>} */
-export const activeEffects = () => design.value.effects ?? presetEffects.value;
-
-export const presetEffects = computed(() => {
-  const own = preset.value?.effects ?? {};
-  return Object.fromEntries(
-    Object.entries(own).map(([id, values]) => [
-      id,
-      Object.fromEntries(Object.entries(values).map(([key, q]) => [key, siOf(q)])),
-    ]),
-  );
-});
-
-/** Message for a field of the page, by its key. @param {string} key */
-export function messageFor(key) {
-  const told = fault.value;
-  if (!told?.field) return null;
-  const field = fieldOf(told.field);
-  return field === key || field.startsWith(`${key}.`) ? told.words : null;
-}
-
 /** The field on the page that a path of the request belongs to: "effects.a.b" → "a.b".
  * @param {string} path */
-export function fieldOf(path) {
-  const [part, ...rest] = path.replace(/^body\./, "").split(".");
+function fieldOf(path) {
+  const [part, ...rest] = path.split(".");
   if (part === "effects") return rest.join(".");
   if (part !== "muscle") return part;
   const key = rest.at(-1) ?? "preset";
@@ -168,10 +116,11 @@ export function fieldOf(path) {
   const elsewhere = Object.values(FORM_KEYS).flat().includes(key) && !FORM_KEYS[form].includes(key);
   return elsewhere || key === "rhombus" ? "nominal_length" : key;
 }
+export const { field: faultField, within: messageFor } = fieldMessages(() => fault.value, fieldOf);
 
 // ---- the model's error against points
 
-/** "auto" is what belongs to the muscle: its measurement, else its maker's curve. */
+/** The points the model is compared with; "auto": the measurement of the preset, else its maker's curve. */
 export const referenceId = computed(() => {
   const chosen = design.value.reference;
   if (chosen !== "auto") return chosen;
@@ -179,46 +128,31 @@ export const referenceId = computed(() => {
 });
 export const reference = computed(() => references.value.find((r) => r.id === referenceId.value) ?? null);
 
-/** What the model's error depends on, as the text of a question; null without points.
- * @param {Design} d @param {{id: string} | null} points */
-const questionOf = (d, points) =>
-  points && JSON.stringify({ muscle: muscleInput(d.muscle), effects: d.effects, measurement: points.id });
-const question = computed(() => questionOf(design.value, reference.value));
+/** The error of the model with its effects, and of the ideal braid.
+ * @typedef {{model: Comparison, ideal: Comparison}} Errors */
 
-/** @typedef {{model: Comparison | null, ideal: Comparison | null, words: string | null}} Errors */
-/** @type {Errors & {of: string | null}} */
-const NONE = { model: null, ideal: null, words: null, of: null };
-/** The answer and the question it belongs to. */
-export const errors = signal(NONE);
-/** What is shown is not yet the error of what is set. */
-export const errorsOutdated = computed(() => question.value !== null && errors.value.of !== question.value);
+/** What the model's error depends on. */
+const errorText = computed(() => {
+  const { muscle, effects } = design.value, points = reference.value;
+  return points && JSON.stringify({ muscle: muscleInput(muscle), effects, measurement: points.id });
+});
+const errorQuestion = new Question(async (text, signal) => {
+  const body = JSON.parse(text);
+  const [model, ideal] = await Promise.all([
+    post("/api/comparisons", body, signal),
+    post("/api/comparisons", { ...body, effects: {} }, signal),
+  ]);
+  return /** @type {Errors} */ ({ model, ideal });
+});
+export const { answer: errors, error: errorFault } = errorQuestion;
+/** The errors on screen are not yet those of the design now. */
+export const errorsOutdated = computed(() => errorQuestion.stage.value === "asking");
 
-const askErrors = latest(
-  async (/** @type {string} */ of, control) => {
-    const body = JSON.parse(of);
-    const [model, ideal] = await Promise.all([
-      post("/api/comparisons", body, control),
-      post("/api/comparisons", { ...body, effects: {} }, control),
-    ]);
-    return { ...NONE, model, ideal, of };
-  },
-  (answer) => {
-    errors.value = answer;
-  },
-  (error, of) => {
-    errors.value = { ...NONE, words: error.words, of };
-  },
-);
-
-/** Starts asking; called once, when the view is built. */
+/** Starts asking; called once, when the view is built. The curves come first. */
 export function startModel() {
-  effect(() => askCurves(request.value));
-  let timer = 0;
-  effect(() => {
-    const answer = curves.value, points = reference.value;
-    clearTimeout(timer);
-    if (!points) errors.value = NONE;
-    const asked = questionOf(design.peek(), points);
-    if (answer && asked) timer = setTimeout(() => askErrors(asked), COMPARE_AFTER_MS);
+  curvesQuestion.follow(() => JSON.stringify(curvesRequest(design.value)));
+  errorQuestion.follow(() => errorText.value, {
+    delay: COMPARE_AFTER_MS,
+    active: () => curvesAreCurrent.value,
   });
 }

@@ -1,30 +1,22 @@
 // @ts-check
 // The muscle card: preset, three forms of geometry, each value with slider, typed units and reset.
-import { h, icon } from "../../dom.js";
+import { h } from "../../dom.js";
 import { computed } from "../../reactive.js";
-import { commit, design, editDesign, patchDesign, preview, units } from "../../state.js";
+import { commit, preview, units } from "../../state.js";
+import { design, editDesign, patchDesign } from "../../muscle/document.js";
 import { muscles } from "../../store.js";
 import { scaleOf, siOf } from "../../format.js";
-import { quantityField } from "../../ui/field.js";
-import { openPopover } from "../../ui/dialog.js";
-import { unverifiedNote } from "../../ui/sources.js";
-import {
-  curves,
-  FORM_KEYS,
-  geometryValue,
-  inForm,
-  messageFor,
-  muscle,
-  preset,
-  presetValue,
-} from "./model.js";
+import { quantityField, subscript } from "../../ui/field.js";
+import { unverifiedBadge } from "../../ui/sources.js";
+import { curves, FORM_KEYS, geometryValue, inForm, messageFor, presetValue } from "./model.js";
+import { muscle, preset, usePreset } from "../../muscle/preset.js";
 
 /** @typedef {import("../../types.js").Form} Form */
 /** @typedef {{label: string, symbol: string, quantity: import("../../format.js").Quantity,
  *   bounds: [number, number], log?: boolean, hint?: string}} Spec */
 
 const DEG = Math.PI / 180;
-/** Slider ranges span what is built; the field beside takes any value the model takes.
+/** Slider ranges cover usual muscles; the field accepts any value the model accepts.
  * @type {Record<string, Spec>} */
 const SPECS = {
   nominal_length: { label: "Length", symbol: "L₀", quantity: "length", bounds: [0.02, 10], log: true },
@@ -70,8 +62,8 @@ function put(key, si, done) {
 
 /** @param {string} key */
 const isChanged = (key) => {
-  const own = muscle.value.values[key], usual = presetValue(key);
-  return own !== undefined && usual !== null && Math.abs(own - usual) > 1e-6 * Math.abs(usual);
+  const set = muscle.value.values[key], usual = presetValue(key);
+  return set !== undefined && usual !== null && Math.abs(set - usual) > 1e-6 * Math.abs(usual);
 };
 
 /** @param {string} key */
@@ -103,13 +95,7 @@ function field(key) {
   });
 }
 
-/** @param {string} symbol */
-const subscript = (symbol) => {
-  const [letter, below] = symbol.split("_");
-  return below ? h("span", null, letter, h("sub", null, below)) : symbol;
-};
-
-/** The maker's range of lengths where there is one. @param {string} key @param {Spec} spec
+/** The range of lengths the maker offers, if it is known. @param {string} key @param {Spec} spec
  * @returns {[number, number]} */
 function sliderBounds(key, spec) {
   const limits = preset.value?.limits ?? {};
@@ -119,19 +105,7 @@ function sliderBounds(key, spec) {
   return [siOf(limits.min_nominal_length), siOf(limits.max_nominal_length)];
 }
 
-/** The preset with its own effects and points; a length that was set stays. @param {string} id */
-export function usePreset(id) {
-  const length = design.peek().muscle.values.nominal_length;
-  /** @type {Record<string, number>} */
-  const values = {};
-  if (length !== undefined) values.nominal_length = length;
-  editDesign(
-    { muscle: { preset: id, form: "braid", values }, effects: null, reference: "auto" },
-    `preset ${id}`,
-  );
-}
-
-/** @param {string} id "" = own geometry: the muscle as it is now, free of its preset */
+/** @param {string} id "": own geometry, the muscle as it is now without its preset */
 function choose(id) {
   const { reference } = design.peek();
   const g = curves.peek()?.geometry;
@@ -142,9 +116,9 @@ function choose(id) {
     if (inside_diameter) Object.assign(values, { inside_diameter });
     if (wall_thickness) Object.assign(values, { wall_thickness });
     const active = curves.peek()?.model.effects ?? {};
-    const own = reference === "auto" ? null : reference;
+    const points = reference === "auto" ? null : reference;
     editDesign(
-      { muscle: { preset: null, form: "braid", values }, effects: active, reference: own },
+      { muscle: { preset: null, form: "braid", values }, effects: active, reference: points },
       "own geometry",
     );
   }
@@ -178,23 +152,6 @@ function presetSelect() {
   }, options);
 }
 
-function badge() {
-  const p = preset.value;
-  if (!p || p.verified) return null;
-  const button = h(
-    "button",
-    {
-      type: "button",
-      class: "badge warn",
-      onclick: () => openPopover(button, "Unverified values", () => unverifiedNote(p)),
-      "aria-expanded": "false",
-    },
-    icon("warn"),
-    "unverified values",
-  );
-  return button;
-}
-
 /** @param {[Form, string, string]} one */
 const formButton = ([id, label, title]) =>
   h("button", {
@@ -219,7 +176,7 @@ export function muscleCard() {
   return h(
     "section",
     { class: "card", "aria-label": "Muscle" },
-    h("div", { class: "card-head" }, h("h2", null, "Muscle"), badge),
+    h("div", { class: "card-head" }, h("h2", null, "Muscle"), () => unverifiedBadge(preset.value)),
     presetSelect(),
     h("p", { class: "error" }, () => messageFor("preset") ?? ""),
     h(

@@ -1,12 +1,14 @@
 // @ts-check
-// The operation card: pressures of the family, load, direction of motion, temperature and what else is held.
+// The operation card: pressures, load, direction of motion, temperature, dead volume, fixed length.
 import { h, icon } from "../../dom.js";
 import { computed, signal } from "../../reactive.js";
-import { BAR, commit, design, editDesign, patchDesign, preview, units } from "../../state.js";
-import { number, parse, scaleOf, toShown } from "../../format.js";
+import { commit, preview, units } from "../../state.js";
+import { design, editDesign, patchDesign } from "../../muscle/document.js";
+import { BAR, number, parse, scaleOf, toShown } from "../../format.js";
 import { quantityField } from "../../ui/field.js";
 import { openPopover } from "../../ui/dialog.js";
-import { curves, messageFor, preset } from "./model.js";
+import { curves, messageFor } from "./model.js";
+import { preset } from "../../muscle/preset.js";
 import { siOf } from "../../format.js";
 
 /** @typedef {import("../../types.js").Design} Design */
@@ -37,7 +39,7 @@ function chip(p) {
     "li",
     {
       class: () => `chip${over() ? " over" : ""}`,
-      title: () => over() ? "Above the highest pressure allowed" : null,
+      title: () => over() ? "Above the permitted pressure" : null,
     },
     shownPressure(p),
     h("button", {
@@ -59,7 +61,7 @@ function pressureEditor() {
     const values = read.flatMap((r) => ("value" in r ? [r.value] : []));
     if (bad && "error" in bad) return void (wrong.value = bad.error);
     if (values.some((p) => p < 0)) {
-      return void (wrong.value = "A gauge pressure below zero collapses the muscle.");
+      return void (wrong.value = "The gauge pressure must be zero or more.");
     }
     if (pressures.peek().length + values.length > MOST) {
       return void (wrong.value = `At most ${MOST} pressures; remove one first.`);
@@ -91,7 +93,7 @@ function pressureEditor() {
     h(
       "div",
       { class: "chips" },
-      h("ul", { "aria-label": "Pressures of the family" }, () => pressures.value.map(chip)),
+      h("ul", { "aria-label": "Pressures of the curves" }, () => pressures.value.map(chip)),
       h("span", { class: "chip add" }, input),
     ),
     () => {
@@ -101,7 +103,7 @@ function pressureEditor() {
   );
 }
 
-/** “Evenly spaced”: from, to, how many. */
+/** A popover for evenly spaced pressures: from, to, how many. */
 function spaced() {
   const from = signal(BAR), to = signal(6 * BAR), count = signal(6);
   /** @param {string} label @param {typeof from} value @param {Quantity} quantity
@@ -167,7 +169,7 @@ const designField = (key, o) =>
 
 /** @type {[-1 | 0 | 1, string, string][]} */
 const DIRECTIONS = [
-  [-1, "Filling", "The muscle shortens: friction takes from the force"],
+  [-1, "Filling", "The muscle shortens: friction reduces the force"],
   [0, "Static", "No motion, no friction"],
   [1, "Venting", "The muscle lengthens: friction adds to the force"],
 ];
@@ -219,7 +221,7 @@ export function operationCard() {
         symbol: "V",
         quantity: "volume",
         bounds: () => [0, 2e-4],
-        hint: "Air in tube and fittings; it softens the muscle behind a closed valve.",
+        hint: "Air volume of tube and fittings. It makes the muscle softer when the valve is closed.",
       }),
       designField("fixed_length", {
         label: "Fixed length",
@@ -231,7 +233,7 @@ export function operationCard() {
           const all = curves.value?.length ?? [0.1, 0.3];
           return [Math.min(...all), Math.max(...all)];
         },
-        hint: "Both ends held: shows force over pressure. Empty = off.",
+        hint: "Both ends fixed, for force over pressure. Leave empty to switch off.",
       }),
       h(
         "label",
@@ -242,7 +244,7 @@ export function operationCard() {
           onchange: (/** @type {Event} */ e) =>
             editDesign({ clipped: !(/** @type {HTMLInputElement} */ (e.target).checked) }, "negative forces"),
         }),
-        "Show negative forces (a muscle goes slack instead)",
+        "Show negative forces (a real muscle goes slack)",
       ),
     ),
   );

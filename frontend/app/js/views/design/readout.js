@@ -5,17 +5,19 @@ import { signal } from "../../reactive.js";
 import { units } from "../../state.js";
 import { withUnit } from "../../format.js";
 import { palette, pressureColour } from "../../plots/theme.js";
-import { pressureName, shareOf, xColumn } from "./axes.js";
+import { pressureName, shareOf, xColumn } from "../../muscle/curve-axes.js";
 
-/** @typedef {import("./axes.js").View} View */
+/** @typedef {import("../../muscle/curve-axes.js").View} View */
 
-/** Where the cursor is on the x axis, in shown units; null = over no plot. */
+/** Where the cursor is on the x axis, in shown units; null: over no plot. */
 export const cursor = signal(/** @type {number | null} */ (null));
 
 /** @param {View | null} v */
 export function readout(v) {
   const at = cursor.value, answer = v?.curves;
-  if (at === null || !answer || !v) return h("span", { class: "muted" }, "Move over a plot to read values.");
+  if (at === null || !answer || !v) {
+    return h("span", { class: "muted" }, "Move the pointer over a plot to read values.");
+  }
   const column = /** @type {number[]} */ (xColumn(v));
   let i = 0;
   column.forEach((x, k) => {

@@ -1,10 +1,11 @@
 // @ts-check
-// The right column's first cards: verdicts in words, the operating points at the load, figures per pressure.
+// Results: the verdict, the operating points at the load, characteristics per pressure.
 import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
-import { design, units } from "../../state.js";
-import { aligned, number, scaleOf, withUnit } from "../../format.js";
-import { shown } from "./axes.js";
+import { units } from "../../state.js";
+import { design } from "../../muscle/document.js";
+import { aligned, number, readable, scaleOf, withUnit } from "../../format.js";
+import { shown } from "../../plots/axes.js";
 import { curves, fault } from "./model.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
@@ -53,9 +54,9 @@ function column(values, quantity) {
   return quantity === "pressure" ? numbers.map((v) => number(v ?? NaN, 2)) : aligned(numbers);
 }
 
-/** What a flag of a row means, from the flags of the answer. @param {Curves} c @param {string[]} codes */
+/** The flags of a row in words. @param {Curves} c @param {string[]} codes */
 const explain = (c, codes) =>
-  codes.map((code) => c.flags.find((f) => f.code === code)?.message ?? code.replaceAll("_", " ")).join("; ");
+  codes.map((code) => c.flags.find((f) => f.code === code)?.message ?? readable(code)).join("; ");
 
 function operatingPoints() {
   const c = curves.value;
@@ -72,19 +73,19 @@ function characteristics() {
   }));
 }
 
-/** A doubt about a figure is a note; everything else about an answer is a limit. */
+/** The flag that is only a note; all others are about limits. */
 const NOTE = "unverified";
 
-/** The limit that is reached first stands on top; its share of the limit says how near the others are. */
+/** Whether the muscle holds the load within its limits, and which limits it crosses. */
 function verdict() {
   const c = curves.value;
   if (!c) {
     return h("p", { class: "muted" }, fault.value ? "No valid model yet." : "Waiting for curves…");
   }
   const hard = c.flags.filter((f) => f.code !== NOTE), notes = c.flags.filter((f) => f.code === NOTE);
-  const held = c.operating_points.filter((o) => o.contraction != null);
-  const sound = held.filter((o) => !o.flags.some((code) => code !== NOTE));
-  const best = sound.at(-1) ?? held.at(-1);
+  const points = c.operating_points.filter((o) => o.contraction != null);
+  const sound = points.filter((o) => !o.flags.some((code) => code !== NOTE));
+  const best = sound.at(-1) ?? points.at(-1);
   const grade = !sound.length ? "bad" : hard.length ? "warn" : "good";
   const reach = best
     ? `${withUnit(best.pressure, "pressure", units.value)} holds ${
@@ -92,7 +93,7 @@ function verdict() {
     } at ${withUnit(best.contraction, "ratio", units.value)} contraction (${
       withUnit(best.length, "length", units.value)
     } long).`
-    : `No pressure of the family holds ${withUnit(design.value.load, "force", units.value)}.`;
+    : `None of these pressures holds ${withUnit(design.value.load, "force", units.value)}.`;
   return [
     h(
       "p",
@@ -116,7 +117,7 @@ function verdict() {
   ];
 }
 
-/** How much of each limit the family uses: one bar each, the fullest is the one that binds. */
+/** How much of each limit is used, as one bar each. */
 function margins() {
   const c = curves.value;
   if (!c) return null;

@@ -1,22 +1,24 @@
 // @ts-check
-// "Save as my preset": the muscle with its effects as it is now, with the sources that were not changed.
+// "Save as my preset": the muscle with its effects as it is now; values that were not changed keep their sources.
 import { h } from "../../dom.js";
 import { signal } from "../../reactive.js";
-import { ApiError, post } from "../../api.js";
-import { design, editDesign } from "../../state.js";
-import { effectsById, loadKind, status } from "../../store.js";
+import { ApiError, post } from "../../server/client.js";
+import { design, editDesign } from "../../muscle/document.js";
+import { loadKind } from "../../server/presets.js";
+import { effectsById, status } from "../../store.js";
 import { openDialog } from "../../ui/dialog.js";
-import { curves, muscle, preset } from "./model.js";
+import { curves } from "./model.js";
+import { muscle, preset } from "../../muscle/preset.js";
 
 /** @typedef {import("../../types.js").PresetValue} PresetValue */
 
 const SOURCE = "set in the Design view";
 
 /** @param {number} value in SI @param {string} unit @returns {PresetValue} */
-const own = (value, unit) => ({ value, unit: unit || "1", source: SOURCE, grade: "user" });
+const entered = (value, unit) => ({ value, unit: unit || "1", source: SOURCE, grade: "user" });
 
 /** @param {string} id @param {string} title */
-function document_(id, title) {
+function presetDocument(id, title) {
   const answer = curves.peek(), base = preset.peek();
   if (!answer) throw new Error("There is no valid model to save.");
   const { values, form } = muscle.peek();
@@ -26,7 +28,7 @@ function document_(id, title) {
   for (const [key, unit] of Object.entries({ ...units, wall_thickness: "m" })) {
     const value = /** @type {any} */ (answer.geometry)[key];
     const kept = key in values || form !== "braid" ? null : base?.geometry?.[key];
-    if (value || kept) geometry[key] = kept ?? own(value, unit);
+    if (value || kept) geometry[key] = kept ?? entered(value, unit);
   }
   const effects = Object.fromEntries(
     Object.entries(answer.model.effects).map(([effect, parameters]) => [
@@ -35,7 +37,7 @@ function document_(id, title) {
         Object.entries(parameters).map(([name, value]) => {
           const unit = effectsById.peek().get(effect)?.parameters.find((p) => p.name === name)?.unit ?? "1";
           const kept = design.peek().effects === null ? base?.effects?.[effect]?.[name] : null;
-          return [name, kept ?? own(value, unit)];
+          return [name, kept ?? entered(value, unit)];
         }),
       ),
     ]),
@@ -74,7 +76,7 @@ export function saveDialog() {
   const save = async (event) => {
     event.preventDefault();
     if (!/^[A-Za-z0-9][A-Za-z0-9-]{0,63}$/.test(id.value)) {
-      wrong.value = "The id is made of letters, digits and hyphens, at most 64, for example DMSP-20-mine.";
+      wrong.value = "An id has letters, digits and hyphens, at most 64 of them, for example DMSP-20-mine.";
       return id.focus();
     }
     if (!title.value.trim()) {
@@ -82,7 +84,7 @@ export function saveDialog() {
       return title.focus();
     }
     try {
-      await post("/api/presets/muscles", document_(id.value, title.value.trim()));
+      await post("/api/presets/muscles", presetDocument(id.value, title.value.trim()));
       await loadKind("muscles");
       editDesign(
         { muscle: { preset: id.value, form: "braid", values: {} }, effects: null },
@@ -102,7 +104,7 @@ export function saveDialog() {
       h(
         "p",
         { class: "muted" },
-        "Geometry and effects as they are now. Values you did not change keep their sources.",
+        "Saves geometry and effects as they are now. Values you did not change keep their sources.",
       ),
       h("label", { for: "save-id" }, "Id"),
       id,

@@ -1,172 +1,24 @@
 // @ts-check
-// What each plot shows: from the server's answer to lines, points and shaded zones in the user's units.
-// Pure functions.
-import { scaleOf, siOf, toShown, withUnit } from "../../format.js";
-import { pressureColour } from "../../plots/theme.js";
-import {
-  ACROSS,
-  acrossAt,
-  axisTitle,
-  extent,
-  OVER,
-  pressureName,
-  shareOf,
-  shown,
-  steadyRange,
-  steadyX,
-  xAxis,
-  xColumn,
-} from "./axes.js";
+// What the plots of stiffness, volume and pressure show: from the server's answer to lines, points and shaded
+// zones in the user's units. Pure functions.
+import { scaleOf, toShown } from "../../format.js";
+import { OVER, xAxis, xColumn } from "../../muscle/curve-axes.js";
+import { curveFamily, limitZones } from "../../muscle/force-plot.js";
+import { axisTitle, extent, shown, steadyRange, steadyX } from "../../plots/axes.js";
+
+export { forceSpec } from "../../muscle/force-plot.js";
 
 /** @typedef {import("../../plots/chart.js").Spec} Spec */
-/** @typedef {import("../../plots/chart.js").Trace} Trace */
 /** @typedef {import("../../plots/chart.js").Zone} Zone */
 /** @typedef {import("../../plots/theme.js").Palette} Palette */
-/** @typedef {import("../../format.js").Quantity} Quantity */
-/** @typedef {import("./axes.js").View} View */
-
-/** Contractions the maker does not allow. @param {View} v @param {[number, number]} range
- * @returns {Zone[]} */
-function limitZones(v, range) {
-  const { max_contraction, max_pretension } = v.curves.limits;
-  const s = scaleOf(ACROSS[v.across].quantity, v.system);
-  const at = (/** @type {number} */ k) => toShown(acrossAt(v.curves, v.across, k), s);
-  /** @type {Zone[]} */
-  const zones = [];
-  const rising = v.across !== "length";
-  /** @param {number} from @param {boolean} up @param {string} text */
-  const add = (from, up, text) => {
-    const to = up ? range[1] : range[0];
-    if (up ? from < to : from > to) zones.push({ x: from < to ? [from, to] : [to, from], y: null, text });
-  };
-  if (max_contraction != null) add(at(max_contraction), rising, "contraction limit");
-  if (max_pretension != null) add(at(-max_pretension), !rising, "pretension limit");
-  return zones;
-}
-
-/** @param {View} v @param {Palette} p @param {"force" | "stiffness" | "stiffness_closed"} what
- * @param {Quantity} quantity
- * @param {string} [dash] @returns {Trace[]} */
-function family(v, p, what, quantity, dash) {
-  const x = xColumn(v);
-  // Where the muscle is slack there is nothing to be stiff; a line down to zero would look like a jump.
-  const slack = (/** @type {number} */ i, /** @type {number} */ k) =>
-    what !== "force" && v.curves.force[i][k] === 0;
-  return v.curves[what].map((row, i) => ({
-    id: `${what}${i}`,
-    x,
-    y: shown(row.map((y, k) => slack(i, k) ? null : y), quantity, v.system),
-    line: { color: pressureColour(shareOf(v.curves.pressure[i], v.curves), p), width: dash ? 1.5 : 2, dash },
-    column: `${what === "stiffness_closed" ? "closed valve, " : ""}${pressureName(v, v.curves.pressure[i])}`,
-  }));
-}
-
-/** Reference or measured points in the coordinates of the plot. @param {View} v */
-export function referencePoints(v) {
-  const columns = v.reference?.data_columns;
-  if (!columns?.force || !columns.pressure) return null;
-  const si = (/** @type {string} */ name) =>
-    columns[name]?.values.map((value) => siOf({ value, unit: columns[name].unit }));
-  const own = v.reference?.nominal_length;
-  const nominal = own ? siOf(own) : v.curves.geometry.nominal_length;
-  const contraction = si("contraction") ?? si("length")?.map((length) => 1 - length / nominal);
-  if (!contraction) return null;
-  const left = new Set(v.reference?.excluded?.map((e) => e.index) ?? []);
-  v.reference?.slack?.forEach((flag, i) => flag && left.add(i));
-  return {
-    contraction,
-    pressure: /** @type {number[]} */ (si("pressure")),
-    force: /** @type {number[]} */ (si("force")),
-    left,
-  };
-}
-
-/** @param {View} v @param {Palette} p @param {[number, number]} range @returns {Trace[]} */
-function pointTraces(v, p, range) {
-  const points = referencePoints(v);
-  if (!points) return [];
-  const s = scaleOf(ACROSS[v.across].quantity, v.system);
-  const x = points.contraction.map((k) => toShown(acrossAt(v.curves, v.across, k), s));
-  const y = shown(points.force, "force", v.system);
-  const inside = x.map((at) => at >= range[0] - 1e-9 && at <= range[1] + 1e-9);
-  /** @param {boolean} excluded @param {string} id @param {string} symbol @param {number} size
-   * @returns {Trace} */
-  const trace = (excluded, id, symbol, size) => {
-    const keep = [...x.keys()].filter((i) => inside[i] && points.left.has(i) === excluded);
-    return {
-      id,
-      x: keep.map((i) => x[i]),
-      y: keep.map((i) => y[i]),
-      marker: {
-        size,
-        symbol,
-        color: excluded ? p.soft : keep.map((i) => pressureColour(shareOf(points.pressure[i], v.curves), p)),
-      },
-    };
-  };
-  return [trace(true, "left-out", "x-thin-open", 4), trace(false, "points", "circle-open", 5)];
-}
-
-/** @param {View} v @param {Palette} p @returns {Spec} */
-export function forceSpec(v, p) {
-  const { curves, across, system } = v;
-  const x = xAxis(v, "force");
-  const lines = family(v, p, "force", "force");
-  const points = pointTraces(v, p, x.range);
-  const load = toShown(curves.over_pressure?.load ?? 0, scaleOf("force", system));
-  const [low, high] = extent([...lines.map((t) => t.y), ...points.map((t) => t.y), [load * 1.02, 0]]);
-  const y = {
-    title: axisTitle("Force", "force", system),
-    range: steadyRange(`${v.place}force${system}`, low, Math.max(high, 1e-3)),
-  };
-  const dots = curves.operating_points.map((o) => o.contraction);
-  const s = scaleOf(ACROSS[across].quantity, system);
-  const zones = limitZones(v, x.range);
-  const most = curves.limits.max_force;
-  const top = most == null ? Infinity : toShown(most, scaleOf("force", system));
-  if (top < y.range[1]) zones.push({ x: null, y: [top, y.range[1]], text: "force limit" });
-  return {
-    x,
-    y,
-    zones,
-    revision: `${across}${system}`,
-    level: curves.over_pressure
-      ? { y: load, text: `Load ${withUnit(curves.over_pressure.load, "force", system)}` }
-      : undefined,
-    traces: [
-      ...points,
-      ...lines,
-      {
-        id: "held",
-        x: dots.map((k) => k == null ? null : toShown(acrossAt(curves, across, k), s)),
-        y: dots.map(() => load),
-        marker: { size: 9, symbol: "circle", color: p.load, edge: p.card },
-      },
-    ],
-    labels: lines.map((t, i) => lineLabel(t, i, v, x.range, across === "length")).filter((l) => l !== null),
-  };
-}
-
-/** The pressure, written where its line is highest. @param {Trace} t @param {number} i @param {View} v
- * @param {[number, number]} range @param {boolean} fromRight */
-function lineLabel(t, i, v, range, fromRight) {
-  const at = range[fromRight ? 1 : 0];
-  let best = 0;
-  t.x.forEach((value, k) => {
-    const nearest = /** @type {number} */ (t.x[best]);
-    if (value != null && Math.abs(value - at) < Math.abs(nearest - at)) best = k;
-  });
-  const y = t.y[best], x = t.x[best];
-  if (y == null || x == null || y <= 0) return null;
-  return { text: pressureName(v, v.curves.pressure[i]), x, y, color: t.line?.color ?? "" };
-}
+/** @typedef {import("../../muscle/curve-axes.js").View} View */
 
 /** @param {View} v @param {Palette} p @returns {Spec} */
 export function stiffnessSpec(v, p) {
   const x = xAxis(v, "stiffness");
   const traces = [
-    ...family(v, p, "stiffness", "stiffness"),
-    ...family(v, p, "stiffness_closed", "stiffness", "dash"),
+    ...curveFamily(v, p, "stiffness", "stiffness"),
+    ...curveFamily(v, p, "stiffness_closed", "stiffness", "dash"),
   ];
   const [low, high] = extent(traces.map((t) => t.y));
   return {
@@ -219,9 +71,9 @@ export function overPressureSpec(v, p) {
   const { curves, over, system } = v;
   const { title, quantity } = OVER[over];
   const o = curves.over_pressure;
-  const held = o?.force_at_fixed_length;
+  const atFixedLength = o?.force_at_fixed_length;
   const branch = (/** @type {"filling" | "venting"} */ way) =>
-    over === "force" ? held?.[way] ?? [] : o?.[way]?.[over] ?? [];
+    over === "force" ? atFixedLength?.[way] ?? [] : o?.[way]?.[over] ?? [];
   const x = shown(o?.pressure ?? [], "pressure", system);
   const filling = shown(branch("filling"), quantity, system),
     venting = shown(branch("venting"), quantity, system);
@@ -251,7 +103,7 @@ export function overPressureSpec(v, p) {
       { id: "filling", x, y: filling, line: { color: p.accent }, column: "filling" },
       { id: "venting", x, y: venting, line: { color: p.second, dash: "dash" }, column: "venting" },
       {
-        id: "held",
+        id: "operating-points",
         x: shown(dots.map((d) => d.pressure), "pressure", system),
         y,
         marker: { size: 9, symbol: "circle", color: p.load, edge: p.card },

@@ -1,36 +1,36 @@
 // @ts-check
-// What becomes of a proposal: a muscle in the Design view, a run in the Transient view, a report, a table.
+// What can be done with a proposal: open it in the Design or Transient view, write a report, save a table.
 import { signal } from "../../reactive.js";
-import { edit, units } from "../../state.js";
-import { ApiError, postForText } from "../../api.js";
-import { scaleOf, toShown } from "../../format.js";
+import { units } from "../../state.js";
+import { ApiError, postForText } from "../../server/client.js";
+import { BAR, scaleOf, toShown } from "../../format.js";
 import { musclesById, status } from "../../store.js";
-import { downloadText, toCsv } from "../../ui/table.js";
-import { takenApart } from "../transient/document.js";
+import { downloadText, fileName, toCsv } from "../../ui/table.js";
+import { openDrive } from "../../drive/open.js";
+import { openDesign } from "../../muscle/document.js";
 import { answeredTask, proposals, sizing } from "./model.js";
 import { requestOf } from "./document.js";
 import { AIMS, driveWords, limitName } from "./words.js";
 
 /** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
 
-const GRAVITY = 9.80665, BAR = 1e5, NEAR = 0.3 * BAR;
-const stamp = () => new Date().toISOString().slice(0, 10);
-
+const GRAVITY = 9.80665, NEAR = 0.3 * BAR;
 /** What one muscle holds at the end of the stroke at rest [N]. @param {Proposal} p */
-export function staticLoad({ drive, nominal_length: length, contraction }) {
+function staticLoad({ drive, nominal_length: length, contraction }) {
   const { mass = 0, force = 0, spring = 0, inclination = 0, lever_ratio: ratio = 1 } =
     /** @type {Record<string, number | undefined>} */ (drive.load);
   const stroke = (length * contraction) / ratio;
   return (mass * GRAVITY * Math.sin(inclination) + force + spring * stroke) / ratio;
 }
 
-/** Whole bars up to the pressure of the proposal, and that itself. @param {number} most */
-function family(most) {
+/** Pressures of the curves: whole bars up to the pressure of the proposal, and that itself.
+ * @param {number} most */
+function pressuresUpTo(most) {
   const whole = Array.from({ length: Math.ceil(most / BAR) }, (_, i) => (i + 1) * BAR);
   return [...whole.filter((p) => p < most - NEAR), most];
 }
 
-/** Points to compare with: the maker’s curve goes by contraction, a measurement is of one length.
+/** Points to compare with: the maker’s curve, which holds for any length; a measurement is of one length.
  * @param {Proposal} p */
 const reference = (p) => musclesById.peek().get(p.muscle)?.reference_curve ?? null;
 
@@ -40,38 +40,27 @@ const oneOf = ({ parallel }) =>
 
 /** @param {Proposal} p */
 export function openInDesign(p) {
-  edit((d) => ({
-    ...d,
-    sizing: { ...d.sizing, mode: "muscle" },
-    design: {
-      ...d.design,
-      muscle: { preset: p.muscle, form: "braid", values: { nominal_length: p.nominal_length } },
-      effects: null,
-      reference: reference(p),
-      pressures: family(p.pressure),
-      load: Math.max(0, Number(staticLoad(p).toPrecision(5))),
-      range: null,
-    },
-  }), `proposal ${driveWords(p)}`);
+  openDesign({
+    muscle: { preset: p.muscle, form: "braid", values: { nominal_length: p.nominal_length } },
+    effects: null,
+    reference: reference(p),
+    pressures: pressuresUpTo(p.pressure),
+    load: Math.max(0, Number(staticLoad(p).toPrecision(5))),
+    range: null,
+  }, `proposal ${driveWords(p)}`);
   status.value = `${driveWords(p)} at its load at the end of the stroke.${oneOf(p)}`;
 }
 
 /** @param {Proposal} p */
 export function openInTransient(p) {
-  const { muscle, effects, transient } = takenApart(p.drive, null);
-  edit((d) => ({
-    ...d,
-    view: "transient",
-    design: { ...d.design, muscle, effects, reference: reference(p) },
-    transient: { ...d.transient, ...transient },
-  }), `proposal ${driveWords(p)}`);
+  openDrive(p.drive, { label: `proposal ${driveWords(p)}`, reference: reference(p) });
   status.value = `${driveWords(p)}, filled and vented once.${oneOf(p)}`;
 }
 
-/** Whether a report is being written: the server searches once more. */
+/** Whether a report is being written, which takes a while. */
 export const writing = signal(false);
 
-/** One file that holds the task, the proposal and why. @param {number} index of the proposal, from 0 */
+/** Saves the report of a proposal as one file. @param {number} index of the proposal, from 0 */
 export async function saveReport(index) {
   const task = answeredTask();
   writing.value = true;
@@ -81,7 +70,7 @@ export async function saveReport(index) {
       proposal: index + 1,
       title: task.title ?? "",
     });
-    downloadText(`mckibben-sizing-${stamp()}.html`, text, "text/html");
+    downloadText(fileName("sizing", "html"), text, "text/html");
     status.value = "The report is saved.";
   } catch (error) {
     if (!(error instanceof ApiError)) throw error;
@@ -91,10 +80,10 @@ export async function saveReport(index) {
   }
 }
 
-/** The task as “mckibben size” takes it. */
+/** Saves the task as "mckibben size" reads it. */
 export function saveTask() {
   const text = JSON.stringify({ schema: 1, ...requestOf(sizing.peek()) }, null, 2) + "\n";
-  downloadText(`mckibben-task-${stamp()}.json`, text, "application/json");
+  downloadText(fileName("task", "json"), text, "application/json");
 }
 
 /** @returns {import("../../ui/table.js").Table} */
@@ -128,5 +117,4 @@ function proposalTable() {
   };
 }
 
-export const saveCsv = () =>
-  downloadText(`mckibben-proposals-${stamp()}.csv`, toCsv(proposalTable()), "text/csv");
+export const saveCsv = () => downloadText(fileName("proposals", "csv"), toCsv(proposalTable()), "text/csv");

@@ -1,5 +1,5 @@
 // @ts-check
-// The left column in Task mode: the task in grouped cards, the essentials open, the rest folded.
+// The inputs of a task in grouped cards; what is rarely changed is collapsed.
 import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { presets } from "../../store.js";
@@ -21,13 +21,13 @@ import {
 import { partsField } from "./parts.js";
 import { RANKING_WHY, RANKINGS, USUAL_RANKING } from "./specs.js";
 
-/** @typedef {import("./document.js").Arrangement} Arrangement */
+/** @typedef {import("../../types.js").TaskArrangement} Arrangement */
 
 /** @type {[Arrangement, string, string][]} */
 const ARRANGEMENTS = [
   ["lift", "Lift", "The muscle pulls the load directly"],
   ["lever", "Lever", "Through a lever or pulley: the muscle’s stroke differs from the load’s"],
-  ["antagonist", "Antagonist", "Two muscles turn a pulley against each other"],
+  ["antagonist", "Antagonist", "Two muscles turn a pulley in opposite directions"],
 ];
 
 export const examples = () => presets.value.tasks ?? [];
@@ -38,7 +38,7 @@ function exampleItems() {
   return all.map((p) => ({ label: p.title, note: p.description, run: () => openExample(p) }));
 }
 
-/** Proposes, or gives up while a search runs. */
+/** Starts a search; cancels it while it runs. */
 export const proposeButton = () =>
   h(
     "button",
@@ -104,7 +104,7 @@ const card = (title, ...body) =>
     ...body,
   );
 
-/** Fields one seldom changes; an error opens them.
+/** Fields that are rarely changed, collapsed; an error in one opens them.
  * @param {string} summary @param {string[]} paths @param {import("../../dom.js").Child[]} more */
 const folded = (summary, paths, ...more) =>
   h(
@@ -118,7 +118,7 @@ const PROFILE = "load.force_over_stroke";
 
 const isPair = computed(() => arrangement.value === "antagonist");
 
-/** The fields of a load, as it is arranged. */
+/** The fields of the load for its arrangement. */
 function loadFields() {
   if (isPair.value) {
     return [
@@ -174,13 +174,13 @@ export function taskCards() {
       () => isPair.value ? null : taskField("stroke", { needed: true }),
       taskField("time"),
       taskField("supply_pressure"),
-      folded("Way back, cycle, stiffness, temperature", [
+      folded("Time down, cycle, stiffness, temperature", [
         "time_down",
         "cycle_time",
         "stiffness",
         "ambient_temperature",
       ]),
-      () => isPair.value ? null : folded("Speed in place of the time", ["speed"]),
+      () => isPair.value ? null : folded("Speed instead of time", ["speed"]),
     ),
     card(
       "Space and margins",
@@ -197,9 +197,14 @@ export function taskCards() {
     ),
     card(
       "Catalogue",
-      partsField("muscles", "Muscles", "all with complete data", "Then every limit is known."),
-      partsField("valves", "Valves", "all whose flow is known", "Regulators switch too slowly."),
-      partsField("tubes", "Tubes", "all", "The narrow ones save air, the wide ones time."),
+      partsField("muscles", "Muscles", "all with complete data", "Others have limits that are not known."),
+      partsField(
+        "valves",
+        "Valves",
+        "all whose flow is known",
+        "Pressure regulators are left out: they switch too slowly.",
+      ),
+      partsField("tubes", "Tubes", "all", "Narrow tubes save air, wide tubes save time."),
       taskField("catalogue.tube_length"),
     ),
     card(

@@ -1,11 +1,11 @@
 // @ts-check
-// The right column: the chosen proposal in figures, what to do with it, and how the search went.
+// The selected proposal in figures, what can be done with it, and how the search went.
 import { h, icon } from "../../dom.js";
 import { openPopover } from "../../ui/dialog.js";
 import { openInDesign, openInTransient, saveReport, writing } from "./actions.js";
 import { marginBars } from "./margins.js";
 import { answer, chosen, chosenIndex, proposals } from "./model.js";
-import { driveWords, partsWords, percent, say } from "./words.js";
+import { asText, driveWords, partsWords, percent } from "./words.js";
 
 /** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
 
@@ -19,7 +19,7 @@ function verdict(p) {
       "p",
       { class: "verdict warn" },
       icon("info"),
-      "Does the task as computed; no specimens were asked for.",
+      "Does the task as computed. Its probability is not known: no specimens were simulated.",
     );
   }
   const grade = probability >= LIKELY ? "good" : probability >= DOUBTFUL ? "warn" : "bad";
@@ -32,30 +32,30 @@ function verdict(p) {
       "span",
       null,
       h("b", null, `${percent(probability)}${range}`),
-      ` probability that what is built does the task (${p.specimens} specimens).`,
+      ` probability that the real drive does the task (${p.specimens} simulated specimens).`,
     ),
   );
 }
 
 /** @param {Proposal} p @returns {[string, string][]} */
 const figures = (p) => [
-  ["Time for the stroke", say(p.time, "time")],
-  ["Time back", say(p.time_down, "time")],
-  ["Air per cycle", say(p.air_volume_anr, "normal")],
-  ["Supply pressure", say(p.pressure, "pressure")],
-  ["Pressure that just carries", say(p.needed_pressure, "pressure")],
-  ["Pressure at the start", say(p.pressure_start, "pressure")],
-  ["Pressure on arrival", say(p.pressure_end, "pressure")],
-  ["Contraction", say(p.contraction, "ratio")],
+  ["Time for the stroke", asText(p.time, "time")],
+  ["Time back", asText(p.time_down, "time")],
+  ["Air per cycle", asText(p.air_volume_anr, "normal")],
+  ["Supply pressure", asText(p.pressure, "pressure")],
+  ["Least sufficient pressure", asText(p.needed_pressure, "pressure")],
+  ["Pressure at the start", asText(p.pressure_start, "pressure")],
+  ["Pressure on arrival", asText(p.pressure_end, "pressure")],
+  ["Contraction", asText(p.contraction, "ratio")],
   ["Force reserve", percent(p.force_reserve)],
-  ["Peak muscle force", say(p.peak_force, "force")],
-  ["Stiffness, valve open", say(p.stiffness, "stiffness")],
-  ["Stiffness, valve closed", say(p.stiffness_closed, "stiffness")],
-  ["Energy at impact", say(p.impact_energy, "energy")],
-  ["End speed", say(p.end_speed, "speed")],
-  ["Largest speed", say(p.max_speed, "speed")],
-  ["Installed length", say(p.installed_length, "length")],
-  ["Diameter, bulged", say(p.diameter, "length")],
+  ["Peak muscle force", asText(p.peak_force, "force")],
+  ["Stiffness, valve open", asText(p.stiffness, "stiffness")],
+  ["Stiffness, valve closed", asText(p.stiffness_closed, "stiffness")],
+  ["Energy at impact", asText(p.impact_energy, "energy")],
+  ["End speed", asText(p.end_speed, "speed")],
+  ["Largest speed", asText(p.max_speed, "speed")],
+  ["Installed length", asText(p.installed_length, "length")],
+  ["Diameter, bulged", asText(p.diameter, "length")],
   ["Life, unverified", `${Number(p.life.toPrecision(2)).toLocaleString("en")} cycles`],
 ];
 
@@ -69,9 +69,13 @@ function unverifiedBadge(p) {
       class: "badge warn",
       "aria-expanded": "false",
       onclick: () =>
-        openPopover(button, "Unverified figures", () => [
-          h("h3", null, "Unverified figures"),
-          h("p", null, "These figures enter, and nobody read them in a source. Check them before you buy."),
+        openPopover(button, "Unverified values", () => [
+          h("h3", null, "Unverified values"),
+          h(
+            "p",
+            null,
+            "The result depends on these values, which are not from a verified source. Check them before you buy.",
+          ),
           h("ul", { class: "plain" }, ...p.unverified.map((text) => h("li", null, text))),
         ]),
     },
@@ -123,7 +127,7 @@ export function chosenCard() {
   );
 }
 
-/** How the search went. */
+/** The extent of the search in one line. */
 export function searchLine() {
   const a = answer.value;
   if (!a) return null;
@@ -134,9 +138,9 @@ export function searchLine() {
     `${
       count(a.combinations)
     } combinations of muscle, length, number, pressure, valve and tube within the limits; `,
-    `${count(a.pruned)} sorted out in closed form, ${count(a.simulated)} runs and ${
+    `${count(a.pruned)} rejected by static calculation, ${count(a.simulated)} simulated, and ${
       count(a.specimens)
-    } of specimens `,
+    } specimens simulated, `,
     `in ${(a.wall_ms / 1e3).toFixed(1)} s.`,
   );
 }

@@ -1,26 +1,24 @@
 // @ts-check
-// The Task side of the Design view in the document: the task as /api/sizings takes it, numbers in SI, only what
-// differs from the defaults; and what is looked at. Pure functions; the server checks what the numbers mean.
-import { at, inSi, put } from "../transient/document.js";
+// The task in the document: as /api/sizings takes it, numbers in SI, only what differs from the defaults; and what
+// is shown of the answer. The server checks what the numbers mean.
+import { inSi } from "../../drive/document.js";
+import { at, isObject, put } from "../../paths.js";
+import { computed } from "../../reactive.js";
+import { addPart, doc } from "../../state.js";
 
-/** A task with some of its fields. @typedef {Record<string, any>} Task */
-/** @typedef {"lift" | "lever" | "antagonist"} Arrangement */
-/** What a drive is good for, and an axis of the plot.
- * @typedef {"air" | "time" | "length" | "reserve" | "stiffness"} Aim */
-/** `selected`: place of the proposal shown, from 0.
- * @typedef {{mode: "muscle" | "task", arrangement: Arrangement, task: Task, selected: number,
- *   axes: [Aim, Aim]}} Sizing */
-
-export { at, put };
+/** @typedef {import("../../types.js").Aim} Aim */
+/** @typedef {import("../../types.js").Sizing} Sizing */
+/** @typedef {import("../../types.js").Task} Task */
+/** @typedef {import("../../types.js").TaskArrangement} Arrangement */
 
 /** @type {Aim[]} */
 export const AIM_NAMES = ["air", "time", "length", "reserve", "stiffness"];
 const ARRANGEMENTS = ["lift", "lever", "antagonist"];
 const LEVER = 0.5;
-const SWING = { angle: Math.PI / 3, torque: 2, inertia: 0.02 };
+const USUAL_PAIR = { angle: Math.PI / 3, torque: 2, inertia: 0.02 };
 
-/** @returns {Sizing} a load that several muscles of the catalogue lift */
-export const defaultSizing = () => ({
+/** @returns {Sizing} an example task */
+const defaultSizing = () => ({
   mode: "muscle",
   arrangement: "lift",
   task: {
@@ -35,8 +33,8 @@ export const defaultSizing = () => ({
   axes: ["air", "time"],
 });
 
-/** Fields of a load that a pair has no use for stay in the document, not in the request.
- * @param {Sizing} sizing @returns {Task} the body of a request */
+/** The body of a request: without fields that the arrangement does not use, which stay in the document.
+ * @param {Sizing} sizing @returns {Task} */
 export function requestOf({ arrangement, task }) {
   const { pair, lever_ratio: ratio, ...load } = task.load ?? {};
   const { stroke, speed, ...rest } = task;
@@ -46,18 +44,18 @@ export function requestOf({ arrangement, task }) {
   return { ...rest, ...way, load: { ...load, ...lever } };
 }
 
-/** The same task arranged otherwise, with what the arrangement cannot do without.
+/** The same task in another arrangement, with the fields that arrangement requires.
  * @param {Sizing} sizing @param {Arrangement} arrangement @returns {Partial<Sizing>} */
 export function rearranged({ task }, arrangement) {
   let next = task;
   if (arrangement === "lever" && at(task, "load.lever_ratio") === undefined) {
     next = put(next, "load.lever_ratio", LEVER);
   }
-  if (arrangement === "antagonist" && !at(task, "load.pair")) next = put(next, "load.pair", SWING);
+  if (arrangement === "antagonist" && !at(task, "load.pair")) next = put(next, "load.pair", USUAL_PAIR);
   return { arrangement, task: next };
 }
 
-/** A task document of a file or preset, its texts with units as numbers.
+/** A task document of a file or preset, with quantities such as "20 kg" converted to SI.
  * @param {Task} document @returns {Partial<Sizing>} */
 export function opened(document) {
   const { schema: _schema, title, catalogue, rank_by: rank, ...rest } = document;
@@ -75,24 +73,21 @@ export function opened(document) {
   return { arrangement, task, selected: 0 };
 }
 
-/** @param {unknown} x @returns {x is Record<string, any>} */
-const isObject = (x) => typeof x === "object" && x !== null && !Array.isArray(x);
-
 /** A task of this program or of the command line, as opposed to a drive or a document of this page.
  * @param {unknown} raw @returns {raw is Task} */
 export const isTaskDocument = (raw) =>
   isObject(raw) && isObject(raw.load) && !("design" in raw) && !("muscle" in raw) && isPlain(raw);
 
-/** Numbers, texts, lists of them, and not without end. @param {unknown} x @param {number} [depth]
+/** Only numbers, texts, lists and objects, not nested deeply. @param {unknown} x @param {number} [depth]
  * @returns {boolean} */
 function isPlain(x, depth = 0) {
   if (x === null || typeof x === "string" || (typeof x === "number" && Number.isFinite(x))) return true;
   return depth < 4 && typeof x === "object" && Object.values(x).every((one) => isPlain(one, depth + 1));
 }
 
-/** Reads the Task part of a link or file; a missing part takes its default, links from before it had one too.
- * @param {unknown} raw @returns {Sizing} @throws {Error} says which part makes no sense */
-export function readSizing(raw) {
+/** Reads the task of a link or file; missing values take their defaults, as in links older than the task.
+ * @param {unknown} raw @returns {Sizing} @throws {Error} says which part is invalid */
+function readSizing(raw) {
   const start = defaultSizing();
   if (raw === undefined) return start;
   if (!isObject(raw)) throw new Error("“sizing” is not an object");
@@ -100,13 +95,18 @@ export function readSizing(raw) {
   const parts = ["load", "limits", "catalogue", "uncertainty"];
   const isTask = isObject(task) && isPlain(task) &&
     parts.every((key) => task[key] === undefined || isObject(task[key]));
-  if (!isTask) throw new Error("“sizing.task” makes no sense");
-  const isPair = Array.isArray(axes) && axes.length === 2 && axes.every((a) => AIM_NAMES.includes(a));
+  if (!isTask) throw new Error("“sizing.task” is invalid");
+  const isAxes = Array.isArray(axes) && axes.length === 2 && axes.every((a) => AIM_NAMES.includes(a));
   return {
     mode: mode === "task" ? "task" : "muscle",
     arrangement: ARRANGEMENTS.includes(arrangement) ? arrangement : start.arrangement,
     task,
     selected: Number.isInteger(selected) && selected >= 0 ? selected : 0,
-    axes: isPair ? [axes[0], axes[1]] : start.axes,
+    axes: isAxes ? [axes[0], axes[1]] : start.axes,
   };
 }
+
+addPart("sizing", { start: defaultSizing, read: readSizing });
+
+/** The Design view starts from a task. */
+export const inTask = computed(() => doc.value.sizing.mode === "task");

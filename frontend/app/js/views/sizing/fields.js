@@ -1,20 +1,20 @@
 // @ts-check
-// One field of a task: typed with a unit, its reason beside it, the server's message under it.
+// The fields of a task, each with its explanation and the server's message.
 import { h } from "../../dom.js";
 import { computed, effect, signal } from "../../reactive.js";
 import { commit, preview, units } from "../../state.js";
 import { number, plainScale, scaleOf, toShown, toSi } from "../../format.js";
 import { quantityField } from "../../ui/field.js";
-import { put } from "./document.js";
+import { put } from "../../paths.js";
 import { messageFor, patchSizing, setTask, task, valueAt } from "./model.js";
 import { FIELDS } from "./specs.js";
 
-/** @param {string} path @param {{needed?: boolean}} [o] needed: its default alone makes no task */
+/** @param {string} path @param {{needed?: boolean}} [o] needed: it cannot be left at its default */
 export function taskField(path, { needed = false } = {}) {
   const { label, quantity, unit = "1", bounds, usual, empty, whole, why } = FIELDS[path];
   const name = label.toLowerCase();
-  const own = computed(() => valueAt(path));
-  const reset = () => setTask(path, undefined, `${name} as usual`);
+  const entered = computed(() => valueAt(path));
+  const reset = () => setTask(path, undefined, `default ${name}`);
   return h(
     "div",
     { class: "task-field" },
@@ -25,14 +25,14 @@ export function taskField(path, { needed = false } = {}) {
       slider: false,
       scale: () => quantity ? scaleOf(quantity, units.value) : plainScale(unit),
       bounds: () => bounds,
-      get: () => own.value ?? usual,
+      get: () => entered.value ?? usual,
       put: (si, done) => {
         preview(patchSizing({ task: put(task.peek(), path, whole ? Math.round(si) : si) }));
         if (done) commit(name);
       },
       empty,
       clear: usual === null || !needed ? reset : undefined,
-      changed: () => !needed && usual !== null && own.value !== undefined && own.value !== usual,
+      changed: () => !needed && usual !== null && entered.value !== undefined && entered.value !== usual,
       reset,
       message: () => messageFor(path),
     }),
@@ -40,13 +40,13 @@ export function taskField(path, { needed = false } = {}) {
   );
 }
 
-/** An error inside opens what is folded; it stays as the user leaves it. @param {string[]} paths */
+/** An error in one of the fields opens the collapsed part they are in. @param {string[]} paths */
 export const openOnError = (paths) => (/** @type {HTMLElement} */ el) =>
   void effect(() => {
     if (paths.some((path) => messageFor(path) !== null)) /** @type {HTMLDetailsElement} */ (el).open = true;
   });
 
-/** Points of a force over the stroke, a row each, as one types or pastes them. */
+/** A force over the stroke as typed or pasted rows. */
 export function profileField() {
   const path = "load.force_over_stroke";
   const wrong = signal("");
@@ -61,7 +61,9 @@ export function profileField() {
     const rows = area.value.replaceAll("−", "-").split("\n").map((row) => row.trim()).filter(Boolean)
       .map((row) => row.split(/[\s;]+/).map((cell) => Number(cell.replace(",", "."))));
     const bad = rows.findIndex((row) => row.length !== 2 || !row.every(Number.isFinite));
-    wrong.value = bad < 0 ? "" : `Row ${bad + 1} is not two numbers: stroke and force, for example “30 120”.`;
+    wrong.value = bad < 0
+      ? ""
+      : `Row ${bad + 1} must be two numbers, stroke and force, for example “30 120”.`;
     if (wrong.peek()) return;
     const points = {
       strokes: rows.map(([s]) => toSi(s, stroke())),
@@ -85,15 +87,15 @@ export function profileField() {
     h(
       "label",
       { class: "label", for: "force-over-stroke" },
-      () => `Force over stroke: ${stroke().unit} and ${force().unit}, a row each`,
+      () => `Force over stroke: rows of ${stroke().unit} and ${force().unit}`,
     ),
     area,
     h("p", { class: "error", id: "force-over-stroke-m", role: "alert" }, message),
     h(
       "p",
       { class: "hint" },
-      "Further force by the stroke, straight between the rows; empty: the external force alone. A run takes the " +
-        "lowest straight line above it that does not fall.",
+      "A further force that depends on the stroke, interpolated linearly. Leave empty for none. Simulations replace " +
+        "it by the lowest straight line above it that does not fall.",
     ),
   );
 }

@@ -1,5 +1,5 @@
 // @ts-check
-// All designs that do the task over two of their aims: what one aim costs in the other. A click chooses.
+// Trade-offs: all drives that do the task over two aims. A click selects a proposal.
 import { h, icon } from "../../dom.js";
 import { computed, effect, signal } from "../../reactive.js";
 import { units } from "../../state.js";
@@ -8,29 +8,29 @@ import { Chart } from "../../plots/chart.js";
 import { chartMenu } from "../../plots/export.js";
 import { palette } from "../../plots/theme.js";
 import { menuButton } from "../../ui/menu.js";
-import { axisTitle, extent } from "../design/axes.js";
-import { plotlyReady } from "../design/charts.js";
-import { AIM_NAMES } from "./document.js";
+import { axisTitle, extent } from "../../plots/axes.js";
+import { plotlyReady } from "../../plots/library.js";
+import { AIM_NAMES, inTask } from "./document.js";
 import { answer, answeredTask, chosenIndex, lookSizing, proposals, sizing } from "./model.js";
-import { inTask } from "./index.js";
-import { AIMS, driveWords, partsWords, say } from "./words.js";
+import { AIMS, asText, driveWords, partsWords } from "./words.js";
 
-/** @typedef {import("./document.js").Aim} Aim */
+/** @typedef {import("../../types.js").Aim} Aim */
 /** @typedef {import("./words.js").Design} Design */
 /** @typedef {import("../../plots/chart.js").Spec} Spec */
 /** @typedef {import("../../types.js").S["ExploredDesign"]} Explored */
 
-/** How far from a mark a click counts, how far apart the numbers are kept [px]. */
+/** How close to a mark a click must be; how far apart the numbers are kept [px]. */
 const REACH = 14, APART = 25;
-/** Explored designs further out than this many widths of the proposals would press those together. */
+/** Explored drives further out than this many widths of the proposals are not shown: they would press the proposals
+ * together. */
 const NEAR = 1.2;
 const axes = computed(() => sizing.value.axes);
-/** How many explored designs the plot does not show. */
+/** How many explored drives the plot does not show. */
 const outside = signal(0);
-/** A design that is no proposal, pointed at. */
+/** The explored drive the user clicked on. */
 const pointed = signal(/** @type {Explored | null} */ (null));
 
-/** Whether a proposal is this choice of parts, refined. @param {Explored} e */
+/** Whether a proposal has the same parts. @param {Explored} e */
 const isProposed = (e) =>
   proposals.value.some((p) =>
     p.muscle === e.muscle && p.parallel === e.parallel && p.valve === e.valve && p.tube === e.tube
@@ -43,7 +43,7 @@ function valueOf(aim, d) {
   return toShown(of(d, answeredTask().limits?.end_fittings ?? 0), scaleOf(quantity, units.value));
 }
 
-/** The proposals with room on all sides, and of the others what lies near them.
+/** The range of an axis: all proposals, and those explored drives that lie near them.
  * @param {number[]} proposed @param {number[]} more @returns {[number, number]} */
 function rangeOf(proposed, more) {
   const [from, to] = extent([proposed]), wide = to - from || Math.abs(to) || 1;
@@ -62,16 +62,16 @@ function spec(p) {
     y: list.map((d) => valueOf(ay, d)),
     marker: { size, symbol, color },
   });
-  const beaten = marks(others.value.filter((e) => !e.front), "beaten", "circle-open", p.soft, 8);
+  const dominated = marks(others.value.filter((e) => !e.front), "dominated", "circle-open", p.soft, 8);
   const best = marks(others.value.filter((e) => e.front), "front", "circle", p.accent, 7);
   const proposed = marks(proposals.value, "proposals", "circle", p.ink, 4);
   const title = (/** @type {Aim} */ aim) =>
     axisTitle(AIMS[aim].title, AIMS[aim].quantity, units.value).replace("(ANR))", "ANR)");
   return {
-    x: { title: title(ax), range: rangeOf(proposed.x, [...best.x, ...beaten.x]) },
-    y: { title: title(ay), range: rangeOf(proposed.y, [...best.y, ...beaten.y]) },
+    x: { title: title(ax), range: rangeOf(proposed.x, [...best.x, ...dominated.x]) },
+    y: { title: title(ay), range: rangeOf(proposed.y, [...best.y, ...dominated.y]) },
     zones: [],
-    traces: [beaten, best, proposed].filter((t) => t.x.length),
+    traces: [dominated, best, proposed].filter((t) => t.x.length),
     revision: `${ax}${ay}${units.value}`,
   };
 }
@@ -94,16 +94,16 @@ const legend = () =>
   h(
     "ul",
     { class: "legend" },
-    h("li", null, h("i", { class: "dot full" }), "on the front: nothing is better in everything"),
-    h("li", null, h("i", { class: "dot" }), "beaten"),
+    h("li", null, h("i", { class: "dot full" }), "Pareto front: no drive is better in every aim"),
+    h("li", null, h("i", { class: "dot" }), "others"),
     h("li", { class: "muted" }, "numbers: the proposals"),
     () => {
       const far = outside.value;
-      return far ? h("li", { class: "muted" }, `${far} mark${far > 1 ? "s" : ""} further out`) : null;
+      return far ? h("li", { class: "muted" }, `${far} mark${far > 1 ? "s" : ""} outside the plot`) : null;
     },
   );
 
-/** Places that do not lie on each other, each near its own; where two are one they part by their order.
+/** Moves points apart that lie too close, each as little as possible.
  * @param {{x: number, y: number}[]} points */
 export function spread(points) {
   const placed = points.map(({ x, y }, i) => ({ x: x + 1e-3 * i, y: y - 2e-3 * i }));
@@ -132,18 +132,18 @@ function leader(ends) {
   return line;
 }
 
-/** The proposals by number, beside their points; the front filled, the others hollow. @param {Chart} chart */
+/** Writes the number of each proposal beside its point; on the Pareto front filled, else hollow. @param {Chart} chart */
 function numbers(chart) {
   const box = h("div", { class: "ranks" }), lines = document.createElementNS(SVG, "svg");
   chart.over.append(box);
   const place = () => {
-    const found = chart.axes;
-    if (!found) return;
-    const [ax, ay] = axes.peek(), { _offset: left, _length: width } = found.xaxis;
-    const { _offset: top, _length: height } = found.yaxis;
+    const layout = chart.axes;
+    if (!layout) return;
+    const [ax, ay] = axes.peek(), { _offset: left, _length: width } = layout.xaxis;
+    const { _offset: top, _length: height } = layout.yaxis;
     const points = proposals.peek().map((p) => ({
-      x: found.xaxis.c2p(valueOf(ax, p)),
-      y: found.yaxis.c2p(valueOf(ay, p)),
+      x: layout.xaxis.c2p(valueOf(ax, p)),
+      y: layout.yaxis.c2p(valueOf(ay, p)),
     }));
     const placed = spread(points);
     const inside = points.map(({ x, y }) => x >= -1 && x <= width + 1 && y >= -1 && y <= height + 1);
@@ -177,13 +177,13 @@ function numbers(chart) {
 /** @param {Chart} chart */
 function pointing(chart) {
   chart.host.addEventListener("click", (event) => {
-    const found = chart.axes;
-    if (!found || /** @type {Element} */ (event.target).closest("button")) return;
+    const layout = chart.axes;
+    if (!layout || /** @type {Element} */ (event.target).closest("button")) return;
     const box = chart.host.getBoundingClientRect();
     const [ax, ay] = axes.peek();
     const near = others.peek().map((e) => {
-      const dx = found.xaxis._offset + found.xaxis.c2p(valueOf(ax, e)) - (event.clientX - box.left);
-      const dy = found.yaxis._offset + found.yaxis.c2p(valueOf(ay, e)) - (event.clientY - box.top);
+      const dx = layout.xaxis._offset + layout.xaxis.c2p(valueOf(ax, e)) - (event.clientX - box.left);
+      const dy = layout.yaxis._offset + layout.yaxis.c2p(valueOf(ay, e)) - (event.clientY - box.top);
       return { e, far: Math.hypot(dx, dy) };
     }).sort((a, b) => a.far - b.far)[0];
     pointed.value = near && near.far < REACH ? near.e : null;
@@ -193,14 +193,18 @@ function pointing(chart) {
 function pointedLine() {
   const e = pointed.value;
   if (!e) {
-    return h("span", { class: "muted" }, "Click a number to choose the proposal, a mark to read what it is.");
+    return h(
+      "span",
+      { class: "muted" },
+      "Click a number to select the proposal, a mark to see which drive it is.",
+    );
   }
   const [ax, ay] = axes.value;
   const figure = (/** @type {Aim} */ aim) =>
-    `${AIMS[aim].title.toLowerCase()} ${say(AIMS[aim].of(e, 0), AIMS[aim].quantity)}`;
+    `${AIMS[aim].title.toLowerCase()} ${asText(AIMS[aim].of(e, 0), AIMS[aim].quantity)}`;
   return [
     h("b", null, driveWords(e)),
-    `, ${partsWords(e)}: ${figure(ax)}, ${figure(ay)}. Explored coarsely, not among the proposals asked for.`,
+    `, ${partsWords(e)}: ${figure(ax)}, ${figure(ay)}. Estimated coarsely; not among the proposals.`,
   ];
 }
 
@@ -219,7 +223,7 @@ export function frontCard() {
     class: "plot",
     id: "pareto",
     role: "figure",
-    "aria-label": "Designs that do the task over two aims",
+    "aria-label": "Drives that do the task over two aims",
   });
   const chart = new Chart(host, "pareto");
   const placeNumbers = numbers(chart);
@@ -249,9 +253,9 @@ export function frontCard() {
       h(
         "span",
         { class: "aims" },
-        axisChoice(1, "Aim upwards"),
+        axisChoice(1, "Aim on the vertical axis"),
         h("span", { class: "muted" }, "over"),
-        axisChoice(0, "Aim to the right"),
+        axisChoice(0, "Aim on the horizontal axis"),
       ),
       menuButton({
         label: icon("more"),

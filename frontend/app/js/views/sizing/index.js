@@ -1,45 +1,13 @@
 // @ts-check
-// The Design view starts from a muscle or from a task: the switch between both, the place of the task's page,
-// which is fetched when it is first shown, and its keys.
+// The task side of the Design view as the program sees it: its page is fetched when it is first shown.
 import { h } from "../../dom.js";
-import { apart, computed, effect } from "../../reactive.js";
-import { later } from "../../later.js";
-import { doc, edit, look, view } from "../../state.js";
+import { apart, effect } from "../../reactive.js";
+import { view } from "../../state.js";
+import { later } from "../../ui/later.js";
+import { inTask, isTaskDocument } from "./document.js";
 
-/** @typedef {import("./document.js").Sizing["mode"]} Mode */
-
-export const inTask = computed(() => doc.value.sizing.mode === "task");
-
-/** @type {[Mode, string, string][]} */
-const MODES = [
-  ["muscle", "Muscle", "What a muscle does"],
-  ["task", "Task", "Which drive does what is wanted"],
-];
-
-/** The muscle of the Design view, wherever one comes from. */
-export const showMuscle = () =>
-  look((d) => ({ ...d, view: "design", sizing: { ...d.sizing, mode: "muscle" } }));
-
-/** @param {Mode} mode */
-const change = (mode) => edit((d) => ({ ...d, sizing: { ...d.sizing, mode } }), `from a ${mode}`);
-
-export const modeSwitch = () =>
-  h(
-    "div",
-    { class: "segments mode-switch", role: "radiogroup", "aria-label": "Start from" },
-    ...MODES.map(([id, label, title]) =>
-      h("button", {
-        type: "button",
-        role: "radio",
-        title,
-        "aria-checked": () => String((inTask.value ? "task" : "muscle") === id),
-        onclick: () => change(id),
-      }, label)
-    ),
-  );
-
-/** The Task side of the view. @returns {HTMLElement} */
-export function taskSide() {
+/** @returns {HTMLElement} */
+export function taskView() {
   const page = later(async () => (await import("./page.js")).taskPage);
   const place = h("div", { class: "task-side", hidden: () => !inTask.value });
   effect(() => {
@@ -48,14 +16,20 @@ export function taskSide() {
   return place;
 }
 
-/** @type {import("../../shortcuts.js").Shortcut[]} */
+/** Task documents, opened from a file. @type {import("../../ui/files.js").Opener} */
+export const taskFiles = {
+  reads: isTaskDocument,
+  open: async (raw, label) => (await import("./model.js")).openTask(raw, label),
+};
+
+/** @type {import("../../ui/shortcuts.js").Shortcut[]} */
 export const TASK_KEYS = [{
   keys: "Ctrl Enter",
   what: "Design, Task: propose drives",
   typing: true,
   match: (e) => e.key === "Enter" && (e.ctrlKey || e.metaKey) && view.peek() === "design" && inTask.peek(),
   run: async () => {
-    document.activeElement?.dispatchEvent(new Event("change")); // what is still being typed counts
+    document.activeElement?.dispatchEvent(new Event("change")); // takes what is still being typed
     (await import("./model.js")).propose();
   },
 }];

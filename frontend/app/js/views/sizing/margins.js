@@ -1,5 +1,5 @@
 // @ts-check
-// How far a proposal stays from each limit: one bar each, the fullest is the one that binds.
+// How far a proposal stays from each limit, as one bar each.
 import { h } from "../../dom.js";
 import { limitName, spare } from "./words.js";
 

@@ -1,15 +1,17 @@
 // @ts-check
 // From the task to the server's search and its answer. The search goes on while another view is shown.
-import { batch, computed, effect, signal } from "../../reactive.js";
+import { computed, effect, signal } from "../../reactive.js";
 import { doc, edit, look } from "../../state.js";
-import { ApiError, follow } from "../../api.js";
+import { fieldMessages, postForEvents } from "../../server/client.js";
+import { Memory, Question } from "../../server/question.js";
 import { status } from "../../store.js";
-import { at, opened, put, requestOf } from "./document.js";
+import { opened, requestOf } from "./document.js";
+import { at, put } from "../../paths.js";
 import { driveWords } from "./words.js";
 
 /** @typedef {import("../../types.js").S["SizingAnswer"]} Answer */
 /** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
-/** @typedef {import("./document.js").Sizing} Sizing */
+/** @typedef {import("../../types.js").Sizing} Sizing */
 /** @typedef {import("../../types.js").Doc} Doc */
 /** @typedef {"idle" | "running" | "done" | "cancelled" | "failed"} Stage */
 
@@ -21,15 +23,15 @@ export const arrangement = computed(() => sizing.value.arrangement);
 export const patchSizing = (patch) => (d) => ({ ...d, sizing: { ...d.sizing, ...patch } });
 /** @param {Partial<Sizing>} patch @param {string} label */
 export const editSizing = (patch, label) => edit(patchSizing(patch), label);
-/** What is looked at is no part of the task. @param {Partial<Sizing>} patch */
+/** Changes what is shown, without an undo step. @param {Partial<Sizing>} patch */
 export const lookSizing = (patch) => look(patchSizing(patch));
 
-/** @param {string} path @param {unknown} value undefined: the default @param {string} label */
+/** @param {string} path @param {unknown} value undefined: its default @param {string} label */
 export const setTask = (path, value, label) => editSizing({ task: put(task.peek(), path, value) }, label);
 /** @param {string} path */
 export const valueAt = (path) => at(task.value, path);
 
-/** A task of a file or preset takes the place of the one there is. @param {import("./document.js").Task} document
+/** Replaces the task by that of a file or preset. @param {import("../../types.js").Task} document
  * @param {string} label */
 export function openTask(document, label) {
   const part = opened(document);
@@ -44,107 +46,70 @@ export function openExample({ title, description, document }) {
 
 // ---- the search
 
-export const answer = signal(/** @type {Answer | null} */ (null));
-export const stage = signal(/** @type {Stage} */ ("idle"));
+const REMEMBERED = 8;
+const searchMemory = /** @type {Memory<Answer>} */ (new Memory(REMEMBERED));
 /** How much of the search is done, 0 to 1. */
 export const share = signal(0);
-/** What was asked last. */
-const key = computed(() => JSON.stringify(requestOf(sizing.value)));
-const answered = signal(/** @type {string | null} */ (null));
-const refused = signal(/** @type {{error: ApiError, key: string} | null} */ (null));
-/** Why there is no answer to the task as it stands. */
-export const fault = computed(() => refused.value?.key === key.value ? refused.value.error : null);
+
+const search = new Question((text, signal) => {
+  share.value = 0;
+  return /** @type {Promise<Answer>} */ (postForEvents("/api/sizings", JSON.parse(text), (name, data) => {
+    if (name === "progress") share.value = data.share ?? 0;
+  }, signal));
+}, { memory: searchMemory, patience: 0, arrived: showFound });
+/** The newest drives found; other ones stay until new ones arrive. */
+export const { answer } = search;
+
+/** @type {import("../../reactive.js").Signal<Stage>} */
+export const stage = computed(() => {
+  const now = search.stage.value;
+  return now === "asking" ? "running" : now === "answered" ? "done" : now;
+});
+const taskText = computed(() => JSON.stringify(requestOf(sizing.value)));
+/** Why there are no drives for the task as it is now. */
+export const fault = computed(() =>
+  stage.value === "failed" && search.asked.value === taskText.value ? search.error.value : null
+);
 /** The drives on screen are not those of the task beside them. */
-export const stale = computed(() => answer.value !== null && key.value !== answered.value);
-/** The task that the drives on screen belong to. @returns {import("./document.js").Task} */
-export const answeredTask = () => JSON.parse(answered.value ?? "{}");
+export const stale = computed(() => answer.value !== null && taskText.value !== search.answered.value);
+/** The task that the drives on screen belong to. @returns {import("../../types.js").Task} */
+export const answeredTask = () => JSON.parse(search.answered.value ?? "{}");
 
 export const proposals = computed(() => answer.value?.proposals ?? []);
 export const chosenIndex = computed(() => Math.min(sizing.value.selected, proposals.value.length - 1));
 export const chosen = computed(() => proposals.value[chosenIndex.value] ?? null);
 
-const KEPT = 8;
-/** Answers to tasks asked before: undo shows their drives at once. @type {Map<string, Answer>} */
-const known = new Map();
-/** @param {string} body @param {Answer} got */
-function keep(body, got) {
-  known.delete(body);
-  known.set(body, got);
-  if (known.size > KEPT) known.delete([...known.keys()][0]);
-}
+/** Searches for drives; a search for another task is ended. */
+export const propose = () => search.ask(taskText.peek(), true);
 
-let control = new AbortController();
-
-/** Searches for drives; a search that still runs is given up. */
-export async function propose() {
-  control.abort();
-  control = new AbortController();
-  const mine = control.signal, asked = key.peek();
-  batch(() => {
-    refused.value = null;
-    share.value = 0;
-    stage.value = "running";
-  });
-  try {
-    const got = await follow("/api/sizings", JSON.parse(asked), (name, data) => {
-      if (name === "progress" && !mine.aborted) share.value = data.share ?? 0;
-    }, mine);
-    if (mine.aborted) return;
-    keep(asked, got);
-    batch(() => {
-      answer.value = got;
-      answered.value = asked;
-      stage.value = "done";
-      lookSizing({ selected: 0 });
-    });
-    tell(got);
-  } catch (error) {
-    if (mine.aborted) return;
-    batch(() => {
-      refused.value = { error: error instanceof ApiError ? error : new ApiError(String(error)), key: asked };
-      stage.value = "failed";
-    });
-  }
-}
-
-/** @param {Answer} got */
-function tell({ proposals: [best, ...rest] }) {
+/** @param {Answer} found */
+function showFound({ proposals: [best, ...rest] }) {
+  lookSizing({ selected: 0 });
   status.value = best
     ? `${rest.length + 1} drive${rest.length ? "s" : ""} found; first ${driveWords(best)}.`
-    : "No drive of the catalogue does this task; the list says why.";
+    : "No drive of the catalogue does this task. The list below gives the reasons.";
 }
 
 /** Ends the search on the server too; drives found before stay. */
-export function cancel() {
-  control.abort();
-  stage.value = "cancelled";
-}
+export const cancel = () => search.cancel();
 
-/** The message for a field, by its path in the task. @param {string} path */
-export function messageFor(path) {
-  const told = fault.value;
-  return told?.field && fieldOf(told.field) === path ? told.words : null;
-}
-
-/** The field of the page that a path of the request belongs to: “limits.life”, “catalogue.muscles.0” → the list.
+/** The field of the page for a path of the request: "catalogue.muscles.0" belongs to the list.
  * @param {string} path */
-export const fieldOf = (path) =>
-  path.replace(/^body\.?/, "").replace(/^(catalogue\.\w+)\.\d+$/, "$1")
-    .replace(/^(load\.force_over_stroke)\..*$/, "$1").replace(/^load\.pair$/, "load.pair.angle")
-    .replace(/^load$/, "load.mass");
+const fieldOf = (path) =>
+  path.replace(/^(catalogue\.\w+)\.\d+$/, "$1").replace(/^(load\.force_over_stroke)\..*$/, "$1")
+    .replace(/^load\.pair$/, "load.pair.angle").replace(/^load$/, "load.mass");
+/** The message for a field, by its path in the task. */
+export const { field: faultField, at: messageFor } = fieldMessages(() => fault.value, fieldOf);
 
 /** Called once, when the page is built. */
 export function startSizing() {
   effect(() => {
-    const body = key.value, before = known.get(body);
-    if (!before || stage.peek() === "running" || answered.peek() === body) return;
-    batch(() => {
-      answer.value = before;
-      answered.value = body;
-    });
+    // Undo shows the drives of a task that was answered before.
+    const text = taskText.value;
+    if (stage.peek() !== "running" && searchMemory.get(text)) search.ask(text);
   });
   effect(() => {
     document.documentElement.dataset.sizing = stage.value;
   });
-  addEventListener("pagehide", () => control.abort());
+  addEventListener("pagehide", cancel);
 }

@@ -1,5 +1,5 @@
 // @ts-check
-// The Task side of the Design view: task, ranked drives with trade-offs and reasons, the chosen drive.
+// The page of a task: inputs, ranked proposals with trade-offs and reasons, the selected proposal.
 import { h, icon } from "../../dom.js";
 import { examples, proposeButton, taskCard, taskCards } from "./cards.js";
 import { chosenCard, searchLine } from "./chosen.js";
@@ -8,7 +8,7 @@ import {
   answer,
   cancel,
   fault,
-  fieldOf,
+  faultField,
   openExample,
   proposals,
   propose,
@@ -17,51 +17,34 @@ import {
   stale,
   startSizing,
 } from "./model.js";
+import { faultNotice, goToField } from "../../ui/fault.js";
 import { proposalsCard } from "./proposals.js";
 import { rejectedCard } from "./rejected.js";
 
-/** @param {string} path */
-function goToField(path) {
-  const root = document.querySelector(".sizing");
-  for (let key = fieldOf(path); key; key = key.replace(/\.?[^.]*$/, "")) {
-    const box = root?.querySelector(`[data-field="${CSS.escape(key)}"]`);
-    box?.closest("details")?.setAttribute("open", "");
-    const input = box?.querySelector("input, select, textarea");
-    if (input instanceof HTMLElement) return input.focus();
-  }
-}
+/** @param {import("../../dom.js").Child[]} body */
+const notice = (...body) => h("div", { class: "notice", role: "status" }, icon("info"), ...body);
 
-/** @param {string} kind @param {"info" | "warn"} sign @param {import("../../dom.js").Child[]} body */
-const notice = (kind, sign, ...body) =>
-  h("div", { class: `notice ${kind}`, role: kind === "bad" ? "alert" : "status" }, icon(sign), ...body);
-
-/** What stands between the task and the drives on screen. */
+/** Errors and messages about the search. */
 function notices() {
-  const told = fault.value, { field } = told ?? {};
   if (stage.value === "running") return null;
-  if (told) {
-    return notice(
-      "bad",
-      "warn",
-      h("span", null, told.words),
-      field
-        ? h("button", { type: "button", onclick: () => goToField(field) }, "Go to the field")
-        : h("button", { type: "button", onclick: propose }, "Try again"),
-    );
+  const error = fault.value, field = faultField();
+  if (error) {
+    return faultNotice(error.words, {
+      goTo: field === null ? null : () => goToField(field, ".sizing"),
+      retry: propose,
+    });
   }
   if (stale.value) {
     return notice(
-      "",
-      "info",
-      h("span", null, "The task has changed: these drives are those of the task before."),
+      h("span", null, "The task has changed. These drives belong to the previous task."),
       h("button", { type: "button", onclick: propose }, "Propose again"),
     );
   }
   if (stage.value === "cancelled" && !answer.value) {
-    return notice("", "info", h("span", null, "The search was cancelled."));
+    return notice(h("span", null, "The search was cancelled."));
   }
   const message = answer.value?.message;
-  return message ? notice("", "info", h("span", null, message)) : null;
+  return message ? notice(h("span", null, message)) : null;
 }
 
 function progress() {
@@ -72,7 +55,7 @@ function progress() {
     h(
       "p",
       { role: "status" },
-      "Searching the catalogue: closed form first, then every choice is run through time…",
+      "Searching the catalogue: static calculation first, then every remaining drive is simulated…",
     ),
     h(
       "div",
@@ -90,18 +73,18 @@ function start() {
   return h(
     "section",
     { class: "card empty-state", "aria-label": "Start" },
-    h("h2", null, "Which drive does your task?"),
+    h("h2", null, "Find a drive for your task"),
     h(
       "p",
       null,
-      "Say what is to be moved, how far and how fast, with which supply and in how much room. Every muscle, number, " +
-        "valve and tube of the catalogue is tried; you get the drives that do it, ranked, with what binds each, how " +
-        "sure it is, and why the others do not do.",
+      "Enter what is to be moved, how far and how fast, the supply pressure and the available space. Every combination " +
+        "of muscles, valves and tubes of the catalogue is tried. You get a ranked list of drives that do the task, each " +
+        "with its limits and its probability of success, and the reasons why other drives do not.",
     ),
     h(
       "p",
       { class: "muted" },
-      "The task on the left is an example: take it as it is, change it, or open another.",
+      "An example is filled in. Use it, change it, or open another.",
     ),
     proposeButton(),
     h("h3", null, "Example tasks"),
@@ -130,7 +113,7 @@ function nothing() {
       h(
         "span",
         null,
-        "Below stands of each candidate why not, and what would make it work; the nearest first.",
+        "The list below gives for each candidate the reason and what would make it work, closest first.",
       ),
     ),
   );

@@ -1,5 +1,5 @@
 // @ts-check
-// Which parts of the catalogue may be used: none ticked means the usual ones.
+// Which parts of the catalogue may be used; none selected means the default choice.
 import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { presets } from "../../store.js";
@@ -12,7 +12,7 @@ import { messageFor, setTask, valueAt } from "./model.js";
 const usable = (p) =>
   p.kind !== "valve" || (!("regulator" in p) && Boolean(p.data?.sonic_conductance ?? p.data?.nominal_flow));
 
-/** @param {"muscles" | "valves" | "tubes"} kind @param {string} title @param {string} usual what none ticked means
+/** @param {"muscles" | "valves" | "tubes"} kind @param {string} title @param {string} usual the default choice
  * @param {string} why */
 export function partsField(kind, title, usual, why) {
   const path = `catalogue.${kind}`;
@@ -37,7 +37,7 @@ export function partsField(kind, title, usual, why) {
     h(
       "fieldset",
       null,
-      h("legend", { class: "hint" }, `None ticked: ${usual}. ${why}`),
+      h("legend", { class: "hint" }, `None selected: ${usual}. ${why}`),
       () =>
         offered.value.map((p) =>
           h(

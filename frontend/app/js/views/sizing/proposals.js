@@ -1,16 +1,17 @@
 // @ts-check
-// The ranked list: one row a drive, its reasons and margins unfolded below it.
+// The ranked list: one row per proposal, with its reasons and margins below it on request.
+import { capitalized } from "../../format.js";
 import { h, icon } from "../../dom.js";
 import { effect, signal } from "../../reactive.js";
 import { menuButton } from "../../ui/menu.js";
 import { saveCsv, saveTask } from "./actions.js";
 import { marginBars } from "./margins.js";
 import { answer, chosenIndex, lookSizing, proposals } from "./model.js";
-import { driveWords, limitName, partsOf, percent, say, spare } from "./words.js";
+import { asText, driveWords, limitName, partsOf, percent, spare } from "./words.js";
 
 /** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
 
-/** Ranks whose reasons are unfolded. */
+/** Proposals whose reasons are shown, by index. */
 const unfolded = signal(/** @type {ReadonlySet<number>} */ (new Set()));
 /** @param {number} i */
 function fold(i) {
@@ -24,7 +25,7 @@ const HEAD = [
   ["", "No."],
   ["text", "Drive"],
   ["", "Time"],
-  ["", "Does it"],
+  ["", "Probability"],
   ["wide", "Air per cycle"],
   ["wide roomy", "Force reserve"],
   ["wide text", "Nearest limit"],
@@ -40,7 +41,7 @@ const doubt = (p) =>
       "span",
       { class: "doubt", title: `Unverified: ${p.unverified.join("; ")}` },
       icon("warn"),
-      h("span", { class: "unseen" }, "unverified figures"),
+      h("span", { class: "unseen" }, "unverified values"),
     )
     : null;
 
@@ -66,7 +67,11 @@ function row(p, i) {
           () => driveWords(p),
         ),
         p.front
-          ? h("span", { class: "front-mark", title: "Nothing is better in everything" }, "front")
+          ? h(
+            "span",
+            { class: "front-mark", title: "Pareto front: no drive is better in every aim" },
+            "Pareto",
+          )
           : null,
         doubt(p),
         h(
@@ -78,13 +83,13 @@ function row(p, i) {
             ),
         ),
       ),
-      h("td", null, () => say(p.time, "time")),
+      h("td", null, () => asText(p.time, "time")),
       h(
         "td",
         { class: (p.probability ?? 1) < DOUBTFUL ? "doubtful" : "" },
         p.probability === null ? "–" : percent(p.probability),
       ),
-      h("td", { class: "wide" }, () => say(p.air_volume_anr, "normal").replace(/\s*\(ANR\)/, "")),
+      h("td", { class: "wide" }, () => asText(p.air_volume_anr, "normal").replace(/\s*\(ANR\)/, "")),
       h("td", { class: "wide roomy" }, percent(p.force_reserve)),
       h(
         "td",
@@ -111,9 +116,6 @@ function row(p, i) {
   );
 }
 
-/** @param {string} text */
-const capital = (text) => text.replace(/^./, (c) => c.toUpperCase());
-
 /** @param {Proposal} p */
 function details(p) {
   return h(
@@ -122,7 +124,7 @@ function details(p) {
     h(
       "div",
       null,
-      h("p", null, `${capital(p.reason)}.`),
+      h("p", null, `${capitalized(p.reason)}.`),
       h(
         "dl",
         null,
@@ -138,11 +140,11 @@ function details(p) {
 
 /** @param {Proposal} p @returns {[string, string][]} */
 const figures = (p) => [
-  ["Pressure at the start", say(p.pressure_start, "pressure")],
-  ["Pressure at the end", say(p.pressure_end, "pressure")],
-  ["Stiffness, valve open", say(p.stiffness, "stiffness")],
-  ["Stiffness, valve closed", say(p.stiffness_closed, "stiffness")],
-  ["Impact energy", say(p.impact_energy, "energy")],
+  ["Pressure at the start", asText(p.pressure_start, "pressure")],
+  ["Pressure at the end", asText(p.pressure_end, "pressure")],
+  ["Stiffness, valve open", asText(p.stiffness, "stiffness")],
+  ["Stiffness, valve closed", asText(p.stiffness_closed, "stiffness")],
+  ["Impact energy", asText(p.impact_energy, "energy")],
 ];
 
 export function proposalsCard() {

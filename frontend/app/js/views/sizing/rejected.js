@@ -1,8 +1,9 @@
 // @ts-check
-// Candidates that do not do: why not, and what would make each work.
+// Rejected candidates: the reason for each, and what would make it work.
+import { capitalized } from "../../format.js";
 import { h } from "../../dom.js";
 import { computed, effect, signal } from "../../reactive.js";
-import { answer, proposals } from "./model.js";
+import { answer } from "./model.js";
 import { limitName } from "./words.js";
 
 /** @typedef {import("../../types.js").S["RejectedAnswer"]} Rejected */
@@ -10,24 +11,21 @@ import { limitName } from "./words.js";
 const SHOWN = 8;
 const all = signal(false);
 
-/** Candidates that differ in the tube only and fail alike are told together.
+/** Merges candidates that differ only in the tube and fail for the same reason.
  * @param {Rejected[]} list @returns {(Rejected & {tubes: string[]})[]} */
 export function together(list) {
   /** @type {Map<string, Rejected & {tubes: string[]}>} */
-  const found = new Map();
+  const merged = new Map();
   for (const one of list) {
     const { tube, combinations, ...rest } = one, name = JSON.stringify(rest);
-    const known = found.get(name);
-    const tubes = [...known?.tubes ?? [], ...(tube ? [tube] : [])];
-    found.set(name, { ...one, combinations: combinations + (known?.combinations ?? 0), tubes });
+    const same = merged.get(name);
+    const tubes = [...same?.tubes ?? [], ...(tube ? [tube] : [])];
+    merged.set(name, { ...one, combinations: combinations + (same?.combinations ?? 0), tubes });
   }
-  return [...found.values()];
+  return [...merged.values()];
 }
 
 const groups = computed(() => together(answer.value?.rejected ?? []));
-
-/** @param {string} text */
-const capital = (text) => text.replace(/^./, (c) => c.toUpperCase());
 
 /** @param {Rejected & {tubes: string[]}} r */
 function item(r) {
@@ -38,7 +36,7 @@ function item(r) {
     null,
     h("b", null, who.map((text, i) => h("span", { class: "whole" }, text, i < who.length - 1 ? ", " : ""))),
     h("span", { class: "limit" }, limitName(r.binding)),
-    h("p", null, `${capital(r.why)}.`),
+    h("p", null, `${capitalized(r.why)}.`),
     h("p", { class: "remedy" }, h("span", null, "Would work with "), `${r.would_work_if}.`),
   );
 }
@@ -55,8 +53,8 @@ export function rejectedCard() {
     h(
       "div",
       { class: "card-head" },
-      h("h2", null, () => proposals.value.length ? "Why not the others" : "Why not"),
-      h("span", { class: "muted" }, "nearest first"),
+      h("h2", null, "Rejected candidates"),
+      h("span", { class: "muted" }, "closest first"),
     ),
     h("ul", null, () => (all.value ? groups.value : groups.value.slice(0, SHOWN)).map(item)),
     () =>
@@ -64,7 +62,7 @@ export function rejectedCard() {
         ? h(
           "button",
           { type: "button", class: "link", onclick: () => (all.value = !all.peek()) },
-          all.value ? "Show the nearest only" : `Show ${hidden()} more`,
+          all.value ? "Show fewer" : `Show ${hidden()} more`,
         )
         : null,
   );

@@ -1,8 +1,8 @@
 // @ts-check
-// The fields of a task: what each is called, its default and the reason for it. Paths are those of the request.
+// The fields of a task: name, default and explanation of each. Paths are those of the request.
 /** @typedef {import("../../format.js").Quantity} Quantity */
-/** `unit`: of a quantity without a scale of its own; `usual`: the server's default, null = left open, which the
- * field then says in `empty`; `whole`: a number of things; `bounds` are for the arrow keys.
+/** `unit`: of a quantity without a scale of its own; `usual`: the server's default, null: left open, which the
+ * field shows as `empty`; `whole`: an integer; `bounds`: for the arrow keys.
  * @typedef {{label: string, quantity: Quantity | null, unit?: string, bounds: [number, number],
  *   usual: number | null, empty?: string, whole?: boolean, why: string}} Field */
 
@@ -15,57 +15,57 @@ export const FIELDS = {
     quantity: "mass",
     bounds: [0, 200],
     usual: 0,
-    why: "Moved mass; 0: only what is stated below is moved.",
+    why: "The mass to be moved. 0: only the other loads count.",
   },
   "load.force": {
     label: "External force",
     quantity: "force",
     bounds: [0, 2000],
     usual: 0,
-    why: "Against the pull, besides the weight; 0: only what is stated pulls back.",
+    why: "Acts against the muscle, besides the weight. Default 0.",
   },
   "load.inclination": {
     label: "Inclination",
     quantity: "angle",
     bounds: [-UPRIGHT, UPRIGHT],
     usual: UPRIGHT,
-    why: "Of the way against the horizontal; 90°: a muscle can only pull, so most loads hang.",
+    why: "Of the direction of motion against the horizontal. Default 90°: the load hangs.",
   },
   "load.spring": {
     label: "Spring",
     quantity: "stiffness",
     bounds: [0, 1e5],
     usual: 0,
-    why: "Against the contraction, slack at the start; 0: a weight pulls a muscle long again.",
+    why: "Acts against the contraction; without force at the start. Default 0: no spring.",
   },
   "load.counterweight": {
     label: "Counterweight",
     quantity: "mass",
     bounds: [0, 200],
     usual: 0,
-    why: "Hangs on the other side of a pulley and pulls with the muscle; 0: none is usual.",
+    why: "Hangs on the other side of a pulley and pulls with the muscle. Default 0: none.",
   },
   "load.lever_ratio": {
     label: "Lever ratio",
     quantity: "number",
     bounds: [0.1, 5],
     usual: 1,
-    why: "Stroke of the muscle per stroke of the load; 1: the muscle pulls directly.",
+    why: "Stroke of the muscle per stroke of the load. 1: no lever.",
   },
   "load.pair.angle": {
     label: "Angle",
     quantity: "angle",
     bounds: [0, Math.PI],
     usual: null,
-    empty: "needed",
-    why: "Whole swing, from one end to the other.",
+    empty: "required",
+    why: "The whole swing, from one end to the other.",
   },
   "load.pair.torque": {
     label: "Torque",
     quantity: "torque",
     bounds: [0, 50],
     usual: 0,
-    why: "Against the first muscle, over the whole swing; 0: a pulley turns about its centre.",
+    why: "Acts against the first muscle over the whole swing. Default 0.",
   },
   "load.pair.inertia": {
     label: "Inertia",
@@ -73,47 +73,47 @@ export const FIELDS = {
     unit: "kg*m^2",
     bounds: [0, 1],
     usual: 0,
-    why: "Of everything that turns; 0: then the muscles’ own air decides the time.",
+    why: "Of everything that turns. 0: the time depends on the air flow alone.",
   },
   "load.pair.pulley_radius": {
     label: "Pulley radius",
     quantity: "length",
     bounds: [0.005, 0.2],
     usual: null,
-    empty: "tried",
-    why: "Empty: eight radii from 10 to 120 mm are tried, a free choice of the designer.",
+    empty: "all",
+    why: "Leave empty to try eight radii from 10 to 120 mm.",
   },
   stroke: {
     label: "Stroke",
     quantity: "length",
     bounds: [0, 0.5],
     usual: null,
-    empty: "needed",
-    why: "Of the load.",
+    empty: "required",
+    why: "Travel of the load.",
   },
   time: {
     label: "Time up",
     quantity: "time",
     bounds: [0, 5],
     usual: null,
-    empty: "any",
-    why: "For the stroke; empty: the drives are compared by what they take.",
+    empty: "no limit",
+    why: "Longest time for the stroke. Leave empty for no limit.",
   },
   time_down: {
     label: "Time down",
     quantity: "time",
     bounds: [0, 5],
     usual: null,
-    empty: "any",
-    why: "For the way back; empty: it may take its time.",
+    empty: "no limit",
+    why: "Longest time for the way back. Leave empty for no limit.",
   },
   cycle_time: {
     label: "Cycle time",
     quantity: "time",
     bounds: [0, 10],
     usual: null,
-    empty: "any",
-    why: "Up and down together; empty: the times above say it.",
+    empty: "no limit",
+    why: "Longest time for the stroke and the way back together. Leave empty for no limit.",
   },
   speed: {
     label: "Speed",
@@ -121,44 +121,45 @@ export const FIELDS = {
     bounds: [0, 5],
     usual: null,
     empty: "by time",
-    why: "Average, in place of the time up; empty: the time says it.",
+    why: "Average speed of the stroke, instead of its time. Leave empty to use the time.",
   },
   stiffness: {
     label: "Hold stiffness",
     quantity: "stiffness",
     bounds: [0, 1e5],
     usual: null,
-    empty: "told",
-    why: "Wanted against the load at the end, valve open (closed holds stiffer); empty: it is told instead.",
+    empty: "no limit",
+    why:
+      "Least stiffness at the end of the stroke with the valve open; with the valve closed it is higher. Leave empty for no limit.",
   },
   supply_pressure: {
     label: "Supply",
     quantity: "pressure",
     bounds: [1e5, 8e5],
     usual: 6e5,
-    why: "Gauge; 6 bar: the usual net, and the limit of most muscles.",
+    why: "Gauge pressure. Default 6 bar: a usual supply, and the limit of most muscles.",
   },
   ambient_temperature: {
     label: "Ambient",
     quantity: "temperature",
     bounds: [253.15, 353.15],
     usual: 293.15,
-    why: "20 °C: a workshop.",
+    why: "Default 20 °C.",
   },
   "limits.max_length": {
     label: "Length",
     quantity: "length",
     bounds: [0.05, 3],
     usual: 1,
-    why: "Installed, without pressure; 1 m: longer muscles are made, machines seldom have room.",
+    why: "Longest installed length without pressure. Default 1 m. Longer muscles exist.",
   },
   "limits.max_diameter": {
     label: "Diameter",
     quantity: "length",
     bounds: [0.01, 0.2],
     usual: null,
-    empty: "told",
-    why: "Outside, bulged at the end of the stroke; empty: the figure is told instead.",
+    empty: "no limit",
+    why: "Largest outer diameter, at the end of the stroke. Leave empty for no limit.",
   },
   "limits.max_parallel": {
     label: "In parallel",
@@ -166,72 +167,77 @@ export const FIELDS = {
     bounds: [1, 6],
     usual: 2,
     whole: true,
-    why: "Muscles side by side, at most; 2: more seldom share a load evenly.",
+    why: "Largest number of muscles side by side. Default 2: more rarely share a load evenly.",
   },
   "limits.end_fittings": {
     label: "End fittings",
     quantity: "length",
     bounds: [0, 0.3],
     usual: 0,
-    why: "What both take of the length; 0: no verified figure is known, add yours.",
+    why: "Length of both end fittings together. Default 0: no verified value is known, enter yours.",
   },
   "limits.max_contraction": {
     label: "Contraction",
     quantity: "ratio",
     bounds: [0.05, 0.4],
     usual: 0.2,
-    why: "At the end of the stroke; 20 %: makers allow 25 %, but the last of it hardly pulls.",
+    why: "At the end of the stroke. Default 20 %. Makers allow 25 %, but the force is small there.",
   },
   "limits.force_reserve": {
     label: "Force reserve",
     quantity: "ratio",
     bounds: [0, 1],
     usual: 0.1,
-    why: "Static force above the load everywhere; 10 %: so much do specimens differ.",
+    why:
+      "Static force above the load along the whole stroke. Default 10 %: specimens differ by about that much.",
   },
   "limits.pressure_reserve": {
     label: "Pressure reserve",
     quantity: "ratio",
     bounds: [0, 0.5],
     usual: 0,
-    why: "Share of the supply not counted on; 0: the supply’s tolerance has its own field.",
+    why:
+      "Share of the supply pressure that is not used. Default 0: the tolerance of the supply is entered below.",
   },
   "limits.life": {
     label: "Life",
     quantity: "number",
     bounds: [1e5, 1e7],
     usual: null,
-    empty: "told",
-    why: "Load cycles; empty: makers publish no curve, an unverified estimate is told.",
+    empty: "no limit",
+    why:
+      "Least number of load cycles. Leave empty for no limit. Lives are unverified estimates: makers publish no curves.",
   },
   "catalogue.tube_length": {
     label: "Tube length",
     quantity: "length",
     bounds: [0, 5],
     usual: 1,
-    why: "From the valve to each muscle, 0 for none; 1 m: valves seldom sit on the muscle.",
+    why: "From the valve to each muscle. Default 1 m. 0: no tube.",
   },
   "uncertainty.blocked_force": {
     label: "Force spread",
     quantity: "ratio",
     bounds: [0, 0.5],
     usual: 0.1,
-    why: "Of specimens, two standard deviations; 10 %: published curves of one size differ by so much.",
+    why:
+      "Two standard deviations between specimens. Default 10 %: published curves of one size differ by that much.",
   },
   "uncertainty.supply_pressure": {
     label: "Supply tolerance",
     quantity: "ratio",
     bounds: [0, 0.3],
     usual: 0.03,
-    why: "Largest deviation; 3 %: a usual service regulator.",
+    why: "Largest deviation. Default 3 %: a usual pressure regulator.",
   },
   "uncertainty.hysteresis": {
     label: "Hysteresis",
     quantity: "ratio",
     bounds: [0, 0.1],
     usual: null,
-    empty: "own",
-    why: "Largest width of the loop, share of the nominal length; empty: the catalogue’s.",
+    empty: "catalogue",
+    why:
+      "Largest width of the loop as a share of the nominal length. Leave empty for the value of the catalogue.",
   },
   "uncertainty.specimens": {
     label: "Specimens",
@@ -239,7 +245,7 @@ export const FIELDS = {
     bounds: [0, 1000],
     usual: 100,
     whole: true,
-    why: "Simulated for each proposal, 0 for none; 100: within 5 % of the probability.",
+    why: "Simulated for each proposal. Default 100: the probability is then within 5 %. 0: none.",
   },
   max_proposals: {
     label: "Proposals",
@@ -247,7 +253,7 @@ export const FIELDS = {
     bounds: [1, 30],
     usual: 10,
     whole: true,
-    why: "At most; 10: more nobody compares.",
+    why: "Largest number of proposals. Default 10.",
   },
 };
 
@@ -257,10 +263,10 @@ export const RANKINGS = [
   ["air", "least air"],
   ["time", "fastest"],
   ["length", "shortest"],
-  ["reserve", "most force in reserve"],
-  ["probability", "surest"],
+  ["reserve", "largest force reserve"],
+  ["probability", "most probable"],
 ];
 export const USUAL_RANKING = "balanced";
 export const RANKING_WHY =
-  "Balanced: air times the root of length and number of muscles, because air costs every day " +
-  "and room once. Drives that probably fail come last in any order.";
+  "Balanced: air consumption times the square root of length and number of muscles, because air is a running " +
+  "cost and space is not. Drives that probably fail come last in any order.";

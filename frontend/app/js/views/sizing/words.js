@@ -1,38 +1,38 @@
 // @ts-check
-// Drives, limits and aims in words, with the user's units. Pure functions but for the units.
+// Drives, limits and aims in words, with the user's units.
 import { units } from "../../state.js";
-import { withUnit } from "../../format.js";
+import { readable, withUnit } from "../../format.js";
 
 /** @typedef {import("../../types.js").S["ExploredDesign"]} Explored */
 /** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
-/** @typedef {import("./document.js").Aim} Aim */
+/** @typedef {import("../../types.js").Aim} Aim */
 /** @typedef {import("../../format.js").Quantity} Quantity */
-/** What proposals and explored designs have in common. @typedef {Explored | Proposal} Design */
+/** What proposals and explored drives have in common. @typedef {Explored | Proposal} Design */
 
 /** @param {number | null | undefined} si @param {Quantity} quantity */
-export const say = (si, quantity) => withUnit(si, quantity, units.value);
+export const asText = (si, quantity) => withUnit(si, quantity, units.value);
 
 /** Whole percent: what is left of a limit, or a probability. @param {number | null | undefined} x */
 export const percent = (x) => x == null ? "–" : `${Math.round(100 * x)}\u00a0%`;
 
-/** How far a limit is kept, as a share of what is used. @param {number} margin */
+/** The distance from a limit, as a share of the value used. @param {number} margin */
 export const spare = (margin) =>
   margin > 1 ? `${(1 + margin).toPrecision(2)} × enough` : `${percent(margin)} left`;
 
-/** "2 × DMSP-20, 412 mm"; of a pair all muscles are counted. @param {Design} d */
+/** "2 × DMSP-20, 412 mm"; for an antagonist pair the muscles of both sides are counted. @param {Design} d */
 export function driveWords(d) {
   const pair = "pulley_radius" in d && d.pulley_radius != null, count = d.parallel * (pair ? 2 : 1);
-  const sides = pair && d.parallel > 1 ? `, ${d.parallel} a side` : "";
-  return `${count > 1 ? `${count} × ` : ""}${d.muscle}, ${say(d.nominal_length, "length")}${sides}`;
+  const sides = pair && d.parallel > 1 ? `, ${d.parallel} per side` : "";
+  return `${count > 1 ? `${count} × ` : ""}${d.muscle}, ${asText(d.nominal_length, "length")}${sides}`;
 }
 
 /** Valve, tube and pressure. @param {Design} d */
 export const partsOf = (d) => [
   d.valve,
   d.tube ?? "no tube",
-  say(d.pressure, "pressure"),
+  asText(d.pressure, "pressure"),
   ...("pulley_radius" in d && d.pulley_radius != null
-    ? [`pulley of ${say(d.pulley_radius, "length")} radius`]
+    ? [`pulley of ${asText(d.pulley_radius, "length")} radius`]
     : []),
 ];
 /** The same as one text. @param {Design} d */
@@ -54,8 +54,7 @@ const LIMITS = {
   cycle_time: "cycle time",
 };
 /** @param {string} name */
-export const limitName = (name) =>
-  LIMITS[/** @type {Proposal["binding"]} */ (name)] ?? name.replaceAll("_", " ");
+export const limitName = (name) => LIMITS[/** @type {Proposal["binding"]} */ (name)] ?? readable(name);
 
 /** @type {Record<Aim, {title: string, quantity: Quantity, good: "less" | "more",
  *   of: (d: Design, fittings: number) => number}>} */

@@ -1,5 +1,5 @@
 // @ts-check
-// The one instant all plots, the animation and the readout show; it moves without a redraw.
+// The time cursor of plots, animation and readout; it moves without a redraw.
 import { h } from "../../dom.js";
 import { apart, computed, effect, signal } from "../../reactive.js";
 import { run, timeWindow } from "./model.js";
@@ -7,10 +7,10 @@ import { rowAt } from "./series.js";
 
 /** @typedef {import("../../plots/chart.js").Chart} Chart */
 
-/** Where the cursor was put [s]. */
+/** Where the user put the cursor [s]. */
 const wanted = signal(0);
 
-/** The times on screen: the window, else the whole run.
+/** The time range shown: the window, else the whole run.
  * @type {import("../../reactive.js").Signal<[number, number]>} */
 export const span = computed(() => timeWindow.value ?? [0, run.value?.duration ?? 1]);
 
@@ -24,7 +24,7 @@ export const row = computed(() => run.value ? rowAt(run.value.time, cursor.value
 export const moveCursor = (t) => (wanted.value = t);
 
 /** @param {number} rows */
-export function stepCursor(rows) {
+function stepCursor(rows) {
   const time = run.peek()?.time;
   if (!time) return;
   moveCursor(time[Math.min(time.length - 1, Math.max(0, row.peek() + rows))]);
@@ -57,7 +57,7 @@ export function followTime(charts) {
       line.style.transform = `translate(${axes.xaxis._offset + px}px,${axes.yaxis._offset}px)`;
     };
     effect(show);
-    // A drawing must not follow the cursor: what it calls afterwards is none of its own reading.
+    // Drawing must not depend on the cursor: what runs after it subscribes to nothing.
     chart.after.add(() => apart(show));
     chart.host.addEventListener("pointermove", (event) => {
       const axes = chart.axes;

@@ -1,12 +1,12 @@
 // @ts-check
-// What leaves this view: the run as CSV, the plots, the drive document.
+// Exports of this view: the run as CSV, the plots, the drive document.
 import { units } from "../../state.js";
-import { ApiError } from "../../api.js";
+import { ApiError } from "../../server/client.js";
 import { scaleOf, toShown } from "../../format.js";
 import { status } from "../../store.js";
 import { saveSheet } from "../../plots/export.js";
-import { downloadText, toCsv } from "../../ui/table.js";
-import { shownCharts } from "./charts.js";
+import { downloadText, fileName, toCsv } from "../../ui/table.js";
+import { shownCharts } from "./plots/charts.js";
 import { documentNow, simulate } from "./model.js";
 
 /** @typedef {import("../../types.js").Run} Run */
@@ -14,7 +14,7 @@ import { documentNow, simulate } from "./model.js";
 
 const ROWS = 2001;
 
-/** Column of the file, quantity, column of the answer; the names are those a measurement file is read by.
+/** Name of the column in the file, quantity, column of the answer. Measurement files are read by these names.
  * @type {[string, Quantity, keyof Run][]} */
 const COLUMNS = [
   ["displacement", "length", "position"],
@@ -38,7 +38,7 @@ const COLUMNS = [
   ["gas_temperature", "temperature", "temperature"],
 ];
 
-/** What an antagonist pair adds. @type {[string, Quantity, keyof NonNullable<Run["joint"]>][]} */
+/** Columns of an antagonist pair. @type {[string, Quantity, keyof NonNullable<Run["joint"]>][]} */
 const JOINT = [
   ["joint_angle", "angle", "angle"],
   ["joint_torque", "torque", "torque"],
@@ -48,7 +48,7 @@ const JOINT = [
 ];
 
 /** @param {Run} r @returns {import("../../ui/table.js").Table} every column of a run in shown units */
-export function runTable(r) {
+function runTable(r) {
   const system = units.peek();
   /** @param {string} title @param {Quantity} quantity @param {unknown} values
    * @returns {{title: string, quantity: Quantity, values: (number | null)[]}[]} */
@@ -74,13 +74,11 @@ export function runTable(r) {
   };
 }
 
-const stamp = () => new Date().toISOString().slice(0, 10);
-
-/** The whole run, finer than the plots show it. */
+/** Saves the whole run with more rows than the plots show. */
 export async function saveCsv() {
   try {
     const whole = await simulate({ drive: documentNow(), points: ROWS });
-    downloadText(`mckibben-run-${stamp()}.csv`, toCsv(runTable(whole)), "text/csv");
+    downloadText(fileName("run", "csv"), toCsv(runTable(whole)), "text/csv");
   } catch (error) {
     status.value = `The run could not be saved: ${error instanceof ApiError ? error.words : error}`;
   }
@@ -88,13 +86,13 @@ export async function saveCsv() {
 
 /** @param {"png" | "svg"} format */
 export const savePlots = (format) =>
-  saveSheet(shownCharts(), format, `mckibben-run-${stamp()}`).catch((error) => {
+  saveSheet(shownCharts(), format, fileName("run")).catch((error) => {
     status.value = `The plots could not be saved: ${error.message}`;
   });
 
 export const saveDrive = () =>
   downloadText(
-    `mckibben-drive-${stamp()}.json`,
+    fileName("drive", "json"),
     JSON.stringify(documentNow(), null, 2) + "\n",
     "application/json",
   );

@@ -1,26 +1,28 @@
 // @ts-check
-// The Transient view as the shell sees it: its page is fetched when it is first shown.
-import { later } from "../../later.js";
+// The Transient view as the program sees it; its page is fetched when it is first shown.
+import { later } from "../../ui/later.js";
+import { isDriveDocument } from "../../drive/document.js";
 import { view } from "../../state.js";
+import "./document.js";
 
-/** A focused control keeps the space bar for itself. @param {KeyboardEvent} e */
+/** Whether a key is free: a focused control uses the space bar itself. @param {KeyboardEvent} e */
 const free = (e) =>
   view.peek() === "transient" && !e.ctrlKey && !e.metaKey && !e.altKey &&
   !(/** @type {HTMLElement} */ (e.target)).closest?.("button, summary, a, input, label");
 
-/** @type {import("../../shortcuts.js").Shortcut[]} */
+/** @type {import("../../ui/shortcuts.js").Shortcut[]} */
 export const TRANSIENT_KEYS = [
   {
     keys: "Space",
     what: "Transient: play or pause the run",
     match: (e) => e.key === " " && free(e),
-    run: async () => (await import("./animation.js")).togglePlay(),
+    run: async () => (await import("./motion/animation.js")).togglePlay(),
   },
   {
     keys: "P",
     what: "Transient: pin this run",
     match: (e) => e.key.toLowerCase() === "p" && free(e),
-    run: async () => (await import("./pins.js")).pin(),
+    run: async () => (await import("./pinned/card.js")).pin(),
   },
 ];
 
@@ -47,5 +49,11 @@ export const transientExports = () => [
     run: async () => (await import("./exports.js")).saveDrive(),
   },
 ];
+
+/** Drive documents, opened from a file. @type {import("../../ui/files.js").Opener} */
+export const driveFiles = {
+  reads: isDriveDocument,
+  open: async (raw, label) => (await import("../../drive/open.js")).openDrive(raw, { label }),
+};
 
 export const transientView = later(async () => (await import("./page.js")).transientPage);

@@ -1,65 +1,47 @@
 // @ts-check
-// A measured trace over the plots: a file goes to the server, which says how it understood it.
+// A measured trace shown in the plots: the file is read by the server.
 import { h, icon } from "../../dom.js";
-import { computed, effect, signal } from "../../reactive.js";
+import { computed, signal } from "../../reactive.js";
 import { view } from "../../state.js";
-import { ApiError, get } from "../../api.js";
+import { ApiError } from "../../server/client.js";
+import { keep, measurement, missingFile, refusal } from "../../server/measurements.js";
+import { Question } from "../../server/question.js";
 import { editTransient, transient } from "./model.js";
 
-/** @typedef {import("../../types.js").Measured} Measured */
-
-const MOST_BYTES = 64e6;
 const OVERLAID = ["pressure", "displacement", "force", "velocity", "command"];
 
-export const measured = signal(/** @type {Measured | null} */ (null));
-const wrong = signal("");
-const busy = signal(false);
 const chosen = computed(() => transient.value.measurement);
+const columns = new Question(measurement);
+/** The measured trace. The document holds its id only, so that links and undo bring it back. */
+export const measured = computed(() => columns.error.value ? null : columns.answer.value);
+/** Why a file could not be sent. */
+const refused = signal("");
+const isSending = signal(false);
 
 /** @param {File | undefined} file */
 async function send(file) {
   if (!file) return;
-  wrong.value = "";
-  if (file.size > MOST_BYTES) return void (wrong.value = "The file is larger than 64 MB.");
-  busy.value = true;
+  refused.value = refusal(file) ?? "";
+  if (refused.peek()) return;
+  isSending.value = true;
   try {
-    const response = await fetch(`/api/measurements?name=${encodeURIComponent(file.name)}`, {
-      method: "PUT",
-      body: file,
-    });
-    const answer = await response.json();
-    if (!response.ok) {
-      const { message, hint, field } = answer.error ?? {};
-      throw new ApiError(message ?? `The server answered with status ${response.status}.`, { hint, field });
-    }
+    const answer = await keep(file);
     editTransient({ measurement: { id: answer.id, name: answer.name } }, `measured trace ${answer.name}`);
   } catch (error) {
-    wrong.value = `${file.name}: ${error instanceof ApiError ? error.words : "it could not be sent."}`;
+    if (!(error instanceof ApiError)) throw error;
+    refused.value = `${file.name}: ${error.words}`;
   } finally {
-    busy.value = false;
+    isSending.value = false;
   }
 }
 
-/** The columns belong to the id in the document: a link or an undo brings them back. */
-function fetchColumns() {
-  const wanted = chosen.value;
-  if (!wanted || view.value !== "transient") {
-    if (!wanted) measured.value = null;
-    return;
-  }
-  if (measured.peek()?.id === wanted.id) return;
-  get(`/api/measurements/${wanted.id}`).then((answer) => {
-    if (chosen.peek()?.id === answer.id) measured.value = answer;
-  }, (error) => {
-    measured.value = null;
-    const why = error instanceof ApiError && error.status === 404
-      ? "This server does not have the file. Choose it once more."
-      : error.words ?? String(error);
-    wrong.value = `${wanted.name}: ${why}`;
-  });
+/** What is wrong with the file that was sent, or with the one the document names. */
+function complaint() {
+  const error = columns.error.value;
+  return refused.value || (error && chosen.value ? `${chosen.value.name}: ${missingFile(error)}` : "");
 }
 
-/** What is shown of the file, and what the server remarked. */
+/** What is shown of the file, and the messages of the server. */
 function summary() {
   const m = measured.value;
   if (!m) return null;
@@ -81,7 +63,7 @@ function summary() {
     timed && used.length ? h("p", { class: "muted" }, `Dots in the plots: ${used.join(", ")}.`) : h(
       "p",
       { class: "error" },
-      timed ? "None of its columns can be laid over a run." : "It has no column of time.",
+      timed ? "None of its columns can be shown in the plots." : "It has no time column.",
     ),
     m.messages.length
       ? h("ul", { class: "plain muted" }, ...m.messages.map((text) => h("li", null, text)))
@@ -91,7 +73,7 @@ function summary() {
 }
 
 export function measuredCard() {
-  effect(fetchColumns);
+  columns.follow(() => chosen.value?.id ?? null, { active: () => view.value === "transient" });
   const input = h("input", {
     type: "file",
     hidden: true,
@@ -125,10 +107,10 @@ export function measuredCard() {
       measured.value ? null : h(
         "button",
         { type: "button", class: "drop", onclick: () => input.click() },
-        h("span", null, busy.value ? "Reading…" : "Choose a CSV file, or drop it here"),
+        h("span", null, isSending.value ? "Reading…" : "Choose a CSV file, or drop it here"),
         h("small", null, "time, pressure, displacement"),
       ),
     summary,
-    h("p", { class: "error", role: "alert" }, () => wrong.value),
+    h("p", { class: "error", role: "alert" }, complaint),
   );
 }

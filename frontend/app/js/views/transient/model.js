@@ -1,75 +1,65 @@
 // @ts-check
-// From the document to the server's run.
-import { batch, computed, effect, signal } from "../../reactive.js";
-import { commit, design, doc, edit, look, preview, view } from "../../state.js";
-import { latest, post } from "../../api.js";
+// The drive, and its run by the server.
+import { computed } from "../../reactive.js";
+import { commit, doc, edit, look, preview, view } from "../../state.js";
+import { design, muscleInput } from "../../muscle/document.js";
+import { fieldMessages, post } from "../../server/client.js";
+import { Question } from "../../server/question.js";
 import { presets, status } from "../../store.js";
-import { muscleInput, preset, presetEffects } from "../design/model.js";
-import {
-  arrangementOf,
-  at,
-  defaultTransient,
-  driveDocument,
-  inclinationOf,
-  inSi,
-  put,
-  takenApart,
-} from "./document.js";
-import { siNumber } from "./units.js";
+import { openDrive } from "../../drive/open.js";
+import { preset, presetEffects as muscleEffects } from "../../muscle/preset.js";
+import { defaultTransient, driveDocument } from "./document.js";
+import { arrangementOf, inclinationOf, inSi, partsOfDrive } from "../../drive/document.js";
+import { at, put } from "../../paths.js";
+import { siNumber } from "../../quantities.js";
 
 /** @typedef {import("../../types.js").Run} Run */
 /** @typedef {import("../../types.js").Preset} Preset */
-/** @typedef {import("./document.js").Drive} Drive */
-/** @typedef {import("./document.js").Transient} Transient */
+/** @typedef {import("../../types.js").Drive} Drive */
+/** @typedef {import("../../types.js").Transient} Transient */
 
-const POINTS = 401, LASTS = 4;
+const POINTS = 401, USUAL_DURATION = 4;
 
 export const transient = computed(() => doc.value.transient);
 export const drive = computed(() => transient.value.drive);
 export const mode = computed(() => transient.value.mode);
 
-export const run = signal(/** @type {Run | null} */ (null));
-/** Why there is no new run: the plots keep the last one, dimmed. */
-export const fault = signal(/** @type {import("../../api.js").ApiError | null} */ (null));
-/** From the request to its answer [ms]. */
-export const roundTrip = signal(0);
-
 // ---- changing the document
 
 /** @typedef {import("../../types.js").Doc} Doc */
 /** @param {Partial<Transient>} patch @returns {(d: Doc) => Doc} */
-export const patchTransient = (patch) => (d) => ({ ...d, transient: { ...d.transient, ...patch } });
+const patchTransient = (patch) => (d) => ({ ...d, transient: { ...d.transient, ...patch } });
 /** @param {Partial<Transient>} patch @param {string} label */
 export const editTransient = (patch, label) => edit(patchTransient(patch), label);
-/** What is looked at is no design decision. @param {Partial<Transient>} patch */
+/** Changes what is shown, without an undo step. @param {Partial<Transient>} patch */
 export const lookTransient = (patch) => look(patchTransient(patch));
 
-/** @param {string} path @param {unknown} value undefined takes it out @param {string} label
+/** @param {string} path @param {unknown} value undefined removes it @param {string} label
  * @param {boolean} [done] false while a slider still moves */
 export function setDrive(path, value, label, done = true) {
   preview((d) => ({ ...d, transient: { ...d.transient, drive: put(d.transient.drive, path, value) } }));
   if (done) commit(label);
 }
 
-/** A number of the drive in SI; null = not given. @param {string} path @returns {number | null} */
+/** A number of the drive in SI; null: not given. @param {string} path @returns {number | null} */
 export const numberAt = (path) => siNumber(at(drive.value, path));
 
 export const arrangement = computed(() => arrangementOf(drive.value.load));
 export const inclination = computed(() => inclinationOf(drive.value.load));
 
-/** The part of a window that lies in a run; null = all of it.
+/** The part of a window that lies in a run; null: all of it.
  * @param {[number, number] | null} range @param {number} duration @returns {[number, number] | null} */
 export function within(range, duration) {
   if (!range || range[0] >= duration) return null;
   return range[1] <= duration ? range : [range[0], duration];
 }
 
-/** How long the run takes [s]. @param {Transient} t */
-const durationOf = (t) => siNumber(t.drive.duration) ?? LASTS;
+/** The duration of the run [s]. @param {Transient} t */
+const durationOf = (t) => siNumber(t.drive.duration) ?? USUAL_DURATION;
 export const duration = computed(() => durationOf(transient.value));
 /** @param {Transient} t */
 const windowOf = (t) => within(t.window, durationOf(t));
-/** The times looked at; null = the whole run. */
+/** The time window shown; null: the whole run. */
 export const timeWindow = computed(() => windowOf(transient.value));
 
 /** The preset of a part of the drive. @param {"valves" | "tubes"} kind @param {string} path */
@@ -86,14 +76,14 @@ const effectsOf = (p) => /** @type {any} */ (inSi(Object.fromEntries(
   ]),
 )));
 
-/** What muscle, valve and tube bring along as long as the effects are not chosen one by one. */
-export const ownEffects = computed(() => ({
-  ...presetEffects.value,
+/** The effects that come with the presets of muscle, valve and tube, unless the user chooses effects. */
+export const presetEffects = computed(() => ({
+  ...muscleEffects.value,
   ...effectsOf(partPreset("valves", "valve.preset")),
   ...effectsOf(partPreset("tubes", "tube.preset")),
 }));
 
-/** Another valve or tube: effects chosen one by one give up those of the old part for those of the new one.
+/** Changes valve or tube. If the user chose effects, those of the old part are replaced by those of the new one.
  * @param {"valves" | "tubes"} kind @param {string} path @param {object | undefined} part
  * @param {string} label */
 export function changePart(kind, path, part, label) {
@@ -109,7 +99,7 @@ export function changePart(kind, path, part, label) {
   }, label);
 }
 
-/** Whether the command is a share of a regulator's range instead of a valve opening. */
+/** Whether a pressure regulator is commanded, by a share of its range, instead of a valve opening. */
 export const regulated = computed(() =>
   Boolean(
     at(drive.value, "regulator") ?? /** @type {any} */ (partPreset("valves", "valve.preset"))?.regulator,
@@ -124,36 +114,24 @@ export const scenario = computed(() =>
 );
 
 const start = defaultTransient().drive;
-/** What "changed" and "reset" refer to: the scenario as it was loaded, else the start of this view.
+/** What fields are compared with and reset to: the scenario as it was loaded, else the default drive.
  * @type {import("../../reactive.js").Signal<Drive>} */
 export const baseDrive = computed(() => {
   const document = scenario.value?.document;
   try {
-    if (document) return /** @type {Drive} */ (takenApart(document, null).transient.drive);
+    if (document) return /** @type {Drive} */ (partsOfDrive(document, null).transient.drive);
   } catch {
-    // a scenario that cannot be read was never loaded
+    // a scenario that cannot be read is not loaded either
   }
   return start;
 });
-
-/** A whole drive document takes the place of muscle, effects and drive; one undo step.
- * @param {Drive} document @param {string | null} id @param {string} label */
-export function openDrive(document, id, label) {
-  const { muscle, effects, transient: part } = takenApart(document, id);
-  edit((d) => ({
-    ...d,
-    view: "transient",
-    design: { ...d.design, muscle, effects, reference: "auto" },
-    transient: { ...d.transient, ...part },
-  }), label);
-}
 
 /** @param {string} id */
 export function useScenario(id) {
   const chosen = scenarios.peek().find((s) => s.id === id);
   if (!chosen?.document) return lookTransient({ scenario: null });
   try {
-    openDrive(chosen.document, id, `scenario ${chosen.title}`);
+    openDrive(chosen.document, { label: `scenario ${chosen.title}`, scenario: id });
     status.value = [chosen.title, chosen.description].filter(Boolean).join(": ");
   } catch (error) {
     status.value = `“${chosen.title}” cannot be opened: ${/** @type {Error} */ (error).message}.`;
@@ -166,7 +144,7 @@ export function useScenario(id) {
 export const documentNow = () =>
   driveDocument(transient.value, muscleInput(design.value.muscle), design.value.effects);
 
-/** What is asked for: a drive, and the rows of the window. @param {Drive} document
+/** The request for a run: the drive, and the time window. @param {Drive} document
  * @param {[number, number] | null} rows */
 export const runRequest = (document, rows) => ({
   drive: document,
@@ -174,53 +152,31 @@ export const runRequest = (document, rows) => ({
   ...(rows ? { from: rows[0], to: rows[1] } : {}),
 });
 
-const request = computed(() => JSON.stringify(runRequest(documentNow(), windowOf(transient.value))));
+/** @param {unknown} body @param {AbortSignal} [signal] @returns {Promise<Run>} */
+export const simulate = (body, signal) => post("/api/simulations", body, signal);
 
-/** @param {unknown} body @param {AbortSignal} [control] @returns {Promise<Run>} */
-export const simulate = (body, control) => post("/api/simulations", body, control);
+const runQuestion = new Question((text, signal) => simulate(JSON.parse(text), signal));
+/** The newest run, why there is no newer one (the plots then keep the last one, dimmed), and how long its request
+ * took [ms]. */
+export const { answer: run, error: fault, took: roundTrip } = runQuestion;
+/** Asks once more, after the server was away. */
+export const retry = () => runQuestion.again();
 
-let asked = "";
-const askRun = latest(
-  async (/** @type {string} */ body, control) => {
-    const began = performance.now();
-    const answer = await simulate(JSON.parse(body), control);
-    return { answer, took: performance.now() - began };
-  },
-  ({ answer, took }) =>
-    batch(() => {
-      fault.value = null;
-      roundTrip.value = took;
-      run.value = answer;
-    }),
-  (error) => {
-    fault.value = error;
-  },
+/** The field of the page for a path of the request. @param {string} path */
+const fieldOf = (path) => path.replace(/^drive\./, "").replace(/^effects\./, "");
+export const { field: faultField, at: messageFor, within: messageWithin } = fieldMessages(
+  () => fault.value,
+  fieldOf,
 );
 
-/** Asks once more, after the server was away. */
-export const retry = () => askRun(request.peek());
-
-/** The field of the page a path of the request belongs to. @param {string} path */
-export const fieldOf = (path) =>
-  path.replace(/^body\./, "").replace(/^drive\./, "").replace(/^effects\./, "");
-
-/** The message for a field or a part of the drive, by its path. @param {string} key */
-export function messageFor(key) {
-  const told = fault.value;
-  return told?.field && fieldOf(told.field) === key ? told.words : null;
-}
-
-/** The muscle by name and length. */
+/** The name of the muscle. */
 export const muscleName = computed(() => preset.value?.title ?? "Own geometry");
 
-/** Asking rests while another view is shown. */
+/** Nothing is asked while another view is shown. */
 export const shownNow = computed(() => view.value === "transient");
 
-/** Starts asking; called once, when the view is built. It rests while another view is shown. */
-export function startRuns() {
-  effect(() => {
-    if (!shownNow.value || request.value === asked) return;
-    asked = request.value;
-    askRun(asked);
+/** Starts asking; called once, when the view is built. */
+export const startRuns = () =>
+  runQuestion.follow(() => JSON.stringify(runRequest(documentNow(), windowOf(transient.value))), {
+    active: () => shownNow.value,
   });
-}

@@ -1,41 +1,25 @@
 // @ts-check
 // The page of the Transient view: inputs, motion and plots, figures.
-import { append, h, icon } from "../../dom.js";
+import { append, h } from "../../dom.js";
 import { computed } from "../../reactive.js";
-import { stageCard } from "./animation.js";
-import { paired, plotCards } from "./charts.js";
-import { figureCards } from "./figures.js";
+import { stageCard } from "./motion/animation.js";
+import { paired, plotCards } from "./plots/charts.js";
+import { figureCards } from "./figures/figures.js";
 import { measuredCard } from "./measured.js";
-import { fault, fieldOf, retry, run, startRuns } from "./model.js";
-import { inputCards } from "./panel.js";
-import { startPins } from "./pin-runs.js";
-import { compareCard } from "./pins.js";
+import { faultNotice, goToField } from "../../ui/fault.js";
+import { fault, faultField, retry, run, startRuns } from "./model.js";
+import { inputCards } from "./inputs/panel.js";
+import { startPins } from "./pinned-runs.js";
+import { compareCard } from "./pinned/card.js";
 import { startStatics } from "./statics.js";
 
-/** @param {string} path */
-function goToField(path) {
-  const root = document.querySelector(".transient");
-  for (let key = fieldOf(path); key; key = key.replace(/\.?[^.]*$/, "")) {
-    const box = root?.querySelector(`[data-field="${CSS.escape(key)}"]`);
-    box?.closest("details")?.setAttribute("open", "");
-    const input = box?.querySelector("input, select");
-    if (input instanceof HTMLElement) return input.focus();
-  }
-}
-
 function notice() {
-  const told = fault.value;
-  if (!told) return null;
-  const { field } = told;
-  return h(
-    "div",
-    { class: "notice bad", role: "alert" },
-    icon("warn"),
-    h("span", null, told.words, run.value ? " The plots show the last run that was possible." : ""),
-    field
-      ? h("button", { type: "button", onclick: () => goToField(field) }, "Go to the field")
-      : h("button", { type: "button", onclick: retry }, "Try again"),
-  );
+  const error = fault.value, field = faultField();
+  if (!error) return null;
+  return faultNotice(`${error.words}${run.value ? " The plots show the last valid run." : ""}`, {
+    goTo: field === null ? null : () => goToField(field, ".transient"),
+    retry,
+  });
 }
 
 export function transientPage() {

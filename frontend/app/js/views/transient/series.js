@@ -1,12 +1,12 @@
 // @ts-check
-// Columns of runs and of measurements: looked up, put on other times, told from impacts. Pure functions.
+// Columns of runs and measurements: values at other times, contact intervals, the row at a time. Pure functions.
 
 /** @typedef {import("../../types.js").Run} Run */
 /** @typedef {import("../../types.js").Measured} Measured */
 
 const MOST_DOTS = 400;
 
-/** Values of a run at other times, straight between its rows; nothing outside of them.
+/** Values of a run at other times, interpolated linearly; null outside the run.
  * @param {number[]} time @param {(number | null)[]} values @param {number[]} wanted */
 export function resampled(time, values, wanted) {
   let k = 0;
@@ -20,28 +20,28 @@ export function resampled(time, values, wanted) {
   });
 }
 
-/** Intervals of the run in contact with a stop. @param {Run} run @returns {[number, number][]} */
+/** Time intervals in contact with a stop. @param {Run} run @returns {[number, number][]} */
 export function contacts({ time, contact }) {
   /** @type {[number, number][]} */
-  const found = [];
+  const intervals = [];
   contact.forEach((on, i) => {
     if (!on) return;
-    const last = found.at(-1);
+    const last = intervals.at(-1);
     if (last && contact[i - 1]) last[1] = time[i];
-    else found.push([time[i], time[i]]);
+    else intervals.push([time[i], time[i]]);
   });
-  return found.filter(([from, to]) => to > from);
+  return intervals.filter(([from, to]) => to > from);
 }
 
-/** The wide values of a run without what a stop adds: an impact would flatten everything else.
+/** Values of a run without those at a stop, where an impact would dwarf all others.
  * @param {Run} run @param {(number | null)[]} values */
 export function withoutImpacts({ contact }, values) {
   return values.map((v, i) => contact[i - 1] || contact[i] || contact[i + 1] ? null : v);
 }
 
-/** The points of a measured channel within the times shown, few enough to draw.
+/** The points of a measured channel in a time range, thinned out for drawing.
  * @param {Measured | null} measured @param {[number, number]} span
- * @param {string[]} names the first channel there is */
+ * @param {string[]} names of channels; the first one present is taken */
 export function measuredColumn(measured, [from, to], names) {
   const time = /** @type {number[] | undefined} */ (measured?.columns.time);
   const name = names.find((one) => measured?.columns[one]);
@@ -53,7 +53,7 @@ export function measuredColumn(measured, [from, to], names) {
   return { x: kept.map((i) => time[i]), y: kept.map((i) => y[i]) };
 }
 
-/** The row of a run nearest to an instant. @param {number[]} time @param {number} t */
+/** The row of a run nearest to a time. @param {number[]} time @param {number} t */
 export function rowAt(time, t) {
   let low = 0, high = time.length - 1;
   while (high - low > 1) {
@@ -62,4 +62,12 @@ export function rowAt(time, t) {
     else high = middle;
   }
   return t - time[low] <= time[high] - t ? low : high;
+}
+
+/** The contraction of both muscles of an antagonist pair at position 0; 0 for a single muscle. @param {Run} run */
+export function middleOf(run) {
+  const k = run.contraction.findIndex((v) => v != null);
+  return run.joint && k >= 0
+    ? (run.contraction[k] ?? 0) - (run.position[k] ?? 0) / run.geometry.nominal_length
+    : 0;
 }

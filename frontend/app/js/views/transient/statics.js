@@ -1,9 +1,9 @@
 // @ts-check
-// The muscle at rest, behind the phase plot: its curves while filling and while venting.
-import { computed, effect, signal } from "../../reactive.js";
-import { design } from "../../state.js";
-import { latest, post } from "../../api.js";
-import { muscleInput } from "../design/model.js";
+// Static curves of the muscle for the phase plot, while filling and while venting.
+import { computed } from "../../reactive.js";
+import { design, muscleInput } from "../../muscle/document.js";
+import { post } from "../../server/client.js";
+import { Question } from "../../server/question.js";
 import { numberAt, shownNow } from "./model.js";
 
 /** @typedef {import("../../types.js").Curves} Curves */
@@ -11,45 +11,24 @@ import { numberAt, shownNow } from "./model.js";
 
 const PRESSURES = 11, POINTS = 90, AFTER_MS = 60;
 
-/** Static curves in both directions, from no pressure up to the supply. */
-export const statics = signal(/** @type {Statics | null} */ (null));
+const staticsQuestion = new Question(async (text, signal) => {
+  const [filling, venting] = await Promise.all(
+    [-1, 1].map((direction) => post("/api/curves", { ...JSON.parse(text), direction }, signal)),
+  );
+  return /** @type {Statics} */ ({ filling, venting });
+});
+/** Static curves in both directions, from no pressure up to the supply. Without them the message of the run says
+ * what is wrong with the muscle. */
+export const statics = computed(() => staticsQuestion.error.value ? null : staticsQuestion.answer.value);
 const supplyPressure = computed(() => Math.max(numberAt("supply.pressure") ?? 6e5, 1e4));
 
-const request = computed(() =>
-  JSON.stringify({
-    muscle: muscleInput(design.value.muscle),
-    effects: design.value.effects,
-    pressures: Array.from({ length: PRESSURES + 1 }, (_, i) => (i * supplyPressure.value) / PRESSURES),
-    points: POINTS,
-    temperature: numberAt("gas.temperature") ?? 293.15,
-  })
-);
-
-const ask = latest(
-  async (/** @type {string} */ body, control) => {
-    const [filling, venting] = await Promise.all(
-      [-1, 1].map((direction) => post("/api/curves", { ...JSON.parse(body), direction }, control)),
-    );
-    return { filling, venting };
-  },
-  (answer) => {
-    statics.value = answer;
-  },
-  () => {
-    statics.value = null; // the run's own message says what is wrong with the muscle
-  },
-);
-
 /** Starts asking; called once. */
-export function startStatics() {
-  let timer = 0, asked = "";
-  effect(() => {
-    const body = request.value;
-    if (!shownNow.value || body === asked) return;
-    clearTimeout(timer);
-    timer = setTimeout(() => {
-      asked = body;
-      ask(body);
-    }, AFTER_MS);
-  });
-}
+export const startStatics = () =>
+  staticsQuestion.follow(() =>
+    JSON.stringify({
+      muscle: muscleInput(design.value.muscle),
+      effects: design.value.effects,
+      pressures: Array.from({ length: PRESSURES + 1 }, (_, i) => (i * supplyPressure.value) / PRESSURES),
+      points: POINTS,
+      temperature: numberAt("gas.temperature") ?? 293.15,
+    }), { delay: AFTER_MS, active: () => shownNow.value });

@@ -1,0 +1,153 @@
+// @ts-check
+// Drive documents: supply, valve, tube, load, command or controller of a muscle, as scenarios, files and the
+// server have them. Pure functions; the server checks what the numbers mean.
+import { isObject } from "../paths.js";
+import { siNumber } from "../quantities.js";
+
+/** @typedef {import("../types.js").Drive} Drive */
+/** @typedef {import("../types.js").DriveArrangement} Arrangement */
+/** @typedef {import("../types.js").Transient} Transient */
+
+/** @returns {Drive} an example: a weight is lifted and lowered once */
+export const defaultDrive = () => ({
+  supply: { pressure: 5.5e5 },
+  valve: { preset: "MPYE-5-1/8-HF" },
+  tube: { preset: "PUN-H-4x0.75", length: 1 },
+  load: { mass: 50, arrangement: "hanging" },
+  command: { shape: "pulse", on: 0, off: 1 },
+  controller: {
+    type: "pid",
+    kp: 2,
+    ki: 10,
+    kd: 0.01,
+    reference: { shape: "triangle", amplitude: 0.02, period: 1 },
+  },
+  stops: { max_contraction: 0.12 },
+  gas: { polytropic_exponent: 1.2 },
+  duration: 2,
+});
+
+/** Gains without a unit are percent of full command per millimetre. */
+const GAINS = new Set(["kp", "ki", "kd", "feed_forward"]);
+const PERCENT_PER_MM = 10;
+/** Texts that are names, not quantities. */
+const NAMES = new Set(["shape", "preset", "arrangement", "type", "interpolation", "title"]);
+
+/** The document with every quantity such as "6 bar" as a number in SI; what cannot be read stays for the server.
+ * @param {any} part @param {string} [key] @returns {any} */
+export function inSi(part, key = "") {
+  if (NAMES.has(key) || key === "fittings") return part;
+  if (isObject(part)) {
+    if (Array.isArray(part.values) && typeof part.unit === "string") {
+      return part.values.map((/** @type {unknown} */ v) => siNumber(`${v} ${part.unit}`) ?? v);
+    }
+    return Object.fromEntries(Object.entries(part).map(([name, value]) => [name, inSi(value, name)]));
+  }
+  if (Array.isArray(part)) return part.map((value) => inSi(value, key));
+  if (typeof part !== "string") return part;
+  const si = siNumber(part);
+  if (si === null) return part;
+  return GAINS.has(key) && /[a-z%]/i.test(part) ? si / PERCENT_PER_MM : si;
+}
+
+/** Only numbers, texts, lists and objects, not nested deeply.
+ * @param {unknown} x @param {number} [depth] @returns {boolean} */
+function isPlain(x, depth = 0) {
+  if (x === null || typeof x === "boolean" || typeof x === "string") return true;
+  if (typeof x === "number") return Number.isFinite(x);
+  if (depth > 6 || typeof x !== "object") return false;
+  return Object.values(x).every((/** @type {unknown} */ one) => isPlain(one, depth + 1));
+}
+
+/** @param {unknown} raw @returns {raw is Drive} */
+export const isDrive = (raw) => isObject(raw) && isPlain(raw);
+
+/** Whether this is a drive document, as opposed to a document of this page.
+ * @param {unknown} raw @returns {raw is Drive} */
+export const isDriveDocument = (raw) =>
+  isObject(raw) && !("design" in raw) && isObject(raw.muscle) && isDrive(raw);
+
+const UPRIGHT = Math.PI / 2, TILTED = Math.PI / 6, LEVER = 2, PULLEY = 0.03;
+/** The inclination of the load in each arrangement, unless the document gives it.
+ * @type {Record<Arrangement, number>} */
+const INCLINED = { hanging: UPRIGHT, inclined: UPRIGHT, horizontal: 0, lever: UPRIGHT, antagonist: 0 };
+const near = (/** @type {number} */ a, /** @type {number} */ b) => Math.abs(a - b) < 1e-3;
+
+/** The arrangement of the load, from its numbers if the document does not name it. @param {Drive | undefined} load
+ * @returns {Arrangement} */
+export function arrangementOf(load) {
+  if (load?.arrangement) return load.arrangement;
+  const angle = siNumber(load?.inclination) ?? UPRIGHT, ratio = siNumber(load?.lever_ratio);
+  if (ratio !== null && ratio !== 1) return "lever";
+  return near(angle, UPRIGHT) ? "hanging" : near(angle, 0) ? "horizontal" : "inclined";
+}
+
+/** The inclination of the direction of motion against the horizontal [rad]. @param {Drive | undefined} load */
+export const inclinationOf = (load) =>
+  siNumber(load?.inclination) ?? INCLINED[arrangementOf(load)] ?? UPRIGHT;
+
+/** The load with the name of its arrangement, so that moving a slider does not change the arrangement.
+ * @param {Drive} load */
+export function withArrangement(load) {
+  const arrangement = arrangementOf(load), { inclination, ...rest } = load;
+  const fixed = arrangement === "hanging" || arrangement === "horizontal";
+  const isUsual = fixed && near(siNumber(inclination) ?? INCLINED[arrangement], INCLINED[arrangement]);
+  return isUsual ? { ...rest, arrangement } : { ...load, arrangement };
+}
+
+/** The same load in another arrangement, with the fields that arrangement needs and without others.
+ * @param {Drive} load @param {Arrangement} next @param {number} middle contraction in the middle between the stops
+ * @returns {Drive} */
+export function rearranged(load, next, middle) {
+  const { pulley_radius: _r, precontraction: _e, lever_ratio: ratio, inclination, ...rest } = load;
+  const angle = siNumber(inclination);
+  const tilted = angle === null || near(angle, 0) || near(angle, UPRIGHT) ? TILTED : angle;
+  /** @type {Record<Arrangement, object>} */
+  const fields = {
+    hanging: {},
+    horizontal: {},
+    inclined: { inclination: tilted },
+    lever: { lever_ratio: ratio ?? LEVER, ...(inclination === undefined ? {} : { inclination }) },
+    antagonist: { pulley_radius: PULLEY, precontraction: middle },
+  };
+  return { ...rest, arrangement: next, ...fields[next] };
+}
+
+const GEOMETRY = [
+  "nominal_length",
+  "braid_diameter",
+  "braid_angle",
+  "thread_length",
+  "turns",
+  "inside_diameter",
+  "wall_thickness",
+];
+
+/** A drive document in parts: muscle and effects for the design, the rest for the Transient view.
+ * @param {Drive} document @param {string | null} scenario
+ * @returns {{muscle: import("../types.js").Muscle, effects: Record<string, Record<string, number>> | null,
+ *   transient: Partial<Transient>}} @throws {Error} */
+export function partsOfDrive(document, scenario) {
+  const { schema: _schema, muscle, effects, ...rest } = inSi(document);
+  if (!isObject(muscle)) throw new Error("“muscle” is missing");
+  const { preset = null, rhombus, ...geometry } = muscle;
+  const values = Object.fromEntries(
+    [...Object.entries(geometry), ...Object.entries(rhombus ?? {})].filter(([, v]) => typeof v === "number"),
+  );
+  const unknown = Object.keys(geometry).filter((key) => !(key in values) || !GEOMETRY.includes(key));
+  if (unknown.length) throw new Error(`“muscle.${unknown[0]}” cannot be read`);
+  if (isObject(rest.load)) rest.load = withArrangement(rest.load);
+  const form = rhombus ? "rhombus" : "turns" in values || "thread_length" in values ? "thread" : "braid";
+  const start = defaultDrive();
+  return {
+    muscle: { preset, form, values },
+    effects: effects ?? null,
+    transient: {
+      drive: { command: start.command, controller: start.controller, ...rest },
+      mode: rest.controller ? "controller" : "command",
+      scenario,
+      window: null,
+      phase: null,
+    },
+  };
+}

@@ -1,0 +1,76 @@
+// @ts-check
+// What is known about an effect: cause, equation, parameters with sources, similar effects, references.
+import { h, mathml } from "../dom.js";
+import { units } from "../state.js";
+import { effectsById } from "../store.js";
+import { number, plainScale, quantityOf, scaleOf, toShown } from "../format.js";
+import { gradeTag } from "../ui/sources.js";
+
+/** @param {import("../types.js").Parameter} p */
+function parameterRow(p) {
+  const quantity = quantityOf(p.unit, p.name);
+  const s = quantity ? scaleOf(quantity, units.peek()) : plainScale(p.unit);
+  const show = (/** @type {number} */ si) => number(toShown(si, s), s.digits);
+  return h(
+    "tr",
+    null,
+    h("td", null, mathml(p.symbol_mathml)),
+    h(
+      "td",
+      { class: "text" },
+      p.description,
+      h("small", { class: "source" }, p.source.text, " ", gradeTag(p.source.grade)),
+    ),
+    h("td", null, show(p.default)),
+    h("td", null, `${show(p.lower)} … ${show(p.upper)}`),
+    h("td", { class: "text" }, s.unit || "–"),
+  );
+}
+
+/** @param {import("../types.js").Effect} e */
+export function effectNote(e) {
+  const titleOf = (/** @type {string} */ id) => effectsById.peek().get(id)?.title ?? id;
+  return h(
+    "div",
+    null,
+    h("h3", null, e.title),
+    h("p", null, e.cause),
+    h(
+      "div",
+      { class: "equation", tabindex: 0, role: "region", "aria-label": "Equation" },
+      mathml(e.equation_mathml),
+    ),
+    e.parameters.length
+      ? h(
+        "table",
+        { class: "data small" },
+        h(
+          "thead",
+          null,
+          h(
+            "tr",
+            null,
+            h("td", null),
+            ...["Parameter", "Default", "Range", "Unit"].map((t, i) =>
+              h("th", { scope: "col", class: i % 3 ? "" : "text" }, t)
+            ),
+          ),
+        ),
+        h("tbody", null, ...e.parameters.map(parameterRow)),
+      )
+      : null,
+    h("h4", null, "What it looks like in the residual"),
+    h("p", null, e.signature.text),
+    e.kinds.length ? h("p", { class: "muted" }, `Visible in ${e.kinds.join(", ")} tests.`) : null,
+    e.confused_with.length ? h("h4", null, "Easily confused with") : null,
+    e.confused_with.length
+      ? h(
+        "ul",
+        { class: "plain" },
+        ...e.confused_with.map((c) => h("li", null, h("b", null, titleOf(c.effect)), `: ${c.separated_by}`)),
+      )
+      : null,
+    e.references.length ? h("h4", null, "References") : null,
+    h("ul", { class: "plain" }, ...e.references.map((r) => h("li", null, r.text, " ", gradeTag(r.grade)))),
+  );
+}

@@ -1,0 +1,149 @@
+// @ts-check
+// The force of a muscle over its contraction: one line per pressure, measured points, limits. Pure functions.
+import { scaleOf, siOf, toShown, withUnit } from "../format.js";
+import { axisTitle, extent, shown, steadyRange } from "../plots/axes.js";
+import { pressureColour } from "../plots/theme.js";
+import { ACROSS, acrossAt, pressureName, shareOf, xAxis, xColumn } from "./curve-axes.js";
+
+/** @typedef {import("../plots/chart.js").Spec} Spec */
+/** @typedef {import("../plots/chart.js").Trace} Trace */
+/** @typedef {import("../plots/chart.js").Zone} Zone */
+/** @typedef {import("../plots/theme.js").Palette} Palette */
+/** @typedef {import("../format.js").Quantity} Quantity */
+/** @typedef {import("./curve-axes.js").View} View */
+
+/** Contractions outside the limits of the maker. @param {View} v @param {[number, number]} range
+ * @returns {Zone[]} */
+export function limitZones(v, range) {
+  const { max_contraction, max_pretension } = v.curves.limits;
+  const s = scaleOf(ACROSS[v.across].quantity, v.system);
+  const at = (/** @type {number} */ k) => toShown(acrossAt(v.curves, v.across, k), s);
+  /** @type {Zone[]} */
+  const zones = [];
+  const rising = v.across !== "length";
+  /** @param {number} from @param {boolean} up @param {string} text */
+  const add = (from, up, text) => {
+    const to = up ? range[1] : range[0];
+    if (up ? from < to : from > to) zones.push({ x: from < to ? [from, to] : [to, from], y: null, text });
+  };
+  if (max_contraction != null) add(at(max_contraction), rising, "contraction limit");
+  if (max_pretension != null) add(at(-max_pretension), !rising, "pretension limit");
+  return zones;
+}
+
+/** @param {View} v @param {Palette} p @param {"force" | "stiffness" | "stiffness_closed"} what
+ * @param {Quantity} quantity
+ * @param {string} [dash] @returns {Trace[]} */
+export function curveFamily(v, p, what, quantity, dash) {
+  const x = xColumn(v);
+  // A slack muscle has no stiffness; a line down to zero would look like a jump.
+  const slack = (/** @type {number} */ i, /** @type {number} */ k) =>
+    what !== "force" && v.curves.force[i][k] === 0;
+  return v.curves[what].map((row, i) => ({
+    id: `${what}${i}`,
+    x,
+    y: shown(row.map((y, k) => slack(i, k) ? null : y), quantity, v.system),
+    line: { color: pressureColour(shareOf(v.curves.pressure[i], v.curves), p), width: dash ? 1.5 : 2, dash },
+    column: `${what === "stiffness_closed" ? "closed valve, " : ""}${pressureName(v, v.curves.pressure[i])}`,
+  }));
+}
+
+/** The measured points or the curve of the maker; `left`: indices of those left out. @param {View} v */
+function referencePoints(v) {
+  const columns = v.reference?.data_columns;
+  if (!columns?.force || !columns.pressure) return null;
+  const si = (/** @type {string} */ name) =>
+    columns[name]?.values.map((value) => siOf({ value, unit: columns[name].unit }));
+  const measuredLength = v.reference?.nominal_length;
+  const nominal = measuredLength ? siOf(measuredLength) : v.curves.geometry.nominal_length;
+  const contraction = si("contraction") ?? si("length")?.map((length) => 1 - length / nominal);
+  if (!contraction) return null;
+  const left = new Set(v.reference?.excluded?.map((e) => e.index) ?? []);
+  v.reference?.slack?.forEach((flag, i) => flag && left.add(i));
+  return {
+    contraction,
+    pressure: /** @type {number[]} */ (si("pressure")),
+    force: /** @type {number[]} */ (si("force")),
+    left,
+  };
+}
+
+/** @param {View} v @param {Palette} p @param {[number, number]} range @returns {Trace[]} */
+function pointTraces(v, p, range) {
+  const points = referencePoints(v);
+  if (!points) return [];
+  const s = scaleOf(ACROSS[v.across].quantity, v.system);
+  const x = points.contraction.map((k) => toShown(acrossAt(v.curves, v.across, k), s));
+  const y = shown(points.force, "force", v.system);
+  const inside = x.map((at) => at >= range[0] - 1e-9 && at <= range[1] + 1e-9);
+  /** @param {boolean} excluded @param {string} id @param {string} symbol @param {number} size
+   * @returns {Trace} */
+  const trace = (excluded, id, symbol, size) => {
+    const keep = [...x.keys()].filter((i) => inside[i] && points.left.has(i) === excluded);
+    return {
+      id,
+      x: keep.map((i) => x[i]),
+      y: keep.map((i) => y[i]),
+      marker: {
+        size,
+        symbol,
+        color: excluded ? p.soft : keep.map((i) => pressureColour(shareOf(points.pressure[i], v.curves), p)),
+      },
+    };
+  };
+  return [trace(true, "left-out", "x-thin-open", 4), trace(false, "points", "circle-open", 5)];
+}
+
+/** @param {View} v @param {Palette} p @returns {Spec} */
+export function forceSpec(v, p) {
+  const { curves, across, system } = v;
+  const x = xAxis(v, "force");
+  const lines = curveFamily(v, p, "force", "force");
+  const points = pointTraces(v, p, x.range);
+  const load = toShown(curves.over_pressure?.load ?? 0, scaleOf("force", system));
+  const [low, high] = extent([...lines.map((t) => t.y), ...points.map((t) => t.y), [load * 1.02, 0]]);
+  const y = {
+    title: axisTitle("Force", "force", system),
+    range: steadyRange(`${v.place}force${system}`, low, Math.max(high, 1e-3)),
+  };
+  const dots = curves.operating_points.map((o) => o.contraction);
+  const s = scaleOf(ACROSS[across].quantity, system);
+  const zones = limitZones(v, x.range);
+  const most = curves.limits.max_force;
+  const top = most == null ? Infinity : toShown(most, scaleOf("force", system));
+  if (top < y.range[1]) zones.push({ x: null, y: [top, y.range[1]], text: "force limit" });
+  return {
+    x,
+    y,
+    zones,
+    revision: `${across}${system}`,
+    level: curves.over_pressure
+      ? { y: load, text: `Load ${withUnit(curves.over_pressure.load, "force", system)}` }
+      : undefined,
+    traces: [
+      ...points,
+      ...lines,
+      {
+        id: "operating-points",
+        x: dots.map((k) => k == null ? null : toShown(acrossAt(curves, across, k), s)),
+        y: dots.map(() => load),
+        marker: { size: 9, symbol: "circle", color: p.load, edge: p.card },
+      },
+    ],
+    labels: lines.map((t, i) => lineLabel(t, i, v, x.range, across === "length")).filter((l) => l !== null),
+  };
+}
+
+/** The pressure, written beside the start of its line. @param {Trace} t @param {number} i @param {View} v
+ * @param {[number, number]} range @param {boolean} fromRight */
+function lineLabel(t, i, v, range, fromRight) {
+  const at = range[fromRight ? 1 : 0];
+  let best = 0;
+  t.x.forEach((value, k) => {
+    const nearest = /** @type {number} */ (t.x[best]);
+    if (value != null && Math.abs(value - at) < Math.abs(nearest - at)) best = k;
+  });
+  const y = t.y[best], x = t.x[best];
+  if (y == null || x == null || y <= 0) return null;
+  return { text: pressureName(v, v.curves.pressure[i]), x, y, color: t.line?.color ?? "" };
+}

@@ -1,0 +1,138 @@
+// @ts-check
+// Requests to the server, and the one shape of its errors.
+
+export class ApiError extends Error {
+  /** @param {string} message @param {{field?: string | null, hint?: string | null, status?: number}} [more]
+   */
+  constructor(message, { field = null, hint = null, status = 0 } = {}) {
+    super(message);
+    this.field = field;
+    this.hint = hint;
+    this.status = status;
+  }
+  /** Message and hint as sentences. */
+  get words() {
+    return [this.message, this.hint].filter((text) => text != null && text !== "").map(sentence).join(" ");
+  }
+}
+
+/** @param {string | null} text */
+const sentence = (text) =>
+  String(text).replace(/^[a-z]/, (c) => c.toUpperCase()).replace(/([^.!?:])$/, "$1.");
+
+/** @param {string} path @param {RequestInit} [init] */
+async function reach(path, init) {
+  try {
+    return await fetch(path, init);
+  } catch (error) {
+    if (init?.signal?.aborted) throw error;
+    throw new ApiError("The server does not answer. Is “mckibben serve” still running?");
+  }
+}
+
+/** @param {Response} response */
+async function answerOf(response) {
+  const body = await response.json().catch(() => null);
+  if (response.ok && body) return body;
+  throw errorOf(body, response.status);
+}
+
+/** @param {any} body @param {number} status */
+const errorOf = (body, status) =>
+  new ApiError(body?.error?.message ?? `The server answered with status ${status}.`, {
+    field: body?.error?.field,
+    hint: body?.error?.hint,
+    status,
+  });
+
+/** @param {string} path @param {RequestInit} [init] */
+const request = async (path, init) => answerOf(await reach(path, init));
+
+/** @param {string} path @param {AbortSignal} [signal] */
+export const get = (path, signal) => request(path, { signal });
+
+/** @param {string} path @param {unknown} body @param {AbortSignal} [signal] */
+export const post = (path, body, signal) =>
+  request(path, {
+    method: "POST",
+    headers: { "content-type": "application/json" },
+    body: JSON.stringify(body),
+    signal,
+  });
+
+/** Sends a file as it is. @param {"PUT" | "POST"} method @param {string} path @param {Blob} file
+ * @param {AbortSignal} [signal] */
+export const sendFile = (method, path, file, signal) => request(path, { method, body: file, signal });
+
+/** An answer that is text instead of JSON. @param {string} path @param {unknown} body */
+export async function postForText(path, body) {
+  const response = await reach(path, {
+    method: "POST",
+    headers: { "content-type": "application/json" },
+    body: JSON.stringify(body),
+  });
+  return response.ok ? response.text() : answerOf(response);
+}
+
+/** One event of a stream: its name and its data. @param {string} text
+ * @returns {{event: string, data: any} | null} */
+function readEvent(text) {
+  /** @type {Record<string, string>} */
+  const parts = {};
+  for (const line of text.split(/\r?\n/)) {
+    const [, key, value] = /^(\w+): ?(.*)$/.exec(line) ?? [];
+    if (key) parts[key] = key in parts ? `${parts[key]}\n${value}` : value;
+  }
+  return parts.data === undefined ? null : { event: parts.event ?? "message", data: JSON.parse(parts.data) };
+}
+
+/** Long work whose answer comes as events, the last of which is "done".
+ * @param {string} path @param {unknown} body @param {(event: string, data: any) => void} onEvent for every event
+ * before
+ * @param {AbortSignal} signal ends the work on the server too
+ * @returns {Promise<any>} the data of "done" */
+export async function postForEvents(path, body, onEvent, signal) {
+  const response = await reach(path, {
+    method: "POST",
+    headers: { "content-type": "application/json", accept: "text/event-stream" },
+    body: JSON.stringify(body),
+    signal,
+  });
+  if (!response.headers.get("content-type")?.startsWith("text/event-stream")) return answerOf(response);
+  const reader = /** @type {ReadableStream<Uint8Array<ArrayBuffer>>} */ (response.body)
+    .pipeThrough(new TextDecoderStream()).getReader();
+  let rest = "";
+  for (;;) {
+    const { done, value } = await reader.read();
+    const blocks = (rest + (value ?? "")).split(/\r?\n\r?\n/);
+    rest = blocks.pop() ?? "";
+    for (const block of blocks) {
+      const { event, data } = readEvent(block) ?? {};
+      if (event === "done") return data;
+      if (event === "error") throw errorOf(data.error ? data : { error: data }, 422);
+      if (event && !signal.aborted) onEvent(event, data);
+    }
+    if (done) throw new ApiError("The connection ended before the work was done.");
+  }
+}
+
+/** Which field of the page the message of a refused request belongs to.
+ * @param {() => ApiError | null} error the error to show, if there is one
+ * @param {(path: string) => string} keyOf the field of the page for a path of the request */
+export function fieldMessages(error, keyOf) {
+  const keyOfError = () => {
+    const path = error()?.field;
+    return path ? keyOf(path.replace(/^body\.?/, "")) : null;
+  };
+  return {
+    /** The field of the page the error belongs to. */
+    field: keyOfError,
+    /** The message for a field. @param {string} key */
+    at: (key) => keyOfError() === key ? error()?.words ?? null : null,
+    /** The message for a field or for one inside it. @param {string} key */
+    within: (key) => {
+      const field = keyOfError();
+      return field === key || field?.startsWith(`${key}.`) ? error()?.words ?? null : null;
+    },
+  };
+}

@@ -1,0 +1,37 @@
+// @ts-check
+// Measurement files on the server: read for a look, kept, fetched again.
+import { get, sendFile } from "./client.js";
+
+/** @typedef {import("../types.js").S} S */
+/** @typedef {S["MeasurementAnswer"]} FileInfo */
+/** @typedef {S["PreviewAnswer"]} Preview */
+/** What the user says beyond a file.
+ * @typedef {{columns?: Record<string, {channel: string, unit?: string, absolute?: boolean} | null>,
+ *   kind?: string, conditions?: Record<string, string | null>, bad_rows?: "skip"}} Mapping */
+
+const MOST_BYTES = 64e6;
+
+/** Why a file is not sent at all; null = it is. @param {File} file */
+export const refusal = (file) => file.size > MOST_BYTES ? "The file is larger than 64 MB." : null;
+
+/** @param {File} file @param {Mapping} mapping */
+const query = (file, mapping) => {
+  const said = Object.keys(mapping).length ? `&mapping=${encodeURIComponent(JSON.stringify(mapping))}` : "";
+  return `?name=${encodeURIComponent(file.name)}${said}`;
+};
+
+/** How a file would be read. @param {File} file @param {Mapping} mapping @param {AbortSignal} [signal]
+ * @returns {Promise<Preview>} */
+export const previewOf = (file, mapping, signal) =>
+  sendFile("POST", `/api/measurements/preview${query(file, mapping)}`, file, signal);
+
+/** Sends a file to be kept. @param {File} file @param {Mapping} [mapping] @returns {Promise<FileInfo>} */
+export const keep = (file, mapping = {}) => sendFile("PUT", `/api/measurements${query(file, mapping)}`, file);
+
+/** A kept file with its columns. @param {string} id @param {AbortSignal} [signal]
+ * @returns {Promise<S["MeasurementDetail"]>} */
+export const measurement = (id, signal) => get(`/api/measurements/${id}`, signal);
+
+/** What to say when a file that a document names cannot be fetched. @param {import("./client.js").ApiError} error */
+export const missingFile = (error) =>
+  error.status === 404 ? "This server does not have the file. Choose it once more." : error.words;

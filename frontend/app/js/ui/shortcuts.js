@@ -1,0 +1,51 @@
+// @ts-check
+// The keyboard shortcuts, and the list of them behind “?”.
+import { h } from "../dom.js";
+import { openDialog } from "./dialog.js";
+
+/** @typedef {{keys: string, what: string, match: (e: KeyboardEvent) => boolean, run: () => void,
+ *   typing?: boolean}} Shortcut  `typing`: also while a text field has the focus */
+
+/** Keys of the element that has the focus, for the list only. @type {[string, string][]} */
+const ELSEWHERE = [
+  ["← → ↑ ↓", "Move a slider, a value or the load line; Shift or Page keys: ten steps"],
+  ["Enter", "Apply the typed value; units are allowed: 30 cm, 6 bar"],
+  ["Esc", "Close a dialog, leave a field unchanged"],
+  ["Drag, double click", "Zoom into a plot, reset the zoom"],
+];
+
+/** @param {Shortcut[]} table */
+export function listenToKeys(table) {
+  addEventListener("keydown", (event) => {
+    const target = /** @type {HTMLElement} */ (event.target);
+    const typing = target.matches?.("input:not([type=range], [type=checkbox]), textarea, select");
+    if (document.querySelector("dialog[open]")) return;
+    const hit = table.find((s) => s.match(event) && (!typing || s.typing));
+    if (!hit) return;
+    event.preventDefault();
+    hit.run();
+  });
+}
+
+/** @param {string} key */
+export const plain = (key) => (/** @type {KeyboardEvent} */ e) =>
+  e.key === key && !e.ctrlKey && !e.metaKey && !e.altKey;
+/** @param {string} key @param {boolean} [shift] */
+export const control = (key, shift = false) => (/** @type {KeyboardEvent} */ e) =>
+  e.key.toLowerCase() === key && (e.ctrlKey || e.metaKey) && e.shiftKey === shift;
+
+/** @param {Shortcut[]} table */
+export function showShortcuts(table) {
+  const rows = [...table.map((s) => [s.keys, s.what]), ...ELSEWHERE];
+  openDialog(
+    { title: "Keyboard" },
+    h(
+      "dl",
+      { class: "keys" },
+      ...rows.flatMap(([keys, what]) => [
+        h("dt", null, ...keys.split(" ").map((k) => h("kbd", null, k))),
+        h("dd", null, what),
+      ]),
+    ),
+  );
+}

@@ -1,0 +1,140 @@
+// @ts-check
+// The answers of the server: first the comparison of model and measurement, then the diagnosis.
+import { batch, computed, signal } from "../../reactive.js";
+import { doc, edit, look, view } from "../../state.js";
+import { fieldMessages, post, postForEvents } from "../../server/client.js";
+import { Memory, Question } from "../../server/question.js";
+import { musclesById } from "../../store.js";
+import { keyOf, used } from "./request.js";
+
+/** @typedef {import("../../types.js").Compare} Compare */
+/** @typedef {import("./types.js").Comparison} Comparison */
+/** @typedef {import("./types.js").Candidate} Candidate */
+/** @typedef {import("./types.js").Diagnosis} Diagnosis */
+/** @typedef {import("./types.js").Progress} Progress */
+/** @typedef {"idle" | "waiting" | "running" | "done" | "cancelled" | "failed"} Stage */
+
+export const compare = computed(() => doc.value.compare);
+export const files = computed(() => compare.value.files);
+export const chosen = computed(() => used(compare.value));
+export const preset = computed(() => musclesById.value.get(compare.value.muscle.preset ?? "") ?? null);
+export const brush = computed(() => compare.value.brush);
+export const tab = computed(() => compare.value.tab);
+export const steps = computed(() => compare.value.history);
+
+/** @typedef {import("../../types.js").Doc} Doc */
+/** @param {Partial<Compare>} patch @returns {(d: Doc) => Doc} */
+export const patchCompare = (patch) => (d) => ({ ...d, compare: { ...d.compare, ...patch } });
+/** @param {Partial<Compare>} patch @param {string} label */
+export const editCompare = (patch, label) => edit(patchCompare(patch), label);
+/** Changes what is shown, without an undo step. @param {Partial<Compare>} patch */
+export const lookCompare = (patch) => look(patchCompare(patch));
+
+// ---- the comparison
+
+const REMEMBERED = 16, AFTER_MS = 30;
+
+/** Without a fit. @type {Memory<Comparison>} */
+const comparisons = new Memory(REMEMBERED);
+
+/** @param {string} text @param {AbortSignal} [signal] @returns {Promise<Comparison>} */
+const compareWith = (text, signal) => post("/api/comparisons", { ...JSON.parse(text), fit: false }, signal);
+
+/** The parameters of a model fitted to the data. @param {string} text @param {AbortSignal} [signal]
+ * @returns {Promise<Comparison>} */
+export const fitWith = (text, signal) => post("/api/comparisons", { ...JSON.parse(text), fit: true }, signal);
+
+const modelText = computed(() => keyOf(compare.value));
+const comparison = new Question(compareWith, { memory: comparisons, patience: 0 });
+/** The comparison with the model of now, why there is none, and whether it belongs to other data or another
+ * model than those chosen. */
+export const { answer, error: fault, stale } = comparison;
+const isCompared = computed(() => comparison.answered.value === modelText.value && fault.value === null);
+
+const previousText = computed(() => {
+  const last = steps.value.at(-1);
+  return last ? keyOf(compare.value, last) : null;
+});
+/** The comparison with the model before. Errors are shown for the other one only. */
+const comparisonBefore = new Question(compareWith, { memory: comparisons, patience: 0 });
+export const previous = computed(() => comparisonBefore.error.value ? null : comparisonBefore.answer.value);
+
+/** What is drawn: the model of now, or with "before" the one it came from. */
+export const shown = computed(() => compare.value.before && previous.value ? previous.value : answer.value);
+export const isBefore = computed(() => compare.value.before && previous.value !== null);
+
+// ---- the diagnosis
+
+/** Candidates of the diagnosis of a model while it runs. */
+const foundSoFar = signal({ text: "", candidates: /** @type {Candidate[]} */ ([]) });
+export const progress = signal(/** @type {Progress} */ ({ share: 0 }));
+
+/** @type {Memory<Diagnosis>} */
+const diagnoses = new Memory(REMEMBERED);
+const diagnosisQuestion = new Question((text, signal) => {
+  batch(() => {
+    foundSoFar.value = { text, candidates: [] };
+    progress.value = { share: 0 };
+  });
+  return /** @type {Promise<Diagnosis>} */ (postForEvents(
+    "/api/diagnoses",
+    JSON.parse(text),
+    (name, data) => {
+      if (name === "progress") takeProgress(text, data);
+    },
+    signal,
+  ));
+}, { memory: diagnoses, patience: 0, keeps: false });
+/** The diagnosis, once it is complete, and why it failed. */
+export const { answer: diagnosis, error: diagnosisError } = diagnosisQuestion;
+/** The candidates of the diagnosis; while it runs, those found so far, the best first. */
+export const candidates = computed(() => {
+  const { text, candidates: some } = foundSoFar.value;
+  return diagnosis.value?.candidates ?? (text === diagnosisQuestion.asked.value ? some : []);
+});
+
+/** @param {string} text @param {Progress} data */
+function takeProgress(text, data) {
+  batch(() => {
+    progress.value = data;
+    const one = data.found;
+    if (!one) return;
+    const others = foundSoFar.peek().candidates.filter((c) => c.effect !== one.effect);
+    const all = [...others, one].sort((a, b) => b.gain_percent - a.gain_percent);
+    foundSoFar.value = { text, candidates: all };
+  });
+}
+
+/** How far comparison and diagnosis are. @type {import("../../reactive.js").Signal<Stage>} */
+export const stage = computed(() => {
+  const compared = comparison.stage.value;
+  if (compared === "idle" || compared === "failed") return "idle";
+  if (compared !== "answered") return compared === "asking" ? "waiting" : "cancelled";
+  const diagnosed = diagnosisQuestion.stage.value;
+  return diagnosed === "asking" ? "running" : diagnosed === "answered" ? "done" : diagnosed;
+});
+
+// ---- asking
+
+/** Ends the diagnosis; what it found stays. */
+export function cancel() {
+  comparison.cancel();
+  diagnosisQuestion.cancel();
+}
+
+/** Asks once more for what failed or was cancelled. */
+export function again() {
+  comparison.again();
+  diagnosisQuestion.again();
+}
+
+/** The message for a field of the request or for one inside it, by its path. */
+export const { field: faultField, within: messageFor } = fieldMessages(() => fault.value, (path) => path);
+
+/** Starts asking; called once, when the view is built. It rests while another view is shown. */
+export function startComparing() {
+  const isShown = () => view.value === "compare";
+  comparison.follow(() => modelText.value, { delay: AFTER_MS, active: isShown });
+  comparisonBefore.follow(() => previousText.value, { active: () => isCompared.value });
+  diagnosisQuestion.follow(() => fault.value ? null : modelText.value, { active: () => isCompared.value });
+}

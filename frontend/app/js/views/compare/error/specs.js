@@ -1,0 +1,236 @@
+// @ts-check
+// What the plots show: measured points, model lines, residuals with the band of the noise.
+import { axisTitle, extent, shown, steadyRange, steadyX } from "../../../plots/axes.js";
+import { capitalized, number, scaleOf, toShown } from "../../../format.js";
+import { pressureColour } from "../../../plots/theme.js";
+import { channelScale, column, isInside, VARIABLES } from "../words.js";
+
+/** @typedef {import("../../../plots/chart.js").Spec} Spec */
+/** @typedef {import("../../../plots/chart.js").Trace} Trace */
+/** @typedef {import("../../../plots/theme.js").Palette} Palette */
+/** @typedef {import("../../../format.js").System} System */
+/** @typedef {import("../types.js").Series} Series */
+/** @typedef {import("../../../types.js").Brush} Brush */
+/** `ghost`: the series of the other one of the models before and after; `picture`: changes with the data.
+ * @typedef {{series: Series[], ghost: Series[], channel: string, unit: string, over: string, system: System,
+ *   brush: Brush | null, noise: number | null, picture: string}} View */
+
+/** The x variable of the overlay for a kind of test. @param {string} kind */
+export const usualOver = (kind) =>
+  kind === "transient" ? "time" : kind === "isometric" || kind === "isotonic" ? "pressure" : "contraction";
+
+/** A single series without a pressure: data and model then have different colours.
+ * @param {Series[]} series */
+const isAlone = (series) => series.length === 1 && series[0].pressure === null;
+
+/** Colour of each series, by its pressure or else by its index.
+ * @param {Series[]} series @param {Palette} p */
+export function colours(series, p) {
+  const known = series.flatMap((s) => s.pressure === null ? [] : [s.pressure]);
+  if (isAlone(series)) return [p.accent];
+  const low = Math.min(...known), high = Math.max(...known);
+  return series.map((s, i) => {
+    if (s.pressure !== null && high > low) return pressureColour((s.pressure - low) / (high - low), p);
+    return pressureColour(series.length > 1 ? i / (series.length - 1) : 0.6, p);
+  });
+}
+
+/** A model line in pieces: a new piece starts where the motion reverses.
+ * @param {Series} s @param {string} over @param {(sign: number) => boolean} belongs */
+function pieces(s, over, belongs) {
+  const x = column(s, over), turns = s.direction ?? [];
+  /** @type {{x: (number | null)[], y: (number | null)[]}} */
+  const line = { x: [], y: [] };
+  const sorted = turns.every((d) => !d) && over !== "time";
+  const rows = [...x.keys()].filter((i) => belongs(Math.sign(turns[i] ?? 0)) && x[i] != null);
+  if (sorted) rows.sort((a, b) => (x[a] ?? 0) - (x[b] ?? 0));
+  rows.forEach((i, k) => {
+    if (k && !sorted && rows[k - 1] !== i - 1) {
+      line.x.push(null);
+      line.y.push(null);
+    }
+    line.x.push(x[i]);
+    line.y.push(s.predicted[i]);
+  });
+  return line;
+}
+
+/** Whether each point has its own pressure: no line is drawn then. @param {Series} s @param {string} over */
+const isScattered = (s, over) =>
+  s.pressure === null && over !== "time" && !(s.direction ?? []).some((d) => d);
+
+/** A range with room for the points at its ends. @param {[number, number]} range @returns {[number, number]} */
+export const padded = ([low, high]) => [low - 0.015 * (high - low), high + 0.015 * (high - low)];
+
+/** More points than this are drawn small and faint, because they would hide the model. */
+const MANY = 300;
+
+/** The colour half transparent. @param {string} color "rgb(…)" */
+const faint = (color) => color.replace("rgb(", "rgba(").replace(")", ",0.5)");
+
+/** @param {View} v @param {Palette} p @returns {Spec} */
+export function overlaySpec(v, p) {
+  const { title, quantity } = VARIABLES[v.over], { system } = v;
+  const s = channelScale(v.unit, v.channel, system);
+  const y = (/** @type {(number | null)[]} */ values) =>
+    values.map((one) => one == null ? null : toShown(one, s));
+  const x = (/** @type {(number | null)[]} */ values) => shown(values, quantity, system);
+  const tints = colours(v.series, p);
+  /** @type {Trace[]} */
+  const traces = [];
+  const old = v.ghost.map((one) => pieces(one, v.over, () => true));
+  if (old.length) {
+    traces.push({
+      id: "ghost",
+      x: x(old.flatMap((line) => [...line.x, null])),
+      y: y(old.flatMap((line) => [...line.y, null])),
+      line: { color: p.line, width: 1.6 },
+      column: "other model",
+    });
+  }
+  traces.push(points(v, p, tints, x, y));
+  v.series.forEach((one, i) => {
+    if (isScattered(one, v.over)) {
+      traces.push({
+        id: `m${i}`,
+        x: x(column(one, v.over)),
+        y: y(one.predicted),
+        marker: { size: 8, symbol: "line-ew", color: p.ink },
+        column: "model",
+      });
+      return;
+    }
+    const parts = /** @type {const} */ ([
+      ["", undefined, (/** @type {number} */ sign) => sign >= 0],
+      ["-", "dash", (/** @type {number} */ sign) => sign < 0],
+    ]);
+    for (const [suffix, dash, belongs] of parts) {
+      const line = pieces(one, v.over, belongs);
+      if (!line.x.length) continue;
+      traces.push({
+        id: `m${i}${suffix}`,
+        x: x(line.x),
+        y: y(line.y),
+        line: { color: tints[i], width: 1.8, dash },
+        column: `${one.label}${dash ? ", shortening" : ""}`,
+      });
+    }
+  });
+  const [xLow, xHigh] = extent(v.series.map((one) => x(column(one, v.over))));
+  const [low, high] = extent([...v.series.flatMap((one) => [y(one.measured), y(one.predicted)]), [0]]);
+  const name = capitalized(v.channel);
+  return {
+    x: {
+      title: axisTitle(title, quantity, system),
+      range: padded(steadyX(`cmp${v.picture}${v.over}`, xLow, xHigh)),
+    },
+    y: {
+      title: `${name} (${s.unit})`,
+      range: steadyRange(`cmp${v.picture}${v.channel}${system}`, low, high),
+    },
+    traces,
+    zones: brushZone(v),
+    revision: `${v.picture}${v.over}${system}`,
+    table: table(v, ["measured", "predicted"]),
+  };
+}
+
+/** Every point of a plot. @param {View} v @param {("measured" | "predicted" | "residual")[]} what
+ * @returns {import("../../../ui/table.js").Table} */
+function table(v, what) {
+  const { title, quantity } = VARIABLES[v.over], s = channelScale(v.unit, v.channel, v.system);
+  const asText = (/** @type {number | null} */ si, /** @type {string} */ name) =>
+    si == null ? null : name === "residual" ? si / s.factor : toShown(si, s);
+  return {
+    columns: [
+      { title: "series", text: true },
+      { title: title.toLowerCase(), unit: scaleOf(quantity, v.system).unit },
+      ...what.map((name) => ({ title: name, unit: s.unit })),
+    ],
+    rows: v.series.flatMap((one) => {
+      const x = shown(column(one, v.over), quantity, v.system);
+      return one.measured.map((
+        _m,
+        i,
+      ) => [one.label, x[i], ...what.map((name) => asText(one[name][i], name))]);
+    }),
+  };
+}
+
+/** @param {View} v @param {Palette} p @param {string[]} tints
+ * @param {(values: (number | null)[]) => (number | null)[]} x
+ * @param {(values: (number | null)[]) => (number | null)[]} y @returns {Trace} */
+function points(v, p, tints, x, y) {
+  const each = (/** @type {(s: Series, i: number, k: number) => string} */ of) =>
+    v.series.flatMap((s, k) => s.measured.map((_m, i) => of(s, i, k)));
+  const alone = isAlone(v.series);
+  const many = v.series.reduce((sum, s) => sum + s.measured.length, 0) > MANY;
+  return {
+    id: "points",
+    x: x(v.series.flatMap((s) => column(s, v.over))),
+    y: y(v.series.flatMap((s) => s.measured)),
+    marker: {
+      size: many ? 4 : 5,
+      symbol: each((s, i) =>
+        s.use === "validation" ? "triangle-up" : (s.direction?.[i] ?? 0) < 0 ? "square" : "circle"
+      ),
+      color: each((s, i, k) =>
+        !isInside(s, i, v.brush) ? p.line : alone ? p.soft : many ? faint(tints[k]) : tints[k]
+      ),
+    },
+    column: "measured",
+  };
+}
+
+/** @param {View} v the brush as a shaded zone, if its variable is the x axis */
+function brushZone({ brush, over, system }) {
+  const range = brush?.[over];
+  if (!range) return [];
+  const [from, to] = shown(range, VARIABLES[over].quantity, system);
+  return [{ x: /** @type {[number, number]} */ ([from, to]), y: null, text: "" }];
+}
+
+const BAND = 2;
+
+/** @param {View} v @param {Palette} p @returns {Spec} */
+export function residualSpec(v, p) {
+  const { title, quantity } = VARIABLES[v.over], { system } = v;
+  const s = channelScale(v.unit, v.channel, system), tints = colours(v.series, p);
+  const y = v.series.flatMap((one) => one.residual.map((r) => r == null ? null : r / s.factor));
+  const band = v.noise === null ? null : (BAND * v.noise) / s.factor;
+  const x = shown(v.series.flatMap((one) => column(one, v.over)), quantity, system);
+  const [xLow, xHigh] = extent([x]);
+  const size = Math.max(...y.map((r) => Math.abs(r ?? 0)), band ?? 0);
+  const [, high] = steadyRange(`res${v.picture}${v.channel}${system}`, 0, size || 1);
+  return {
+    x: {
+      title: axisTitle(title, quantity, system),
+      range: padded(steadyX(`res${v.picture}${v.over}`, xLow, xHigh)),
+    },
+    y: { title: `Residual (${s.unit})`, range: [-high, high] },
+    traces: [{
+      id: "residual",
+      x,
+      y,
+      marker: {
+        size: y.length > 300 ? 4 : 5,
+        symbol: v.series.flatMap((one) =>
+          one.residual.map((_r, i) => (one.direction?.[i] ?? 0) < 0 ? "square" : "circle")
+        ),
+        color: v.series.flatMap((one, k) =>
+          one.residual.map((_r, i) => isInside(one, i, v.brush) ? tints[k] : p.line)
+        ),
+      },
+      column: "residual",
+    }],
+    zones: band === null ? [] : [{ x: null, y: [-band, band], text: "±2σ of the noise" }],
+    revision: `${v.picture}${v.over}${system}`,
+    table: table(v, ["measured", "residual"]),
+  };
+}
+
+/** @param {number} pressure @param {System} system */
+export function pressureText(pressure, system) {
+  const s = scaleOf("pressure", system);
+  return `${number(toShown(pressure, s), 2)} ${s.unit}`;
+}

@@ -1,0 +1,169 @@
+// @ts-check
+// The measurements card: drop zone, built-in examples, the files and their use.
+import { h, icon } from "../../../dom.js";
+import { references } from "../../../store.js";
+import { menuButton } from "../../../ui/menu.js";
+import {
+  addFiles,
+  complaints,
+  hasSource,
+  infos,
+  openBuiltIn,
+  reading,
+  remap,
+  removeFile,
+  setUse,
+} from "./files.js";
+import { answer, chosen, fault, files, messageFor } from "../answers.js";
+
+/** @typedef {import("../../../types.js").Chosen} Chosen */
+/** @typedef {import("../../../types.js").Use} Use */
+
+/** @type {[Use, string, string][]} */
+const USES = [
+  ["fit", "Fit", "The parameters are fitted to this file"],
+  ["validation", "Check", "Validation: only the error on this file is computed"],
+  ["off", "Off", "Not used"],
+];
+
+/** Opens the browser's file dialog. */
+export function chooseFiles() {
+  document.getElementById("measurement-files")?.click();
+}
+
+export const builtIn = () => references.value.filter((r) => r.kind === "measurement");
+
+/** @param {string} name */
+const examplesMenu = (name) =>
+  menuButton({
+    label: [name, icon("down")],
+    name: "Built-in measurements",
+    class: "small",
+    items: () => {
+      const all = builtIn();
+      if (!all.length) return [{ heading: "No measurements on this server" }];
+      return all.map((m) => ({ label: m.title, note: m.description, run: () => openBuiltIn(m.id) }));
+    },
+  });
+
+/** The number of rows used, and why others are left out. @param {Chosen} file */
+function rowsText(file) {
+  const info = infos.value.get(file.id);
+  if (!info) {
+    const preset = references.value.find((r) => r.id === file.id);
+    return preset?.description ?? "";
+  }
+  const out = Object.entries({ ...info.skipped, ...info.excluded });
+  const left = out.length ? `; left out: ${out.map(([why, n]) => `${n} ${why}`).join(", ")}` : "";
+  return `${info.usable_rows} of ${info.rows} rows${left}`;
+}
+
+/** @param {Chosen} file */
+function kindText(file) {
+  const info = infos.value.get(file.id);
+  if (info) return `${info.kind}${info.kind_detected ? ", detected" : ""}`;
+  const preset = /** @type {any} */ (references.value.find((r) => r.id === file.id));
+  return preset?.measurement_kind ?? "";
+}
+
+/** @param {Chosen} file @param {number} index */
+function fileRow(file, index) {
+  const messages = () => infos.value.get(file.id)?.messages ?? [];
+  return h(
+    "li",
+    { class: `file${file.use === "off" ? " off" : ""}`, "data-file": file.id },
+    h(
+      "div",
+      { class: "file-head" },
+      h("b", { title: file.name }, file.name),
+      () =>
+        hasSource(file.id)
+          ? h("button", { type: "button", class: "link", onclick: () => remap(file.id) }, "Mapping…")
+          : null,
+      h("button", {
+        type: "button",
+        class: "mini",
+        "aria-label": `Remove ${file.name}`,
+        onclick: () => removeFile(file.id),
+      }, icon("close")),
+    ),
+    h(
+      "div",
+      { class: "segments", role: "radiogroup", "aria-label": `Use of ${file.name}` },
+      ...USES.map(([id, label, title]) =>
+        h("button", {
+          type: "button",
+          role: "radio",
+          title,
+          "aria-checked": String(file.use === id),
+          onclick: () => setUse(file.id, id),
+        }, label)
+      ),
+    ),
+    h("p", { class: "muted" }, () => [kindText(file), rowsText(file)].filter(Boolean).join(" · ")),
+    h("p", { class: "error" }, () => messageFor(`measurements.${index}`) ?? ""),
+    () =>
+      messages().length
+        ? h(
+          "details",
+          null,
+          h("summary", null, "Assumptions"),
+          h("ul", { class: "plain muted" }, ...messages().map((text) => h("li", null, text))),
+        )
+        : null,
+  );
+}
+
+/** What the comparison left out of all files together, unless a single file shows it already. */
+function leftOut() {
+  const a = answer.value, all = chosen.value;
+  if (!a || fault.value || !all.length) return null;
+  const out = Object.entries(a.excluded);
+  const info = all.length === 1 ? infos.value.get(all[0].id) : undefined;
+  if (info && out.every(([why]) => why in info.skipped || why in info.excluded)) return null;
+  const why = out.length ? `; left out: ${out.map(([text, n]) => `${n} ${text}`).join(", ")}` : "";
+  return h("p", { class: "muted" }, `Compared: ${a.rows_used} of ${a.rows} rows${why}.`);
+}
+
+export function measurementsCard() {
+  const input = h("input", {
+    type: "file",
+    hidden: true,
+    multiple: true,
+    id: "measurement-files",
+    "aria-label": "Measurement files",
+    accept: ".csv,.txt,.tsv,.dat,.xlsx,.mat,.tdms,text/csv",
+    onchange: () => {
+      const list = [...input.files ?? []];
+      input.value = "";
+      addFiles(list);
+    },
+  });
+  return h(
+    "section",
+    { class: "card measurements", "aria-label": "Measurements" },
+    h("div", { class: "card-head" }, h("h2", null, "Measurements"), examplesMenu("Built-in")),
+    input,
+    h(
+      "button",
+      { type: "button", class: "drop", onclick: chooseFiles },
+      h(
+        "span",
+        null,
+        () => reading.value ? `Reading ${reading.value}…` : "Choose files, or drop them on the page",
+      ),
+      h("small", null, "CSV, .xlsx, .mat, .tdms"),
+    ),
+    () =>
+      complaints.value.map(({ name, words }) =>
+        h(
+          "p",
+          { class: "flag bad", role: "alert" },
+          icon("warn"),
+          h("span", null, h("b", null, name), `: ${words}`),
+        )
+      ),
+    () => files.value.length ? h("ul", { class: "files" }, ...files.value.map(fileRow)) : null,
+    leftOut,
+  );
+}

@@ -1,0 +1,225 @@
+// @ts-check
+// The model the measurement is compared with: muscle, start model, fitted geometry, noise of the data.
+import { h, icon } from "../../../dom.js";
+import { computed } from "../../../reactive.js";
+import { commit, edit, preview, units } from "../../../state.js";
+import { muscles } from "../../../store.js";
+import { plainScale, quantityOf, scaleOf, siOf } from "../../../format.js";
+import { quantityField } from "../../../ui/field.js";
+import { unverifiedBadge } from "../../../ui/sources.js";
+import { infos, unknownMuscle } from "../measurement/files.js";
+import { PROVIDED, withStartModel } from "../document.js";
+import { answer, chosen, compare, editCompare, messageFor, patchCompare, preset, steps } from "../answers.js";
+
+/** @typedef {import("../../../format.js").Quantity} Quantity */
+
+const DEG = Math.PI / 180;
+/** @type {Record<string, {label: string, quantity: Quantity, bounds: [number, number]}>} */
+const GEOMETRY = {
+  nominal_length: { label: "Length", quantity: "length", bounds: [0.02, 10] },
+  braid_angle: { label: "Braid angle", quantity: "angle", bounds: [5 * DEG, 80 * DEG] },
+  braid_diameter: { label: "Braid diameter", quantity: "length", bounds: [1e-3, 0.2] },
+  inside_diameter: { label: "Inside diameter", quantity: "length", bounds: [1e-3, 0.2] },
+  wall_thickness: { label: "Wall thickness", quantity: "length", bounds: [0, 0.02] },
+};
+/** Geometry that can be fitted. */
+const FREE = ["braid_angle", "braid_diameter"];
+
+/** @param {string} key */
+function valueOf(key) {
+  const set = compare.value.muscle.values[key];
+  if (set !== undefined) return set;
+  const ofPreset = preset.value?.geometry?.[key];
+  return ofPreset ? siOf(ofPreset) : /** @type {any} */ (answer.value?.geometry)?.[key] ?? null;
+}
+
+/** @param {string} key */
+function isChanged(key) {
+  const set = compare.value.muscle.values[key], ofPreset = preset.value?.geometry?.[key];
+  return set !== undefined && ofPreset !== undefined && Math.abs(set - siOf(ofPreset)) > 1e-9;
+}
+
+/** @param {string} key @param {number | null} si null: that of the preset @param {boolean} [done] */
+function put(key, si, done = true) {
+  const { muscle } = compare.peek();
+  const values = { ...muscle.values };
+  if (si === null) delete values[key];
+  else values[key] = si;
+  preview(patchCompare({ muscle: { ...muscle, values } }));
+  if (done) commit(GEOMETRY[key].label.toLowerCase());
+}
+
+/** @param {string} key */
+const field = (key) =>
+  quantityField({
+    key: `compare.${key}`,
+    label: GEOMETRY[key].label,
+    quantity: GEOMETRY[key].quantity,
+    slider: false,
+    scale: () => scaleOf(GEOMETRY[key].quantity, units.value),
+    bounds: () => GEOMETRY[key].bounds,
+    get: () => valueOf(key),
+    put: (si, done) => put(key, si, done),
+    changed: () => isChanged(key),
+    reset: () => put(key, null),
+    message: () => messageFor(`muscle.${key}`),
+  });
+
+/** @param {string} key */
+const freeBox = (key) =>
+  h(
+    "label",
+    { class: "check" },
+    h("input", {
+      type: "checkbox",
+      checked: () => compare.value.free.includes(key),
+      onchange: (/** @type {Event} */ e) => {
+        const on = /** @type {HTMLInputElement} */ (e.target).checked;
+        const free = compare.peek().free.filter((k) => k !== key);
+        const name = GEOMETRY[key].label.toLowerCase();
+        editCompare({ free: on ? [...free, key] : free }, `${on ? "fit" : "keep"} ${name}`);
+      },
+    }),
+    h("span", null, `Fit the ${GEOMETRY[key].label.toLowerCase()} too`),
+  );
+
+/** Changes the muscle, which starts again from the start model. @param {string} id "": own geometry */
+function choose(id) {
+  const { muscle } = compare.peek();
+  const length = muscle.values.nominal_length;
+  if (id) {
+    const values = /** @type {Record<string, number>} */ (length ? { nominal_length: length } : {});
+    return edit((d) => ({
+      ...d,
+      compare: { ...withStartModel(d.compare), muscle: { preset: id, form: "braid", values } },
+    }), `muscle ${id}`);
+  }
+  const values = Object.keys(GEOMETRY).flatMap((key) => {
+    const value = valueOf(key);
+    return value === null ? [] : [[key, value]];
+  });
+  edit((d) => ({
+    ...d,
+    compare: {
+      ...withStartModel(d.compare, "ideal"),
+      muscle: { preset: null, form: "braid", values: Object.fromEntries(values) },
+    },
+  }), "own geometry");
+}
+
+function presetSelect() {
+  return h("select", {
+    id: "compare-preset",
+    "aria-label": "Muscle that was measured",
+    onchange: (/** @type {Event} */ e) => choose(/** @type {HTMLSelectElement} */ (e.target).value),
+  }, () => [
+    h("option", { value: "", selected: compare.value.muscle.preset === null }, "Own geometry"),
+    ...muscles.value.map((m) =>
+      h("option", { value: m.id, selected: m.id === compare.value.muscle.preset }, m.title)
+    ),
+  ]);
+}
+
+/** A muscle that a file names and that is not in the catalogue. */
+const unknownName = computed(() => {
+  for (const { id } of chosen.value) {
+    const info = infos.value.get(id);
+    const name = info && unknownMuscle(info);
+    if (name) return name;
+  }
+  return null;
+});
+
+/** @type {["ideal" | "preset", string, string][]} */
+const STARTS = [
+  ["ideal", "Ideal", "Ideal braid without further effects"],
+  ["preset", "Preset’s effects", "With the effects of the preset"],
+];
+
+/** Whether the start model came with a mystery or a drive document. */
+const isProvided = () => (steps.value[0] ?? compare.value).label === PROVIDED;
+
+function startChoice() {
+  return h(
+    "div",
+    { class: "segments", role: "radiogroup", "aria-label": "Start model" },
+    ...STARTS.map(([id, label, title]) =>
+      h("button", {
+        type: "button",
+        role: "radio",
+        title,
+        "aria-checked": () => String(compare.value.start === id && !(id === "ideal" && isProvided())),
+        onclick: () =>
+          edit(
+            (d) => ({ ...d, compare: withStartModel(d.compare, id) }),
+            `start from ${label.toLowerCase()}`,
+          ),
+      }, label)
+    ),
+  );
+}
+
+const noiseScale = () => {
+  const unit = answer.value?.unit ?? "N";
+  const quantity = quantityOf(unit);
+  return quantity ? scaleOf(quantity, units.value) : plainScale(unit);
+};
+
+const noiseField = () =>
+  quantityField({
+    key: "noise",
+    label: "Noise of the data (σ)",
+    quantity: "force",
+    slider: false,
+    empty: "estimated",
+    scale: noiseScale,
+    get: () => compare.value.noise,
+    put: (si) => editCompare({ noise: si }, "noise"),
+    clear: () => editCompare({ noise: null }, "noise estimated"),
+    message: () => messageFor("noise"),
+  });
+
+export function setupCard() {
+  return h(
+    "section",
+    { class: "card", "aria-label": "Muscle and start model" },
+    h(
+      "div",
+      { class: "card-head" },
+      h("h2", null, "Muscle"),
+      () => unverifiedBadge(preset.value, "unverified"),
+    ),
+    presetSelect(),
+    h("p", { class: "error" }, () => messageFor("muscle.preset") ?? messageFor("measurement") ?? ""),
+    () =>
+      unknownName.value
+        ? h(
+          "p",
+          { class: "flag note" },
+          icon("info"),
+          h(
+            "span",
+            null,
+            `The file names the muscle “${unknownName.value}”, which is not in the catalogue. Check the muscle above.`,
+          ),
+        )
+        : null,
+    field("nominal_length"),
+    h(
+      "details",
+      null,
+      h("summary", null, () => `Geometry${compare.value.free.length ? ": fitted too" : ""}`),
+      ...["braid_angle", "braid_diameter", "inside_diameter", "wall_thickness"].map(field),
+      ...FREE.map(freeBox),
+    ),
+    h("p", { class: "label" }, "Start model"),
+    startChoice(),
+    noiseField(),
+    h(
+      "p",
+      { class: "hint" },
+      () =>
+        compare.value.noise === null && answer.value?.noise_how ? `Noise: ${answer.value.noise_how}.` : "",
+    ),
+  );
+}

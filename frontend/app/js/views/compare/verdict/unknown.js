@@ -1,0 +1,90 @@
+// @ts-check
+// The part of the residual that no effect of the catalogue explains, and a formula that would.
+import { h } from "../../../dom.js";
+import { computed, effect } from "../../../reactive.js";
+import { units } from "../../../state.js";
+import { brief, scaleOf, toShown } from "../../../format.js";
+import { Chart } from "../../../plots/chart.js";
+import { palette } from "../../../plots/theme.js";
+import { extent } from "../../../plots/axes.js";
+import { plotlyReady } from "../../../plots/library.js";
+import { diagnosis } from "../answers.js";
+import { proposedTerm } from "../model/own-term.js";
+import { padded } from "../error/specs.js";
+import { channelScale, VARIABLES, whatIsLeft } from "../words.js";
+
+const term = computed(() => diagnosis.value?.verdict.proposed_term ?? null);
+
+function plot() {
+  const host = h("div", { class: "plot", role: "figure", "aria-label": "Residual and proposed term" });
+  const chart = new Chart(host, "compare-term");
+  effect(() => {
+    const curve = term.value?.curve, system = units.value, result = diagnosis.value;
+    palette.value;
+    if (!curve || !result || !plotlyReady.value) return;
+    const v = VARIABLES[curve.x], s = channelScale(result.unit, result.predicted, system);
+    const across = v ? scaleOf(v.quantity, system) : null;
+    const x = curve.values.map((si) => across && si !== null ? toShown(si, across) : si);
+    const y = (/** @type {(number | null)[]} */ values) =>
+      values.map((one) => one === null ? null : one / s.factor);
+    // Over a variable with few different values, the term has several values at each of them.
+    const several = new Set(x).size < x.length / 2;
+    chart.show((p) => ({
+      x: { title: v ? `${v.title} (${across?.unit})` : curve.x, range: padded(extent([x])) },
+      y: { title: `Residual (${s.unit})`, range: extent([y(curve.residual), y(curve.term), [0]]) },
+      traces: [
+        {
+          id: "left",
+          x,
+          y: y(curve.residual),
+          marker: { size: 4, symbol: "circle", color: p.soft },
+          column: "residual",
+        },
+        several
+          ? {
+            id: "term",
+            x,
+            y: y(curve.term),
+            marker: { size: 9, symbol: "line-ew", color: p.accent },
+            column: "term",
+          }
+          : { id: "term", x, y: y(curve.term), line: { color: p.accent, width: 2 }, column: "term" },
+      ],
+      zones: [],
+      revision: `term${system}`,
+    }));
+  });
+  return host;
+}
+
+export function unknownCard() {
+  const unexplained = computed(() => {
+    const verdict = diagnosis.value?.verdict;
+    return verdict && (verdict.status === "unknown_effect" || verdict.proposed_term) ? verdict : null;
+  });
+  return () => {
+    const verdict = unexplained.value;
+    if (!verdict) return null;
+    const proposed = verdict.proposed_term;
+    return h(
+      "section",
+      { class: "card unknown", "aria-label": "Unknown effect" },
+      h("div", { class: "card-head" }, h("h2", null, "Not in the catalogue")),
+      h(
+        "p",
+        null,
+        `${verdict.effects.length ? "After adding the missing effects, " : ""}${whatIsLeft(verdict)}.`,
+      ),
+      proposed
+        ? [
+          proposed.curve ? plot() : null,
+          proposedTerm(
+            proposed,
+            `A formula that explains ${brief(100 * proposed.share)} % of this part`,
+            verdict.effects.length > 0,
+          ),
+        ]
+        : null,
+    );
+  };
+}

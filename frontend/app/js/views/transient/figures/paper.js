@@ -1,0 +1,109 @@
+// @ts-check
+// The figures the paper prints for a scenario beside those of the run, and why some are not compared.
+import { h, icon } from "../../../dom.js";
+import { computed } from "../../../reactive.js";
+import { units } from "../../../state.js";
+import { brief, scaleOf, toShown } from "../../../format.js";
+import { partsOfDrive } from "../../../drive/document.js";
+import { at } from "../../../paths.js";
+import { drive, run, scenario } from "../model.js";
+import { ALL_FIGURES, figureName } from "./timing.js";
+import { siNumber } from "../../../quantities.js";
+
+/** @typedef {{figure?: string, figures?: Record<string, {value: number, unit: string}>,
+ *   excluded?: Record<string, string>}} Paper */
+
+/** @param {number} percent */
+const signed = (percent) =>
+  `${percent < 0 ? "−" : "+"}${Math.abs(percent).toFixed(Math.abs(percent) < 10 ? 1 : 0)} %`;
+
+/** @returns {Paper | null} */
+const paper = () => /** @type {any} */ (scenario.value)?.paper ?? null;
+
+/** Whether the drive is still that of the scenario. */
+const untouched = computed(() => {
+  const document = scenario.value?.document;
+  if (!document) return true;
+  const part = /** @type {any} */ (partsOfDrive(/** @type {any} */ (document), null).transient.drive);
+  const same = (/** @type {string} */ key) =>
+    JSON.stringify(at(drive.value, key)) === JSON.stringify(part[key]);
+  return Object.keys(part).every(same);
+});
+
+function rows() {
+  const printed = paper(), r = run.value, system = units.value;
+  if (!printed?.figures || !r) return [];
+  return Object.entries(printed.figures).flatMap(([path, q]) => {
+    const [phase, key] = path.split(".");
+    const figure = ALL_FIGURES.find(([name]) => name === key);
+    const printedValue = siNumber(`${q.value} ${q.unit}`);
+    if (!figure || printedValue === null || !(phase === "extend" || phase === "retract")) return [];
+    const quantity = figure[2];
+    const runValue = r.timing[phase][key];
+    const s = quantity === "lapse" ? { unit: "ms", factor: 1e-3, digits: 1 } : scaleOf(quantity, system);
+    const asText = (/** @type {number | null} */ si) => si == null ? "–" : brief(toShown(si, s));
+    const why = printed.excluded?.[path] ?? null;
+    const off = runValue == null ? null : 100 * (runValue / printedValue - 1);
+    return [
+      h(
+        "tr",
+        { class: why ? "left-out" : null },
+        h(
+          "th",
+          { scope: "row", title: why },
+          figureName(figure, phase),
+          h("small", null, ` ${s.unit}`),
+          why ? h("small", { class: "why" }, `Not compared: ${why}`) : null,
+        ),
+        h("td", null, asText(runValue)),
+        h("td", null, asText(printedValue)),
+        h(
+          "td",
+          null,
+          off === null ? "" : signed(off),
+        ),
+      ),
+    ];
+  });
+}
+
+export function paperCard() {
+  const all = rows();
+  if (!all.length) return null;
+  return h(
+    "section",
+    { class: "card", "aria-label": "Compared with the paper" },
+    h(
+      "div",
+      { class: "card-head" },
+      h("h2", null, "Compared with the paper"),
+      h("span", { class: "muted" }, paper()?.figure ?? ""),
+    ),
+    untouched.value ? null : h(
+      "p",
+      { class: "flag note" },
+      icon("info"),
+      h("span", null, "The drive was changed since the scenario was loaded."),
+    ),
+    h(
+      "div",
+      { class: "scroll", tabindex: 0, role: "region", "aria-label": "Figures of the run and of the paper" },
+      h(
+        "table",
+        { class: "data timing" },
+        h("caption", { class: "unseen" }, "Figures of the run and of the paper"),
+        h(
+          "thead",
+          null,
+          h(
+            "tr",
+            null,
+            h("td", null),
+            ...["Run", "Paper", ""].map((t) => t ? h("th", { scope: "col" }, t) : h("td", null)),
+          ),
+        ),
+        h("tbody", null, ...all),
+      ),
+    ),
+  );
+}

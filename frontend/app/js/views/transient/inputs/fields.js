@@ -1,0 +1,269 @@
+// @ts-check
+// Fields of the drive by their path in the drive document: name, quantity and default of each.
+import { h } from "../../../dom.js";
+import { units } from "../../../state.js";
+import { scaleOf, siOf } from "../../../format.js";
+import { quantityField, subscript } from "../../../ui/field.js";
+import { at } from "../../../paths.js";
+import { siNumber } from "../../../quantities.js";
+import {
+  arrangement,
+  baseDrive,
+  messageFor,
+  numberAt,
+  partPreset,
+  regulated,
+  run,
+  setDrive,
+} from "../model.js";
+import { middleOf } from "../series.js";
+
+/** @typedef {import("../../../format.js").Quantity} Quantity */
+/** `usual`: the default in SI.
+ * @typedef {{label: string, symbol?: string, quantity: Quantity, unit?: string, bounds: [number, number],
+ *   log?: boolean, usual?: number | (() => number | null | undefined), hint?: string,
+ *   slider?: boolean}} Spec */
+
+const DEG = Math.PI / 180;
+const GAIN = { quantity: /** @type {Quantity} */ ("number"), log: false };
+
+/** A value of the preset of valve or tube.
+ * @param {"valves" | "tubes"} kind @param {string} path @param {string} key */
+const figure = (kind, path, key) => () => {
+  const q = partPreset(kind, path)?.data?.[key];
+  return q ? siNumber(`${q.value} ${q.unit}`) ?? siOf(q) : null;
+};
+const valve = (/** @type {string} */ key) => figure("valves", "valve.preset", key);
+const tube = (/** @type {string} */ key) => figure("tubes", "tube.preset", key);
+const lowest = () => regulated.value ? 0 : -1;
+
+/** Slider ranges cover usual values; the field accepts any value the server accepts.
+ * @type {Record<string, Spec>} */
+export const SPECS = {
+  "supply.pressure": { label: "Supply pressure", symbol: "p_s", quantity: "pressure", bounds: [1e5, 8e5] },
+  "valve.sonic_conductance": {
+    label: "Conductance, filling",
+    symbol: "C",
+    quantity: "conductance",
+    bounds: [1e-10, 1e-7],
+    log: true,
+    usual: valve("sonic_conductance"),
+  },
+  "valve.exhaust_conductance": {
+    label: "Conductance, venting",
+    symbol: "C_e",
+    quantity: "conductance",
+    bounds: [1e-10, 1e-7],
+    log: true,
+    // A conductance the user entered holds in both directions.
+    usual: () =>
+      numberAt("valve.sonic_conductance") ?? valve("exhaust_conductance")() ?? valve("sonic_conductance")(),
+  },
+  "valve.critical_pressure_ratio": {
+    label: "Critical ratio",
+    symbol: "b",
+    quantity: "number",
+    bounds: [0.05, 0.6],
+    usual: () => valve("critical_pressure_ratio")() ?? 0.3,
+  },
+  "regulator.range": {
+    label: "Regulator range",
+    quantity: "pressure",
+    bounds: [1e5, 1e6],
+    usual: regulatorFigure("range"),
+  },
+  "regulator.time": {
+    label: "Regulator time constant",
+    quantity: "lapse",
+    bounds: [1e-3, 0.5],
+    log: true,
+    usual: regulatorFigure("time"),
+  },
+  "tube.inside_diameter": {
+    label: "Tube inside diameter",
+    symbol: "d",
+    quantity: "length",
+    bounds: [1e-3, 0.02],
+    log: true,
+    usual: tube("inside_diameter"),
+  },
+  "tube.length": {
+    label: "Tube length",
+    symbol: "l",
+    quantity: "length",
+    bounds: [0.05, 20],
+    log: true,
+    usual: tube("reference_length"),
+  },
+  "load.mass": { label: "Mass", symbol: "m", quantity: "mass", bounds: [0, 200], usual: 0 },
+  "load.inclination": {
+    label: "Inclination",
+    symbol: "α",
+    quantity: "angle",
+    bounds: [-90 * DEG, 90 * DEG],
+    usual: () => arrangement.value === "antagonist" ? 0 : 90 * DEG,
+    hint: "90°: vertical, 0°: horizontal.",
+  },
+  "load.force": { label: "External force", symbol: "F_e", quantity: "force", bounds: [0, 2000], usual: 0 },
+  "load.spring": { label: "Spring", symbol: "k", quantity: "stiffness", bounds: [0, 2e4], usual: 0 },
+  "load.lever_ratio": {
+    label: "Lever ratio",
+    symbol: "i",
+    quantity: "number",
+    bounds: [0.1, 10],
+    log: true,
+    usual: 1,
+    hint: "Stroke of the muscle per stroke of the load.",
+  },
+  "load.pulley_radius": {
+    label: "Pulley radius",
+    symbol: "r",
+    quantity: "length",
+    bounds: [5e-3, 0.2],
+    log: true,
+  },
+  "load.precontraction": {
+    label: "Precontraction",
+    symbol: "ε_m",
+    quantity: "ratio",
+    bounds: [0.01, 0.25],
+    usual: 0.1,
+    hint: "Contraction of both muscles at 0°.",
+  },
+  "stops.min_contraction": {
+    label: "Lower stop",
+    symbol: "ε_0",
+    quantity: "ratio",
+    bounds: [-0.03, 0.2],
+    usual: 0,
+    hint: "The load rests here without pressure.",
+  },
+  "stops.max_contraction": {
+    label: "Upper stop",
+    symbol: "ε_1",
+    quantity: "ratio",
+    bounds: [0.02, 0.35],
+    usual: () => {
+      const r = run.value, ratio = numberAt("load.lever_ratio") ?? 1;
+      return r && middleOf(r) + (r.limits.position_max * ratio) / r.geometry.nominal_length;
+    },
+  },
+  "gas.polytropic_exponent": {
+    label: "Polytropic exponent",
+    symbol: "n",
+    quantity: "number",
+    bounds: [1, 1.4],
+    usual: 1.2,
+    hint: "1 isothermal, 1.4 adiabatic.",
+  },
+  "gas.temperature": {
+    label: "Temperature",
+    symbol: "T",
+    quantity: "temperature",
+    bounds: [253.15, 353.15],
+    usual: 293.15,
+  },
+  "gas.dead_volume": { label: "Dead volume", symbol: "V_d", quantity: "volume", bounds: [0, 5e-4], usual: 0 },
+  "gas.ambient_pressure": {
+    label: "Ambient pressure",
+    symbol: "p_a",
+    quantity: "pressure",
+    bounds: [5e4, 1.1e5],
+    usual: 101325,
+  },
+  start_pressure: { label: "Initial pressure", quantity: "pressure", bounds: [0, 8e5], usual: 0 },
+  duration: { label: "Duration", symbol: "T", quantity: "time", bounds: [0.1, 20], log: true, usual: 4 },
+  "controller.kp": { label: "Gain P", symbol: "K_p", ...GAIN, unit: "%/mm", bounds: [0, 20] },
+  "controller.ki": { label: "Gain I", symbol: "K_i", ...GAIN, unit: "%/(mm·s)", bounds: [0, 100], usual: 0 },
+  "controller.kd": { label: "Gain D", symbol: "K_d", ...GAIN, unit: "%·s/mm", bounds: [0, 1], usual: 0 },
+  "controller.feed_forward": {
+    label: "Feed forward",
+    symbol: "K_f",
+    ...GAIN,
+    unit: "%/mm",
+    bounds: [0, 5],
+    usual: 0,
+  },
+  "controller.derivative_filter": {
+    label: "Derivative filter",
+    quantity: "lapse",
+    bounds: [0, 0.1],
+    usual: 5e-3,
+  },
+  "controller.sample_time": {
+    label: "Sample time",
+    quantity: "lapse",
+    bounds: [5e-4, 0.02],
+    log: true,
+    usual: 1e-3,
+  },
+  "controller.output_min": { label: "Lowest command", quantity: "ratio", bounds: [-1, 1], usual: lowest },
+  "controller.output_max": { label: "Highest command", quantity: "ratio", bounds: [-1, 1], usual: 1 },
+};
+
+/** @param {"range" | "time"} key */
+function regulatorFigure(key) {
+  return () => {
+    const q = /** @type {any} */ (partPreset("valves", "valve.preset"))?.regulator?.[key];
+    return q ? siNumber(`${q.value} ${q.unit}`) : null;
+  };
+}
+
+/** @param {Spec} spec @param {string} path */
+function usualOf(spec, path) {
+  const base = siNumber(at(baseDrive.value, path));
+  if (base !== null) return base;
+  return (typeof spec.usual === "function" ? spec.usual() : spec.usual) ?? null;
+}
+
+/** @param {string} path @param {Spec} [spec] */
+export function driveField(path, spec = SPECS[path]) {
+  const label = spec.label.toLowerCase();
+  const value = () => numberAt(path) ?? usualOf(spec, path);
+  return quantityField({
+    key: path,
+    label: spec.label,
+    symbol: spec.symbol ? subscript(spec.symbol) : undefined,
+    quantity: spec.quantity,
+    log: spec.log,
+    hint: spec.hint,
+    slider: spec.slider,
+    scale: () => spec.unit ? { unit: spec.unit, factor: 1, digits: 4 } : scaleOf(spec.quantity, units.value),
+    bounds: () => spec.bounds,
+    get: value,
+    put: (si, done) => setDrive(path, si, label, done),
+    changed: () => {
+      const set = numberAt(path), usual = usualOf(spec, path);
+      return set !== null && usual !== null &&
+        Math.abs(set - usual) > 1e-6 * Math.max(Math.abs(set), Math.abs(usual));
+    },
+    reset: () => setDrive(path, at(baseDrive.peek(), path), `reset ${label}`),
+    message: () => messageFor(path),
+  });
+}
+
+/** The message about a part of the drive as a whole. @param {string} path */
+export const partMessage = (path) => h("p", { class: "error" }, () => messageFor(path) ?? "");
+
+/** A field that is a choice from a list. @template {string} T
+ * @param {string} label @param {() => [T, string][]} options @param {() => T} get
+ * @param {(value: T) => void} set
+ * @param {string} key */
+export function choiceField(label, options, get, set, key) {
+  const id = `c-${key.replace(/\W/g, "-")}`;
+  return h(
+    "div",
+    { class: "field choice", "data-field": key },
+    h(
+      "div",
+      { class: "field-head" },
+      h("label", { for: id }, label),
+      h("select", {
+        id,
+        onchange: (/** @type {Event} */ e) =>
+          set(/** @type {T} */ (/** @type {HTMLSelectElement} */ (e.target).value)),
+      }, () => options().map(([value, text]) => h("option", { value, selected: value === get() }, text))),
+    ),
+    h("p", { class: "error" }, () => messageFor(key) ?? ""),
+  );
+}

@@ -1,0 +1,207 @@
+// @ts-check
+// The inputs of the Transient view: scenario, muscle, air supply, load, command or controller, surroundings.
+import { h } from "../../../dom.js";
+import { computed } from "../../../reactive.js";
+import { units } from "../../../state.js";
+import { design, showMuscle } from "../../../muscle/document.js";
+import { brief, siOf, withUnit } from "../../../format.js";
+import { effectsCard, isStatic } from "../../../muscle/effects.js";
+import { preset } from "../../../muscle/preset.js";
+import { driveField, partMessage } from "./fields.js";
+import {
+  arrangement,
+  editTransient,
+  messageWithin,
+  mode,
+  muscleName,
+  numberAt,
+  presetEffects,
+  regulated,
+  run,
+  scenario,
+  scenarios,
+  transient,
+  useScenario,
+} from "../model.js";
+import { loadCard } from "./load.js";
+import { signalFields } from "./signals.js";
+import { supplyCard } from "./supply.js";
+
+function scenarioField() {
+  return h(
+    "div",
+    { class: "scenario" },
+    h("select", {
+      id: "scenario",
+      "aria-label": "Scenario",
+      onchange: (/** @type {Event} */ e) => useScenario(/** @type {HTMLSelectElement} */ (e.target).value),
+    }, () => [
+      h(
+        "option",
+        { value: "", selected: !scenario.value },
+        scenarios.value.length ? "Own drive" : "No scenarios on this server",
+      ),
+      ...scenarios.value.map((s) =>
+        h("option", { value: s.id, selected: s.id === transient.value.scenario }, s.title)
+      ),
+    ]),
+    () => scenario.value?.description ? h("p", { class: "hint" }, scenario.value.description) : null,
+    () =>
+      scenario.value
+        ? h(
+          "button",
+          { type: "button", class: "link", onclick: () => useScenario(scenario.peek()?.id ?? "") },
+          "Reset to the scenario",
+        )
+        : null,
+  );
+}
+
+const lengthText = computed(() => {
+  const set = design.value.muscle.values.nominal_length;
+  const ofPreset = preset.value?.geometry?.nominal_length;
+  const length = set ?? (ofPreset ? siOf(ofPreset) : run.value?.geometry.nominal_length);
+  return length ? withUnit(length, "length", units.value) : "";
+});
+
+function muscleLine() {
+  return h(
+    "div",
+    { class: "part" },
+    h("span", null, "Muscle"),
+    h("b", { id: "drive-muscle" }, () => [muscleName.value, lengthText.value].filter(Boolean).join(" · ")),
+    h("button", { type: "button", class: "link", onclick: showMuscle }, "Change in Design"),
+    h("p", { class: "error" }, () => messageWithin("muscle") ?? ""),
+  );
+}
+
+/** @type {["command" | "controller", string, string][]} */
+const MODES = [
+  ["command", "Command", "The valve follows a signal"],
+  ["controller", "Controller", "A PID controller moves the valve so that the position follows a reference"],
+];
+
+function commandCard() {
+  const body = () => {
+    if (mode.value === "controller") {
+      return [
+        partMessage("controller"),
+        ...["kp", "ki", "kd"].map((key) => driveField(`controller.${key}`)),
+        h(
+          "details",
+          null,
+          h("summary", null, "Feed forward, sampling, limits"),
+          ...["feed_forward", "derivative_filter", "sample_time", "output_min", "output_max"].map((key) =>
+            driveField(`controller.${key}`)
+          ),
+        ),
+        signalFields({
+          path: "controller.reference",
+          quantity: "length",
+          low: () => 0,
+          high: Math.max(run.peek()?.limits.position_max ?? 0.05, 0.01),
+          rest: () => 0,
+          full: Number((0.6 * (run.peek()?.limits.position_max ?? 0.03)).toPrecision(2)),
+        }, "Reference"),
+      ];
+    }
+    return signalFields({
+      path: "command",
+      quantity: "ratio",
+      low: () => regulated.value ? 0 : -1,
+      high: 1,
+      rest: () => regulated.value ? 0 : -1,
+      full: 1,
+    }, "Shape");
+  };
+  return h(
+    "section",
+    { class: "card", "aria-label": "Command" },
+    h(
+      "div",
+      { class: "segments", role: "radiogroup", "aria-label": "Control of the valve" },
+      ...MODES.map(([id, label, title]) =>
+        h("button", {
+          type: "button",
+          role: "radio",
+          title,
+          "aria-checked": () => String(mode.value === id),
+          onclick: () => editTransient({ mode: id }, label.toLowerCase()),
+        }, label)
+      ),
+    ),
+    driveField("duration"),
+    body,
+    () =>
+      mode.value === "command"
+        ? h(
+          "p",
+          { class: "hint" },
+          regulated.value ? "Share of the regulator’s range." : "100 % fills, 0 % is closed, −100 % vents.",
+          arrangement.value !== "antagonist"
+            ? null
+            : regulated.value
+            ? " The second muscle gets the rest of the range."
+            : " The second muscle gets the opposite.",
+        )
+        : null,
+  );
+}
+
+function airCard() {
+  const paths = [
+    "gas.polytropic_exponent",
+    "gas.temperature",
+    "gas.dead_volume",
+    "gas.ambient_pressure",
+    "start_pressure",
+  ];
+  return h(
+    "section",
+    { class: "card", "aria-label": "Air and start" },
+    h(
+      "details",
+      null,
+      h(
+        "summary",
+        null,
+        () => `Air: exponent ${brief(numberAt("gas.polytropic_exponent") ?? 1.2)}, temperature, start`,
+      ),
+      ...paths.map((path) => driveField(path)),
+    ),
+  );
+}
+
+/** Families with more dynamic effects come first.
+ * @param {import("../../../types.js").Effect[]} all */
+function families(all) {
+  /** @type {Map<string, import("../../../types.js").Effect[]>} */
+  const groups = new Map();
+  for (const e of all) groups.set(e.family, [...groups.get(e.family) ?? [], e]);
+  const staticShare = (/** @type {import("../../../types.js").Effect[]} */ list) =>
+    list.filter(isStatic).length / list.length;
+  return new Map([...groups].sort(([, a], [, b]) => staticShare(a) - staticShare(b)));
+}
+
+export function inputCards() {
+  return [
+    h(
+      "section",
+      { class: "card", "aria-label": "Drive" },
+      h("div", { class: "card-head" }, h("h2", null, "Drive")),
+      scenarioField(),
+      muscleLine(),
+    ),
+    commandCard(),
+    loadCard(),
+    supplyCard(),
+    airCard(),
+    effectsCard({
+      preset: presetEffects,
+      active: computed(() => design.value.effects ?? presetEffects.value),
+      count: () => Object.keys(run.value?.model.effects ?? presetEffects.value).length,
+      message: messageWithin,
+      families,
+    }),
+  ];
+}

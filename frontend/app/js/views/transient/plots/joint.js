@@ -1,0 +1,84 @@
+// @ts-check
+// The pulley of an antagonist pair: plots, values at the cursor, card.
+import { h } from "../../../dom.js";
+import { units } from "../../../state.js";
+import { brief, scaleOf, toShown } from "../../../format.js";
+import { extent } from "../../../plots/axes.js";
+import { run, timeWindow } from "../model.js";
+import { overTime, pinLines } from "./specs.js";
+
+/** @typedef {import("../../../types.js").Run} Run */
+/** @typedef {NonNullable<Run["joint"]>} Joint */
+/** @typedef {import("../../../format.js").Quantity} Quantity */
+/** @typedef {import("../../../plots/theme.js").Palette} Palette */
+/** @typedef {import("./specs.js").View} View */
+/** @typedef {"angle" | "torque" | "stiffness"} Column */
+
+/** @type {Record<Column, {title: string, quantity: Quantity}>} */
+export const JOINT = {
+  angle: { title: "Angle", quantity: "angle" },
+  torque: { title: "Torque", quantity: "torque" },
+  stiffness: { title: "Joint stiffness", quantity: "rotary" },
+};
+
+/** @param {Column} key */
+const spec = (key) => (/** @type {View} */ v, /** @type {Palette} */ p) =>
+  overTime(v, p, {
+    key: `joint ${key}`,
+    quantity: JOINT[key].quantity,
+    title: JOINT[key].title.replace(/^Joint s/, "S"),
+    lines: [
+      ...pinLines(v, p, (r) => r.joint?.[key] ?? null),
+      { id: key, name: JOINT[key].title.toLowerCase(), values: v.run.joint?.[key] ?? [], color: p.accent },
+    ],
+    zero: true,
+  });
+
+export const angleSpec = spec("angle");
+export const torqueSpec = spec("torque");
+export const stiffnessSpec = spec("stiffness");
+
+/** @param {Joint} joint
+ * @param {(name: string, values: (number | null)[], q: Quantity) => HTMLElement} cell */
+export const jointCells = (joint, cell) => [
+  cell("φ", joint.angle, "angle"),
+  cell("M", joint.torque, "torque"),
+  cell("k", joint.stiffness, "rotary"),
+];
+
+/** The value of a column with the largest magnitude; null without a joint. @param {Run} r @param {Column} key */
+export function greatestOf(r, key) {
+  const values = (r.joint?.[key] ?? []).filter((x) => x != null);
+  return values.length ? values.reduce((most, x) => Math.abs(x) > Math.abs(most) ? x : most) : null;
+}
+
+/** Smallest and largest values in the time shown. */
+export function jointCard() {
+  const r = run.value;
+  if (!r?.joint) return null;
+  const { joint } = r;
+  return h(
+    "section",
+    { class: "card", "aria-label": "Joint" },
+    h(
+      "div",
+      { class: "card-head" },
+      h("h2", null, "Joint"),
+      timeWindow.value ? h("span", { class: "muted" }, "in the window") : null,
+    ),
+    h(
+      "dl",
+      null,
+      .../** @type {Column[]} */ (Object.keys(JOINT)).flatMap((key) => {
+        const { title, quantity } = JOINT[key], s = scaleOf(quantity, units.value);
+        const [low, high] = extent([joint[key]]).map((si) => brief(toShown(si, s)));
+        return [h("dt", null, title), h("dd", null, `${low} to ${high} ${s.unit}`)];
+      }),
+    ),
+    h(
+      "p",
+      { class: "hint" },
+      "Stiffness at constant pressures. The air consumption is that of the first muscle only.",
+    ),
+  );
+}
