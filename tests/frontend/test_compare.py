@@ -61,7 +61,11 @@ def test_from_the_empty_page_to_the_noise_in_five_clicks(page: Page, sweeps: Fil
     assert clicks <= 5
     assert len(path) == 4
     assert path == sorted(path, reverse=True)
-    expect(page.locator("#verdict-status")).to_have_text("Adequate")
+    expect(page.locator("#verdict-status")).to_have_text("The model is adequate")
+    # Every effect that was no candidate is listed with the reason.
+    page.locator(".not-tried summary").click()
+    expect(page.locator(".not-tried")).to_contain_text("It does not show in isobaric data, only in transient")
+    expect(page.locator(".not-tried")).to_contain_text("Leak")
     expect(page.locator("#error-change")).to_contain_text("−")
     expect(page.locator(".path-table tbody tr")).to_have_count(4)
     # The values are those the file was made with, within their errors.

@@ -81,7 +81,7 @@ def test_a_run_of_a_drive_shows_what_its_valve_does(page: Page) -> None:
     expect(page.locator("#error-now")).not_to_have_text(before, timeout=20_000)
     diagnosed(page, A_DRIVE)
     assert over_noise(page) < min(2.0, 0.3 * start)
-    expect(page.locator("#verdict-status")).to_have_text("Adequate")
+    expect(page.locator("#verdict-status")).to_have_text("The model is adequate")
 
 
 def test_a_mystery_is_diagnosed_and_revealed(page: Page) -> None:
@@ -183,7 +183,9 @@ def test_a_proposed_term_explains_what_no_effect_does(page: Page) -> None:
     page.locator(".tile", has_text="The bump at one stroke").click()
     expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
     diagnosed(page)
-    expect(page.locator("#verdict-status")).to_have_text("Unknown effect")
+    expect(page.locator("#verdict-status")).to_have_text(
+        "Something is missing that no catalogued effect explains"
+    )
     start = error(page)
     page.get_by_role("button", name="Add as own term").click()
     expect(page.locator(".in-model", has_text="Own term")).to_be_visible()

@@ -192,7 +192,7 @@ def _verdict(question: ModelQuestion, found: Diagnosis, catalogue: Mapping[str, 
     nexts = [proposal.sentence(titles) for proposal in found.proposals]
     return Verdict(
         status=found.status,
-        title=title_of(found.status),
+        title=title_of(found.status, added=bool(found.added)),
         effects=list(found.added),
         indistinguishable=groups_of(found),
         unexplained_share=found.structure.share,

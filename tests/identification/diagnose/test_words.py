@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from mckibben.identification.diagnose.words import sentence_of
+from mckibben.identification.diagnose.words import sentence_of, title_of
 from mckibben.identification.residual.structure import ResidualStructure
 
 TITLES = {"creep": "Creep", "leak": "Leak"}
@@ -63,3 +63,16 @@ SENTENCES = {
 @pytest.mark.parametrize("sentence", SENTENCES)
 def test_a_verdict_in_words(sentence: str) -> None:
     assert sentence_of(SENTENCES[sentence], TITLES) == sentence
+
+
+@pytest.mark.parametrize(
+    ("status", "added", "title"),
+    [
+        ("adequate", False, "The model is adequate"),
+        ("missing_effects", True, "Effects are missing"),
+        ("unknown_effect", False, "Something is missing that no catalogued effect explains"),
+        ("unknown_effect", True, "Effects are missing, and the rest is unknown"),
+    ],
+)
+def test_a_status_has_a_title(status: str, added: bool, title: str) -> None:
+    assert title_of(status, added=added) == title

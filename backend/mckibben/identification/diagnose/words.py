@@ -20,9 +20,12 @@ _TITLES = {
 }
 
 
-def title_of(status: str) -> str:
-    """A status in words."""
-    return _TITLES[status]
+_PARTLY = "Effects are missing, and the rest is unknown"
+
+
+def title_of(status: str, *, added: bool) -> str:
+    """A status in words; ``added``: whether effects were found to be missing."""
+    return _PARTLY if added and status == "unknown_effect" else _TITLES[status]
 
 
 def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:

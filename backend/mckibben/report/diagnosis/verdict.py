@@ -129,6 +129,12 @@ def candidates_section(material: Material, found: DiagnosisResult) -> Html:
         parts.append(paragraph(f"Others that help alone: {others}.", note=True))
     if rows and rest:
         parts.append(paragraph(f"{rest} more were tried; alone they gain less than 1 %.", note=True))
+    if found.not_tried:
+        reasons: dict[str, list[str]] = {}
+        for item in found.not_tried:
+            reasons.setdefault(item.why, []).append(material.title_of(item.effect))
+        parts.append(heading("Effects that were not tried"))
+        parts.append(bullets(f"{', '.join(names)}: {why}." for why, names in reasons.items()))
     if verdict.indistinguishable:
         parts.append(heading("What these data cannot tell apart"))
         groups = [[material.title_of(name) for name in group] for group in verdict.indistinguishable]

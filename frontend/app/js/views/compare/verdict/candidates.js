@@ -4,7 +4,7 @@ import { h, icon, mathml } from "../../../dom.js";
 import { signal } from "../../../reactive.js";
 import { units } from "../../../state.js";
 import { effectsById } from "../../../store.js";
-import { brief, plainScale, quantityOf, readable, scaleOf, toShown } from "../../../format.js";
+import { brief, capitalized, plainScale, quantityOf, readable, scaleOf, toShown } from "../../../format.js";
 import { aboutButton } from "../../../muscle/effects.js";
 import { equationBox } from "./equation.js";
 import { add } from "../model/history.js";
@@ -132,6 +132,32 @@ function card(c, best, wanted) {
 
 const skeletons = () => [1, 2].map(() => h("li", { class: "candidate skeleton block-tall" }));
 
+/** Effects that were no candidates, by the reason. */
+function notTried() {
+  const left = diagnosis.value?.not_tried ?? [];
+  if (stage.value !== "done" || !left.length) return null;
+  /** @type {Map<string, string[]>} */
+  const reasons = new Map();
+  for (const { effect, why } of left) reasons.set(why, [...(reasons.get(why) ?? []), titleOf(effect)]);
+  return h(
+    "details",
+    { class: "not-tried" },
+    h(
+      "summary",
+      null,
+      left.length === 1 ? "1 effect was not tried" : `${left.length} effects were not tried`,
+    ),
+    h(
+      "dl",
+      { class: "plain" },
+      [...reasons].flatMap(([why, names]) => [
+        h("dt", null, capitalized(why)),
+        h("dd", null, listed(names)),
+      ]),
+    ),
+  );
+}
+
 export function candidatesCard() {
   const list = () => {
     const all = candidates.value;
@@ -175,5 +201,6 @@ export function candidatesCard() {
     ),
     h("ol", { class: "plain", "aria-live": "off" }, list),
     rest,
+    notTried,
   );
 }

@@ -2,7 +2,7 @@
 // The verdict of the diagnosis: conclusion, adding all effects at once, what to measure next; and its progress.
 import { h, icon } from "../../../dom.js";
 import { units } from "../../../state.js";
-import { brief, capitalized, readable } from "../../../format.js";
+import { brief, capitalized } from "../../../format.js";
 import { addAll } from "../model/history.js";
 import {
   again,
@@ -21,13 +21,8 @@ import { errorText, titleOf, whatIsLeft } from "../words.js";
 /** @typedef {import("../types.js").Status} Status */
 /** @typedef {import("../types.js").Diagnosis} Diagnosis */
 
-/** @type {Record<Status, [string, string]>} */
-const BADGES = {
-  adequate: ["good", "Adequate"],
-  missing_effects: ["warn", "Effects are missing"],
-  ambiguous: ["warn", "Effects are missing, some cannot be told apart"],
-  unknown_effect: ["bad", "Unknown effect"],
-};
+/** @type {Record<Status, string>} Tone of each status; its words are the server's. */
+const TONES = { adequate: "good", missing_effects: "warn", ambiguous: "warn", unknown_effect: "bad" };
 
 function running() {
   const { share } = progress.value, tried = candidates.value.length;
@@ -162,7 +157,7 @@ function next({ experiments, next_measurement: advice }) {
 /** @param {Diagnosis} result */
 function conclusion(result) {
   const { verdict } = result;
-  const [tone, label] = BADGES[verdict.status] ?? ["warn", readable(verdict.status)];
+  const tone = TONES[verdict.status];
   const some = verdict.effects.length > 0, unknown = verdict.status === "unknown_effect";
   const rest = `No catalogued effect explains the rest: ${whatIsLeft(verdict)}.`;
   return h(
@@ -172,11 +167,7 @@ function conclusion(result) {
     h(
       "div",
       null,
-      h(
-        "b",
-        { id: "verdict-status" },
-        some && unknown ? "Effects are missing, and the rest is unknown" : label,
-      ),
+      h("b", { id: "verdict-status" }, verdict.title),
       ...some
         ? [missing(verdict), fall(result), unknown ? h("p", null, rest) : null]
         : [h("p", null, verdict.sentence)],
