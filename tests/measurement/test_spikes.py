@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from mckibben.measurement import spikes
 from mckibben.measurement.measurement import build
 from mckibben.measurement.spikes import spiked_rows
 
@@ -22,6 +23,18 @@ def test_one_row_or_two_are_found(height: float, rows: int) -> None:
     (reason, found) = next(iter(spiked_rows({"force": force}).items()))
     assert reason == "spikes of the force"
     assert set(np.flatnonzero(found)) == {start + k for start in (30, 222) for k in range(rows)}
+
+
+@pytest.mark.parametrize("at_once", [1, 7, 31, 400])
+def test_spikes_are_found_wherever_a_long_record_is_cut(
+    at_once: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    force = 400.0 * TRIANGLE + 1.5 * NOISE
+    rows = [31, 62, 222]
+    force[rows] += 150.0
+    monkeypatch.setattr(spikes, "_AT_ONCE", at_once)
+    (found,) = spiked_rows({"force": force}).values()
+    assert np.flatnonzero(found).tolist() == rows
 
 
 @pytest.mark.parametrize(

@@ -73,7 +73,7 @@ PROGRAM = """
 import json, sys, time
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.custom import custom_effect
-from mckibben.physics.drive_terms import Structure
+from mckibben.physics.drive_terms import DriveStructure
 from mckibben.physics.errors import InputError
 from mckibben.simulation.statics.compiled import compiled_state
 from mckibben.simulation.integrate.system import compiled_drive, compiled_driven
@@ -85,7 +85,7 @@ for name, term in json.load(sys.stdin).items():
         effect = custom_effect(term)
         effects = (effect, *series)
         compiled_state((effect,), tuple(f"custom.{p.name}" for p in effect.parameters))
-        compiled_drive(Structure(effects, tube=True, pair=True))
+        compiled_drive(DriveStructure(effects, tube=True, pair=True))
         compiled_driven(effects, True)
         answer = "accepted"
     except InputError as error:

@@ -16,14 +16,14 @@ from typing import Any
 import pytest
 from fastapi import FastAPI, Request
 from fastapi.testclient import TestClient
-from mckibben.server.answers import diagnoses
 from starlette.requests import ClientDisconnect
 
+from mckibben.application import diagnose, model_question
 from mckibben.documents.studio import Studio
+from mckibben.measurement import store
 from mckibben.measurement.store import MeasurementStore
 from mckibben.presets import PresetLibrary
 from mckibben.resources import presets_folder
-from mckibben.server import store
 from mckibben.server.answer import read_json
 from mckibben.server.app import create_app
 from mckibben.server.long_work import prepared
@@ -97,7 +97,7 @@ READERS = [name for name, case in CASES.items() if ID in str(case) or "content" 
 HEAVY = [
     (MeasurementStore, "get"), (MeasurementStore, "put"), (PresetLibrary, "_refresh"),
     (Studio, "start_model"), (Studio, "static_model"), (store, "read_measurement"),
-    (measurements, "preview"), (diagnoses, "subject_of"), (FastAPI, "openapi"),
+    (measurements, "preview"), (model_question, "predictor_of"), (FastAPI, "openapi"),
 ]  # fmt: skip
 
 
@@ -231,8 +231,8 @@ def test_what_was_read_for_somebody_who_has_gone_is_not_diagnosed(
         return read(*args)
 
     monkeypatch.setattr(store, "read_measurement", read_until_gone)
-    monkeypatch.setattr(diagnoses, "subject_of", lambda *_: started.append("prepared"))
-    monkeypatch.setattr(diagnoses, "diagnose", lambda *_, **__: started.append("diagnosed"))
+    monkeypatch.setattr(model_question, "predictor_of", lambda *_: started.append("prepared"))
+    monkeypatch.setattr(diagnose, "search_effects", lambda *_, **__: started.append("diagnosed"))
     for accepted in (b"application/json", b"text/event-stream"):
         gone.clear()
         client.app.state.store._recent.clear()  # type: ignore[attr-defined]

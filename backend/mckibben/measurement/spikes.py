@@ -21,6 +21,7 @@ _USUAL = 0.95  # quantile of the steps
 _BACK = 0.3  # of the leap: how near to where it left from it has to come back
 _MOST = 0.01  # share of the rows: what leaps more often is no exception
 _FEWEST = 20  # rows
+_AT_ONCE = 1_000_000  # rows; of more a table of many millions would take much memory
 
 
 def spiked_rows(columns: Mapping[str, NDArray]) -> dict[str, NDArray[np.bool_]]:
@@ -43,12 +44,18 @@ def _spikes(values: NDArray[np.float64]) -> NDArray[np.bool_]:
     steps = np.abs(np.diff(values))
     least = max(_NOISE * noise_of(values), _STEPS * float(np.quantile(steps, _USUAL)))
     for rows in range(1, _LONGEST + 1):
-        before, after = values[: -rows - 1], values[rows + 1 :]
-        inside = np.stack([values[k : len(values) - rows - 1 + k] for k in range(1, rows + 1)])
-        away = np.minimum(inside - before, inside - after).min(axis=0)
-        below = np.minimum(before - inside, after - inside).min(axis=0)
-        leap = np.maximum(away, below)
-        at = np.flatnonzero((leap > least) & (leap > 0.0) & (np.abs(after - before) < _BACK * leap))
-        for k in range(1, rows + 1):
-            spiked[at + k] = True
+        for begin in range(0, len(values), _AT_ONCE):
+            at = begin + _leaps(values[begin : begin + _AT_ONCE + rows + 1], rows, least)
+            for k in range(1, rows + 1):
+                spiked[at + k] = True
     return spiked
+
+
+def _leaps(values: NDArray[np.float64], rows: int, least: float) -> NDArray[np.intp]:
+    """Rows behind which so many rows leap away and come back."""
+    before, after = values[: -rows - 1], values[rows + 1 :]
+    inside = np.stack([values[k : len(values) - rows - 1 + k] for k in range(1, rows + 1)])
+    away = np.minimum(inside - before, inside - after).min(axis=0)
+    below = np.minimum(before - inside, after - inside).min(axis=0)
+    leap = np.maximum(away, below)
+    return np.flatnonzero((leap > least) & (leap > 0.0) & (np.abs(after - before) < _BACK * leap))

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mckibben.measurement.measurement import Measurement, lengths
+from mckibben.measurement.read import fast as fast_way
 from mckibben.measurement.read import read_csv, read_measurement, table
 from mckibben.physics.errors import InputError
 
@@ -518,13 +519,17 @@ def both_ways(text, monkeypatch):
     return answers
 
 
+@pytest.mark.parametrize("piece", [8_000_000, 1])  # all at once, or line by line
 @pytest.mark.parametrize("text", [*VARIANTS.values(), *(text for text, _ in ERRORS.values())])
-def test_fast_is_careful(text, monkeypatch):
+def test_fast_is_careful(text, piece, monkeypatch):
+    monkeypatch.setattr(fast_way, "_PIECE", piece)
     fast, careful = both_ways(text, monkeypatch)
     assert fast == careful
 
 
-def test_fast_way_reads_words_and_numbers_exactly(monkeypatch):
+@pytest.mark.parametrize("piece", [8_000_000, 2000])
+def test_fast_way_reads_words_and_numbers_exactly(piece, monkeypatch):
+    monkeypatch.setattr(fast_way, "_PIECE", piece)
     rng = np.random.default_rng(1)
     values = np.column_stack([rng.random(300) * 10.0 ** rng.integers(-8, 8, 300), 1 + rng.random(300)])
     words = ["up", " up", "down"]
@@ -539,8 +544,10 @@ def test_fast_way_reads_words_and_numbers_exactly(monkeypatch):
     np.testing.assert_array_equal(result.columns["group"], np.repeat([0, 1, 2], 100))
 
 
+@pytest.mark.parametrize("piece", [8_000_000, 100])
 @pytest.mark.parametrize("separator", [",", ";"])
-def test_a_few_odd_rows_do_not_make_a_large_table_slow(separator, monkeypatch):
+def test_a_few_odd_rows_do_not_make_a_large_table_slow(separator, piece, monkeypatch):
+    monkeypatch.setattr(fast_way, "_PIECE", piece)
     lines = [f"{n},{n + 1},0.5,up".replace(",", separator) for n in range(1, 201)]
     lines[50] = lines[50].replace("0.5", "half")
     lines[60] = lines[60] + separator + "7"

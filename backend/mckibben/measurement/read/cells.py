@@ -20,6 +20,7 @@ _POINT = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _COMMA = re.compile(r"[+-]?(?:[0-9]+,[0-9]*|,[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _MISSING = ("nan", "inf", "infinity", "na", "n/a", "none", "null")
 _SHOWN = 30
+MAX_WORDS = 200_000  # different ones in a column
 
 
 class Labels(NamedTuple):
@@ -54,6 +55,16 @@ class CellTable(NamedTuple):
             {index: Labels(label.codes[keep], label.words) for index, label in self.labels.items()},
             self.lines[keep],
             added(self.skipped, reason, int(np.count_nonzero(~keep)), first),
+        )
+
+
+def check_words(count: int, place: str, noun: str, header: str) -> None:
+    """Refuse a column of more words than directions or groups have."""
+    if count > MAX_WORDS:
+        raise InputError(
+            f"{place}, {noun} '{header}': it has more than {MAX_WORDS} different words",
+            field=f"{noun} {header}",
+            hint="a word per direction, group or sample, not per row",
         )
 
 
@@ -130,6 +141,8 @@ def read_cells(
         for index in text:
             label = _word(row[index])
             codes[index].append(words[index].setdefault(label, len(words[index])))
+            if codes[index][-1] >= MAX_WORDS:
+                check_words(len(words[index]), problems.place, problems.noun, headers[index])
     problems.raise_any()
     if not lines:
         raise no_rows(problems.place, problems.skipped)

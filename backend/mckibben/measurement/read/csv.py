@@ -21,6 +21,7 @@ from mckibben.physics.errors import InputError
 
 _CONTROL = re.compile(rb"[\x00-\x08\x0b\x0e-\x1f\x7f]")
 _PIECE = 1_000_000  # bytes
+_HEADER_WITHIN = 10_000  # lines
 
 
 def read_csv(data: bytes, name: str, correction: Correction | None = None) -> Measurement:
@@ -116,6 +117,11 @@ def _split(text: str, name: str) -> tuple[list[Note], str, str, int, str]:
     separator = None
     row, position = 0, 0
     while position < len(text):
+        if row == _HEADER_WITHIN:
+            raise InputError(
+                f"{name}, row {row + 1}: no header among the first {row} lines",
+                field=f"row {row + 1}", hint=HEADER_EXAMPLE,
+            )  # fmt: skip
         end = text.find("\n", position)
         end = len(text) if end < 0 else end
         line = text[position:end]

@@ -9,7 +9,6 @@ from mckibben.measurement.read.csv import open_csv
 from mckibben.measurement.read.source import RawTable
 from mckibben.physics.errors import InputError
 
-MAX_BYTES = 512_000_000  # of a file once it is unpacked
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 _BINARY = {".xlsx": "an Excel workbook", ".mat": "a MATLAB file", ".tdms": "a TDMS file"}
 _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1f]")

@@ -24,7 +24,7 @@ def open_mat(data: bytes, name: str) -> RawTable:
         InputError: damaged, or without vectors that are named like channels.
     """
     try:
-        values = read_variables(data)
+        values = read_variables(data, name)
     except DamagedError as error:
         raise InputError(
             f"{name}: no variable can be read: the MATLAB file is damaged ({error})",

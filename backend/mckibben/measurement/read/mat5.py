@@ -1,6 +1,7 @@
 """Variables of MATLAB files v5 to v7, by the published layout of the format (MAT-File Format, MathWorks).
 
 Every length is checked before it is used, so a damaged file is refused and no memory is taken on its word.
+What the compressed variables unpack to is known before the first is unpacked; unpacking stops at that size.
 """
 
 from __future__ import annotations
@@ -14,9 +15,15 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.measurement.read.limits import WORD, Allowance, check_variables, inflated
+
 HEADER = 128  # bytes before the first element
-MAX_UNPACKED = 512_000_000  # bytes
 _MAX_DEPTH = 4
+_MAX_DIMENSIONS = 32
+_LONGEST_TEXT = 64_000_000  # bytes; a longer one is neither a condition nor a column of words
+_LONGEST_NAME = 1000  # bytes; MATLAB's own end at 63
+_TAG = 8  # bytes before the data of an element
+_HEAD = 4096  # bytes of a compressed element in which its tag must be
 _NUMBERS = {
     1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 9: "f8", 12: "i8", 13: "u8",
 }  # fmt: skip
@@ -42,38 +49,49 @@ class _Element(NamedTuple):
     data: memoryview
 
 
-def read_variables(data: bytes) -> dict[str, Any]:
+def read_variables(data: bytes, file: str) -> dict[str, Any]:
     """Name -> array of numbers, text, list of texts, mapping of fields, ``Foreign``, or None for the rest.
+
+    Args:
+        data: the file's bytes.
+        file: its name, for the refusal of one that is too large.
 
     Raises:
         DamagedError: the file is not complete, or does not hold what it says.
+        InputError: it unpacks to more than is read.
     """
     if len(data) < HEADER or data[126:128] not in (b"IM", b"MI"):
         raise DamagedError("the header is not complete")
     order = "<" if data[126:128] == b"IM" else ">"
-    reader = _Reader(order)
-    variables: dict[str, Any] = {}
-    count = 0
+    reader = _Reader(order, file, len(data))
+    elements = []
     for element in reader.elements(memoryview(data)[HEADER:], "the file"):
-        count += 1
+        elements.append(element)
+        check_variables(len(elements), file)
+    if not elements:
+        raise DamagedError("it holds no variable")
+    sizes = [reader.unpacked_size(element, number) for number, element in enumerate(elements, start=1)]
+    Allowance(file, len(data)).take(sum(sizes), f"variables 1 to {len(sizes)}")
+    variables: dict[str, Any] = {}
+    for number, (element, size) in enumerate(zip(elements, sizes, strict=True), start=1):
         if element.kind == _COMPRESSED:
-            element = reader.unpacked(element, count)
+            element = reader.unpacked(element, number, size)
         if element.kind != _MATRIX:
-            raise DamagedError(f"variable {count} is of the unknown type {element.kind}")
-        name, value = reader.matrix(element.data, f"variable {count}", 0)
+            raise DamagedError(f"variable {number} is of the unknown type {element.kind}")
+        name, value = reader.matrix(element.data, f"variable {number}", 0)
         if name:  # the nameless one holds what objects are made of
             variables[name] = value
-    if not count:
-        raise DamagedError("it holds no variable")
     return variables
 
 
 class _Reader:
     """Elements of one byte order."""
 
-    def __init__(self, order: str) -> None:
+    def __init__(self, order: str, file: str, size: int) -> None:
         self._order = order
-        self._left = MAX_UNPACKED
+        self._file = file
+        self._allowance = Allowance(file, size)  # of the values, which may be written shorter than they are
+        self._fields_seen = 0
 
     def elements(self, data: memoryview, where: str) -> Iterator[_Element]:
         """The elements that follow each other in some bytes."""
@@ -96,18 +114,33 @@ class _Reader:
             if kind != _COMPRESSED:
                 position += -size % 8
 
-    def unpacked(self, element: _Element, number: int) -> _Element:
-        """The element inside a compressed one."""
-        unpacker = zlib.decompressobj()
+    def unpacked_size(self, element: _Element, number: int) -> int:
+        """Bytes of an element once it is unpacked, by what it says of itself."""
+        if element.kind != _COMPRESSED:
+            return len(element.data)
         try:
-            content = unpacker.decompress(element.data, self._left)
+            head = zlib.decompressobj().decompress(bytes(element.data[:_HEAD]), _TAG)
         except zlib.error as error:
             raise DamagedError(f"variable {number} cannot be unpacked") from error
-        if unpacker.unconsumed_tail:
-            raise DamagedError(f"variable {number} is too large once unpacked")
-        if not unpacker.eof:
+        if len(head) < _TAG:
+            raise DamagedError(f"variable {number} is empty")
+        kind, size = struct.unpack_from(f"{self._order}II", head)
+        return _TAG if kind >> 16 else _TAG + size
+
+    def unpacked(self, element: _Element, number: int, size: int) -> _Element:
+        """The element inside a compressed one, of which it says that it has this size."""
+        content = bytearray(size)
+        end = 0
+        try:
+            for piece in inflated(element.data):
+                if end + len(piece) > size + _TAG:  # it may be filled up to whole words
+                    raise DamagedError(f"variable {number} unpacks to more than the {size} bytes it says")
+                content[end : end + len(piece)] = piece
+                end += len(piece)
+        except zlib.error as error:
+            raise DamagedError(f"variable {number} cannot be unpacked") from error
+        if end < size:
             raise DamagedError(f"variable {number} is not complete")
-        self._left -= len(content)
         inner = next(self.elements(memoryview(content), f"variable {number}"), None)
         if inner is None:
             raise DamagedError(f"variable {number} is empty")
@@ -124,8 +157,9 @@ class _Reader:
         kind, is_complex = int(flags[0]) & 0xFF, bool(int(flags[0]) & _COMPLEX)
         if kind == _OPAQUE:
             return self._text(self._next(parts, where)), Foreign("table or another object")
-        shape = tuple(int(size) for size in self._numbers(self._next(parts, where), where))
-        if len(shape) < 2 or min(shape) < 0 or prod(shape) > MAX_UNPACKED:
+        sizes = self._numbers(self._next(parts, where), where)
+        shape = tuple(int(size) for size in sizes[: _MAX_DIMENSIONS + 1])
+        if not 2 <= len(shape) <= _MAX_DIMENSIONS or min(shape) < 0:
             raise DamagedError(f"{where} has the size {'x'.join(map(str, shape[:4]))}")
         name = self._text(self._next(parts, where))
         where = f"variable '{name}'" if name and depth == 0 else where
@@ -133,6 +167,7 @@ class _Reader:
             return name, Foreign("object" if kind == _OBJECT else "function")
         if kind in _NUMERIC:
             values = self._numbers(self._next(parts, where), where)
+            self._allowance.take(8 * len(values), where)
             if len(values) != prod(shape):
                 raise DamagedError(
                     f"{where} holds {len(values)} numbers, its size is {'x'.join(map(str, shape))}"
@@ -160,31 +195,38 @@ class _Reader:
         dtype = np.dtype(self._order + code)
         if len(element.data) % dtype.itemsize:
             raise DamagedError(f"{where} ends within a number")
-        return np.frombuffer(element.data, dtype).astype(dtype.newbyteorder("="))
+        return np.frombuffer(element.data, dtype).astype(dtype.newbyteorder("="), copy=False)
 
     def _text(self, element: _Element) -> str:
+        if len(element.data) > _LONGEST_NAME:
+            raise DamagedError(f"a name has {len(element.data)} characters")
         return bytes(element.data).rstrip(b"\0").decode("latin-1")
 
-    def _characters(self, element: _Element | None, shape: tuple[int, ...], where: str) -> str | list[str]:
-        """The text, or one text per row."""
+    def _characters(
+        self, element: _Element | None, shape: tuple[int, ...], where: str
+    ) -> str | list[str] | None:
+        """The text, or one text per row; None = longer than any that is used."""
         if element is None:
             return ""
+        if len(element.data) > _LONGEST_TEXT:
+            return None
+        rows, size = shape[0], prod(shape)
         if element.kind in _TEXTS:
             suffix = "" if element.kind == 16 else ("-le" if self._order == "<" else "-be")
             text = bytes(element.data).decode(_TEXTS[element.kind] + suffix, "replace")
+            length = len(text)
         else:
             codes = self._numbers(element, where)
             if codes.dtype.kind not in "iu" or np.any((codes < 0) | (codes > 0xFFFF)):
                 raise DamagedError(f"{where} holds what is no text")
-            text = "".join(map(chr, codes.tolist()))
-        rows = shape[0]
-        if len(text) != prod(shape):
-            raise DamagedError(
-                f"{where} holds {len(text)} characters, its size is {'x'.join(map(str, shape))}"
-            )
+            text = codes.astype("<u2").tobytes().decode("utf-16-le", "replace")
+            length = len(codes)
+        if length != size:
+            raise DamagedError(f"{where} holds {length} characters, its size is {'x'.join(map(str, shape))}")
+        self._allowance.take(4 * size + WORD * rows, where)
         if rows <= 1:
             return text
-        return [text[row::rows].rstrip() for row in range(rows)]
+        return None if len(text) != size else [text[row::rows].rstrip() for row in range(rows)]
 
     def _cells(self, parts: Iterator[_Element], count: int, where: str, depth: int) -> list[str] | None:
         """A cell array of texts; None = of something else."""
@@ -193,6 +235,7 @@ class _Reader:
             value = self.matrix(self._next(parts, where).data, where, depth + 1)[1]
             if not isinstance(value, str):
                 return None
+            self._allowance.take(WORD, where)
             words.append(value)
         return words
 
@@ -204,6 +247,8 @@ class _Reader:
         size, names = int(width[0]), bytes(self._next(parts, where).data)
         if count != 1:
             return None
+        self._fields_seen += len(names) // size
+        check_variables(self._fields_seen, self._file)
         fields = {}
         for begin in range(0, len(names) // size * size, size):
             name = names[begin : begin + size].partition(b"\0")[0].decode("latin-1")

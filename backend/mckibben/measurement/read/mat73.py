@@ -1,20 +1,35 @@
-"""Measurements from MATLAB files v7.3, which are HDF5: vectors by variable name, or one struct of vectors."""
+"""Measurements from MATLAB files v7.3, which are HDF5: vectors by variable name, or one struct of vectors.
+
+HDF5 keeps a variable in pieces that may be compressed, and unpacks a piece whole, whatever size it says. So
+every piece is unpacked here first, as far as its size, before HDF5 reads it.
+"""
 
 from __future__ import annotations
 
 import io
+import zlib
+from math import prod
 from typing import Any
 
 import numpy as np
 
+from mckibben.measurement.read.limits import WORD, Allowance, check_variables, inflated
 from mckibben.measurement.read.mat import choose
 from mckibben.measurement.read.mat5 import Foreign
 from mckibben.measurement.read.source import RawTable
 from mckibben.physics.errors import InputError
 
-_MAX_VARIABLES = 2000
-_MAX_VALUES = 64_000_000  # 512 MB as double
-_KNOWN_FILTERS = {1, 2, 3}  # deflate, shuffle, checksum: built in, nothing is loaded for them
+_SHUFFLE, _DEFLATE, _CHECKSUM = 2, 1, 3  # filters that are built in: nothing is loaded for them
+#: What MATLAB writes, in this order; anything else could unpack a piece twice.
+_KNOWN_FILTERS = {
+    (*shuffled, *packed, *checked)
+    for shuffled in ((), (_SHUFFLE,)) for packed in ((), (_DEFLATE,)) for checked in ((), (_CHECKSUM,))
+}  # fmt: skip
+_CHECKSUM_SIZE = 4  # bytes
+_MAX_PIECE = 32_000_000  # bytes that one piece unpacks to
+_MAX_PIECES = 50_000
+_MAX_WORDS = 200_000
+_AT_ONCE = 4_000_000  # bytes; other threads come in between
 
 
 def open_mat73(data: bytes, name: str) -> RawTable:
@@ -27,7 +42,7 @@ def open_mat73(data: bytes, name: str) -> RawTable:
 
     try:
         with h5py.File(io.BytesIO(data), "r") as file:
-            values = _Reader(file, name).group(file)
+            values = _Reader(file, name, data).group(file)
     except InputError:
         raise
     except Exception as error:  # h5py raises whatever a damaged file leads to
@@ -42,11 +57,14 @@ def open_mat73(data: bytes, name: str) -> RawTable:
 class _Reader:
     """Datasets and groups to arrays, texts and mappings; counts what it reads."""
 
-    def __init__(self, file: Any, name: str) -> None:
+    def __init__(self, file: Any, name: str, data: bytes) -> None:
         self._file = file
         self._name = name
-        self._values = 0
+        self._size = len(data)
+        self._allowance = Allowance(name, len(data))
         self._variables = 0
+        self._pieces = 0
+        self._words_seen = 0
 
     def group(self, group: Any, depth: int = 0) -> dict[str, Any]:
         """The members of a group (or struct) by name; links out of the file are not followed."""
@@ -55,12 +73,7 @@ class _Reader:
         result: dict[str, Any] = {}
         for key in group:
             self._variables += 1
-            if self._variables > _MAX_VARIABLES:
-                raise InputError(
-                    f"{self._name}: more than {_MAX_VARIABLES} variables",
-                    field="variables",
-                    hint="save fewer",
-                )
+            check_variables(self._variables, self._name)
             if key.startswith("#") or not isinstance(group.get(key, getlink=True), h5py.HardLink):
                 continue
             member = group[key]
@@ -79,41 +92,101 @@ class _Reader:
 
         if "MATLAB_empty" in dataset.attrs or dataset.shape is None:
             return None
-        self._values += int(dataset.size or 0)
-        plan = dataset.id.get_create_plist()
-        filters = {plan.get_filter(number)[0] for number in range(plan.get_nfilters())}
-        if (
-            dataset.is_virtual
-            or dataset.external
-            or not filters <= _KNOWN_FILTERS
-            or self._values > _MAX_VALUES
-        ):
-            why = "is too large" if self._values > _MAX_VALUES else "is not kept in the file in a known way"
-            raise InputError(
-                f"{self._name}: variable '{key}' {why}", field=f"variable {key}", hint="save with -v7"
-            )
         if dataset.dtype == h5py.ref_dtype:
-            return self._words(dataset)
+            return self._cell(key, dataset)
         if dataset.dtype.kind not in "biuf":
             return None
-        values = np.asarray(dataset[()])
+        values = self._read(key, dataset)
         if kind == "char":
             return _characters(values)
         return values.T  # MATLAB keeps columns first
 
-    def _words(self, dataset: Any) -> list[str] | None:
+    def _cell(self, key: str, dataset: Any) -> list[str] | None:
         """A cell array of texts; None = of something else."""
         import h5py
 
-        words = []
-        for reference in np.asarray(dataset[()]).reshape(-1):
+        self._words_seen += int(dataset.size)
+        if self._words_seen > _MAX_WORDS:
+            raise self._refused(
+                key,
+                f"holds {dataset.size} texts, at most {_MAX_WORDS} are read",
+                "save the words as numbers, e.g. direction as -1 and 1",
+            )
+        words: list[str] = []
+        known: dict[Any, str] = {}
+        for reference in self._read(key, dataset).reshape(-1):
             target = self._file[reference] if reference else None
             if not isinstance(target, h5py.Dataset) or int(target.size or 0) > 1000:
                 return None
-            if _text(target.attrs.get("MATLAB_class", b"")) != "char":
-                return None
-            words.append("" if "MATLAB_empty" in target.attrs else _characters(np.asarray(target[()])))
+            if target.id not in known:
+                if _text(target.attrs.get("MATLAB_class", b"")) != "char" or target.dtype.kind not in "iu":
+                    return None
+                empty = "MATLAB_empty" in target.attrs
+                known[target.id] = "" if empty else _characters(self._read(key, target))
+            words.append(known[target.id])
+            self._allowance.take(WORD, f"variable '{key}'")
         return words
+
+    def _read(self, key: str, dataset: Any) -> np.ndarray:
+        """The values of a dataset, which takes no more memory than its size says."""
+        variable = f"variable '{key}'"
+        self._allowance.take(max(8, dataset.dtype.itemsize) * int(dataset.size or 0), variable)
+        plan = dataset.id.get_create_plist()
+        filters = tuple(plan.get_filter(number)[0] for number in range(plan.get_nfilters()))
+        if dataset.is_virtual or dataset.external or filters not in _KNOWN_FILTERS:
+            raise self._refused(key, "is not kept in the file in a known way")
+        if dataset.chunks is None or not dataset.size:
+            return np.asarray(dataset[()])
+        self._check_pieces(key, dataset, _DEFLATE in filters)
+        return _in_parts(dataset)
+
+    def _check_pieces(self, key: str, dataset: Any, packed: bool) -> None:
+        """Refuse a dataset whose pieces unpack to more than they say."""
+        size = prod(dataset.chunks) * dataset.dtype.itemsize
+        if size > _MAX_PIECE:
+            raise self._refused(key, f"is kept in pieces of {size} bytes, at most {_MAX_PIECE} are read")
+        count = dataset.id.get_num_chunks()
+        self._pieces += count
+        if self._pieces > _MAX_PIECES:
+            raise self._refused(
+                key, f"is kept in {count} pieces, at most {_MAX_PIECES} of all variables are read"
+            )
+        if packed:
+            places: list[Any] = []
+            dataset.id.chunk_iter(places.append)
+            for place in places:
+                self._check_piece(key, dataset, place, size)
+
+    def _check_piece(self, key: str, dataset: Any, place: Any, size: int) -> None:
+        if place.size > self._size:
+            raise self._refused(key, f"has a piece of {place.size} bytes, more than the file")
+        skipped, content = dataset.id.read_direct_chunk(place.chunk_offset)
+        if skipped:  # of its filters; MATLAB leaves none out
+            raise self._refused(key, "is not kept in the file in a known way")
+        unpacked = 0
+        try:
+            for piece in inflated(memoryview(content)):
+                unpacked += len(piece)
+                if unpacked > size + _CHECKSUM_SIZE:
+                    raise self._refused(key, f"has a piece that unpacks to more than its {size} bytes")
+        except zlib.error as error:
+            raise self._refused(key, f"has a piece that cannot be unpacked ({error})") from error
+
+    def _refused(self, key: str, why: str, hint: str = "save with -v7") -> InputError:
+        return InputError(f"{self._name}: variable '{key}' {why}", field=f"variable {key}", hint=hint)
+
+
+def _in_parts(dataset: Any) -> np.ndarray:
+    """The values of a dataset that is kept in pieces, some whole pieces at a time."""
+    values = np.empty(dataset.shape, dataset.dtype)
+    axis = int(np.argmax(dataset.shape))
+    step = dataset.chunks[axis]
+    width = max(1, dataset.size // dataset.shape[axis] * dataset.dtype.itemsize * step)
+    step *= max(1, _AT_ONCE // width)
+    for begin in range(0, dataset.shape[axis], step):
+        part = (*(slice(None),) * axis, slice(begin, begin + step))
+        values[part] = dataset[part]
+    return values
 
 
 def _text(value: Any) -> str:

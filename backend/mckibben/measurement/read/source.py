@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.measurement.read.cells import CellTable, Labels, added, no_rows
+from mckibben.measurement.read.cells import MAX_WORDS, CellTable, Labels, added, check_words, no_rows
 from mckibben.measurement.read.conditions import Note
+from mckibben.measurement.read.limits import check_rows
 from mckibben.physics.errors import InputError
 
 SAMPLE_ROWS = 8
@@ -74,10 +75,13 @@ def array_source(
                 )
             numbers[index] = column
         labels = {index: _labels(values[index]) for index in text}
-        rows = len(values[0]) if values else 0
-        lines = np.arange(1, rows + 1)
+        for index, label in labels.items():
+            check_words(len(label.words), place, noun, headers[index])
+        rows = _length(values)
         if rows == 0:
             raise no_rows(place)
+        check_rows(rows, place)
+        lines = np.arange(1, rows + 1)
         bad, first, skipped = np.zeros(rows, bool), "", {}
         for index, column in numbers.items():
             missing = ~np.isfinite(column) & ~bad
@@ -88,9 +92,11 @@ def array_source(
                 bad |= missing
         if bad.all():
             raise no_rows(place, skipped)
+        if not bad.any():
+            return CellTable(numbers, labels, lines, skipped)
         keep = ~bad
         return CellTable(
-            {index: np.array(column[keep], dtype=np.float64) for index, column in numbers.items()},
+            {index: column[keep] for index, column in numbers.items()},
             {index: Labels(label.codes[keep], label.words) for index, label in labels.items()},
             lines[keep],
             skipped,
@@ -124,6 +130,8 @@ def _labels(column: Column) -> Labels:
         codes = [words.setdefault(word.strip(), len(words)) for word in column]
         return Labels(np.array(codes, dtype=np.intp), list(words))
     unique, first, inverse = np.unique(column, return_index=True, return_inverse=True)
+    if len(unique) > MAX_WORDS:  # refused by whoever asked
+        return Labels(inverse, [""] * len(unique))
     order = np.argsort(first)  # in order of first appearance
     rank = np.empty_like(order)
     rank[order] = np.arange(len(order))

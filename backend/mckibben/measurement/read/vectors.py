@@ -10,10 +10,9 @@ from numpy.typing import NDArray
 
 from mckibben.measurement.read.conditions import Note
 from mckibben.measurement.read.header import map_headers
+from mckibben.measurement.read.limits import check_columns
 from mckibben.measurement.read.source import Column
 from mckibben.physics.errors import InputError
-
-_MANY = 300  # columns
 
 Named = Mapping[str, Any]  # name -> array of numbers, list of words, text, or a mapping of these
 
@@ -31,7 +30,7 @@ def as_column(value: Any) -> Column | None:
         return [str(word) for word in flat]
     if flat.dtype.kind in "biuf":
         with np.errstate(over="ignore"):
-            return flat.astype(np.float64)
+            return flat.astype(np.float64, copy=False)
     return None
 
 
@@ -57,8 +56,9 @@ def sorted_out(values: Named, *, place: str, noun: str) -> tuple[dict[str, Colum
     messages: list[str] = []
     for name, value in values.items():
         column = as_column(value)
-        if column is not None and len(column) > 1 and len(columns) < _MANY:
+        if column is not None and len(column) > 1:
             columns[name] = column
+            check_columns(len(columns), place, f"{noun} {name}")
         elif (note := scalar_note(name, value, f"{place}, {noun} '{name}'")) is not None:
             notes.append(note)
         else:

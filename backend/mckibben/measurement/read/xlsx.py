@@ -6,26 +6,25 @@ with the values they had when the file was saved; nothing of a workbook is ever 
 
 from __future__ import annotations
 
-import io
 import threading
 import warnings
-import zipfile
 from collections.abc import Iterator, Sequence
 from datetime import date, datetime, time, timedelta
+from sys import getsizeof
 from typing import Any
 
 from mckibben.measurement.read.cells import Cell, CellTable, Problems, no_rows, read_cells
 from mckibben.measurement.read.conditions import Note, note_of_line
 from mckibben.measurement.read.header import HEADER_EXAMPLE, map_headers
+from mckibben.measurement.read.limits import WORD, Allowance, check_columns
 from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
+from mckibben.measurement.read.workbook import MAX_ROWS, open_book
 from mckibben.physics.errors import InputError
 
-_MAX_UNPACKED = 512_000_000  # bytes of all parts together
-_MAX_RATIO = 200  # of one part; number tables reach about 20
 _MAX_SHEETS = 20
-_MAX_COLUMNS = 300
+_MAX_CELLS = 8_000_000  # of all sheets; a cell takes 40 bytes and more
 _HEADER_WITHIN = 200  # rows
-_RATIO_FROM = 1_000_000  # bytes; smaller parts may be as dense as they like
+_AT_ONCE = 64  # cells
 _warnings_lock = threading.Lock()  # catch_warnings is not safe between threads
 
 Rows = list[tuple[int, tuple[Cell, ...]]]
@@ -37,7 +36,6 @@ def open_xlsx(data: bytes, name: str) -> RawTable:
     Raises:
         InputError: not a workbook, damaged, packed beyond measure, or without a table.
     """
-    _check_archive(data, name)
     problem: InputError | None = None
     for sheet, rows in _sheets(data, name):
         place = f"{name}, sheet '{sheet}'"
@@ -50,66 +48,22 @@ def open_xlsx(data: bytes, name: str) -> RawTable:
     )
 
 
-def _check_archive(data: bytes, name: str) -> None:
-    """Refuse what is no workbook or would unpack to more than its size can mean."""
-
-    def refused(why: str, hint: str) -> InputError:
-        return InputError(f"{name}: no column can be read: {why}", field="file", hint=hint)
-
-    try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            parts = archive.infolist()
-            names = {part.filename for part in parts}
-            if "xl/workbook.xml" not in names:
-                if any(part.endswith(".bin") and part.startswith("xl/") for part in names):
-                    raise refused("it is a binary workbook (.xlsb)", "save it as .xlsx or CSV")
-                shown = ", ".join(sorted(names)[:3])
-                raise refused(
-                    f"a ZIP archive without a workbook in it (it holds {shown[:100]})", "unpack it first"
-                )
-            if sum(part.file_size for part in parts) > _MAX_UNPACKED:
-                raise refused("the workbook is too large once unpacked", "save it as CSV")
-            for part in parts:
-                if part.flag_bits & 1:
-                    raise refused("the workbook is protected by a password", "save it without")
-                if part.file_size > max(_RATIO_FROM, _MAX_RATIO * part.compress_size):
-                    raise refused(
-                        f"its part '{part.filename[:80]}' is packed beyond measure", "save it as CSV"
-                    )
-            for part in parts:
-                if part.filename.endswith((".xml", ".rels")) and _declares_entities(archive.read(part)):
-                    raise refused(
-                        f"its part '{part.filename[:80]}' declares entities", "save it from Excel again"
-                    )
-    except InputError:
-        raise
-    except Exception as error:  # whatever a damaged archive makes zipfile raise
-        raise refused("the workbook is damaged, it cannot be unpacked", "save it again") from error
-
-
-def _declares_entities(part: bytes) -> bool:
-    """Whether an XML part could expand to more than it holds, in any encoding Excel may read."""
-    return any(
-        mark.encode(code) in part
-        for mark in ("<!DOCTYPE", "<!ENTITY")
-        for code in ("ascii", "utf-16-le", "utf-16-be")
-    )
-
-
 def _sheets(data: bytes, name: str) -> list[tuple[str, Rows]]:
     """Title and rows of the sheets that are not empty; rows by their number in the sheet."""
-    import openpyxl
-
     found = []
     try:
         with _warnings_lock, warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of features that hold no data
-            book = openpyxl.load_workbook(io.BytesIO(data), read_only=True, data_only=True, keep_links=False)
+            book = open_book(data, name)
+            cells = _Cells(name, len(data))
             for sheet in book.worksheets[:_MAX_SHEETS]:
-                rows = list(_rows(sheet))
+                title = str(sheet.title)[:40]
+                rows = list(cells.rows(sheet, title))
                 if rows:
-                    found.append((str(sheet.title)[:40], rows))
+                    found.append((title, rows))
             book.close()
+    except InputError:
+        raise
     except Exception as error:  # openpyxl raises whatever a damaged part leads to
         raise InputError(
             f"{name}: no column can be read: the workbook is damaged "
@@ -121,14 +75,48 @@ def _sheets(data: bytes, name: str) -> list[tuple[str, Rows]]:
     return found
 
 
-def _rows(sheet: Any) -> Iterator[tuple[int, tuple[Cell, ...]]]:
-    """(row number, cells up to the last filled one) of each row that is not empty."""
-    for number, cells in enumerate(sheet.iter_rows(values_only=True, max_col=_MAX_COLUMNS), start=1):
-        last = len(cells)
-        while last and (cells[last - 1] is None or cells[last - 1] == ""):
-            last -= 1
-        if last:
+class _Cells:
+    """The cells of all sheets, counted."""
+
+    def __init__(self, name: str, size: int) -> None:
+        self._name = name
+        self._texts = Allowance(name, size)  # the long ones
+        self._cells = self._rows = 0
+
+    def rows(self, sheet: Any, title: str) -> Iterator[tuple[int, tuple[Cell, ...]]]:
+        """(row number, cells up to the last filled one) of each row that is not empty."""
+        place = f"sheet '{title}'"
+        sheet.reset_dimensions()  # what it says of its size may be wrong; rows beyond would be missing
+        for number, cells in enumerate(sheet.iter_rows(values_only=True), start=1):
+            self._rows += 1
+            if number > MAX_ROWS or self._rows > _MAX_SHEETS * MAX_ROWS // 4:
+                raise self._refused(f"{place}, row {number}", f"a sheet has at most {MAX_ROWS} rows")
+            last = _filled(cells)
+            if not last:
+                continue
+            check_columns(last, f"{self._name}, {place}, row {number}", f"{place}, row {number}")
+            self._cells += last
+            if self._cells > _MAX_CELLS:
+                why = f"the workbook has more than {_MAX_CELLS} cells, which is more than is read"
+                raise self._refused(f"{place}, row {number}", why)
+            for cell in cells[:last]:
+                if isinstance(cell, str) and len(cell) > WORD:
+                    self._texts.take(getsizeof(cell), place)
             yield number, tuple(_plain(cell) for cell in cells[:last])
+
+    def _refused(self, where: str, why: str) -> InputError:
+        hint = "save it as CSV, or keep only the sheet of the measurement"
+        return InputError(f"{self._name}, {where}: {why}", field=where, hint=hint)
+
+
+def _filled(cells: Sequence[Any]) -> int:
+    """Number of cells up to the last one that is filled."""
+    last = len(cells)
+    while last > _AT_ONCE and cells[last - _AT_ONCE : last].count(None) == _AT_ONCE:
+        last -= _AT_ONCE
+    while last and (cells[last - 1] is None or cells[last - 1] == ""):
+        last -= 1
+    return last
 
 
 def _plain(cell: Any) -> Cell:
