@@ -37,7 +37,7 @@ class Preset(Strict):
     """What all presets share."""
 
     schema_version: Literal[1] = Field(alias="schema")
-    kind: str
+    kind: Any  # each kind of preset narrows it to its own word
     id: PresetId
     title: Annotated[str, Field(min_length=1, max_length=120, pattern=r"\S")]
     maker: Annotated[str, Field(max_length=120)] = ""

@@ -46,8 +46,8 @@ def conditions_of(source: RawTable, correction: Correction, messages: list[str])
 
 def rows_of(source: RawTable, columns: list[Column], *, skip: bool) -> CellTable:
     """The rows of the columns that are used."""
-    numeric = [c.index for c in columns if c.use not in TEXT_COLUMNS]
-    text = [c.index for c in columns if c.use in TEXT_COLUMNS]
+    numeric = [c.place for c in columns if c.use not in TEXT_COLUMNS]
+    text = [c.place for c in columns if c.use in TEXT_COLUMNS]
     return source.read(numeric, text, skip)
 
 

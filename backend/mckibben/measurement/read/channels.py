@@ -91,7 +91,7 @@ def read_channels(
 
 def _with_known_unit(column: Column, reading: ChannelReading) -> Column | None:
     """The column with a unit, guessed from its numbers where none is given; None = no such channel."""
-    raw = reading.table.numbers[column.index]
+    raw = reading.table.numbers[column.place]
     use, unit = column.use, column.unit
     if unit is None:
         unit = CHANNEL_UNITS[use]
@@ -121,7 +121,7 @@ def _absolute(column: Column, conditions: Mapping[str, float | str]) -> bool | N
 
 def _values(column: Column, reading: ChannelReading) -> _Values:
     """One numeric column in SI, and which of its rows cannot be."""
-    raw = reading.table.numbers[column.index]
+    raw = reading.table.numbers[column.place]
     use = column.use
     unit = column.unit or CHANNEL_UNITS[use]
     values = convert(raw, unit, CHANNEL_UNITS[use])
@@ -151,7 +151,7 @@ def _say_reference(column: Column, reading: ChannelReading) -> None:
 
 def _value_error(reading: ChannelReading, column: Column, values: _Values) -> InputError:
     first, count = int(np.argmax(values.bad)), int(np.count_nonzero(values.bad))
-    line, value = int(reading.table.lines[first]), reading.table.numbers[column.index][first]
+    line, value = int(reading.table.lines[first]), reading.table.numbers[column.place][first]
     more = f" (and {count - 1} more such rows)" if count > 1 else ""
     unit = f" {column.unit}" if column.unit else ""
     return InputError(
@@ -164,7 +164,7 @@ def _read_labels(
     by_use: Mapping[str, Column], columns: dict[str, NDArray], reading: ChannelReading
 ) -> NDArray[np.bool_] | None:
     """Add direction, group and sample; returns the rows marked as slack."""
-    labels = {use: reading.table.labels[c.index] for use, c in by_use.items() if use in TEXT_COLUMNS}
+    labels = {use: reading.table.labels[c.place] for use, c in by_use.items() if use in TEXT_COLUMNS}
     if "group" in labels:
         columns["group"] = _group(labels["group"])
     if "direction" in labels:

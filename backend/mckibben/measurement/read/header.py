@@ -51,7 +51,7 @@ TEXT_COLUMNS = ("direction", "group", SLACK, SAMPLE)
 class Column(NamedTuple):
     """A column that is used: ``use`` is a channel, ``slack`` or ``sample``; ``unit`` None = not given."""
 
-    index: int
+    place: int
     header: str
     use: str
     unit: str | None = None
@@ -123,7 +123,7 @@ def map_headers(
         if column is not None:
             found.append(column)
     found.sort(
-        key=lambda c: (c.index not in choices, c.penalty, not c.header.lower().startswith(c.use), c.index)
+        key=lambda c: (c.place not in choices, c.penalty, not c.header.lower().startswith(c.use), c.place)
     )
     used: dict[str, Column] = {}
     for column in found:
@@ -133,7 +133,7 @@ def map_headers(
             messages.append(f"{noun} '{column.header}' is not used: {better}")
     if not collect and not any(use in CHANNEL_UNITS and use not in ("direction", "group") for use in used):
         raise _no_channel(names, where, field, noun, messages)
-    taken = {column.index for column in used.values()}
+    taken = {column.place for column in used.values()}
     ignored = [header or f"column {i + 1}" for i, header in enumerate(names) if i not in taken]
     return Meaning(sorted(used.values()), ignored, messages, problems)
 

@@ -157,8 +157,8 @@ def _counted(source: RawTable, meaning: Meaning) -> tuple[Mapping[str, Skip], in
 
 
 def _columns(source: RawTable, meaning: Meaning, read: Read | None) -> tuple[PreviewColumn, ...]:
-    guessed = {column.index: column for column in meaning.columns}
-    used = {column.index: column for column in (read.columns if read else ())}
+    guessed = {column.place: column for column in meaning.columns}
+    used = {column.place: column for column in (read.columns if read else ())}
     ranges = {} if read is None else {c.name: c for c in read.measurement.channels}
     result = []
     for index, header in enumerate(source.headers):
