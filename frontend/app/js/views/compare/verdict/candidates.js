@@ -152,7 +152,7 @@ function notTried() {
       { class: "plain" },
       [...reasons].flatMap(([why, names]) => [
         h("dt", null, capitalized(why)),
-        h("dd", null, listed(names)),
+        h("dd", null, names.join(", ")),
       ]),
     ),
   );
