@@ -148,12 +148,11 @@ function notTried() {
       left.length === 1 ? "1 effect was not tried" : `${left.length} effects were not tried`,
     ),
     h(
-      "dl",
+      "ul",
       { class: "plain" },
-      [...reasons].flatMap(([why, names]) => [
-        h("dt", null, capitalized(why)),
-        h("dd", null, names.join(", ")),
-      ]),
+      [...reasons].map(([why, names]) =>
+        h("li", null, h("b", null, `${capitalized(why)}: `), names.join(", "))
+      ),
     ),
   );
 }
