@@ -12,6 +12,7 @@ from mckibben.application.compare import ModelDocument
 from mckibben.application.model_question import EffectDocument
 from mckibben.application.muscle_summary import GeometrySummary
 from mckibben.identification.diagnose.diagnosis import NotTried
+from mckibben.identification.diagnose.verdict import Status
 from mckibben.identification.fit.comparison import ChannelMisfit, Correlation, ParameterTable, ParameterValue
 from mckibben.identification.residual.profiles import Profile
 
@@ -122,7 +123,7 @@ class Verdict:
         sentence: everything in one to three sentences.
     """
 
-    status: str
+    status: Status
     title: str
     effects: list[str]
     indistinguishable: list[list[str]]

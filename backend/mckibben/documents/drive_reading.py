@@ -123,7 +123,7 @@ def _preset(studio: Studio, kind: str, preset_id: str | None, field: str) -> Par
     try:
         found = studio.library.get(kind, preset_id)
     except InputError as error:
-        raise InputError(error.message, field=field, hint=error.hint, code="unknown_preset") from error
+        raise error.at(field, code="unknown_preset") from error
     assert isinstance(found, (ValvePreset, TubePreset, FittingPreset))  # noqa: S101 - of its folder
     return found
 

@@ -262,7 +262,7 @@ def _by_thread(given: GivenMuscle, base: Muscle | None, length: float) -> Muscle
     try:
         diameter, angle = rest_diameter_and_angle(braid=braid, length=length)
     except InputError as error:
-        raise InputError(error.message, field=f"muscle.{error.field}", hint=error.hint) from error
+        raise error.inside("muscle") from error
     wall = given.wall_thickness
     if wall is None:
         wall = base.wall_thickness if base is not None else 0.0
@@ -296,5 +296,5 @@ def _effect_values(
         try:
             values[name] = si(value, units[name])
         except InputError as error:
-            raise InputError(error.message, field=field, hint=error.hint) from error
+            raise error.at(field) from error
     return values

@@ -61,9 +61,7 @@ class Studio:
         try:
             preset = self.library.muscle(preset_id)
         except InputError as error:
-            raise InputError(
-                error.message, field="muscle.preset", hint=error.hint, code="unknown_preset"
-            ) from error
+            raise error.at("muscle.preset", code="unknown_preset") from error
         known = self._facts.get(preset.id)
         if known is None or known[0] is not preset:
             known = self._facts[preset.id] = preset, preset_facts(preset, self.catalogue)

@@ -13,7 +13,14 @@ from mckibben.identification.diagnose.reason import ResidualTraits, seen, why
 from mckibben.identification.diagnose.score import effective_rows, score
 from mckibben.identification.diagnose.search import search
 from mckibben.identification.diagnose.twins import Alternative, alternatives, same, same_predictions
-from mckibben.identification.diagnose.verdict import is_force, left_structure, messages, proposals, status_of
+from mckibben.identification.diagnose.verdict import (
+    Status,
+    is_force,
+    left_structure,
+    messages,
+    proposals,
+    status_of,
+)
 from mckibben.identification.fit.effort import SearchEffort, diagnosis_effort
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import CancelledError, Fitter
@@ -102,7 +109,7 @@ class Diagnosis:
     path: tuple[PathStep, ...]
     best: FittedModel
     fit: FitResult | None
-    status: str
+    status: Status
     added: tuple[str, ...]
     alternatives: tuple[Alternative, ...]
     structure: ResidualStructure

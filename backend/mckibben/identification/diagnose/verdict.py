@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Literal
 
 import numpy as np
 
@@ -28,6 +29,10 @@ _FAR = 2.0  # of the noise: something is left that is not known, whatever was ex
 _STRUCTURED = 0.3  # share of the residual a regression predicts, from which it is structure
 _EXPLAINED = 0.98  # of the excess over the noise
 _SMALL = 0.03  # of full scale: an error of data that do not tell their noise, up to which nothing is missed
+
+
+#: What a diagnosis ends with; `mckibben.identification.diagnose.words` says what each means.
+Status = Literal["adequate", "missing_effects", "ambiguous", "unknown_effect"]
 
 
 def left_structure(
@@ -56,8 +61,8 @@ def status_of(
     others: Sequence[Alternative],
     rest: ResidualStructure,
     full_scale: float,
-) -> str:
-    """adequate, missing_effects, ambiguous or unknown_effect.
+) -> Status:
+    """What the diagnosis ends with.
 
     Args:
         start, best: the model as given, and as far as it got.

@@ -6,13 +6,14 @@ from collections.abc import Mapping
 
 from mckibben.identification.diagnose.diagnosis import Diagnosis
 from mckibben.identification.diagnose.score import AT_FLOOR
+from mckibben.identification.diagnose.verdict import Status
 
 _REFITTED = 0.98  # of the error before: the fit of the start model is worth telling
 _WORTH_TELLING = 0.15  # share of the residual that follows something
 _UNKNOWN_NOISE = "These data do not tell their noise: state it to know whether the error is more than that."
 
 
-_TITLES = {
+_TITLES: dict[Status, str] = {
     "adequate": "The model is adequate",
     "missing_effects": "Effects are missing",
     "ambiguous": "Effects are missing, and the data cannot tell all of them apart",
@@ -23,7 +24,7 @@ _TITLES = {
 _PARTLY = "Effects are missing, and the rest is unknown"
 
 
-def title_of(status: str, *, added: bool) -> str:
+def title_of(status: Status, *, added: bool) -> str:
     """A status in words; ``added``: whether effects were found to be missing."""
     return _PARTLY if added and status == "unknown_effect" else _TITLES[status]
 

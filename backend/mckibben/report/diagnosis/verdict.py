@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from mckibben.application.diagnosis_result import DiagnosisResult, Verdict
+from mckibben.identification.diagnose.verdict import Status
 from mckibben.report.bars import Bar, bars
 from mckibben.report.chart import chart
 from mckibben.report.diagnosis.errors import TIMES_NOISE, error_scale
@@ -24,7 +25,7 @@ from mckibben.report.figures import Scale, figure, percent, plain, variable
 from mckibben.report.html import Child, Html, html, tag
 from mckibben.report.marks import SECOND, Axis, Dots, Line
 
-_TONES: dict[str, Tone] = {
+_TONES: dict[Status, Tone] = {
     "adequate": "good",
     "missing_effects": "warn",
     "ambiguous": "warn",
