@@ -147,7 +147,7 @@ def _write_tables(name: str, result: SimulationResult) -> None:
             ["largest error", figure(follows.max * 1e3, unit=" mm")],
             ["lag", figure(_times(follows.lag, 1e3), unit=" ms")],
         ]
-        write_table("Tracking of the reference", ["", ""], rows)
+        write_table("Following the reference", ["", ""], rows)
 
 
 def _times(value: float | None, factor: float) -> float | None:
