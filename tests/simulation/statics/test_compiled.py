@@ -9,7 +9,7 @@ import pytest
 
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.muscle import Muscle
-from mckibben.simulation import compile as compiling
+from mckibben.simulation.statics import compiled as compiling
 from mckibben.simulation.statics.compiled import CompiledState
 
 MUSCLE = Muscle(0.3, 0.0218, 0.45, 0.0018, 0.02)
