@@ -65,7 +65,7 @@ export interface components {
       nrmse_percent: number | null;
       holdout_rmse: number;
     };
-    /** The start model with one more effect, all numbers refitted. */
+    /** The start model with one more effect, all parameters refitted. */
     Candidate: {
       effect: string;
       title: string;
@@ -77,17 +77,17 @@ export interface components {
       /** Older name of score_change, for this version only. */
       delta_bic: number;
       parameters: { [key: string]: components["schemas"]["FittedParameter"] };
-      /** Candidates that these data cannot tell from it. */
+      /** Candidates that these data cannot distinguish from it. */
       twins: string[];
       why: string;
       /** LaTeX. */
       equation: string;
       freed: string[];
-      /** What would tell it from its first twin. */
+      /** Experiment that separates it from its first twin. */
       next_measurement: string | null;
       model: components["schemas"]["ModelJson"];
     };
-    /** One column of a measurement that is used. */
+    /** One used column of a measurement. */
     Channel: {
       /** Name of the channel. */
       name: string;
@@ -102,7 +102,7 @@ export interface components {
       /** Largest value, SI. */
       maximum: number | null;
     };
-    /** What a column can be mapped to. */
+    /** A channel to which a column can be mapped. */
     ChannelChoice: {
       name: string;
       si_unit: string;
@@ -124,14 +124,14 @@ export interface components {
       blocked_force: number | null;
       /** Contraction without load. [1] */
       free_contraction: number | null;
-      /** Why the free contraction is not a plain figure. */
+      /** Code of the limit that the free contraction crosses. */
       free_contraction_flag: string | null;
       /** Work of one stroke from nominal length to free contraction. [J] */
       max_work: number | null;
       /** Ideal tension of all threads at nominal length. [N] */
       thread_tension_total: number | null;
     };
-    /** A time in which the flow of the valve does not depend on the pressure behind it. */
+    /** Interval in which the flow of the valve does not depend on the downstream pressure. */
     Choked: {
       /** Start. [s] */
       from: number;
@@ -144,7 +144,7 @@ export interface components {
       unit: string;
       values: number[];
     };
-    /** The model's error in numbers, and the points. */
+    /** The figures of the model's error, and the points. */
     ComparisonAnswer: {
       /** Measurement kind. */
       kind: string;
@@ -152,7 +152,7 @@ export interface components {
       rows_used: number;
       /** The predicted channel, or several. */
       predicted: string;
-      /** SI unit of the error; "1": over the noise of each channel. */
+      /** SI unit of the error; "1" = relative to the noise of each channel. */
       unit: string;
       /** Root mean square of the residual. */
       rmse: number | null;
@@ -162,45 +162,45 @@ export interface components {
       full_scale: number | null;
       /** RMSE with whole groups left out of the fit. */
       holdout_rmse: number | null;
-      /** Noise of the data, when it can be told. */
+      /** Noise of the data, if it can be estimated. */
       noise_floor: number | null;
-      /** From what the noise was told. */
+      /** How the noise was estimated. */
       noise_how: string;
       residual_mean: number | null;
-      /** Each channel when there are several. */
+      /** Error of each channel when there are several. */
       channels: { [key: string]: components["schemas"]["ChannelError"] };
       /** Effect -> parameter -> value. */
       parameters: { [key: string]: { [key: string]: components["schemas"]["FittedParameter"] } };
       correlations: components["schemas"]["Correlation"][];
-      /** Why rows were left out -> how many. */
+      /** Reason for leaving rows out -> number of rows. */
       excluded: { [key: string]: number };
       where: components["schemas"]["ResidualProfile"][];
       heat_map: components["schemas"]["HeatMap"] | null;
       whiteness: components["schemas"]["WhitenessAnswer"];
       loops: components["schemas"]["Loop"][];
-      /** Where the model fails, in words. */
+      /** Where the model fails, as sentences. */
       sentences: string[];
       validation: components["schemas"]["ValidationAnswer"] | null;
       messages: string[];
       geometry: components["schemas"]["MuscleGeometry"];
       series: components["schemas"]["ComparisonSeries"][];
-      /** Effects and values as a request takes them. */
+      /** Effects and values in the form of a request. */
       model: { [key: string]: { [key: string]: { [key: string]: number | string } } };
       flags: components["schemas"]["Flag"][];
     };
-    /** Which model beside which measurements, and whether to fit it. */
+    /** A model, the measurements to compare it with, and whether to fit it. */
     ComparisonRequest: {
       /** Null: the drive's. */
       muscle?: components["schemas"]["MuscleInput"] | null;
       effects?: { [key: string]: { [key: string]: number | string } } | null;
-      /** Valve, tube, supply and load of transient measurements with a command channel, whose command takes the place of one given here. */
+      /** Valve, tube, supply and load of transient measurements with a command channel; the measured command replaces the one given here. */
       drive?: components["schemas"]["DriveDocument"] | null;
       /** One measurement to fit to. */
       measurement?: string | null;
       measurements?: components["schemas"]["UsedMeasurement"][];
-      /** Geometry that is fitted too, within its tolerance. */
+      /** Geometry to fit as well, within its tolerance. */
       free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
-      /** Further constants that are fitted, as effect.parameter. */
+      /** Additional parameters to fit, as effect.parameter. */
       freed?: string[];
       /** Standard deviation of the predicted channel in SI, when it is known. */
       noise?: number | null;
@@ -236,7 +236,7 @@ export interface components {
       /** Measured minus predicted. */
       residual: (number | null)[];
     };
-    /** How far is the muscle contracted at this force and pressure? */
+    /** The contraction at a force and pressure. */
     ContractionQuestion: {
       muscle: components["schemas"]["MuscleInput"];
       effects?: { [key: string]: { [key: string]: number | string } } | null;
@@ -366,7 +366,7 @@ export interface components {
         interpolation?: "linear" | "hold";
       };
     };
-    /** How far two fitted parameters can stand in for each other. */
+    /** Correlation of two fitted parameters. */
     Correlation: {
       a: string;
       b: string;
@@ -378,7 +378,7 @@ export interface components {
       contraction: components["schemas"]["Column"];
       force: components["schemas"]["Column"];
     };
-    /** What bounds the use of the muscle; null where the preset does not say. */
+    /** Limits of the muscle; null where the preset does not state one. */
     CurveLimits: {
       /** Highest gauge pressure. [Pa] */
       max_pressure: number | null;
@@ -410,7 +410,7 @@ export interface components {
       note?: string | null;
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
-      /** With the program, or the user's own. */
+      /** Part of the program, or saved by the user. */
       origin: "built-in" | "user";
     };
     /** Force, stiffness, volume and diameter over the length, per pressure. */
@@ -433,7 +433,7 @@ export interface components {
       volume: (number | null)[];
       /** Braid diameter at the highest pressure. [m] */
       diameter: (number | null)[];
-      /** Outer diameter of the wall, which keeps its volume. [m] */
+      /** Outer diameter of the wall, at constant wall volume. [m] */
       outer_diameter: (number | null)[];
       limits: components["schemas"]["CurveLimits"];
       characteristics: components["schemas"]["Characteristics"][];
@@ -444,7 +444,7 @@ export interface components {
       operating_points: components["schemas"]["OperatingPoint"][];
       flags: components["schemas"]["Flag"][];
     };
-    /** Which muscle, which pressures, which range. */
+    /** A muscle, and the pressures and range of its curves. */
     CurvesRequest: {
       /** Gauge pressures of the curves. */
       pressures?: (number | string)[];
@@ -456,7 +456,7 @@ export interface components {
       temperature?: number | string;
       /** Also negative forces, which a muscle cannot exert. */
       unclipped?: boolean;
-      /** Gas volume besides the muscle, for the closed valve. [m3] */
+      /** Gas volume outside the muscle, for the closed valve. [m3] */
       dead_volume?: number | string;
       /** 1 isothermal, 1.4 adiabatic (air). */
       polytropic_exponent?: number;
@@ -471,7 +471,7 @@ export interface components {
       muscle: components["schemas"]["MuscleInput"];
       effects?: { [key: string]: { [key: string]: number | string } } | null;
     };
-    /** An example document of the Design view; its content is checked by the API that runs it. */
+    /** An example document of the Design view; its content is checked when it is used. */
     DesignAnswer: {
       schema: 1;
       kind: "design";
@@ -483,15 +483,15 @@ export interface components {
       document: { [key: string]: unknown };
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
-      /** With the program, or the user's own. */
+      /** Part of the program, or saved by the user. */
       origin: "built-in" | "user";
     };
-    /** What the model is missing, and how sure that is. */
+    /** What the model is missing, and how certain that is. */
     DiagnosisAnswer: {
       kind: string;
       rows: number;
       rows_used: number;
-      /** Why rows were left out -> how many. */
+      /** Reason for leaving rows out -> number of rows. */
       excluded: { [key: string]: number };
       predicted: string;
       unit: string;
@@ -508,28 +508,28 @@ export interface components {
       /** Muscle and effects; can be given to a comparison as a drive. */
       model: { [key: string]: unknown };
       freed: string[];
-      /** Effects of the catalogue that were no candidates, and why. */
+      /** Effects of the catalogue that were not tried, with the reason. */
       not_tried: components["schemas"]["NotTried"][];
       messages: string[];
     };
-    /** The start model and the measurements that it should explain. */
+    /** The start model and the measurements to explain. */
     DiagnosisRequest: {
       /** Null: the drive's. */
       muscle?: components["schemas"]["MuscleInput"] | null;
       effects?: { [key: string]: { [key: string]: number | string } } | null;
-      /** Valve, tube, supply and load of transient measurements with a command channel, whose command takes the place of one given here. */
+      /** Valve, tube, supply and load of transient measurements with a command channel; the measured command replaces the one given here. */
       drive?: components["schemas"]["DriveDocument"] | null;
       /** One measurement to fit to. */
       measurement?: string | null;
       measurements?: components["schemas"]["UsedMeasurement"][];
-      /** Geometry that is fitted too, within its tolerance. */
+      /** Geometry to fit as well, within its tolerance. */
       free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
-      /** Further constants that are fitted, as effect.parameter. */
+      /** Additional parameters to fit, as effect.parameter. */
       freed?: string[];
       /** Standard deviation of the predicted channel in SI, when it is known. */
       noise?: number | null;
     };
-    /** A drive document to start from; its content is checked by the API that runs it. */
+    /** A drive document to start from; its content is checked when it is used. */
     DriveAnswer: {
       schema: 1;
       kind: "drive";
@@ -543,7 +543,7 @@ export interface components {
       paper?: components["schemas"]["PaperFigures"] | null;
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
-      /** With the program, or the user's own. */
+      /** Part of the program, or saved by the user. */
       origin: "built-in" | "user";
     };
     /** A complete drive. Pressures are gauge, strokes are positive when the muscle gets shorter. */
@@ -667,7 +667,7 @@ export interface components {
       /** Gauge pressure in the muscle at t = 0. [Pa] */
       start_pressure?: number | string;
     };
-    /** What the maker allows (null = not known), and the end stops. */
+    /** Limits stated by the maker (null = not known), and the end stops. */
     DriveLimits: {
       /** Gauge pressure. [Pa] */
       max_pressure: number | null;
@@ -701,7 +701,7 @@ export interface components {
       signature: components["schemas"]["Signature"];
       confused_with: components["schemas"]["Twin"][];
       references: components["schemas"]["SourceText"][];
-      /** The places of the model it fills. */
+      /** The places in the model where it acts. */
       slots: string[];
     };
     /** One number of an effect, in SI. */
@@ -715,9 +715,9 @@ export interface components {
       unit: string;
       /** A typical value. */
       default: number;
-      /** Lower bound of what is plausible. */
+      /** Lower bound of the plausible range. */
       lower: number;
-      /** Upper bound of what is plausible. */
+      /** Upper bound of the plausible range. */
       upper: number;
       /** The value at which the effect vanishes. */
       off: number | null;
@@ -731,7 +731,7 @@ export interface components {
       effects: components["schemas"]["EffectAnswer"][];
       problems: components["schemas"]["FileProblem"][];
     };
-    /** The one shape of every error. */
+    /** The body of every error. */
     ErrorBody: {
       error: components["schemas"]["ErrorDetail"];
     };
@@ -751,34 +751,34 @@ export interface components {
       index: number;
       why: string;
     };
-    /** What would separate two effects that look alike. */
+    /** An experiment that separates two effects that look alike. */
     Experiment: {
       pair: string[];
       declared: string;
       protocol: string;
-      /** Standard deviations of one reading. */
+      /** Expected difference, in standard deviations of one reading. */
       separation: number;
     };
-    /** A simulated design that does the task; coarse figures, for a picture of the choices. */
+    /** A simulated design that does the task; coarse figures, for a plot of the alternatives. */
     ExploredDesign: {
       muscle: string;
-      /** Of each muscle. [m] */
+      /** Nominal length of each muscle. [m] */
       nominal_length: number;
-      /** Muscles side by side. */
+      /** Number of parallel muscles. */
       parallel: number;
       valve: string;
       tube: string | null;
-      /** Of the supply, gauge. [Pa] */
+      /** Gauge pressure of the supply. [Pa] */
       pressure: number;
-      /** For the stroke. [s] */
+      /** Time for the stroke. [s] */
       time: number;
-      /** In a cycle. [m^3] */
+      /** Air per cycle at ANR. [m^3] */
       air_volume_anr: number;
       /** Share by which the static force exceeds the load. [1] */
       force_reserve: number;
-      /** At the load, valve open. [N/m] */
+      /** Stiffness at the load, valve open. [N/m] */
       stiffness: number;
-      /** No other explored design is better in everything. */
+      /** On the Pareto front of the explored designs. */
       front: boolean;
     };
     /** A file that was not loaded, and why. */
@@ -796,10 +796,10 @@ export interface components {
       unit: string;
       /** The fit stopped at a bound. */
       at_bound: boolean;
-      /** The fit was free to change it. */
+      /** Whether the fit could change it. */
       fitted: boolean;
     };
-    /** A fitting or silencer: what its port adds to the dead volume. */
+    /** A fitting or silencer, with the dead volume of its port. */
     FittingAnswer: {
       schema: 1;
       kind: "fitting";
@@ -812,13 +812,13 @@ export interface components {
       data?: { [key: string]: components["schemas"]["Quantity"] };
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
-      /** With the program, or the user's own. */
+      /** Part of the program, or saved by the user. */
       origin: "built-in" | "user";
     };
-    /** Something the user should know about an answer: a limit, a value out of reach, an unverified figure. */
+    /** A remark on an answer: a crossed limit, a value out of reach, an unverified figure. */
     Flag: {
       code: string;
-      /** In physical words. */
+      /** Explanation for the user. */
       message: string;
       /** The input it belongs to. */
       field?: string | null;
@@ -848,7 +848,7 @@ export interface components {
       /** Gas volume besides muscle and tube: ports, a reservoir. [m3] */
       dead_volume?: number | string;
     };
-    /** The muscle at rest; a wall thickness that is not known is left out. */
+    /** The muscle at rest; an unknown wall thickness is left out. */
     Geometry: {
       inside_diameter: components["schemas"]["Quantity"];
       braid_diameter: components["schemas"]["Quantity"];
@@ -856,7 +856,7 @@ export interface components {
       nominal_length: components["schemas"]["Quantity"];
       wall_thickness?: components["schemas"]["Quantity"] | null;
     };
-    /** Where a value of a drive document comes from. */
+    /** Source of a value of a drive document. */
     Ground: {
       source: string;
       grade: "S" | "S2" | "C" | "D" | "M" | "E" | "user";
@@ -872,7 +872,7 @@ export interface components {
       /** Whether the server has a folder for the user's presets. */
       can_save_presets: boolean;
     };
-    /** The residual over two variables; rows are y, null where there is no point. */
+    /** The residual over two variables; rows are y, null where there are no points. */
     HeatMap: {
       x: string;
       y: string;
@@ -882,24 +882,24 @@ export interface components {
       rms: ((number | null)[])[];
       count: number[][];
     };
-    /** One thing that the start model lacks. */
+    /** One effect that the start model lacks. */
     Hidden: {
       title: string;
-      /** What it does, and how it shows. */
+      /** What it does, and how it shows in the data. */
       what: string;
-      /** Effect ids that are right answers. */
+      /** Effect ids accepted as right answers. */
       effects: string[];
     };
-    /** A model on the way to the one of the report. */
+    /** An earlier model in the user's history. */
     HistoryStep: {
       label: string;
-      /** As in the request itself. */
+      /** As in the request. */
       effects?: { [key: string]: { [key: string]: number | string } } | null;
       freed?: string[];
       /** Null: that of the request. */
       muscle?: components["schemas"]["MuscleInput"] | null;
     };
-    /** The value asked for, in SI, with what to know about it. */
+    /** The requested value in SI, with flags. */
     InverseAnswer: {
       question: "pressure" | "contraction" | "working_range" | "stroke_pressure";
       /** The answer; null when there is none (a flag says why). */
@@ -910,20 +910,20 @@ export interface components {
       details: { [key: string]: number | null };
       flags: components["schemas"]["Flag"][];
     };
-    /** The pulley of an antagonist pair, and the muscle that pulls the other way. */
+    /** The pulley of an antagonist pair, and its second muscle. */
     Joint: {
-      /** Of the pulley, from the middle; positive as the first muscle pulls. [rad] */
+      /** Pulley angle from the middle, positive as the first muscle pulls. [rad] */
       angle: (number | null)[];
-      /** Of both muscles on the pulley. [N*m] */
+      /** Torque of both muscles on the pulley. [N*m] */
       torque: (number | null)[];
-      /** Of the joint at constant pressures. [N*m/rad] */
+      /** Stiffness of the joint at constant pressures. [N*m/rad] */
       stiffness: (number | null)[];
       /** Tension of the second muscle. [N] */
       counter_force: (number | null)[];
-      /** In the second muscle. [Pa] */
+      /** Pressure in the second muscle. [Pa] */
       counter_pressure: (number | null)[];
     };
-    /** What the maker allows; a limit that is not known is left out. */
+    /** Limits stated by the maker; unknown ones are left out. */
     Limits: {
       max_pressure?: components["schemas"]["Quantity"] | null;
       max_force?: components["schemas"]["Quantity"] | null;
@@ -1045,15 +1045,15 @@ export interface components {
       /** Of both muscles of a pair at the middle; 10 % when left out. [1] */
       precontraction?: number | string | null;
     };
-    /** Area of the force residual over a closed way: energy that the model lacks or has too much. */
+    /** Area of the force residual over a closed path: energy dissipation that the model misses. */
     Loop: {
       group: number;
-      /** Positive: friction takes it out of the motion. [J] */
+      /** Positive: the model lacks friction. [J] */
       area: number;
-      /** Way between the turns. [m] */
+      /** Travel between the reversals. [m] */
       span: number;
     };
-    /** A measurement as it was understood. */
+    /** A measurement as it was read. */
     MeasurementAnswer: {
       /** SHA-256 of the file's content (and of the mapping, if one was given). */
       id: string;
@@ -1066,11 +1066,11 @@ export interface components {
       /** Why this kind was detected; empty when it was given. */
       kind_reason: string;
       rows: number;
-      /** Rows that hold what was to be measured. */
+      /** Rows with a usable measurement. */
       usable_rows: number;
-      /** Why rows of the measurement are not usable -> how many. */
+      /** Reason why rows are not usable -> number of rows. */
       excluded: { [key: string]: number };
-      /** Why rows of the file could not be read -> how many. */
+      /** Reason why rows could not be read -> number of rows. */
       skipped: { [key: string]: number };
       channels: components["schemas"]["Channel"][];
       /** Columns that are not used. */
@@ -1079,10 +1079,10 @@ export interface components {
       conditions: { [key: string]: string | number | null };
       /** Conditions to ask for. */
       missing: components["schemas"]["MissingCondition"][];
-      /** How many sweeps or cycles the rows belong to. */
+      /** Number of sweeps or cycles of the rows. */
       groups: number;
       segments: components["schemas"]["Segmentation"];
-      /** What to know about the file. */
+      /** Remarks on the file. */
       messages: string[];
     };
     /** Force over pressure and length. */
@@ -1104,11 +1104,11 @@ export interface components {
       /** Why this kind was detected; empty when it was given. */
       kind_reason: string;
       rows: number;
-      /** Rows that hold what was to be measured. */
+      /** Rows with a usable measurement. */
       usable_rows: number;
-      /** Why rows of the measurement are not usable -> how many. */
+      /** Reason why rows are not usable -> number of rows. */
       excluded: { [key: string]: number };
-      /** Why rows of the file could not be read -> how many. */
+      /** Reason why rows could not be read -> number of rows. */
       skipped: { [key: string]: number };
       channels: components["schemas"]["Channel"][];
       /** Columns that are not used. */
@@ -1117,12 +1117,12 @@ export interface components {
       conditions: { [key: string]: string | number | null };
       /** Conditions to ask for. */
       missing: components["schemas"]["MissingCondition"][];
-      /** How many sweeps or cycles the rows belong to. */
+      /** Number of sweeps or cycles of the rows. */
       groups: number;
       segments: components["schemas"]["Segmentation"];
-      /** What to know about the file. */
+      /** Remarks on the file. */
       messages: string[];
-      /** Channel -> values in SI; 'slack' marks rows without pulling force, 'usable' those that hold what was to be measured, 'sweep' and 'cycle' number them, 'motion' is -1 shortening, +1 lengthening, 0 held. */
+      /** Channel -> values in SI; 'slack' marks rows without pulling force, 'usable' those with a usable measurement, 'sweep' and 'cycle' number them, 'motion' is -1 shortening, +1 lengthening, 0 held. */
       columns: { [key: string]: (number | boolean | null)[] };
     };
     /** Published measured points; ``slack`` marks rows where the muscle did not pull (not a measured zero). */
@@ -1146,10 +1146,10 @@ export interface components {
       slack?: (0 | 1)[];
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
-      /** With the program, or the user's own. */
+      /** Part of the program, or saved by the user. */
       origin: "built-in" | "user";
     };
-    /** A condition that a comparison of this kind needs and the file does not say. */
+    /** A condition that a comparison of this kind needs and the file does not state. */
     MissingCondition: {
       /** Name of the condition. */
       key: string;
@@ -1157,16 +1157,16 @@ export interface components {
       unit: string;
       /** What it is needed for. */
       why: string;
-      /** A right value. */
+      /** An example value. */
       example: string;
-      /** Conditions that do as well. */
+      /** Conditions that replace it. */
       alternatives: string[];
     };
-    /** The effects that were used, with all their values in SI. */
+    /** The effects used, with all their values in SI. */
     ModelAnswer: {
       effects: { [key: string]: { [key: string]: number } };
     };
-    /** A model as a request takes it. */
+    /** A model in the form of a request. */
     ModelJson: {
       effects: { [key: string]: { [key: string]: number | string } };
     };
@@ -1189,10 +1189,10 @@ export interface components {
       measurement?: string | null;
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
-      /** With the program, or the user's own. */
+      /** Part of the program, or saved by the user. */
       origin: "built-in" | "user";
     };
-    /** The muscle at rest in all its forms. */
+    /** The geometry of the muscle at rest in all forms. */
     MuscleGeometry: {
       /** Diameter of the braid at the braid angle. [m] */
       braid_diameter: number;
@@ -1248,34 +1248,34 @@ export interface components {
       reference_curve?: string | null;
       measurement?: string | null;
     };
-    /** A measurement to practise on; says nothing of what is hidden. */
+    /** A measurement to practise on; without the solution. */
     Mystery: {
       id: string;
       title: string;
-      /** What an engineer would tell of it. */
+      /** The situation, as an engineer would describe it. */
       story: string;
       /** Measurement kind. */
       kind: string;
-      /** As a comparison takes it. */
+      /** In the form of a comparison request. */
       muscle: { [key: string]: unknown };
-      /** As a comparison takes it; null where none is needed. */
+      /** In the form of a comparison request; null if not needed. */
       drive: { [key: string]: unknown } | null;
       /** The start model. */
       effects: { [key: string]: { [key: string]: number | string } };
-      /** Id by which comparisons and diagnoses take the measurement. */
+      /** Id of the measurement for comparisons and diagnoses. */
       measurement: string;
     };
-    /** Below this error there is nothing to learn. */
+    /** The error due to noise; a smaller one cannot be reached. */
     NoiseFloor: {
       rmse: number | null;
       how: string;
     };
-    /** An effect that these data cannot show, or that the question excludes. */
+    /** An effect that these data cannot show, or that the request excludes. */
     NotTried: {
       effect: string;
       why: string;
     };
-    /** Where the muscle holds the load at one pressure. */
+    /** The state in which the muscle holds the load at one pressure. */
     OperatingPoint: {
       /** Gauge pressure. [Pa] */
       pressure: number;
@@ -1283,7 +1283,7 @@ export interface components {
       contraction: number | null;
       /** Length; null when out of reach. [m] */
       length: number | null;
-      /** The load that is held. [N] */
+      /** The load. [N] */
       force: number | null;
       /** Stiffness at constant pressure. [N/m] */
       stiffness: number | null;
@@ -1291,7 +1291,7 @@ export interface components {
       stiffness_closed: number | null;
       /** Braid diameter. [m] */
       diameter: number | null;
-      /** Codes of the flags that hold here. */
+      /** Codes of the flags of this point. */
       flags: string[];
     };
     /** Characteristics over pressure: position at the load, force at the fixed length. */
@@ -1317,13 +1317,13 @@ export interface components {
       /** Outer diameter of the wall at the load. [m] */
       outer_diameter: (number | null)[];
     };
-    /** A step of the reference and how far the position went beyond it. */
+    /** A step of the reference, and its overshoot. */
     Overshoot: {
       /** When. [s] */
       time: number;
       /** Signed height of the step. [m] */
       size: number;
-      /** Share of the height. [1] */
+      /** Overshoot as a share of the height. [1] */
       overshoot: number;
     };
     /** Two equal muscles that pull a pulley against each other. */
@@ -1337,14 +1337,14 @@ export interface components {
       /** Left out, eight radii from 10 to 120 mm are tried: a free choice of the designer. [m] */
       pulley_radius?: number | string | null;
     };
-    /** What a publication prints of a drive. Attributes: figure: number of the figure. figures: "extend.rise_time" -> value; names of the timing table, or told in the description. tolerance: share by which a figure may be missed, by the same names. excluded: why a figure is not compared, by the same names. */
+    /** Published figures of a drive. Attributes: figure: number of the figure. figures: "extend.rise_time" -> value; names of the timing table, or explained in the description. tolerance: permitted relative deviation of a figure, by the same names. excluded: reason why a figure is not compared, by the same names. */
     PaperFigures: {
       figure: string;
       figures?: { [key: string]: components["schemas"]["Quantity"] };
       tolerance?: { [key: string]: number };
       excluded?: { [key: string]: string };
     };
-    /** The error after each addition; the first is the start model as given. */
+    /** The error after adding an effect; the first step is the start model as given. */
     PathStep: {
       added: string | null;
       rmse: number;
@@ -1367,7 +1367,7 @@ export interface components {
       presets: (components["schemas"]["MuscleAnswer"] | components["schemas"]["ValveAnswer"] | components["schemas"]["TubeAnswer"] | components["schemas"]["FittingAnswer"] | components["schemas"]["MeasurementPresetAnswer"] | components["schemas"]["CurvePresetAnswer"] | components["schemas"]["DesignAnswer"] | components["schemas"]["DriveAnswer"] | components["schemas"]["TaskAnswer"])[];
       problems: components["schemas"]["PresetProblem"][];
     };
-    /** Which pressure gives this force at this length (or contraction)? */
+    /** The pressure for a force at a length or contraction. */
     PressureQuestion: {
       muscle: components["schemas"]["MuscleInput"];
       effects?: { [key: string]: { [key: string]: number | string } } | null;
@@ -1376,21 +1376,21 @@ export interface components {
       /** Sign of dL/dt, for friction: -1 filling (shortening), 1 venting, 0 none. */
       direction?: -1 | 0 | 1;
       question: "pressure";
-      /** The force wanted. [N] */
+      /** The required force. [N] */
       force: number | string;
       /** The length; or give the contraction. [m] */
       length?: number | string | null;
       /** The contraction; or give the length. [1] */
       contraction?: number | string | null;
     };
-    /** What a file would be read as; nothing is kept. */
+    /** How a file would be read; nothing is stored. */
     PreviewAnswer: {
       name: string;
       /** csv, xlsx, mat or tdms. */
       format: string;
       /** All columns of the file, in its order. */
       columns: components["schemas"]["PreviewColumn"][];
-      /** The first rows as they are written, up to 8. */
+      /** The first rows as written in the file, up to 8. */
       sample: string[][];
       /** Rows below the header. */
       rows: number;
@@ -1405,13 +1405,13 @@ export interface components {
       conditions: { [key: string]: string | number | null };
       /** Conditions to ask for. */
       missing: components["schemas"]["MissingCondition"][];
-      /** As it would be kept, without the skipped rows; null while the file cannot be used. */
+      /** As it would be stored, without the skipped rows; null while the file cannot be used. */
       measurement: components["schemas"]["MeasurementAnswer"] | null;
-      /** What PUT would refuse it for. */
+      /** The error with which PUT would refuse the file. */
       problem: components["schemas"]["ErrorDetail"] | null;
-      /** Only bad rows stand in the way: the mapping {'bad_rows': 'skip'} leaves them out. */
+      /** The only problem are bad rows: the mapping {'bad_rows': 'skip'} leaves them out. */
       only_bad_rows: boolean;
-      /** What was assumed. */
+      /** Assumptions made. */
       messages: string[];
       channel_choices: components["schemas"]["ChannelChoice"][];
       kind_choices: string[];
@@ -1424,97 +1424,97 @@ export interface components {
       channel: string | null;
       /** The guessed, given or chosen unit; null = not used. */
       unit: string | null;
-      /** The unit stands in the header (or was chosen), it is no guess. */
+      /** The unit is stated in the header or was chosen, not guessed. */
       unit_given: boolean;
-      /** A pressure above vacuum; null = not said, gauge is assumed. */
+      /** An absolute pressure; null = not stated, gauge is assumed. */
       absolute: boolean | null;
       /** Smallest value of the channel, SI. */
       minimum: number | null;
       /** Largest value of the channel, SI. */
       maximum: number | null;
-      /** Why the column cannot be used as its header says. */
+      /** Why the column cannot be used as its header states. */
       why: string | null;
     };
-    /** A drive that does the task. Figures of all muscles together where it says so, else of each. */
+    /** A drive that does the task. Figures are per muscle unless stated otherwise. */
     ProposalAnswer: {
       /** Id of the preset. */
       muscle: string;
-      /** Of each muscle. [m] */
+      /** Nominal length of each muscle. [m] */
       nominal_length: number;
-      /** Muscles side by side (on each side of a pair). */
+      /** Number of parallel muscles (on each side of a pair). */
       parallel: number;
-      /** All muscles of the drive. */
+      /** Number of all muscles of the drive. */
       muscles: number;
-      /** One for all parallel muscles; a pair has one on each side. */
+      /** Id of the preset; one for all parallel muscles, one on each side of a pair. */
       valve: string;
-      /** One from the valve to each muscle. */
+      /** Id of the preset; one tube from the valve to each muscle. */
       tube: string | null;
-      /** 0 without a tube. [m] */
+      /** Length of the tube; 0 without one. [m] */
       tube_length: number;
-      /** Of a pair. [m] */
+      /** Pulley radius of a pair. [m] */
       pulley_radius: number | null;
-      /** Of the supply at the valve, gauge; a regulator sets it. [Pa] */
+      /** Gauge pressure of the supply at the valve, set by a regulator. [Pa] */
       pressure: number;
-      /** For the stroke, to the end stop. [s] */
+      /** Time for the stroke to the end stop. [s] */
       time: number;
-      /** For the way back; null when it does not end in the time watched. [s] */
+      /** Time for the return; null if not reached in the simulated time. [s] */
       time_down: number | null;
-      /** At the end of the stroke. [1] */
+      /** Contraction ratio at the end of the stroke. [1] */
       contraction: number;
-      /** Share by which the static force exceeds the load at least. [1] */
+      /** Least share by which the static force exceeds the load. [1] */
       force_reserve: number;
-      /** That just carries the load at the end of the stroke. [Pa] */
+      /** Pressure that just carries the load at the end of the stroke. [Pa] */
       needed_pressure: number | null;
-      /** In the muscle when the load leaves its stop. [Pa] */
+      /** Pressure in the muscle when the load leaves its stop. [Pa] */
       pressure_start: number;
-      /** In the muscle on arrival. [Pa] */
+      /** Pressure in the muscle on arrival. [Pa] */
       pressure_end: number;
-      /** Of all muscles in a cycle. [m^3] */
+      /** Air of all muscles per cycle at ANR. [m^3] */
       air_volume_anr: number;
-      /** Of the whole load on the end stop. [J] */
+      /** Kinetic energy of the whole load at the end stop. [J] */
       impact_energy: number;
-      /** Of the load there. [m/s] */
+      /** Speed of the load there. [m/s] */
       end_speed: number;
-      /** Of the load. [m/s] */
+      /** Largest speed of the load. [m/s] */
       max_speed: number;
       /** Largest tension of a muscle. [N] */
       peak_force: number;
-      /** Of the load at the end of the stroke, valve open. [N/m] */
+      /** Stiffness at the load at the end of the stroke, valve open. [N/m] */
       stiffness: number;
       /** The same with the valve closed. [N/m] */
       stiffness_closed: number;
       /** Nominal length and end fittings. [m] */
       installed_length: number;
-      /** Outside, bulged at the end of the stroke. [m] */
+      /** Outside diameter at the end of the stroke. [m] */
       diameter: number;
       /** Load cycles; an estimate, not verified. [1] */
       life: number;
-      /** That what is built does the task; null without specimens. [1] */
+      /** Probability that a built drive does the task; null without specimens. [1] */
       probability: number | null;
       /** Its standard error. [1] */
       probability_error: number | null;
-      /** Simulated for it. */
+      /** Number of specimens simulated for it. */
       specimens: number;
-      /** Limit -> share of it that is left; limits that are not set are left out. */
+      /** Limit -> margin as a share of the limit; limits that are not set are left out. */
       margins: { [key: string]: number };
       /** The limit with the least margin. */
       binding: "length" | "pressure" | "contraction" | "force" | "force_limit" | "diameter" | "stiffness" | "life" | "temperature" | "time" | "time_down" | "cycle_time";
-      /** Why it stands where it stands. */
+      /** Explanation of its rank. */
       reason: string;
-      /** No other proposal is better in everything. */
+      /** On the Pareto front of the proposals. */
       front: boolean;
-      /** What to know when it is built. */
+      /** Remarks for building it. */
       notes: string[];
-      /** Figures that enter and nobody verified, by preset. */
+      /** Unverified figures it depends on, by preset. */
       unverified: string[];
-      /** A drive document for /api/simulations; of one of the muscles. */
+      /** Drive document for /api/simulations, of one of the muscles. */
       drive: { [key: string]: unknown };
     };
-    /** A formula for what no catalogued effect explains. */
+    /** A formula for a residual that no catalogued effect explains. */
     ProposedTerm: {
       formula: string;
       coefficients: { [key: string]: number };
-      /** Share of the residual's mean square that it takes away. */
+      /** Share of the residual's mean square that it removes. */
       share: number;
       model: components["schemas"]["ModelJson"];
       curve: components["schemas"]["TermCurve"];
@@ -1527,7 +1527,7 @@ export interface components {
       grade: "S" | "S2" | "C" | "D" | "M" | "E" | "user";
       note?: string | null;
     };
-    /** What the sensors say. */
+    /** Sensor readings. */
     Readings: {
       /** Gauge pressure. [Pa] */
       pressure: (number | null)[];
@@ -1543,78 +1543,78 @@ export interface components {
       /** Time constant of the regulated pressure. [s] */
       time?: number | string | null;
     };
-    /** What a pressure regulator adds to a valve: full-scale gauge pressure and time constant. */
+    /** Figures of a pressure regulator: full-scale gauge pressure and time constant. */
     RegulatorPart: {
       range: components["schemas"]["Quantity"];
       time: components["schemas"]["Quantity"];
     };
-    /** A candidate that does not do. */
+    /** A rejected candidate. */
     RejectedAnswer: {
       muscle: string;
       parallel: number;
-      /** Null: whatever the valve. */
+      /** Null = with any valve. */
       valve: string | null;
-      /** Null: whatever the tube. */
+      /** Null = with any tube. */
       tube: string | null;
-      /** In figures. */
+      /** The reason, with figures. */
       why: string;
       /** The limit that must move by the least share when no other moves. */
       binding: "length" | "pressure" | "contraction" | "force" | "force_limit" | "diameter" | "stiffness" | "life" | "temperature" | "time" | "time_down" | "cycle_time";
       /** What would help, least change first. */
       would_work_if: string;
-      /** How many combinations it stands for. */
+      /** Number of combinations this entry covers. */
       combinations: number;
     };
-    /** What a comparison takes, and what else the report tells. */
+    /** A comparison request, with further content of the report. */
     ReportRequest: {
       /** Null: the drive's. */
       muscle?: components["schemas"]["MuscleInput"] | null;
       effects?: { [key: string]: { [key: string]: number | string } } | null;
-      /** Valve, tube, supply and load of transient measurements with a command channel, whose command takes the place of one given here. */
+      /** Valve, tube, supply and load of transient measurements with a command channel; the measured command replaces the one given here. */
       drive?: components["schemas"]["DriveDocument"] | null;
       /** One measurement to fit to. */
       measurement?: string | null;
       measurements?: components["schemas"]["UsedMeasurement"][];
-      /** Geometry that is fitted too, within its tolerance. */
+      /** Geometry to fit as well, within its tolerance. */
       free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
-      /** Further constants that are fitted, as effect.parameter. */
+      /** Additional parameters to fit, as effect.parameter. */
       freed?: string[];
       /** Standard deviation of the predicted channel in SI, when it is known. */
       noise?: number | null;
       /** Fit the effects' parameters to the data. */
       fit?: boolean;
-      /** The oldest first. */
+      /** Oldest first. */
       history?: components["schemas"]["HistoryStep"][];
-      /** Empty: names of the measurements. */
+      /** Empty = names of the measurements. */
       title?: string;
-      /** Find out what the model is missing; takes some seconds. */
+      /** Include a diagnosis; takes some seconds. */
       diagnose?: boolean;
     };
     /** The residual over one variable. */
     ResidualProfile: {
       over: string;
-      /** Share of its mean square that this variable predicts. */
+      /** Share of its mean square explained by this variable. */
       share_explained: number;
       /** The range with the largest error. */
       worst: string;
       /** Error in that range. */
       rmse: number;
-      /** Limits of the ranges, SI; one more than ranges. */
+      /** Boundaries of the ranges, SI; one more than ranges. */
       edges: (number | null)[];
       mean: (number | null)[];
       rms: (number | null)[];
       count: number[];
     };
-    /** What is hidden, beside what was found. */
+    /** The hidden effects, compared with the user's diagnosis. */
     RevealAnswer: {
       hidden: components["schemas"]["Hidden"][];
-      /** For each hidden effect: is it among the given ones? */
+      /** For each hidden effect: whether it is among the given ones. */
       found: boolean[];
       /** Given effects that are neither hidden nor of the start model. */
       surplus: string[];
       text: string;
     };
-    /** The user's own diagnosis. */
+    /** The user's diagnosis. */
     RevealRequest: {
       /** Ids of the effects of the user's model. */
       effects?: string[];
@@ -1637,9 +1637,9 @@ export interface components {
       /** Rhombi around the muscle. [1] */
       around: number | string;
     };
-    /** How the rows fall into sweeps. */
+    /** Division of the rows into sweeps. */
     Segmentation: {
-      /** The channel that decides. */
+      /** The channel that defines the sweeps. */
       signal: string;
       /** Number of sweeps. */
       sweeps: number;
@@ -1658,82 +1658,82 @@ export interface components {
       direction: string | null;
       /** n when it grows with the n-th power of pressure. */
       pressure_power: number | null;
-      /** States at which it contributes nothing. */
+      /** States in which it contributes nothing. */
       zero_at: string[];
       /** conservative, dissipative, lumped or reading. */
       energy: string;
     };
     /** Columns over time, in SI; pressures gauge, positions positive = muscle shorter. */
     SimulationAnswer: {
-      /** Instants of the rows; fewer than asked for when the run ended early. [s] */
+      /** Instants of the rows; fewer than requested if the run ended early. [s] */
       time: number[];
       /** Stroke of the load. [m] */
       position: (number | null)[];
-      /** Of the load. [m/s] */
+      /** Speed of the load. [m/s] */
       velocity: (number | null)[];
-      /** Of the load. [m/s^2] */
+      /** Acceleration of the load. [m/s^2] */
       acceleration: (number | null)[];
-      /** In the muscle. [Pa] */
+      /** Pressure in the muscle. [Pa] */
       pressure: (number | null)[];
       /** Tension of the muscle. [N] */
       force: (number | null)[];
-      /** Into the muscle. [kg/s] */
+      /** Mass flow into the muscle. [kg/s] */
       mass_flow: (number | null)[];
-      /** Command as given, before dead times. [1] */
+      /** Command before dead times. [1] */
       command: (number | null)[];
       /** Opening of the valve after all effects. [1] */
       opening: (number | null)[];
       /** Set point of the controller. [m] */
       reference: (number | null)[] | null;
-      /** From the supply. [kg/s] */
+      /** Mass flow from the supply. [kg/s] */
       supply_flow: (number | null)[];
-      /** To the surroundings. [kg/s] */
+      /** Mass flow to the atmosphere. [kg/s] */
       exhaust_flow: (number | null)[];
-      /** In the tube, when there is one. [Pa] */
+      /** Pressure in the tube, if there is one. [Pa] */
       tube_pressure: (number | null)[] | null;
-      /** After the regulator, when there is one. [Pa] */
+      /** Pressure after the regulator, if there is one. [Pa] */
       regulator_pressure: (number | null)[] | null;
       /** Gas volume of the muscle with all dead volumes. [m^3] */
       volume: (number | null)[];
       /** Braid diameter at mid-span. [m] */
       diameter: (number | null)[];
-      /** Of the muscle. [m] */
+      /** Length of the muscle. [m] */
       length: (number | null)[];
-      /** Of the muscle. [1] */
+      /** Contraction ratio of the muscle. [1] */
       contraction: (number | null)[];
       /** External force on the load. [N] */
       load_force: (number | null)[];
-      /** Of the gas in the muscle. [K] */
+      /** Temperature of the gas in the muscle. [K] */
       temperature: (number | null)[];
-      /** Whether an end stop is touched. */
+      /** Whether the load touches an end stop. */
       contact: boolean[];
-      /** Null when no effect changes what the sensors say. */
+      /** Null if no effect changes the sensor readings. */
       readings: components["schemas"]["Readings"] | null;
-      /** Of an antagonist pair. */
+      /** Joint of an antagonist pair. */
       joint: components["schemas"]["Joint"] | null;
-      /** Within the whole run, whatever rows are asked for. */
+      /** Choked intervals of the whole run, whatever rows are requested. */
       choked: components["schemas"]["Choked"][];
       timing: components["schemas"]["Timing"];
-      /** Of a controlled run. */
+      /** Tracking figures of a controlled run. */
       tracking: components["schemas"]["TrackingAnswer"] | null;
       outcome: "completed" | "stuck" | "diverged" | "timed_out" | "cancelled";
-      /** What to do when the run did not complete. */
+      /** Advice if the run did not complete. */
       message: string | null;
-      /** Time of the integration in ms. */
+      /** Computing time of the integration in ms. */
       wall_ms: number;
       engine: "rodas" | "lsoda";
       /** Steps of the integrator. */
       steps: number;
       flags: components["schemas"]["Flag"][];
-      /** Where -> remark; with those of timing and tracking. */
+      /** Field -> remark, including those of timing and tracking. */
       notes: { [key: string]: string };
       limits: components["schemas"]["DriveLimits"];
       geometry: components["schemas"]["MuscleGeometry"];
       model: components["schemas"]["ModelAnswer"];
-      /** Of the whole run. [s] */
+      /** Duration of the whole run. [s] */
       duration: number;
     };
-    /** A drive, and which part of its run to answer. */
+    /** A drive, and the part of its run to return. */
     SimulationRequest: {
       /** A drive document, or the id of a drive preset. */
       drive: components["schemas"]["DriveDocument"] | string;
@@ -1744,36 +1744,36 @@ export interface components {
       /** Last row; the end of the run when left out. [s] */
       to?: number | string | null;
     };
-    /** Proposals best first, and everything else with its reason; SI, pressures gauge. */
+    /** Proposals, best first, and rejected candidates with reasons; SI, pressures gauge. */
     SizingAnswer: {
-      /** Empty when nothing does; that is an answer too. */
+      /** Best first; empty if no candidate does the task. */
       proposals: components["schemas"]["ProposalAnswer"][];
       /** Nearest first. */
       rejected: components["schemas"]["RejectedAnswer"][];
-      /** One for each choice of parts that does the task. */
+      /** The best design of each choice of parts that does the task. */
       explored: components["schemas"]["ExploredDesign"][];
-      /** Muscle, length, number, pressure, valve and tube within the limits. */
+      /** Combinations of muscle, length, number, pressure, valve and tube within the limits. */
       combinations: number;
-      /** Of these sorted out in closed form. */
+      /** Number of them ruled out in closed form. */
       pruned: number;
-      /** Transients run, specimens left out. */
+      /** Number of transient runs, without those of specimens. */
       simulated: number;
-      /** Transients run for probabilities. */
+      /** Number of transient runs for probabilities. */
       specimens: number;
       outcome: "completed" | "timed_out" | "cancelled";
-      /** What to do when the search did not complete. */
+      /** Advice if the search did not complete. */
       message: string | null;
       flags: components["schemas"]["Flag"][];
-      /** Time of the whole search in ms. */
+      /** Computing time of the search in ms. */
       wall_ms: number;
     };
-    /** The search is made again: no figure of the report comes from the caller. */
+    /** The search runs again, so that no figure of the report comes from the caller. */
     SizingReportRequest: {
       /** As for `/api/sizings`. */
       task: components["schemas"]["SizingTask"];
-      /** Rank of the proposal to write down, 1 the best. A task without any has a report too. */
+      /** Rank of the proposal, 1 the best. A task without proposals also has a report. */
       proposal?: number;
-      /** Empty: that of the task, else what it is about. */
+      /** Empty = title of the task, or a summary of it. */
       title?: string;
     };
     /** A task; only the load, and a stroke or a pair, must be given. Plain numbers are in SI units. */
@@ -1814,7 +1814,7 @@ export interface components {
       /** Where the first of them is. */
       first: string;
     };
-    /** Where a figure comes from, and how sure it is. */
+    /** Source of a figure, and its grade. */
     SourceText: {
       /** Short source. */
       text: string;
@@ -1828,7 +1828,7 @@ export interface components {
       /** The limit of the muscle preset when left out, else 25 %. [1] */
       max_contraction?: number | string | null;
     };
-    /** Which pressure lifts this load by this stroke? */
+    /** The pressure that lifts a load by a stroke. */
     StrokePressureQuestion: {
       muscle: components["schemas"]["MuscleInput"];
       effects?: { [key: string]: { [key: string]: number | string } } | null;
@@ -1847,7 +1847,7 @@ export interface components {
       /** Gauge pressure before the valve. [Pa] */
       pressure?: number | string;
     };
-    /** A sizing task to start from; its content is checked by the API that sizes drives for it. */
+    /** A sizing task to start from; its content is checked when it is used. */
     TaskAnswer: {
       schema: 1;
       kind: "task";
@@ -1860,7 +1860,7 @@ export interface components {
       grounds?: { [key: string]: components["schemas"]["Ground"] };
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
-      /** With the program, or the user's own. */
+      /** Part of the program, or saved by the user. */
       origin: "built-in" | "user";
     };
     /** What may be used. */
@@ -1923,7 +1923,7 @@ export interface components {
       /** Simulated for each proposal; 0 for none. 100: within 5 % of the probability. */
       specimens?: number;
     };
-    /** The proposed term and the residual it is for, over one variable. */
+    /** The proposed term and the residual it explains, over one variable. */
     TermCurve: {
       x: string;
       values: (number | null)[];
@@ -1932,14 +1932,14 @@ export interface components {
     };
     /** The timing table of the first fill and the exhaust after it. */
     Timing: {
-      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], choked_share [1]. Null where it does not exist; notes say why. */
+      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], choked_share [1]. Null where it does not exist; see notes for the reason. */
       extend: { [key: string]: number | null };
-      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], choked_share [1]. Null where it does not exist; notes say why. */
+      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], choked_share [1]. Null where it does not exist; see notes for the reason. */
       retract: { [key: string]: number | null };
-      /** "extend.rise_time" -> why it is null, or what to know of it. */
+      /** "extend.rise_time" -> why it is null, or a remark on it. */
       notes: { [key: string]: string };
     };
-    /** How far (+-) a fit may free a geometry value. */
+    /** How far (+-) a fit may change a geometry value. */
     Tolerance: {
       braid_angle?: components["schemas"]["Quantity"] | null;
       braid_diameter?: components["schemas"]["Quantity"] | null;
@@ -1952,7 +1952,7 @@ export interface components {
       rms: number;
       /** Largest error. [m] */
       max: number;
-      /** Delay that describes the position best; null when none does. [s] */
+      /** Delay with the best correlation; null if none fits. [s] */
       lag: number | null;
       overshoot: components["schemas"]["Overshoot"][];
       notes: { [key: string]: string };
@@ -1970,7 +1970,7 @@ export interface components {
       data?: { [key: string]: components["schemas"]["Quantity"] };
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
-      /** With the program, or the user's own. */
+      /** Part of the program, or saved by the user. */
       origin: "built-in" | "user";
     };
     /** The tube between valve and muscle. */
@@ -1985,17 +1985,17 @@ export interface components {
     Twin: {
       /** Its id. */
       effect: string;
-      /** The experiment that tells the two apart. */
+      /** The experiment that separates the two. */
       separated_by: string;
     };
-    /** A measurement, and what for. */
+    /** A measurement and its use. */
     UsedMeasurement: {
       /** SHA-256 id of an uploaded file, or id of a preset measurement or reference curve. */
       id: string;
-      /** Fitted to, or only judged by. */
+      /** Used for the fit, or only for validation. */
       use?: "fit" | "validation";
     };
-    /** The model on measurements it was not fitted to. */
+    /** The error of the model on measurements not used for the fit. */
     ValidationAnswer: {
       rmse: number | null;
       nrmse_percent: number | null;
@@ -2017,7 +2017,7 @@ export interface components {
       regulator?: components["schemas"]["RegulatorPart"] | null;
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
-      /** With the program, or the user's own. */
+      /** Part of the program, or saved by the user. */
       origin: "built-in" | "user";
     };
     /** A valve preset, or its flow both ways by value; values given besides a preset take its place. */
@@ -2034,7 +2034,7 @@ export interface components {
       /** Standard nominal flow (6 to 5 bar gauge, normal litres) in place of a conductance. [m^3/s] */
       nominal_flow?: number | string | null;
     };
-    /** The answer. */
+    /** The verdict of the diagnosis. */
     Verdict: {
       status: "adequate" | "missing_effects" | "ambiguous" | "unknown_effect";
       /** The status in words. */
@@ -2053,13 +2053,13 @@ export interface components {
       autocorrelation: (number | null)[];
       /** Half-width of the 95 % band of noise. */
       band: number;
-      /** Share of the lags outside of it. */
+      /** Share of the lags outside the band. */
       outside: number;
-      /** Runs of one sign over what noise would have. */
+      /** Number of runs of one sign over that expected of noise. */
       runs: number;
       white: boolean;
     };
-    /** Which stroke is there from the preload without pressure to the load at the highest pressure? It begins venting and ends filling, whatever ``direction`` says. */
+    /** The stroke from the preload without pressure to the load at the highest pressure. The start is taken while venting and the end while filling, whatever ``direction`` is. */
     WorkingRangeQuestion: {
       muscle: components["schemas"]["MuscleInput"];
       effects?: { [key: string]: { [key: string]: number | string } } | null;
@@ -2079,7 +2079,7 @@ export interface components {
 }
 
 export interface operations {
-  /** The pressure, contraction, working range or stroke pressure asked for, with the limits it crosses. */
+  /** A pressure, contraction, working range or stroke pressure, with the limits it crosses. */
   answer_question: {
     requestBody: { content: { "application/json": components["schemas"]["PressureQuestion"] | components["schemas"]["ContractionQuestion"] | components["schemas"]["WorkingRangeQuestion"] | components["schemas"]["StrokePressureQuestion"] } };
     responses: {
@@ -2092,7 +2092,7 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
-  /** The model's error on measurements, with or without a fit: numbers, where it fails, the points. */
+  /** The model's error on measurements, with or without a fit: figures, where it fails, the points. */
   compare_with_measurement: {
     requestBody: { content: { "application/json": components["schemas"]["ComparisonRequest"] } };
     responses: {
@@ -2106,7 +2106,7 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
-  /** Force, stiffness, volume and diameter over the length for each pressure, and what bounds them. */
+  /** Force, stiffness, volume and diameter over the length for each pressure, and their limits. */
   compute_curves: {
     requestBody: { content: { "application/json": components["schemas"]["CurvesRequest"] } };
     responses: {
@@ -2141,7 +2141,7 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
-  /** Every mystery with its story and the start model; comparisons take its measurement by the id. */
+  /** Every mystery with its story and start model; comparisons accept its measurement by id. */
   list_mysteries: {
     responses: {
       200: { content: { "application/json": components["schemas"]["Mystery"][] } };
@@ -2162,7 +2162,7 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
-  /** How a file would be understood: columns, units, rows, kind, conditions. Nothing is kept. */
+  /** How a file would be read: columns, units, rows, kind, conditions. Nothing is stored. */
   preview_measurement: {
     parameters: {
       query: { name: string; mapping?: string | null };
@@ -2212,7 +2212,7 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
-  /** What is hidden in a mystery, held against one's own diagnosis. */
+  /** The hidden effects of a mystery, compared with the user's diagnosis. */
   reveal_mystery: {
     parameters: {
       path: { mystery_id: string };
@@ -2229,7 +2229,7 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
-  /** Keep a muscle among the user's presets; one of the same id is replaced, a built-in one never. */
+  /** Save a muscle as a user preset; replaces one of the same id, never a built-in one. */
   save_muscle: {
     requestBody: { content: { "application/json": components["schemas"]["MusclePreset"] } };
     responses: {
@@ -2243,7 +2243,7 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
-  /** Position, speed, pressures, force, flows and the timing table of a drive; closing ends the run. */
+  /** Motion, pressures, force, flows and timing table of a drive; closing the connection ends the run. */
   simulate_drive: {
     requestBody: { content: { "application/json": components["schemas"]["SimulationRequest"] } };
     responses: {
@@ -2256,7 +2256,7 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
-  /** Ranked drives of the catalogue for a task, and why not the others; closing ends the search. */
+  /** Ranked drives for a task, and rejected ones with reasons; closing the connection ends the search. */
   size_drives: {
     requestBody: { content: { "application/json": components["schemas"]["SizingTask"] } };
     responses: {
@@ -2269,7 +2269,7 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
-  /** Send a measurement file; the answer says how it was understood. Sent twice it is kept once. With a mapping the measurement has an id of its own: both readings of a file can be compared. */
+  /** Upload a measurement file; the answer shows how it was read. The same file is stored once. With a mapping the measurement gets its own id, so that two readings of a file can be compared. */
   upload_measurement: {
     parameters: {
       query: { name: string; mapping?: string | null };
@@ -2286,7 +2286,7 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
-  /** The comparison and the diagnosis of a model as one file to keep and to print. */
+  /** The comparison and the diagnosis of a model as one file for archive and print. */
   write_report: {
     requestBody: { content: { "application/json": components["schemas"]["ReportRequest"] } };
     responses: {
@@ -2300,7 +2300,7 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
-  /** The search once more and one of its drives as one file to keep and to print; closing ends it. */
+  /** A new search, and one of its drives as a file for archive and print; disconnecting ends the search. */
   write_sizing_report: {
     requestBody: { content: { "application/json": components["schemas"]["SizingReportRequest"] } };
     responses: {

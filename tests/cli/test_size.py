@@ -32,7 +32,7 @@ def test_tables_name_the_drives_and_the_reasons(run: Run) -> None:
     assert code == 0
     assert "DMSP-20" in out
     assert "combinations" in out
-    assert "it would do with" in err
+    assert "it would work with" in err
 
 
 def test_nothing_found_is_an_answer(run: Run) -> None:

@@ -78,7 +78,7 @@ def test_a_new_file_appears_and_works(tmp_path: Path) -> None:
         (
             '"force",\n            "F_c"',
             '"direction",\n            "F_c"',
-            "hide what slot 'friction' offers",
+            "have the name of an argument of slot 'friction'",
         ),
         ('"force",\n            "F_c"', '"width",\n            "F_c"', "asks for 'force'"),
         ('slots={"friction"', 'slots={"rubbing"', "unknown slot 'rubbing'"),

@@ -33,7 +33,7 @@ UNITS = {
 }
 #: The right answer where no catalogue has the effect: a term of one's own.
 TERM = "custom"
-_SOURCE = "computed by a model with formulas of its own"
+_SOURCE = "computed by an independent model"
 _WIDTH = 100
 
 
@@ -49,7 +49,7 @@ def document(mystery: Mystery) -> dict[str, Any]:
         "id": mystery.id,
         "title": mystery.title,
         "maker": "synthetic",
-        "description": f"Not a real measurement: {_SOURCE}, with the noise of real sensors.",
+        "description": f"Not a real measurement: {_SOURCE}, with realistic sensor noise.",
         "story": mystery.story,
         "measurement_kind": made.kind,
         "nominal_length": _quantity(made.muscle["nominal_length"]),

@@ -31,7 +31,7 @@ MYSTERIES = (
         "Weaker than drawn",
         "A new sample was pulled slowly to and fro on the tensile tester at five pressures. Bore, braid and "
         "angle are those of the drawing, and yet it pulls less than the ideal formula says. At the lowest "
-        "pressure the share that is lost is frightening, at the highest it is a few percent.",
+        "pressure it loses a large share of its force, at the highest a few percent.",
         "bladder-yeoh-isobaric",
         (
             (
@@ -49,7 +49,7 @@ MYSTERIES = (
         "After the service",
         "The tester came back from its yearly service on Monday and this muscle was the first one on it. "
         "Last week the ideal model fitted a sister sample well. Now the curves lie beside the model at "
-        "every pressure, the more the steeper they are.",
+        "every pressure, and most where they are steep.",
         "length-zero-isobaric",
         (
             (
@@ -66,7 +66,7 @@ MYSTERIES = (
         "two-lines-per-pressure",
         "Two lines per pressure",
         "Quasi-static loops at five pressures and two speeds on a muscle from stock. The test engineer "
-        "reports that the way back never lies on the way there, however slowly she goes, and that the "
+        "reports that the return curve never meets the forward curve, at any speed, and that the "
         "middle line is off as well.",
         "pair-bladder-coulomb-isobaric",
         (
@@ -142,7 +142,7 @@ MYSTERIES = (
     Mystery(
         "slow-to-let-go",
         "Slow to let go",
-        "A muscle lifts a hanging load; a five-way valve fills and vents it through equal ways, and the "
+        "A muscle lifts a hanging load; a five-way valve fills and vents it through equal ports, and the "
         "model knows valve, load and damping. The lift looks right, but the load comes down later than it "
         "should, and on the machine nobody has touched the valve for years.",
         "silencer-steps",

@@ -1,7 +1,7 @@
-"""The command line: ``mckibben`` alone starts the studio, further commands answer without a browser.
+"""The command line: ``mckibben`` alone starts the studio; the other commands work without a browser.
 
 Exit 0: done. Exit 2: the input cannot be used; one line on stderr says where, what is wrong and what would be
-right. Each command is one module, imported only when it runs.
+right. Each command is a module, imported only when it runs.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 _BAD_INPUT = 2
-# Options of `mckibben` itself; with any other first option `serve` is meant.
+# Options of `mckibben` itself; any other first option belongs to `serve`.
 _OWN_OPTIONS = frozenset({"-h", "--help", "--version"})
 
 
@@ -69,10 +69,10 @@ def _root(
 @app.command()
 def serve(
     host: str = typer.Option(
-        "127.0.0.1", help="Address to listen on; any but this machine's own needs a token."
+        "127.0.0.1", help="Address to listen on; any address but loopback requires a token."
     ),
     port: int | None = typer.Option(
-        None, min=0, max=65535, help="Port; 0 takes any free one. Default: 8000, or the next free one."
+        None, min=0, max=65535, help="Port; 0 = any free port. Default: 8000, or the next free one."
     ),
     no_open: bool = typer.Option(False, "--no-open", help="Do not open the browser."),
     presets: PresetsFolder = None,
@@ -126,7 +126,7 @@ def compare(
     effects: EffectsFolders = None,
     data: DataFolder = None,
 ) -> None:
-    """A model beside measurements: the error in numbers, with or without a fit."""
+    """Compare a model with measurements: the error in numbers, with or without a fit."""
     from mckibben.cli.compare import run
     from mckibben.cli.options import open_studio
 
@@ -158,14 +158,14 @@ def diagnose(
         typer.Option("--noise", callback=_level, help="Noise of the predicted channel in SI, if known."),
     ] = None,
     report: Annotated[
-        Path | None, typer.Option("--report", metavar="FILE", help="Also write it as one HTML file.")
+        Path | None, typer.Option("--report", metavar="FILE", help="Also write an HTML report.")
     ] = None,
     as_json: AsJson = False,
     presets: PresetsFolder = None,
     effects: EffectsFolders = None,
     data: DataFolder = None,
 ) -> None:
-    """Which physical effect a model of measurements is missing, and what the data cannot tell."""
+    """Which physical effect a model of measurements is missing, and what the data cannot distinguish."""
     from mckibben.cli.diagnose import run
     from mckibben.cli.options import open_studio
 
@@ -194,7 +194,7 @@ def simulate(
     effects: EffectsFolders = None,
     data: DataFolder = None,
 ) -> None:
-    """A drive through time: timing table, trace, limits."""
+    """Simulate a drive: timing table, trace, limits."""
     from mckibben.cli.options import open_studio
     from mckibben.cli.simulate import run
 
@@ -205,24 +205,26 @@ def simulate(
 def size(
     task: Annotated[str, typer.Argument(metavar="TASK", help="A sizing task (JSON file).")],
     report: Annotated[
-        Path | None, typer.Option("--report", metavar="FILE", help="Also write one drive as one HTML file.")
+        Path | None, typer.Option("--report", metavar="FILE", help="Also write an HTML report of one drive.")
     ] = None,
     proposal: Annotated[
-        int | None, typer.Option("--proposal", min=1, help="Which drive the report is of; 1 is the best.")
+        int | None, typer.Option("--proposal", min=1, help="Rank of the drive in the report; 1 is the best.")
     ] = None,
-    title: Annotated[str, typer.Option("--title", help="Title of the report; else the task's.")] = "",
+    title: Annotated[
+        str, typer.Option("--title", help="Title of the report. Default: that of the task.")
+    ] = "",
     as_json: AsJson = False,
     presets: PresetsFolder = None,
     effects: EffectsFolders = None,
     data: DataFolder = None,
 ) -> None:
-    """From a task to ranked drives of the catalogue, and why not the others."""
+    """From a task to ranked drives from the catalogue, with the reasons against the others."""
     from mckibben.cli.options import open_studio
     from mckibben.cli.size import Wanted, run
 
     if report is None and (proposal is not None or title):
         option = "--title" if proposal is None else "--proposal"
-        raise InputError(f"{option} belongs to a report, and none is asked for", hint="--report FILE")
+        raise InputError(f"{option} belongs to a report, and none is requested", hint="--report FILE")
     wanted = None if report is None else Wanted(report, proposal or 1, title)
     run(open_studio(presets, effects, data), task=task, as_json=as_json, report=wanted)
 
@@ -256,11 +258,11 @@ def run(arguments: list[str]) -> int:
     except (KeyboardInterrupt, typer.Abort):
         return 130
     except BrokenPipeError:
-        # The reader of a pipe has gone; nothing more can be said, also not by the interpreter on exit.
+        # The reader of the pipe has closed it: no more output, also not by the interpreter on exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except Exception as error:
-        # typer's own errors of usage; their class is click's in some versions and a copy of it in others.
+        # Usage errors of typer; their class is click's in some versions and a copy of it in others.
         if callable(explain := getattr(error, "format_message", None)):
             return _fail(f"{explain()} (see mckibben {_command(arguments)}--help)")
         if os.environ.get("MCKIBBEN_DEBUG"):

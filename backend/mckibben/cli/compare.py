@@ -1,4 +1,4 @@
-"""``mckibben compare``: a model beside measurements."""
+"""``mckibben compare``: a model compared with measurements."""
 
 from __future__ import annotations
 

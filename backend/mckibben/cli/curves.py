@@ -50,7 +50,7 @@ def _pressures(text: str) -> tuple[float, ...]:
     parts = [part.strip() for part in text.split(",")]
     if len(parts) > _MAX_PRESSURES:
         raise InputError(f"--pressure: {len(parts)} pressures, at most {_MAX_PRESSURES} are possible")
-    found = []
+    values = []
     for part in parts:
         try:
             value = si(part, "Pa")
@@ -58,8 +58,8 @@ def _pressures(text: str) -> tuple[float, ...]:
             raise InputError(f"--pressure: {error.message}", hint='e.g. --pressure "1 bar,3 bar"') from error
         if not 0.0 <= value <= 1e8:
             raise InputError(f"--pressure: {part} is not between 0 and 1000 bar", hint="gauge pressures")
-        found.append(value)
-    return tuple(found)
+        values.append(value)
+    return tuple(values)
 
 
 def _write_tables(muscle: str, result: CurvesResult) -> None:

@@ -21,7 +21,7 @@ from mckibben.cli.output import (
 )
 from mckibben.documents.studio import Studio
 
-_SHOWN = 8  # candidates
+_SHOWN = 8  # most candidates listed
 
 
 def run(
@@ -37,7 +37,7 @@ def run(
     as_json: bool,
     report: Path | None = None,
 ) -> None:
-    """Print the diagnosis, and write it down if asked.
+    """Print the diagnosis, and write a report if requested.
 
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.

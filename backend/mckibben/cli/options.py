@@ -1,4 +1,4 @@
-"""Options that several commands share, and what they mean."""
+"""Options shared by several commands, and their conversion."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ EffectIds = Annotated[
 ]
 Free = Annotated[
     list[str] | None,
-    typer.Option("--free", metavar="NAME", help="Geometry to fit too, e.g. braid_angle; repeatable."),
+    typer.Option("--free", metavar="NAME", help="Geometry to fit as well, e.g. braid_angle; repeatable."),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
 PresetsFolder = Annotated[
@@ -57,7 +57,7 @@ Effects = dict[str, dict[str, float | str]]
 
 @dataclass(frozen=True, slots=True)
 class Folders:
-    """Where presets, effects and data are."""
+    """Folders of presets, effects and data."""
 
     user_presets: Path
     effects: tuple[Path, ...]
@@ -65,7 +65,7 @@ class Folders:
 
 
 def folders(presets: Path | None, effects: Sequence[Path] | None, data: Path | None) -> Folders:
-    """The folders meant by the options; what is not named lies in the user's data folder.
+    """The folders of the options; those not named are in the user's data folder.
 
     Raises:
         InputError: a named folder is not a folder.
@@ -83,7 +83,7 @@ def folders(presets: Path | None, effects: Sequence[Path] | None, data: Path | N
 
 
 def open_studio(presets: Path | None, effects: Sequence[Path] | None, data: Path | None) -> Studio:
-    """Presets and effects of a command that answers without a server."""
+    """Presets and effects for a command that runs without a server."""
     from mckibben.documents.studio import Studio
     from mckibben.resources import presets_folder
 
@@ -105,8 +105,8 @@ def start_model(
 ) -> StartModel:
     """The muscle of ``--muscle`` with the effects of ``--ideal`` or ``--effect``.
 
-    A drive document gives what the options do not: its muscle, and the effects of its model. The muscle that
-    a measurement names comes last.
+    What the options do not name comes from the drive document: muscle and effects. The last choice is the
+    muscle that a measurement names.
 
     Raises:
         InputError: names the file or option, what is wrong and what would be right.
@@ -147,9 +147,9 @@ def model_question(
     free: Sequence[str],
     noise: float | None = None,
 ) -> ModelQuestion:
-    """The question that the options of ``compare`` and ``diagnose`` make of measurements.
+    """The question of ``compare`` and ``diagnose``, from their options and measurements.
 
-    A drive document with a valve is the drive of transient measurements.
+    For transient measurements, a drive document with a valve supplies the drive.
 
     Raises:
         InputError: names the file or option, what is wrong and what would be right.
@@ -163,8 +163,8 @@ def model_question(
     measurement = points.measurement
     named = str(measurement.conditions.get("muscle", ""))
     start = start_model(studio, muscle, ideal=ideal, effects=effects, drive=drive, named=named)
-    given = _drive_of(studio, drive, start) if drive and measurement.kind == "transient" else None
-    return question_of(start, studio, points, drive=given, free=tuple(free), noise=noise)
+    stated_drive = _drive_of(studio, drive, start) if drive and measurement.kind == "transient" else None
+    return question_of(start, studio, points, drive=stated_drive, free=tuple(free), noise=noise)
 
 
 def _drive_of(studio: Studio, path: str, start: StartModel) -> Drive | None:
@@ -178,15 +178,15 @@ def _drive_of(studio: Studio, path: str, start: StartModel) -> Drive | None:
     if "valve" not in document:
         return None
     try:
-        given = read_document({**document, "effects": {}}, path)
-        found = drive_of(given, studio, measured=True).drive
+        checked = read_document({**document, "effects": {}}, path)
+        stated_drive = drive_of(checked, studio, measured=True).drive
     except InputError as error:
         raise _at(path, error.field, error.message, error.hint) from error
-    return replace(found, model=studio.static_model(start))
+    return replace(stated_drive, model=studio.static_model(start))
 
 
 def _drive_document(path: str) -> dict[str, object]:
-    """The parts of a drive document; in that of a mere model stand ``effects`` (and ``muscle``) only."""
+    """The parts of a drive document; a document of a model alone has only ``effects`` (and ``muscle``)."""
     from mckibben.documents.drive import DriveDocument
     from mckibben.presets.reading import BadDocumentError, read_file
 
@@ -206,7 +206,7 @@ def _drive_document(path: str) -> dict[str, object]:
 
 
 def _is_file(muscle: str, studio: Studio) -> bool:
-    """A JSON file, rather than a preset id with a slash or a file that happens to have a preset's name."""
+    """Whether it names a JSON file; a preset id with a slash, or a file named like a preset, does not."""
     if muscle.lower().endswith(".json"):
         return True
     known = {preset.id.lower() for preset in studio.library.list("muscles")}
@@ -228,7 +228,7 @@ def _start_of_file(studio: Studio, path: Path, effects: Effects | None) -> Start
         finding = bad.findings[0]
         where = f"{path}: {finding.field}" if finding.field else str(path)
         raise InputError(f"{where}: {finding.message}", hint=finding.hint) from bad
-    assert isinstance(preset, MusclePreset)  # noqa: S101 - it was parsed as one
+    assert isinstance(preset, MusclePreset)  # noqa: S101 - parsed as one
     preset.adopt("user", studio.effect_table)
     facts = preset_facts(preset, studio.catalogue)
     try:
@@ -238,7 +238,7 @@ def _start_of_file(studio: Studio, path: Path, effects: Effects | None) -> Start
 
 
 def _usable(studio: Studio, start: StartModel) -> StartModel:
-    """The same, when a model can be made of it; a mistake is told here, where its file is known."""
+    """The same, after checking that a model can be built; here an error can name the file."""
     studio.static_model(start)
     return start
 

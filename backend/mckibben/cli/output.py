@@ -32,7 +32,7 @@ def write_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]
         table.add_row(*row)
     console = Console(highlight=False)
     if not console.is_terminal:
-        # A pipe has no width; figures must not be cut off.
+        # A pipe has no width; figures must not be truncated.
         console = Console(highlight=False, width=200)
     console.print(title, style="bold", soft_wrap=True)
     console.print(table)
@@ -40,7 +40,7 @@ def write_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]
 
 @contextmanager
 def progress(words: str) -> Iterator[Watch]:
-    """A bar on stderr while somebody looks at it; the watch of the work it shows."""
+    """A progress bar on stderr if that is a terminal; yields the watch of the work it shows."""
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn
 
     console = Console(stderr=True)
@@ -62,22 +62,22 @@ class CountedRows(Protocol):
 
     @property
     def rows(self) -> int:
-        """Of the data."""
+        """Number of rows of the data."""
         ...
 
     @property
     def rows_used(self) -> int:
-        """That count."""
+        """Number of rows used."""
         ...
 
     @property
     def excluded(self) -> Mapping[str, int]:
-        """Why others do not -> how many."""
+        """Reason for leaving rows out -> number of rows."""
         ...
 
 
 def rows_of(result: CountedRows) -> str:
-    """How many rows of the data a comparison or diagnosis uses, and why not the others."""
+    """Number of rows that a comparison or diagnosis uses, with the reasons for leaving out others."""
     if result.rows_used == result.rows:
         return f"{result.rows} rows"
     reasons = "".join(f", {count} left out: {reason}" for reason, count in result.excluded.items())
@@ -85,12 +85,12 @@ def rows_of(result: CountedRows) -> str:
 
 
 def error_unit(unit: str) -> tuple[str, float]:
-    """Unit in which an error is shown, and how many of it make one SI unit."""
+    """Display unit of an error, and its number per SI unit."""
     return ("mm", 1e3) if unit == "m" else (unit.replace("1", "x noise"), 1.0)
 
 
 def write_parameters(parameters: ParameterTable) -> None:
-    """The table of a model's parameters; nothing without any."""
+    """Print the table of a model's parameters, if it has any."""
     rows = [
         [
             f"{effect}.{name}",
@@ -107,9 +107,9 @@ def write_parameters(parameters: ParameterTable) -> None:
 
 
 def figure(value: float | None, digits: int = 4, unit: str = "") -> str:
-    """A number with so many significant digits, or a dash."""
+    """A number with ``digits`` significant digits, or a dash."""
     if value is None or value != value:
         return "–"
-    # Rounding errors of a sum are no figures.
+    # A result this small is the rounding error of a sum.
     shown = 0.0 if abs(value) < 1e-9 else value
     return f"{shown:.{digits}g}{unit}"

@@ -22,7 +22,7 @@ def write(path: Path, studio: Studio, question: ModelQuestion, diagnosis: Diagno
 
 
 def save(path: Path, text: str) -> None:
-    """Write a report that is ready, and say where.
+    """Write a finished report, and print its path.
 
     Raises:
         InputError: the file cannot be written.

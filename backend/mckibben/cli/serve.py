@@ -36,7 +36,7 @@ def run(
     """
     chosen = folders(presets, effects, data)
     listening = _bind(host, port)
-    # Imported after the port is known to be free: a mistake is told at once.
+    # Imported only after the port is bound: errors of the address are reported at once.
     import uvicorn
 
     from mckibben.server.app import create_app
@@ -80,7 +80,7 @@ def run(
 
 
 def _bind(host: str, port: int | None) -> socket.socket:
-    """A bound socket; without a wish for a port, the first free one from 8000 on."""
+    """A bound socket; without a port, on the first free one from 8000 on."""
     name = host.strip("[]")
     try:
         family, kind, _, _, address = socket.getaddrinfo(name, 0, type=socket.SOCK_STREAM)[0]
@@ -88,7 +88,7 @@ def _bind(host: str, port: int | None) -> socket.socket:
         raise _unknown_host(host) from error
     wishes = range(DEFAULT_PORT, DEFAULT_PORT + _PORTS_TRIED) if port is None else [port]
     for wish in wishes:
-        # With the protocol named, asyncio turns Nagle's algorithm off; else every answer waits 40 ms.
+        # With an explicit protocol asyncio disables Nagle's algorithm; otherwise each answer waits 40 ms.
         listening = socket.socket(family, kind, socket.IPPROTO_TCP)
         if os.name == "posix":
             # On Windows this would let two servers share a port.
@@ -120,7 +120,7 @@ def _unknown_host(host: str) -> InputError:
 
 
 def _own_address() -> str:
-    """The address other machines reach this one by; connecting a datagram socket sends nothing."""
+    """The address at which other machines reach this one; connecting a datagram socket sends nothing."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
         try:
             probe.connect(("192.0.2.1", 9))

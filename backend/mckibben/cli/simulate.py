@@ -1,4 +1,4 @@
-"""``mckibben simulate``: a drive through time."""
+"""``mckibben simulate``: transient simulation of a drive."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ _SHOWN: tuple[tuple[str, Callable[[PhaseFigures], float | None], str, float, str
 
 
 def _columns(result: SimulationResult) -> dict[str, np.ndarray]:
-    """Header -> column of a file; names as in measurement files, so that a trace can be read back."""
+    """Header -> column; names as in measurement files, so that a trace can be read back."""
     columns = {
         "time_s": result.time,
         "command": result.command,
@@ -97,7 +97,7 @@ def run(studio: Studio, *, drive: str, out: Path | None, as_json: bool) -> None:
 
 
 def _engine(given: GivenDrive) -> str:
-    """The kernel takes 0.6 s to load, longer than LSODA takes for a few segments."""
+    """The engine for a drive: loading the kernel takes 0.6 s, longer than LSODA for a few segments."""
     return "lsoda" if len(segments_of(given.drive)[0]) <= _FEW_SEGMENTS else "rodas"
 
 
@@ -115,7 +115,7 @@ def _document(name: str, studio: Studio) -> DriveDocument:
         content = read_file(path, follow_links=True)
         if isinstance(content, dict) and "kind" in content:
             preset = parse(DrivePreset, content, studio.effect_table)
-            assert isinstance(preset, DrivePreset)  # noqa: S101 - it was parsed as one
+            assert isinstance(preset, DrivePreset)  # noqa: S101 - parsed as one
             content = preset.document
         return read_document(content, "the drive")
     except BadDocumentError as bad:
@@ -155,7 +155,7 @@ def _times(value: float | None, factor: float) -> float | None:
 
 
 def _write_trace(path: Path, document: DriveDocument, result: SimulationResult) -> None:
-    """The columns as CSV, with the conditions a reader of measurements asks for."""
+    """Write the columns as CSV, with the conditions that measurement files require."""
     columns = _columns(result)
     text = io.StringIO()
     text.write("# kind: transient\n# pressure: gauge\n")

@@ -22,7 +22,7 @@ _REJECTED_SHOWN = 12
 
 @dataclass(frozen=True)
 class Wanted:
-    """A report to write: where, of which proposal (1 the best), under which title ("": the task's)."""
+    """A report to write: path, rank of the proposal (1 the best), title ("" = that of the task)."""
 
     path: Path
     proposal: int = 1
@@ -30,7 +30,7 @@ class Wanted:
 
 
 def run(studio: Studio, *, task: str, as_json: bool, report: Wanted | None = None) -> None:
-    """Search, print the proposals and the reasons against the rest, or the answer; write it down if asked.
+    """Search, print proposals and rejections or the JSON answer; write a report if requested.
 
     Raises:
         InputError: names the file, the field, what is wrong and what would be right.
@@ -73,17 +73,17 @@ def _write_report(search: Searched, studio: Studio, wanted: Wanted) -> None:
 
 
 def _content(path: Path, studio: Studio) -> object:
-    """What a file says, or the document inside a preset file."""
+    """The content of a file, or the document inside a preset file."""
     content = read_file(path, follow_links=True)
     if not isinstance(content, dict) or "kind" not in content:
         return content
     preset = parse(TaskPreset, content, studio.effect_table)
-    assert isinstance(preset, TaskPreset)  # noqa: S101 - it was parsed as one
+    assert isinstance(preset, TaskPreset)  # noqa: S101 - parsed as one
     return preset.document
 
 
 def _show(share: float) -> None:
-    """The progress, in one line that the next thing said overwrites."""
+    """Print the progress, in a line that the next output overwrites."""
     sys.stderr.write(f"\r{share * 100:3.0f} %\r")
     sys.stderr.flush()
 
@@ -92,7 +92,7 @@ def read_task(document: object) -> SizingTask:
     """A task from JSON.
 
     Raises:
-        InputError: says what is wrong, its ``field`` the path in the document.
+        InputError: what is wrong, with ``field`` the path in the document.
     """
     from pydantic import ValidationError
 
@@ -126,8 +126,8 @@ def _write_tables(name: str, result: SizingResult) -> None:
         for item in result.proposals
     ]
     header = [
-        "muscle", "length", "valve", "tube", "supply", "time", "contraction", "force reserve", "air a cycle",
-        "impact", "does it", "nearest limit",
+        "muscle", "length", "valve", "tube", "supply", "time", "contraction", "force reserve",
+        "air per cycle", "impact", "probability", "nearest limit",
     ]  # fmt: skip
     counted = f"{result.combinations} combinations, {result.simulated} simulated"
     if rows:
@@ -136,6 +136,6 @@ def _write_tables(name: str, result: SizingResult) -> None:
         write_table(f"{name}: nothing in the catalogue does this ({counted})", ["no drive"], [])
     shown = result.rejected[:_REJECTED_SHOWN]
     for item in shown:
-        remark(f"– {item.why} [{item.binding.replace('_', ' ')}]; it would do with {item.would_work_if}")
+        remark(f"– {item.why} [{item.binding.replace('_', ' ')}]; it would work with {item.would_work_if}")
     if len(result.rejected) > len(shown):
         remark(f"– and {len(result.rejected) - len(shown)} further choices of parts")

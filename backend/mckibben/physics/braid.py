@@ -63,8 +63,8 @@ def angle(*, braid: Braid, length: Value) -> Value:
 def diameter(*, braid: Braid, length: Value) -> Value:
     """Braid diameter D = sqrt(b^2 - L^2)/(n pi) [m].
 
-    At and beyond the braid lock L = b it stays at 1e-6 b/(n pi) instead of 0, so that what divides by it or
-    differentiates it stays finite.
+    At and beyond the braid lock L = b it stays at 1e-6 b/(n pi) instead of 0, so that quotients and
+    derivatives stay finite.
     """
     squared = braid.thread_length**2
     inside = ops.maximum(squared - length**2, 1e-12 * squared)

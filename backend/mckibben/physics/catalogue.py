@@ -1,4 +1,4 @@
-"""All known effects: every Python file of the effects folder, and of further folders given by the user."""
+"""All known effects: every Python file of the effects folder, and of additional folders of the user."""
 
 from __future__ import annotations
 
@@ -23,29 +23,29 @@ class EffectProblem:
 
 
 class EffectCatalogue(Mapping[str, Effect]):
-    """Effects by id, in order of their ids; the file name without ``.py`` is the id.
+    """Effects by id, sorted; the id is the file name without ``.py``.
 
-    A broken file of the project itself raises; a broken file of a further folder becomes a problem, and the
-    others still load. Two files with one id are refused.
+    A broken file of the effects folder raises. A broken file of an additional folder is reported in
+    ``problems``, and the others still load. Two files with the same id are refused.
 
     Args:
-        folders: further folders whose Python files are loaded (and so executed) as effects.
+        folders: additional folders whose Python files are loaded, and thus executed, as effects.
     """
 
     def __init__(self, folders: Sequence[Path] = ()) -> None:
         self.problems: list[EffectProblem] = []
-        found = {path.stem: _load(path) for path in _files(BUILT_IN_FOLDER)}
+        by_id = {path.stem: _load(path) for path in _files(BUILT_IN_FOLDER)}
         for folder in folders:
             if not folder.is_dir():
                 raise InputError(f"effects folder {folder} does not exist", field="effects")
             for path in _files(folder):
                 try:
-                    if path.stem in found:
+                    if path.stem in by_id:
                         raise ValueError(f"an effect '{path.stem}' exists already; rename the file")
-                    found[path.stem] = _load(path)
+                    by_id[path.stem] = _load(path)
                 except Exception as error:  # a user's file may fail in any way
                     self.problems.append(EffectProblem(path.name, f"{type(error).__name__}: {error}"))
-        self._effects = dict(sorted(found.items()))
+        self._effects = dict(sorted(by_id.items()))
 
     def __getitem__(self, effect_id: str) -> Effect:
         try:
@@ -70,7 +70,7 @@ class EffectCatalogue(Mapping[str, Effect]):
 
 @cache
 def default_catalogue() -> EffectCatalogue:
-    """The project's own effects, loaded once."""
+    """The built-in effects, loaded once."""
     return EffectCatalogue()
 
 

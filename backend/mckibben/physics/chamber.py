@@ -1,4 +1,4 @@
-"""One muscle of a drive with its way of the air: tension, gas balance, the rates of its own states."""
+"""One muscle of a drive with its air path: tension, gas balance, rates of its states."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from mckibben.physics.model import Model, State
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 
-# Speed at which a friction's sign is 0.7 of full [m/s]; below, the muscle creeps instead of sticking.
+# Speed at which the smooth sign of friction is 0.7 [m/s]; below it the muscle creeps instead of sticking.
 SIGN_SPEED = 1e-3
 
 
 class Motion(NamedTuple):
-    """How the contraction follows the drive's coordinate x: s = start + sense * x, sense +1 or -1."""
+    """Stroke of a muscle from the drive's coordinate x: s = start + sense * x, sense +1 or -1."""
 
     coordinate: Value
     rate: Value
@@ -25,7 +25,7 @@ class Motion(NamedTuple):
 
 
 class Side(NamedTuple):
-    """A muscle in its drive: tension [N] (never negative), volume with dead volumes [m^3], and the rest."""
+    """Results for one muscle: tension [N] (never negative), volume with dead volumes [m^3], and others."""
 
     force: Value
     volume: Value
@@ -40,7 +40,7 @@ class Side(NamedTuple):
 
 
 def heated(*, model: Model) -> bool:
-    """Whether the gas exchanges heat, so that its chamber obeys the energy balance and keeps its mass."""
+    """Whether the gas exchanges heat: the chamber then obeys the energy balance, with its mass as a state."""
     return model.has("heat")
 
 
@@ -65,11 +65,11 @@ def muscle_side(
 
     Args:
         tube, regulator: see `mckibben.physics.drive_terms.DriveStructure`.
-        model, values: effects, their numbers and states.
+        model, values: effects, their parameters and states.
         muscle: geometry.
-        constants: of the drive, by name.
-        states: of this muscle, by name; absolute pressures.
-        motion: how its contraction follows the drive.
+        constants: constants of the drive, by name.
+        states: states of this muscle, by name; absolute pressures.
+        motion: its stroke from the drive's coordinate.
         command: opening of its valve, or set point of its regulator.
     """
     pressure, ambient = states["pressure"], constants["ambient_temperature"]
@@ -85,7 +85,7 @@ def muscle_side(
         "temperature": ambient,
     }
     state = model.at(**{**moving, "values": values})
-    # What is in series gives way: one Newton step from the stiff rig.
+    # Series compliance: one Newton step from the rigid rig.
     yielding = 1.0 - state.compliance * motion.sense * state.tension.diff(motion.coordinate)
     force = ops.positive_part(state.tension / yielding)
     volume = state.volume + constants["fitting_volume"] + model.sum("extra_volume", values, {})
@@ -174,7 +174,7 @@ def _readings(
     force: Value,
     stroke: Value,
 ) -> dict[str, Value]:
-    """What the sensors read of a muscle, before any lag of theirs."""
+    """Sensor readings of a muscle, before any lag of the sensors."""
     sensor = {
         name: model.reading(f"{name}_sensor", muscle=muscle, values=values)
         for name in ("pressure", "force", "length")
@@ -182,6 +182,6 @@ def _readings(
     return {
         "pressure_reading": sensor["pressure"].scale * gauge + sensor["pressure"].offset,
         "force_reading": sensor["force"].scale * force + sensor["force"].offset,
-        # A length that reads too long is a stroke that reads too short.
+        # A length that reads too long makes the stroke read too short.
         "stroke_reading": sensor["length"].scale * stroke - sensor["length"].offset,
     }

@@ -42,8 +42,8 @@ SYMBOLS = {
     "t": "time [s]", "pi": "3.14159...",
 }  # fmt: skip
 FUNCTIONS: Mapping[str, Callable[[Value], Value]] = {
-    # The argument twice, not three times as in ops.absolute, and never negated: a negated copy is another
-    # expression, which symengine takes apart anew at every level of a nest.
+    # The argument occurs twice, not three times as in ops.absolute, and never negated: symengine would
+    # expand a negated copy again at every level of nesting.
     "abs": lambda x: x * ops.where(ops.greater(x, 0.0), 1.0, -1.0),
     "exp": ops.exp, "sqrt": ops.sqrt, "sin": ops.sin, "cos": ops.cos,
     "tanh": lambda x: 1.0 - 2.0 / (ops.exp(2.0 * x) + 1.0),
@@ -53,17 +53,17 @@ _DEEPEST = 40
 _LONGEST_NAME = 64
 _USABLE = re.compile(r"[A-Za-z0-9_+\-*/^().,\s]*")
 _QUOTES = {"'": "a single quote", '"': "a double quote"}
-# Names with another meaning: what the effect's functions are given, its state, and the term itself.
+# Names with another meaning: arguments of the effect's functions, its state, and the term itself.
 _TAKEN = {*SLOTS["friction"].context, "elapsed", TERM}
-_LARGEST = 1e12  # SI; bounds of a parameter whose size nobody stated
-_REACH = 1e3  # times the stated value
+_LARGEST = 1e12  # SI; bound of a parameter without a stated value
+_REACH = 1e3  # bound of a parameter as a multiple of its stated value
 
 _ALLOWED = f"numbers, + - * / **, {', '.join((*SYMBOLS, 'sign', *FUNCTIONS))} and parameters"
 
 
 @dataclass(frozen=True, eq=False)
 class TypedEffect(Effect):
-    """The effect of a typed term, with the term as it was typed."""
+    """The effect of a typed term, with the original text."""
 
     term: str = ""
 
@@ -139,7 +139,7 @@ def custom_effect(term: str, given: Mapping[str, float] | None = None) -> Effect
         title="Custom term",
         family="friction",
         type="static",
-        cause=f"A term that was typed or proposed from data: {term}. Nothing is known of its cause.",
+        cause=f"A term that was typed or proposed from data: {term}. Its cause is unknown.",
         equation=r"F_{custom} = \mathtt{" + term.replace("_", r"\_").replace("**", "^") + "}",
         parameters=tuple(_parameter(name, (given or {}).get(name, 1.0), user) for name in parameters),
         slots=slots,
@@ -178,15 +178,15 @@ def typed_effect(given: Mapping[str, float | str]) -> tuple[Effect, str]:
 
 @lru_cache(maxsize=64)
 def _kept(term: str, values: tuple[tuple[str, float], ...]) -> Effect:
-    # The same object for the same term, so that its machine code is found again.
+    # The same object for the same term, so that its cached machine code is reused.
     return custom_effect(term, dict(values))
 
 
 @contextmanager
 def blamed_on_the_term(effects: Sequence[Effect]) -> Iterator[None]:
-    """Turn what goes wrong while a model with a typed term is built and compiled into an error of the term.
+    """Turn errors in building and compiling a model with a typed term into an error of the term.
 
-    A model without one is made of catalogued effects alone: its error passes as it is.
+    Errors of a model without a typed term pass unchanged.
 
     Raises:
         InputError: names the term.
@@ -215,19 +215,19 @@ def _parameter(name: str, value: float, source: Source) -> Parameter:
         lower=-reach,
         upper=reach,
         source=source,
-        description="Of the typed term.",
+        description="Parameter of the typed term.",
         off=0.0,
     )
 
 
 def _declare(function: Callable[..., Value], names: list[str]) -> None:
-    # An effect's functions ask for what they want by the names of their keyword-only arguments.
+    # An effect's functions request their inputs by the names of their keyword-only arguments.
     arguments = [Argument(name, Argument.KEYWORD_ONLY) for name in names]
     function.__signature__ = CallSignature(arguments)  # type: ignore[attr-defined]
 
 
 def _node(node: ast.expr, names: dict[str, None], depth: int) -> Worth:
-    """A function of the known values from a whitelisted part of the formula; its numbers are worked out."""
+    """A function of the known values, from a permitted part of the formula; constants are evaluated."""
     part = _part(node, names, depth)
 
     def worth(known: Mapping[str, Value]) -> Value:

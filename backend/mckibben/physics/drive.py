@@ -5,14 +5,14 @@ r"""A drive as one symbolic model: supply, valve, tube, muscle, load and any cho
    M \ddot s &= r^2 F - r\,(m g\sin\psi + F_{ext} + F_{guide}) - k s - F_{stop}
 
 with the stroke s of the muscle (positive = shorter), the lever ratio r (muscle stroke per load stroke) and
-the volume V and tension F of `mckibben.physics.model`. The tension is never negative: a slack muscle lets
-the load fly; its volume is then still taken at the distance of its ends. With a heat flow the chamber obeys
-the energy balance with exponent 1.4 and T = pV/(mR) instead.
+the volume V and tension F of `mckibben.physics.model`. The tension is never negative: with a slack muscle the
+load moves freely, and the volume is still that at the distance of the fittings. With a heat flow the chamber
+obeys the energy balance with exponent 1.4 and T = pV/(mR) instead.
 
-Of an antagonist pair the second muscle contracts by s0 - s where the first contracts by s0 + s, has a gas of
-its own, and its tension counts against the first.
+In an antagonist pair the first muscle contracts by s0 + s and the second by s0 - s. The second has its own
+gas, and its tension acts against the first.
 
-Everything is written on symengine symbols, because the volume's derivatives are taken here.
+The equations are built on symengine symbols, because they contain derivatives of the volume.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from mckibben.physics.model import Model
 from mckibben.physics.muscle import GEOMETRY, Muscle
 from mckibben.physics.ops import Value
 
-# Depth over which the damper of a stop comes in [m], so that an impact is no jump.
+# Depth over which the damping of a stop sets in [m], so that the force of an impact has no jump.
 _STOP_ONSET = 1e-6
 
 
@@ -44,7 +44,7 @@ class DriveModel:
     """The equations of a structure on symbols.
 
     Attributes:
-        states: in their order; ``initial`` None where a run has to say it.
+        states: in their order; ``initial`` is None where the run has to set it.
         symbols: state name -> symbol.
         parameters: constants of a run: `CONSTANTS`, geometry, "effect.parameter"; name -> symbol.
         inputs: name -> symbol of `INPUTS`.
@@ -63,7 +63,7 @@ class DriveModel:
         ]
         for suffix in suffixes:
             self.states += _side_states(structure, model, suffix)
-        # Nothing depends on these, so they come last: the integrator then has less to solve.
+        # Nothing depends on these states; placed last, they make the linear systems smaller.
         for suffix in suffixes:
             self.states += [StateInfo(f"{name}{suffix}", 0.0, 1e-3) for name in ("supplied", "vented")]
         self.symbols = {state.name: se.Symbol(f"y_{state.name}") for state in self.states}
@@ -148,7 +148,7 @@ class DriveModel:
         pull: Value,
         external: Value,
     ) -> tuple[Value, Value]:
-        """Acceleration of the stroke [m/s^2], and how deep a stop is pressed in [m]."""
+        """Acceleration of the stroke [m/s^2], and compression of a stop [m]."""
         c, stroke, speed = self._constants, self.symbols["stroke"], self.symbols["speed"]
         factor = model.product("load_factor", values, {})
         inertia = factor * c["mass"] + c["own_mass"] + model.sum("inertia", values, {"muscle": muscle})
@@ -183,7 +183,7 @@ def _side_states(structure: DriveStructure, model: Model, suffix: str) -> list[S
 
 
 def end_stops(*, constants: Mapping[str, Value], stroke: Value, speed: Value) -> tuple[Value, Value]:
-    """Force of the end stops on the stroke [N], and how deep either is pressed in [m]; they never pull."""
+    """Force of the end stops on the stroke [N], and their compression [m]; they never pull."""
     above = ops.positive_part(stroke - constants["stop_high"])
     below = ops.positive_part(constants["stop_low"] - stroke)
     high = ops.positive_part(

@@ -1,4 +1,4 @@
-"""The names of a drive: what decides its equations, its constants, inputs, states and outputs."""
+"""The structure of a drive, and the names of its constants, inputs, states and outputs."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from mckibben.physics.effect import Effect
 
-# Numbers of one run, SI. Pressures absolute; ratio = critical pressure ratio.
+# Constants of a run, SI. Pressures absolute; ratio = critical pressure ratio.
 CONSTANTS = (
     "supply_pressure",
     "ambient_pressure",
@@ -33,7 +33,7 @@ CONSTANTS = (
     "stop_stiffness",
     "stop_damping",
 )
-# Numbers of one segment: command and external force start at a value and change linearly from ``begin`` on.
+# Constants of a segment: command and external force change linearly from their values at ``begin``.
 INPUTS = (
     "opening",
     "opening_slope",
@@ -43,7 +43,7 @@ INPUTS = (
     "external_force_slope",
     "begin",
 )
-# What a run reports besides its states.
+# Outputs of a run besides its states.
 OUTPUTS = (
     "acceleration",
     "force",
@@ -62,7 +62,7 @@ OUTPUTS = (
     "force_reading",
     "stroke_reading",
 )
-# What the second muscle of a pair adds; its states carry the suffix too.
+# Additional outputs for the second muscle of a pair; its states have the suffix as well.
 COUNTER = "@counter"
 COUNTER_OUTPUTS = tuple(
     f"{name}{COUNTER}" for name in ("force", "mass_flow", "supply_flow", "exhaust_flow", "volume", "diameter")
@@ -71,13 +71,13 @@ COUNTER_OUTPUTS = tuple(
 
 @dataclass(frozen=True, slots=True)
 class DriveStructure:
-    """What decides the equations.
+    """The features of a drive that determine its equations.
 
     Attributes:
-        effects: of the muscle and the drive; those of a pair are the same for both muscles.
-        tube: whether the tube has a pressure of its own.
+        effects: effects of muscle and drive; the same for both muscles of a pair.
+        tube: whether the pressure in the tube is a state.
         regulator: whether a pressure regulator feeds the muscle instead of a valve.
-        pair: whether a second muscle with a valve of its own pulls against the first (an antagonist pair).
+        pair: whether a second muscle with its own valve pulls against the first (an antagonist pair).
     """
 
     effects: tuple[Effect, ...]
@@ -90,7 +90,7 @@ class DriveStructure:
 class StateInfo:
     """A state of the drive: name ("effect.state" for effects), value at rest, and scale for error control.
 
-    All ``settled`` states start together where their rates, linear in them, are zero.
+    All ``settled`` states start where their rates, linear in them, are zero.
     """
 
     name: str

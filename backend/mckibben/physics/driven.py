@@ -1,7 +1,7 @@
-"""The muscle of a drive with its surroundings measured: pressure and length in and force out, or motion out.
+"""A muscle driven by measured pressure: with measured length it predicts force, otherwise motion.
 
-The same effects and the same composition as in `mckibben.physics.drive`, without valve, tube and gas balance.
-Measured channels enter as lines between samples. What sensors and channel lags do to the readings is kept.
+Effects and composition are those of `mckibben.physics.drive`, without valve, tube and gas balance. Measured
+channels are linear between samples. Effects of sensors and lags on the readings are included.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class DrivenModel:
     """Equations on symbols of a muscle whose pressure is measured.
 
     Args:
-        effects: the effects; those of the way of the air have nothing to act on here.
+        effects: the effects; those of the air path do not act here.
         motion: False: the length is measured too and the force predicted; True: the load moves.
 
     Attributes are those of `mckibben.physics.drive.DriveModel`, with ``output_names``.
@@ -114,7 +114,7 @@ def _equations(
     state = model.at(**seen, values=values)
     pulled = state.tension
     if model.has("compliance"):
-        # One Newton step from the stiff rig, as in the drive.
+        # One Newton step from the rigid rig, as in the drive.
         free = se.Symbol("free_length")
         by_length = model.at(**{**seen, "length": free, "values": values}).tension.diff(free)
         pulled = pulled / (1.0 + state.compliance * by_length.subs({free: length}))

@@ -1,7 +1,7 @@
-"""The contract of an effect: what one file in ``effects/`` declares.
+"""The contract of an effect: the declarations in a file of ``effects/``.
 
-A file holds plain functions and one module-level ``EFFECT = Effect(...)``. Everything declared here is
-checked: the form when the file is loaded, the physics by ``tests/physics/test_effect_contract.py``.
+A file holds plain functions and one module-level ``EFFECT = Effect(...)``. All declarations are checked: the
+form when the file is loaded, the physics by ``tests/physics/test_effect_contract.py``.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Kind = Literal["isobaric", "isometric", "isotonic", "diameter", "transient", "st
 KINDS: tuple[Kind, ...] = ("isobaric", "isometric", "isotonic", "diameter", "transient", "static")
 TYPES = ("static", "rate", "hysteretic", "dynamic", "measurement")
 FAMILIES = ("geometry", "elastomer", "friction", "gas", "valve", "tube", "supply", "load", "sensor")
-# Named states at which an effect may claim to contribute nothing; test_effect_contract.py evaluates them.
+# Named states in which an effect may claim to contribute nothing; test_effect_contract.py evaluates them.
 ZERO_STATES = (
     "nominal_length",
     "zero_force_length",
@@ -37,14 +37,14 @@ class StateVariable:
     """A state of an effect with memory; its rate comes from the slot ``rates`` or ``drive_rates``.
 
     Attributes:
-        name: keyword by which the effect's slot functions ask for it.
+        name: name of the argument in the effect's slot functions.
         symbol: LaTeX symbol.
         unit: SI unit as text.
         scale: typical magnitude, for error control.
         description: what it is, one sentence.
-        initial: value at the start of a run, at which the effect is at rest; static curves keep it there.
-        settled: a run starts all such states together where their rates are zero instead; the rates must be
-            linear in them.
+        initial: value at the start of a run, at which the effect is at rest; static curves use this value.
+        settled: the state starts where its rate is zero instead of at ``initial``; all settled states are
+            solved together, so their rates must be linear in them.
     """
 
     name: str
@@ -60,14 +60,14 @@ class StateVariable:
 class Signature:
     """How the effect shows in the residual (measured minus ideal force), in words and as checkable claims.
 
-    For an effect with states in the muscle the claims hold of a run from rest: "even" and "odd" of the
-    mirrored motion (of length, or of pressure where that drives it). An effect of the drive alone changes no
-    force at a given length and pressure, so it claims neither parity nor power nor zeros.
+    For an effect with states in the muscle the claims hold for a run from rest: "even" and "odd" refer to the
+    mirrored motion (of length, or of pressure if that drives it). An effect of the drive alone changes no
+    force at a given length and pressure, so it claims no parity, power or zeros.
 
     Attributes:
         text: the signature in words, one sentence.
         direction: parity of the contribution when the motion reverses: "even", "odd" or None (neither).
-        pressure_power: n when the contribution to the force goes with P^n at constant length, else None.
+        pressure_power: n if the contribution to the force goes with P^n at constant length, else None.
         zero_at: states (of `ZERO_STATES`) where the contribution to the force is exactly zero.
         energy: "conservative" (a closed loop returns its work), "dissipative" (a loop never gains work),
             "lumped" (a correction without an energy) or "reading" (changes what is read, not the muscle).
@@ -93,9 +93,9 @@ class Example:
     """A worked example: ``quantity`` of the ideal muscle with only this effect equals ``expected``.
 
     ``quantity`` is an output of `mckibben.physics.model.State` ("force", "volume", "diameter", "area") or one
-    of these with the suffix "_change": with the effect minus without. "slot:NAME" is what the effect's own
-    slot function gives, "slot:NAME:K" the K-th (from 0) of several; the state then holds what the function
-    asks for, states of the effect included, and the muscle may be empty. Everything is in SI.
+    of these with the suffix "_change": with the effect minus without. "slot:NAME" is the result of the
+    effect's slot function, "slot:NAME:K" the K-th (from 0) of several results. The state then holds the
+    arguments of the function, including states of the effect, and the muscle may be empty. All in SI.
     """
 
     quantity: str
@@ -112,22 +112,22 @@ class Effect:
     """One physical effect, as declared by its file.
 
     Attributes:
-        title: name in the field's own words.
+        title: standard name in the field.
         family: group on screen (one of `FAMILIES`).
         type: static, rate, hysteretic, dynamic or measurement.
         cause: why it exists, two sentences.
-        equation: LaTeX of what it adds or changes.
-        parameters: its numbers.
+        equation: LaTeX of the added or changed term.
+        parameters: its parameters.
         slots: slot name -> function (see `mckibben.physics.slots`).
         kinds: measurement kinds that reveal it.
-        signature: how it shows.
-        confused_with: twins and what separates them.
+        signature: how it shows in the residual.
+        confused_with: twins, with the experiments that separate them.
         references: literature.
         examples: worked examples, at least one.
         order: position in chained slots; lower acts first.
-        needs: fields of the muscle that the effect multiplies; where one is not known (zero), a typical value
-            is assumed (`mckibben.physics.muscle.Muscle.assuming`).
-        states: memory of the effect; ``rates`` (of the muscle) or ``drive_rates`` gives their derivatives.
+        needs: fields of the muscle that the effect multiplies; for an unknown (zero) one a typical value is
+            assumed (`mckibben.physics.muscle.Muscle.assuming`).
+        states: states of the effect; ``rates`` (of the muscle) or ``drive_rates`` gives their derivatives.
         id: the file name, set by the catalogue.
     """
 
@@ -175,7 +175,7 @@ class Effect:
         return replace(self, id=effect_id)
 
     def call(self, slot: str, context: Mapping[str, Value], values: Mapping[str, Value]) -> Value:
-        """The slot's function, given what it asks for: this effect's values, the context, or rest states."""
+        """Call the slot's function with the arguments it requests, from values, context or states at rest."""
         rest = {state.name: state.initial for state in self.states}
         sources = (values, context, rest)
         arguments = {
@@ -195,17 +195,17 @@ class Effect:
 
     @property
     def of_tube(self) -> bool:
-        """Whether it acts on a tube between valve and muscle, so that it needs one."""
+        """Whether it acts on the tube between valve and muscle, so that it requires one."""
         return "tube_conductance" in self.slots or any(
             "tube_length" in names for names in self._wanted.values()
         )
 
     def wanted(self, slot: str) -> tuple[str, ...]:
-        """Names of what the slot's function asks for."""
+        """Names of the arguments that the slot's function requests."""
         return self._wanted[slot]
 
     def parameter(self, name: str) -> Parameter:
-        """The parameter of that name; KeyError when there is none."""
+        """The parameter of that name; raises KeyError if there is none."""
         return {parameter.name: parameter for parameter in self.parameters}[name]
 
 
@@ -215,7 +215,7 @@ def _wanted_arguments(slot: str, function: Callable[..., Value], parameters: lis
     context = SLOTS[slot].context
     arguments = inspect.signature(function).parameters.values()
     if clash := {argument.name for argument in arguments} & set(context) & set(parameters):
-        raise ValueError(f"parameter(s) {sorted(clash)} hide what slot '{slot}' offers under that name")
+        raise ValueError(f"parameter(s) {sorted(clash)} have the name of an argument of slot '{slot}'")
     for argument in arguments:
         if argument.kind is not argument.KEYWORD_ONLY:
             raise ValueError(f"argument '{argument.name}' of slot '{slot}' must be keyword-only")

@@ -12,7 +12,7 @@ class InputError(ValueError):
     """Input of the caller that cannot be used.
 
     Args:
-        message: what is wrong, in the words of the field ("braid angle 95° is not between 0° and 90°").
+        message: what is wrong ("braid angle 95° is not between 0° and 90°").
         field: where, as a path of the request or file ("muscle.braid_angle", "row 7, column force").
         hint: what would be right ("e.g. '25 deg'").
         code: machine-readable kind; ``not_found`` becomes HTTP 404, ``conflict`` 409, everything else 422.
@@ -28,7 +28,7 @@ class InputError(ValueError):
         self.code = code
 
     def at(self, field: str | None, *, code: str | None = None) -> InputError:
-        """The same error at another field, with another code where one is given."""
+        """The same error at another field, and with another code if given."""
         return InputError(self.message, field=field, hint=self.hint, code=code or self.code)
 
     def inside(self, part: str) -> InputError:
@@ -38,7 +38,7 @@ class InputError(ValueError):
 
 @contextmanager
 def fields_inside(part: str) -> Iterator[None]:
-    """Errors in this block name their field within a part of a whole."""
+    """Prefix the fields of errors in this block with the name of the part."""
     try:
         yield
     except InputError as error:
@@ -46,11 +46,11 @@ def fields_inside(part: str) -> Iterator[None]:
 
 
 def did_you_mean(word: str, options: Iterable[str]) -> str | None:
-    """The nearest known word as a sentence, or the list of known words when none is near."""
+    """A sentence with the nearest known word, or the list of known words if none is near."""
     known = sorted(options)
     by_lower = {option.lower(): option for option in known}
     near = get_close_matches(word.lower(), by_lower, n=1, cutoff=0.6)
-    if not near:  # a part of one name alone, as "blader" of "bladder_elasticity"
+    if not near:  # near to a part of a name, as "blader" to "bladder_elasticity"
         parts = [(p, option) for option in by_lower for p in re.split(r"[^a-z0-9]+", option) if len(p) > 3]
         nearest = get_close_matches(word.lower(), {part for part, _ in parts}, n=1, cutoff=0.75)
         near = [option for part, option in parts if part in nearest]

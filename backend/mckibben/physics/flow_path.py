@@ -1,4 +1,4 @@
-"""The way of the air: supply, valve or regulator, tube, muscle, with the effects that act on it."""
+"""The air path: supply, valve or regulator, tube, muscle, with the effects that act on it."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ def flow_path(
     """Mass flows [kg/s] of the valve and into the muscle, and the rates of the pressures in between.
 
     Args:
-        tube: whether the tube has a pressure of its own (state ``tube_pressure``).
+        tube: whether the pressure in the tube is a state (``tube_pressure``).
         regulator: whether a pressure regulator feeds the muscle (state ``regulator_pressure``): its pressure
-            follows the command as a first-order lag, the conductances are those of its two ways.
-        model, values: effects and their numbers.
+            follows the command with a first-order lag; the conductances are those of its fill and exhaust.
+        model, values: effects and their parameters.
         c: constants of the drive, by name.
         y: states of the drive, by name.
         command: commanded opening [-1, 1]; of a regulator its set point as a share of its range.
-        temperature: of the gas in the muscle [K].
+        temperature: temperature of the gas in the muscle [K].
 
     Returns:
         ``supply``, ``exhaust`` and ``into_muscle`` mass flow, ``opening`` after all effects, ``openings``

@@ -1,4 +1,4 @@
-r"""Compressed air: flow through a restriction after ISO 6358, and what a chamber does with it.
+r"""Compressed air: flow through a restriction after ISO 6358, and the pressure in a chamber.
 
 A restriction is given by its sonic conductance C [m^3/(s Pa)] and critical pressure ratio b [-]. With the
 upstream state 1, r = p2/p1 and the reference state :math:`\rho_0 = 1.185\,kg/m^3, T_0 = 293.15\,K` (ANR):
@@ -21,7 +21,7 @@ HEAT_CAPACITY_P = HEAT_CAPACITY_RATIO * HEAT_CAPACITY_V
 ANR_DENSITY = 1.185  # kg/m^3 at 20 degC, 100 kPa, 65 % humidity (ISO 8778)
 ANR_TEMPERATURE = 293.15  # K
 
-# Above this pressure ratio psi is made linear: its own slope at r = 1 is infinite (laminar flow in reality).
+# Above this pressure ratio psi is linear: its exact slope at r = 1 is infinite (the real flow is laminar).
 LAMINAR_RATIO = 0.999
 
 
@@ -43,7 +43,7 @@ def mass_flow(
     conductance: Value,
     critical_ratio: Value,
 ) -> Value:
-    """Mass flow from one side to the other [kg/s]; negative when it runs back. Zero at equal pressures.
+    """Mass flow from one side to the other [kg/s]; negative for reverse flow, zero at equal pressures.
 
     >>> p0 = 1e5
     >>> flow = mass_flow(pressure_from=7e5, pressure_to=p0, temperature_from=293.15, temperature_to=293.15,

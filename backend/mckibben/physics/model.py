@@ -3,9 +3,9 @@ r"""Composition: one muscle and any choice of effects give one model, on numbers
 .. math:: F = f\,P_\mathrm{eff}\Bigl(-\frac{\partial V}{\partial L}\Bigr)
    + e\sum F_\mathrm{elastomer} + \sum F_\mathrm{tension} + \sum F_\mathrm{friction}
 
-with the product f of all force factors, e of all elastomer factors. The volume V is the one the gas balance
-takes, so force and dV/dL can never disagree. What is read by sensors is turned into what is true first, and
-the true force into what its sensor reads last.
+with the product f of all force factors, e of all elastomer factors. The gas balance uses the same volume V,
+so force and dV/dL are always consistent. Sensor readings of length and pressure are first converted to true
+values, and the true force is last converted to a reading.
 """
 
 from __future__ import annotations
@@ -26,18 +26,18 @@ Values = Mapping[str, Mapping[str, Value]]
 
 
 class State(NamedTuple):
-    """What the model says of one state; every field has the broadcast shape of the inputs.
+    """Outputs of the model for one state; every field has the broadcast shape of the inputs.
 
     Attributes:
-        force: tension as the force sensor reads it, unclipped: negative means it would push [N].
+        force: tension read by the force sensor, unclipped: negative means it would push [N].
         tension: true tension of the muscle, unclipped [N].
-        slack_force: what the force sensor reads when the muscle is slack [N].
+        slack_force: reading of the force sensor when the muscle is slack [N].
         length: true length of the muscle [m].
         area: force per driving pressure -dV/dL [m^2].
         volume: enclosed gas volume [m^3].
         diameter: braid diameter at mid-span [m].
         braid_angle: braid angle [rad].
-        outer_diameter: outer diameter of the wall at mid-span [m], the wall keeping its volume.
+        outer_diameter: outer diameter of the wall at mid-span [m], at constant wall volume.
         compliance: extension in series per force [m/N].
     """
 
@@ -54,7 +54,7 @@ class State(NamedTuple):
 
 
 class Model:
-    """The composition of some effects; holds structure only, no values.
+    """The composition of effects; contains only the structure, no values.
 
     Args:
         effects: effects in any order; chained slots run in their declared order, then by id.
@@ -103,9 +103,9 @@ class Model:
         direction: Value,
         temperature: Value = ROOM_TEMPERATURE,
     ) -> State:
-        """The state at a true length [m] and true gauge pressure [Pa], without any sensor in between.
+        """The state at a true length [m] and true gauge pressure [Pa], without sensors.
 
-        ``values`` may hold states of effects beside their parameters; states left out are at rest.
+        ``values`` may hold states of effects in addition to their parameters; missing states are at rest.
         """
         context: dict[str, Any] = {
             "muscle": muscle,
@@ -146,11 +146,11 @@ class Model:
         return [effect for effect in self.effects if slot in effect.slots]
 
     def sum(self, slot: str, values: Values, context: Mapping[str, Value]) -> Value:
-        """Sum of what the effects of a slot give; 0 when there is none."""
+        """Sum of the results of all effects of a slot; 0 without effects."""
         return sum((e.call(slot, context, values[e.id]) for e in self._with(slot)), 0.0)
 
     def product(self, slot: str, values: Values, context: Mapping[str, Value]) -> Value:
-        """Product of what the effects of a slot give; 1 when there is none."""
+        """Product of the results of all effects of a slot; 1 without effects."""
         result: Value = 1.0
         for effect in self._with(slot):
             result = result * effect.call(slot, context, values[effect.id])
@@ -159,13 +159,13 @@ class Model:
     def chain(
         self, slot: str, start: Value, values: Values, context: Mapping[str, Value], *, name: str
     ) -> Value:
-        """What a chained slot makes of a value that its functions know under a name."""
+        """A value after all functions of a chained slot, which take it under the given name."""
         for effect in self._with(slot):
             start = effect.call(slot, {**context, name: start}, values[effect.id])
         return start
 
     def reading(self, slot: str, *, muscle: Muscle, values: Values) -> Reading:
-        """The sensors of a channel in series as one."""
+        """The sensors of a channel in series, combined into one."""
         chain = Reading(1.0, 0.0)
         for effect in self._with(slot):
             scale, offset = effect.call(slot, {"muscle": muscle}, values[effect.id])
@@ -202,5 +202,5 @@ def _inverse(reading: Reading, measured: Value) -> Value:
 
 
 def _wall(muscle: Muscle, diameter: Value, length: Value) -> Value:
-    # Rubber keeps its volume: H D L = H0 D0 L0 for a thin wall.
+    # Constant volume of rubber: H D L = H0 D0 L0 for a thin wall.
     return muscle.wall_thickness * muscle.braid_diameter * muscle.nominal_length / (diameter * length)

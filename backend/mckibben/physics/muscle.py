@@ -1,4 +1,4 @@
-"""The muscle as the physics sees it: five lengths and an angle, numbers or symbols."""
+"""The muscle: its geometry at rest, as numbers or symbols."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from mckibben.physics.braid import Braid, braid_from_diameter
 from mckibben.physics.errors import InputError
 from mckibben.physics.ops import Value
 
-# Fields that a fit may free, and that are symbols of the compiled model.
+# Fields that a fit may change; symbols of the compiled model.
 GEOMETRY = ("nominal_length", "braid_diameter", "braid_angle", "wall_thickness", "inside_diameter")
 
 NEUTRAL_ANGLE = acos(3.0**-0.5)  # 54.7356 degrees: no force at any pressure
@@ -30,7 +30,7 @@ _RANGES = {
 
 
 def assumption(muscle: Muscle, field: str) -> str:
-    """What to say of a field in which a typical value stands in (`Muscle.assuming`)."""
+    """Note on a field with an assumed typical value (`Muscle.assuming`)."""
     value = 1e3 * getattr(muscle, field)
     return (
         f"the {field.replace('_', ' ')} of the muscle is not stated: {value:.3g} mm is assumed; only its "
@@ -42,7 +42,7 @@ class Muscle(NamedTuple):
     """A muscle at rest, SI units.
 
     Attributes:
-        nominal_length: length L0 between the fittings at rest [m]; contraction is counted from here.
+        nominal_length: length L0 between the fittings at rest [m]; contraction is measured from here.
         braid_diameter: diameter D0 of the braid (mid-wall) at ``braid_angle`` [m]; the ideal model's D0.
         braid_angle: angle theta0 between thread and muscle axis at rest [rad].
         wall_thickness: thickness H of the elastomer wall at rest [m]; 0 when it is not known.
@@ -67,16 +67,16 @@ class Muscle(NamedTuple):
         return 1.0 - length / self.nominal_length
 
     def assuming(self, fields: Iterable[str]) -> Muscle:
-        """This muscle with a typical value in those of the fields that are not known (0).
+        """This muscle with a typical value for each of the fields that is not known (0).
 
-        A wall is 1.5 mm, at most 15 % of the braid diameter. Other fields have no typical value and stay.
+        A wall is 1.5 mm, at most 15 % of the braid diameter. Other fields have no typical value and stay 0.
         """
         if "wall_thickness" not in fields or self.wall_thickness != 0.0:
             return self
         return self._replace(wall_thickness=min(_TYPICAL_WALL, _TYPICAL_WALL_SHARE * self.braid_diameter))
 
     def checked(self) -> Muscle:
-        """This muscle, when its numbers describe one that can pull.
+        """This muscle, after checking that its geometry describes one that can pull.
 
         Raises:
             InputError: a length or the braid angle is out of range; names the field.

@@ -1,4 +1,4 @@
-"""One namespace of operations that runs on numbers, numpy arrays and symengine symbols.
+"""Mathematical operations on numbers, numpy arrays and symengine symbols.
 
 Physics is written once against these names. Numbers and arrays go to numpy, symbols to symengine; an
 expression may mix both. Maximum, minimum, sign and absolute value become ``Piecewise`` on symbols, because
@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import symengine as se
 
-# A number, a numpy array or a symengine expression: what every physics function takes and gives.
+# A number, a numpy array or a symengine expression: argument and result of every physics function.
 Value = Any
 
 pi = float(np.pi)
@@ -74,7 +74,7 @@ def greater(a: Value, b: Value) -> Value:
 
 
 def where(condition: Value, a: Value, b: Value) -> Value:
-    """A where the condition holds, b elsewhere."""
+    """``a`` where the condition holds, ``b`` elsewhere."""
     if isinstance(condition, se.Basic):
         return se.Piecewise((se.sympify(a), condition), (se.sympify(b), True))
     if is_symbolic(a) or is_symbolic(b):
@@ -83,12 +83,12 @@ def where(condition: Value, a: Value, b: Value) -> Value:
 
 
 def maximum(a: Value, b: Value) -> Value:
-    """The larger of both."""
+    """The larger of the two."""
     return where(greater(a, b), a, b)
 
 
 def minimum(a: Value, b: Value) -> Value:
-    """The smaller of both."""
+    """The smaller of the two."""
     return where(greater(b, a), a, b)
 
 

@@ -19,7 +19,7 @@ UNVERIFIED_GRADES = frozenset({"M", "E"})
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """Where a figure comes from, and how sure it is (a key of `GRADES`)."""
+    """Source of a figure, and its grade (a key of `GRADES`)."""
 
     text: str
     grade: str
@@ -32,7 +32,7 @@ class Source:
 
     @property
     def verified(self) -> bool:
-        """Whether the figure was read or computed from something read."""
+        """Whether the figure was read in a source or computed from such figures."""
         return self.grade not in UNVERIFIED_GRADES
 
 
@@ -44,14 +44,14 @@ class Parameter:
         name: keyword of the physics functions, snake case.
         symbol: LaTeX symbol.
         unit: SI unit as text ("Pa", "1", "N*s/m").
-        default: a typical value of a real muscle, at which the effect shows.
-        lower, upper: bounds of what is physically plausible; a fit never leaves them.
-        source: where default and bounds come from.
+        default: a typical value of a real muscle, at which the effect is visible.
+        lower, upper: bounds of the physically plausible range; a fit never leaves them.
+        source: source of default and bounds.
         description: what it is, one sentence.
         off: the value at which the effect vanishes, or None when this parameter alone cannot switch it off.
-        fitted: whether a fit frees it by default (a second constant of the same law usually is not).
-        natural: whether the bounds are where the definition ends, as those of a share; a fit that ends at one
-            is then no sign of an implausible value.
+        fitted: whether a fit changes it by default (usually not for a second constant of the same law).
+        natural: whether the bounds are limits of the definition, like 0 and 1 of a share; a fit that ends at
+            one is then not a sign of an implausible value.
     """
 
     name: str

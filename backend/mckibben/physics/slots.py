@@ -1,7 +1,7 @@
-"""The places where an effect may act, what each may read, and how several effects in one place combine.
+"""The slots where an effect may act: the inputs of each, and how several effects in one slot combine.
 
-A slot function is plain, keyword-only, and asks by argument name for what it needs: names of its slot's
-context below, and its own effect's parameters. Anything else is refused when the catalogue loads the file.
+A slot function has keyword-only arguments and requests its inputs by name: names of the context of its slot
+below, and parameters of its effect. Other names are refused when the catalogue loads the file.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from mckibben.physics.ops import Value
 
-# What most slots may read: the muscle at rest, true length [m] and gauge pressure [Pa] at the muscle,
+# Inputs of most slots: the muscle at rest, true length [m] and gauge pressure [Pa] at the muscle,
 # dL/dt [m/s] (> 0 lengthening), its sign, and the temperature of the elastomer [K].
 _STATE = ("muscle", "length", "pressure", "velocity", "direction", "temperature")
 
@@ -30,9 +30,9 @@ class Reading(NamedTuple):
     offset: Value
 
 
-# What a state of the drive may depend on: opening of the valve before this effect [-], mass flows [kg/s] from
+# Inputs of rates of the drive: opening of the valve before this effect [-], mass flows [kg/s] from
 # the supply and into the muscle, pressures [Pa] (supply absolute, muscle gauge), the load's stroke and speed,
-# and what the sensors say at once, before any effect of the reading slots.
+# and the sensor readings before any effect of the reading slots.
 _DRIVE = (
     "opening",
     "supply_flow",
@@ -51,7 +51,7 @@ _DRIVE = (
 
 @dataclass(frozen=True, slots=True)
 class Slot:
-    """What a slot does, the names its functions may ask for, and the rule of combination."""
+    """Meaning of a slot, the names its functions may request, and the rule of combination."""
 
     meaning: str
     context: tuple[str, ...]
@@ -65,14 +65,14 @@ SLOTS: dict[str, Slot] = {
         "chain",
     ),
     "braid": Slot(
-        "the thread: inextensible braid to the braid under load (a Braid); held fixed in -dV/dL, because the "
-        "work of stretching it is its own",
+        "the thread: inextensible braid to the braid under load (a Braid); constant in -dV/dL, because the "
+        "work of stretching is counted separately",
         ("muscle", "braid", "pressure", "length"),
         "chain",
     ),
     "shape": Slot(
-        "the enclosed volume: wraps inner(length) -> Shape; the force follows as -P dV/dL, the gas balance "
-        "takes the same volume",
+        "the enclosed volume: wraps inner(length) -> Shape; the force follows as -P dV/dL, and the gas "
+        "balance uses the same volume",
         ("muscle", "inner", "length", "pressure"),
         "chain",
     ),
@@ -85,13 +85,13 @@ SLOTS: dict[str, Slot] = {
         "any other additive tension without dissipation [N]", ("muscle", "length", "pressure"), "sum"
     ),
     "friction": Slot("additive tension that dissipates: friction, damping, relaxation [N]", _STATE, "sum"),
-    "compliance": Slot("extension of what is in series with the muscle, per force [m/N]", (), "sum"),
+    "compliance": Slot("extension of the parts in series with the muscle, per force [m/N]", (), "sum"),
     "rates": Slot(
         "rates of the effect's states in the muscle, in their order",
         (*_STATE, "area", "pressure_rate"),
         "concatenate",
     ),
-    "extra_volume": Slot("gas volume besides the muscle's own [m^3]", (), "sum"),
+    "extra_volume": Slot("gas volume outside the muscle [m^3]", (), "sum"),
     "heat": Slot(
         "heat flow into the gas [W]; makes the chamber obey the energy balance instead of a polytrope",
         ("muscle", "length", "diameter", "gas_temperature", "ambient_temperature"),

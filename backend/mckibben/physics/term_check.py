@@ -1,14 +1,14 @@
 """Whether a typed term can be compiled: its size with its derivatives, and whether they are finite and real.
 
-``abs`` and ``sign`` hold their argument twice, so that a nest of them doubles with every level; a product
-grows with the square of its factors in the first derivative and with their cube in the second. A short text
-can therefore keep symengine busy for hours, during which nothing else in the process runs. Two numbers are
-bounded:
+``abs`` and ``sign`` contain their argument twice, so the size of nested calls doubles with every level. A
+product grows with the square of its number of factors in the first derivative and with the cube in the
+second. A short text can therefore keep symengine busy for hours, while nothing else in the process runs. Two
+numbers are bounded:
 
-- the parts of the term written out in full, counted on the text before symengine sees it: comparing two
+- the parts of the fully expanded term, counted on the text before symengine processes it: comparing two
   expressions may take that many steps;
-- the different parts of the value and its derivatives, counted after each derivative: compiling takes time
-  in proportion to them.
+- the distinct parts of the value and its derivatives, counted after each derivative: the time to compile is
+  proportional to them.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ import symengine as se
 from mckibben.physics.errors import InputError
 from mckibben.physics.ops import Value
 
-#: Known values by name -> what the term is worth.
+#: Known values by name -> value of the term.
 Worth = Callable[[Mapping[str, Value]], Value]
 
-# Of the first derivative, written out in full: 18 nested abs of a sum, which compile in half a second.
+# Parts of the fully expanded first derivative: 18 nested abs of a sum, which compile in half a second.
 _MOST_WRITTEN = 2**23
-# Different parts, and what each is made of, of the value, its first derivatives and the second that a
+# Distinct parts, with their arguments, of the value, its first derivatives and the second that a
 # simulation takes: 0.4 s for the largest drive. Eight waves with a friction each have 600.
 _MOST_PARTS = 20_000
 _FEWER = "use fewer factors, and fewer functions in each other"
@@ -40,7 +40,7 @@ _LONGEST_SHOWN = 60
 
 
 class NoValueError(ArithmeticError):
-    """A part of a term has no finite, real value; holds the part."""
+    """A part of a term has no finite, real value; contains the part."""
 
     def __init__(self, part: ast.expr) -> None:
         super().__init__()
@@ -60,7 +60,7 @@ def refused(message: str, *, hint: str | None = None) -> InputError:
 
 
 def shown(*, part: ast.expr | str) -> str:
-    """A term or a part of it for a message: one line, and not too long.
+    """A term or a part of it for a message: one line, shortened.
 
     Raises:
         InputError: the part is nested too deeply to be written.
@@ -74,9 +74,9 @@ def shown(*, part: ast.expr | str) -> str:
 
 
 def finite(*, part: ast.expr, worth: Worth, known: Mapping[str, Value]) -> Value:
-    """What a part of the term is worth; numbers as floats, also those symengine makes of c/c.
+    """Value of a part of the term; numbers are floats, also those that symengine simplifies from c/c.
 
-    Exact numbers could grow without end: ((c + c)/c)**... is a tower of integers.
+    Exact numbers could grow without bound: ((c + c)/c)**... is a tower of integers.
 
     Raises:
         NoValueError: there is no finite, real value.
@@ -97,7 +97,7 @@ def finite(*, part: ast.expr, worth: Worth, known: Mapping[str, Value]) -> Value
 
 @contextmanager
 def named(*, term: str, where: str = "") -> Iterator[None]:
-    """Turn what goes wrong while a term is worked out into an error that names the part and the term.
+    """Turn errors in evaluating a term into an error that names the part and the term.
 
     Args:
         term: as it was typed.
@@ -114,10 +114,10 @@ def named(*, term: str, where: str = "") -> Iterator[None]:
 
 
 def check_written_out(*, tree: ast.expr, term: str) -> None:
-    """Refuse a term that would get too long if it were written out with its derivative.
+    """Refuse a term that is too large when expanded with its derivative.
 
     Args:
-        tree: the parsed term, of nothing but what may stand in one.
+        tree: the parsed term, with permitted parts only.
         term: as it was typed.
     """
     if _written(tree).derivative > _MOST_WRITTEN:
@@ -166,11 +166,11 @@ def _written_call(name: str, value: int, derivative: int) -> _Size:
 
 
 def check_derivatives(*, worth: Worth, names: Iterable[str], term: str) -> None:
-    """Refuse a term that is nowhere finite and real, or whose derivatives are not, or that gets too large.
+    """Refuse a term that, or whose derivatives, are not finite and real or are too large.
 
     Args:
         worth: the term.
-        names: what stands in it.
+        names: the names in the term.
         term: as it was typed.
     """
     symbols: dict[str, Any] = {name: se.Symbol(name) for name in (*names, "direction", "L") if name != "pi"}
@@ -187,11 +187,11 @@ def check_derivatives(*, worth: Worth, names: Iterable[str], term: str) -> None:
     if "t" in symbols:
         with named(term=term, where=_AT_REST):
             begin = se.sympify(worth(known | {"t": 0.0}))
-            at_rest = _Parts(term, _AT_REST)  # of its own: equal parts of two expressions are slow to compare
+            at_rest = _Parts(term, _AT_REST)  # separate: comparing equal parts of two expressions is slow
             for part in (begin, *(begin.diff(x) for x in moving)):
                 at_rest.add(part)
         moving.append(symbols["t"])
-    # With something in series the tension holds dF/dL, of which the integrator takes the derivatives.
+    # With series compliance the tension contains dF/dL, which the integrator differentiates.
     with named(term=term):
         for slope in (slopes[name] for name in ("L", "kappa") if name in slopes):
             for symbol in moving:
@@ -199,7 +199,7 @@ def check_derivatives(*, worth: Worth, names: Iterable[str], term: str) -> None:
 
 
 class _Parts:
-    """Different parts of expressions, counted until there are too many."""
+    """Counts the distinct parts of expressions, up to a limit."""
 
     def __init__(self, term: str, where: str = "") -> None:
         self._term, self._where = term, where
@@ -207,7 +207,7 @@ class _Parts:
         self._count = 0
 
     def add(self, expression: Any, *, real: bool = True) -> None:
-        """Count what is new in an expression, and look for numbers that are not finite and real."""
+        """Count the new parts of an expression, and check that its numbers are finite and real."""
         left = [expression]
         while left:
             part = left.pop()

@@ -1,8 +1,8 @@
-"""Units at the edge: everything inside is SI, text such as ``"300 mm"`` is converted here and nowhere else.
+"""Units at the interfaces: all other code uses SI; text such as ``"300 mm"`` is converted only here.
 
-A text is split by a regular expression into one number and a unit text; the unit text is checked against a
-small grammar (names, single-digit exponents, ``* / ( )``) before pint sees it, so no text of a user is ever
-evaluated as an expression of numbers.
+A regular expression splits a text into one number and a unit text. The unit text is checked against a small
+grammar (names, single-digit exponents, ``* / ( )``) before pint reads it, so a user's text is never evaluated
+as an expression of numbers.
 """
 
 from __future__ import annotations
@@ -26,20 +26,20 @@ MAX_TEXT_LENGTH = 100
 _NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
 _QUANTITY = re.compile(rf"\s*({_NUMBER})\s*(.*?)\s*", re.DOTALL)
 
-_NAME = r"[A-Za-zµμΩΩÅ°%_]+(?:2O|Hg)?"  # 2O: cmH2O is a unit name, its digit is no exponent
+_NAME = r"[A-Za-zµμΩΩÅ°%_]+(?:2O|Hg)?"  # 2O: cmH2O is a unit name, its digit is not an exponent
 _TOKEN = re.compile(
     rf"({_NAME})(?:(?:\^|\*\*)?([+-]?[1-9])|([⁺⁻]?[¹²³⁴⁵⁶⁷⁸⁹]))?(?![0-9^⁰¹²³⁴⁵⁶⁷⁸⁹])|([()*/]|\s+)"
 )
 _SUPERSCRIPT = str.maketrans("⁺⁻¹²³⁴⁵⁶⁷⁸⁹", "+-123456789")
 
-# Spellings pint lacks or reads otherwise: to pint "pct" is a picocarat and "Nm" a textile count.
+# Spellings that pint lacks or reads differently: "pct" as a picocarat, "Nm" as a textile count.
 _ALIASES = {
     "%": "percent", "pct": "percent", "°": "degree", "Nm": "N*m", "Nmm": "N*mm", "Bar": "bar", "BAR": "bar",
     "PSI": "psi", "Psi": "psi", "kpa": "kPa", "KPa": "kPa", "KPA": "kPa", "MPA": "MPa", "pa": "Pa",
     "MM": "mm", "CM": "cm", "sec": "s", "Sec": "s",
 }  # fmt: skip
 
-#: SI unit text -> (what it measures, an example of a right value).
+#: SI unit text -> (what it measures, an example value).
 _MEANING = {
     "m": ("a length", "300 mm"),
     "Pa": ("a pressure", "6 bar"),
@@ -68,7 +68,7 @@ _MEANING = {
 
 
 class Factor(NamedTuple):
-    """How a value becomes SI: ``value * multiplier / divisor + offset``.
+    """Conversion to SI: ``value * multiplier / divisor + offset``.
 
     The divisor keeps decimal units exact: 0.001 has no exact binary form, 1000 has.
     """
@@ -96,7 +96,7 @@ def _registry() -> pint.UnitRegistry[Any]:
 
 
 def _normalised(text: str) -> str:
-    """Unit text in the one spelling given to pint; raises _UnitError when it breaks the grammar."""
+    """Unit text in the spelling for pint; raises _UnitError when it violates the grammar."""
     if len(text) > MAX_UNIT_LENGTH:
         raise _UnitError(f"the unit is longer than {MAX_UNIT_LENGTH} characters")
     if "//" in text:
@@ -201,7 +201,7 @@ def si(value: object, unit: str, *, field: str | None = None) -> float:
     Args:
         value: a number (already SI) or a text of number and unit, ``"300 mm"``, ``"25 %"``, ``"20 degC"``.
         unit: the SI unit the value must be compatible with (``"m"``, ``"rad"``, ``"1"``, ``"m3/(s*Pa)"`` …).
-        field: where the value stands, for the message ("muscle.nominal_length").
+        field: path of the value, for the message ("muscle.nominal_length").
 
     Raises:
         InputError: nan or inf, a boolean, an empty text, a text without unit (unless ``unit`` is ``"1"``), an
@@ -231,7 +231,7 @@ def convert(
     except _UnitError as error:
         raise _refusal(_as_sentence(f"the unit '{unit_text}'", error), si_unit, field) from error
     result = np.array(values, dtype=np.float64)
-    with np.errstate(over="ignore"):  # becomes inf, which the reader of the column refuses with its row
+    with np.errstate(over="ignore"):  # an overflow gives inf, which the caller refuses with its row
         if multiplier != 1.0:
             result *= multiplier
         if divisor != 1.0:
@@ -287,7 +287,7 @@ def _as_sentence(subject: str, error: _UnitError) -> str:
 
 
 def _refusal(problem: str, unit: str, field: str | None) -> InputError:
-    """The InputError of a value: where, what is wrong, an example of what would be right."""
+    """The InputError of a value: field, what is wrong, an example of a valid value."""
     return InputError(
         f"{field}: {problem}" if field else problem, field=field, hint=f"e.g. '{_expected(unit)[1]}'"
     )

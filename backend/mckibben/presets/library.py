@@ -1,4 +1,4 @@
-"""The preset library: scans folders, keeps what is valid, reports what is not, saves muscles of the user."""
+"""The preset library: scans folders, loads valid presets, reports invalid files, saves the user's muscles."""
 
 from __future__ import annotations
 
@@ -39,11 +39,11 @@ class _Shelf:
 
 
 class PresetLibrary:
-    """Presets of a folder (built in) and optionally of a second one that the user may write to.
+    """Presets of a built-in folder, and optionally of a second one for the user's own.
 
     Args:
         folder: holds one folder per kind (``muscles/``, ``valves/``, …) of ``<id>.json`` files.
-        user_folder: same layout; made when the first preset is saved. None: saving is refused.
+        user_folder: same layout; created when the first preset is saved. None: saving is refused.
         effects: effect id -> parameters, to check the default effects of muscles; None: not checked.
 
     Raises:
@@ -88,15 +88,15 @@ class PresetLibrary:
         if self.is_built_in(kind, preset_id):  # wins over any file of the user: no need to look there
             return self._built_in[kind].presets[slug(preset_id).lower()]
         presets = self._all(kind)
-        found = presets.get(slug(preset_id).lower())
-        if found is None:
+        match = presets.get(slug(preset_id).lower())
+        if match is None:
             known = [preset.id for preset in presets.values()]
             raise InputError(
                 f"there is no preset '{preset_id[:80]}' among the {kind}",
                 hint=did_you_mean(preset_id[:80], known),
                 code="not_found",
             )
-        return found
+        return match
 
     def is_built_in(self, kind: str, preset_id: str) -> bool:
         """Whether a preset comes with the program; reads no file."""
@@ -120,7 +120,7 @@ class PresetLibrary:
         ]
 
     def save_muscle(self, document: dict[str, Any]) -> MusclePreset:
-        """Store a muscle of the user; an own preset of the same id is replaced, a built-in one never.
+        """Save a muscle of the user; replaces a user preset of the same id, never a built-in one.
 
         Raises:
             InputError: the document is not a valid muscle preset (``field`` says where); code ``conflict``:
@@ -139,7 +139,7 @@ class PresetLibrary:
             raise InputError(first.message, field=first.field, hint=first.hint) from bad
         if USER_ID.fullmatch(preset.id) is None:
             raise InputError(
-                f"'{preset.id}' cannot be the id of an own preset",
+                f"'{preset.id}' cannot be the id of a user preset",
                 field="id",
                 hint="letters, digits and '-', e.g. 'my-muscle-20'",
             )
@@ -211,7 +211,7 @@ class PresetLibrary:
 
 
 def _natural(text: str) -> tuple[tuple[int, int, str], ...]:
-    """Sort key: digits compare as numbers, so DMSP-5 stands before DMSP-10."""
+    """Sort key: digits compare as numbers, so DMSP-5 comes before DMSP-10."""
     parts = re.findall(r"[0-9]+|[^0-9]+", text.lower())
     return tuple((0, int(part), "") if part.isdigit() else (1, 0, part) for part in parts)
 
@@ -227,7 +227,7 @@ def _files(folder: Path) -> list[Path]:
 
 
 def _signature(folder: Path) -> Signature:
-    """Name, time, size and inode of each file: differs as soon as one was written."""
+    """Name, time, size and inode of each file; changes when one is written."""
     result = []
     for path in _files(folder):
         try:
@@ -239,14 +239,12 @@ def _signature(folder: Path) -> Signature:
 
 
 def _write(root: Path, kind: str, name: str, content: bytes) -> None:
-    """Write a file of the user folder in one step: readers see the old or the new one, never a half."""
+    """Write a file of the user folder atomically: readers see the old or the new one, never a part."""
     folder = root / kind
     try:
         folder.mkdir(parents=True, exist_ok=True)
         if folder.resolve() != root.resolve() / kind:
-            raise InputError(
-                "the user folder leads elsewhere by a link", hint="a plain folder", code="conflict"
-            )
+            raise InputError("the user folder is a link to elsewhere", hint="a plain folder", code="conflict")
         handle, temporary = tempfile.mkstemp(dir=folder, prefix=".", suffix=".tmp")
         try:
             with os.fdopen(handle, "wb") as stream:

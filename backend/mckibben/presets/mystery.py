@@ -1,4 +1,4 @@
-"""Mysteries: measurements whose hidden effects are known, sealed in the same file until somebody asks."""
+"""Mysteries: measurements with known hidden effects; the answer is encoded in the same file."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from mckibben.presets.schema import EffectTable, Key, Preset
 
 
 class MysteryColumns(Strict):
-    """The channels that were measured, all of one length."""
+    """The measured channels, all of the same length."""
 
     time: Column | None = None
     pressure: Column | None = None
@@ -38,17 +38,17 @@ class MysteryColumns(Strict):
     command: Column | None = None
 
     def present(self) -> dict[str, Column]:
-        """The channels that the measurement has."""
+        """The channels present in the measurement."""
         return {name: column for name, column in self if column is not None}
 
 
 class HiddenEffect(Strict):
-    """One thing that the start model lacks.
+    """One effect that the start model lacks.
 
     Attributes:
-        title: what it is called.
-        what: what it does, and how it shows.
-        effects: ids of the effects that are right answers.
+        title: its name.
+        what: what it does, and how it shows in the data.
+        effects: ids of the effects accepted as right answers.
     """
 
     title: Text
@@ -57,19 +57,19 @@ class HiddenEffect(Strict):
 
 
 class MysteryAnswer(Strict):
-    """What is hidden in a measurement; nothing in one that the start model explains."""
+    """The hidden effects of a measurement; none if the start model explains it."""
 
     hidden: list[HiddenEffect]
     text: Note
 
 
 class MysteryPreset(Preset):
-    """A measurement to practise on; the answer is in it, but nobody reads it by accident.
+    """A measurement to practise on, with its answer encoded so that nobody reads it by accident.
 
     Attributes:
-        story: what an engineer would tell of it.
-        muscle, effects, drive: what a comparison takes as the start model.
-        conditions: of the measurement, e.g. ``load_mass``.
+        story: the situation, as an engineer would describe it.
+        muscle, effects, drive: the start model of a comparison.
+        conditions: conditions of the measurement, e.g. ``load_mass``.
         sealed: the answer as base64 of JSON.
     """
 
@@ -85,10 +85,10 @@ class MysteryPreset(Preset):
     sealed: Annotated[str, Field(min_length=1, max_length=20_000)]
 
     def answer(self) -> MysteryAnswer:
-        """What is hidden.
+        """The hidden effects.
 
         Raises:
-            ValueError: the seal holds something else.
+            ValueError: ``sealed`` does not contain an answer.
         """
         return MysteryAnswer.model_validate_json(base64.b64decode(self.sealed, validate=True))
 
@@ -104,7 +104,7 @@ class MysteryPreset(Preset):
         }
 
     def findings(self, effects: EffectTable | None = None) -> Iterator[Finding]:
-        """Adds: units and lengths of the columns, units of the conditions, a seal that can be opened."""
+        """Adds: units and lengths of the columns, units of the conditions, a valid ``sealed``."""
         yield from super().findings(effects)
         columns = self.data_columns.present()
         if not columns:

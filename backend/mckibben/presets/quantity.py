@@ -1,4 +1,4 @@
-"""A physical value of a preset: number, unit, source, grade; and what each known key must measure."""
+"""A physical value of a preset: number, unit, source, grade; and dimension and range of each known key."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Note = Annotated[str, Field(min_length=1, max_length=2000, pattern=r"\S")]
 
 
 class Finding(NamedTuple):
-    """One thing wrong in a document: where, what, and what would be right."""
+    """One error in a document: where, what is wrong, what would be right."""
 
     field: str | None
     message: str
@@ -48,7 +48,7 @@ class Quantity(Strict):
 
     @property
     def verified(self) -> bool:
-        """Whether the value was read in a source or computed from something read."""
+        """Whether the value was read in a source or computed from such values."""
         return self.grade not in UNVERIFIED_GRADES
 
     def si(self, unit: str, *, field: str | None = None) -> float:
@@ -68,7 +68,7 @@ class Column(Strict):
 
 
 class Expected(NamedTuple):
-    """What a key measures: its SI unit and the range [lower, upper] of what makes sense, in SI."""
+    """SI unit of a key, and the plausible range [lower, upper] in SI."""
 
     unit: str
     lower: float = -math.inf
@@ -129,7 +129,7 @@ COLUMN_UNITS = {
     "command": "1",
 }  # fmt: skip
 
-# Tried in this order for a value whose meaning is not known beforehand (an effect's parameter).
+# Tried in this order for a value of unknown dimension (an effect's parameter).
 _SI_UNITS = (
     "1", "rad", "m", "Pa", "N", "s", "kg", "K", "N/m", "N*s/m", "m/s", "m^2", "m^3", "m^3/(s*Pa)", "1/s",
     "N/Pa", "1/Pa", "m/N", "1/K", "1/m", "N*m", "W", "W/K", "J/K", "kg/m", "kg/s", "m/s^2", "Pa*s", "s/m",
@@ -139,7 +139,7 @@ _SI_UNITS = (
 
 @cache
 def si_unit(unit: str) -> str | None:
-    """The SI unit a unit text can be converted to, or None for one that no model uses."""
+    """The SI unit to which a unit text converts, or None for one that no model uses."""
     for candidate in _SI_UNITS:
         try:
             convert(1.0, unit, candidate)
@@ -164,14 +164,14 @@ def quantities(part: object, path: str = "") -> Iterator[tuple[str, Quantity]]:
 
 
 def quantity_findings(path: str, quantity: Quantity) -> Iterator[Finding]:
-    """What is wrong with unit or size of a quantity, judged by the last key of its path."""
+    """Errors in the unit or size of a quantity, judged by the last key of its path."""
     section, _, key = path.rpartition(".")
     expected = EXPECTED.get(key)
     if expected is None:
         if not is_unit(quantity.unit):
             yield Finding(f"{path}.unit", f"'{quantity.unit}' is not a known unit", "e.g. 'mm'")
         return
-    # A tolerance is a +- width of the value of the same name: any size from zero.
+    # A tolerance is a +- width of the value of the same name: any size from zero up.
     bounds = expected._replace(lower=0.0) if section == "tolerance" else expected
     yield from range_findings(path, quantity, bounds)
 

@@ -1,4 +1,4 @@
-"""From a file to a preset, or to the list of what is wrong with it. Never an exception for a bad file."""
+"""From a file to a preset, or to the list of its errors."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ KINDS: dict[str, type[Preset]] = {
 
 
 class BadDocumentError(Exception):
-    """A document that cannot be used, with everything found wrong in it."""
+    """A document that cannot be used, with all errors found in it."""
 
     def __init__(self, findings: list[Finding]) -> None:
         super().__init__(findings[0].message)
@@ -57,7 +57,7 @@ class BadDocumentError(Exception):
 
 
 def slug(preset_id: str) -> str:
-    """File name (without ``.json``) of a preset id: a slash cannot stand in a file name."""
+    """File name (without ``.json``) of a preset id; replaces the slash."""
     return preset_id.replace("/", "-")
 
 
@@ -110,7 +110,7 @@ def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     if len(result) < len(pairs):
         times = Counter(name for name, _ in pairs)
         twice = next(name for name in times if times[name] > 1)
-        raise BadDocumentError([Finding(twice, f"'{twice}' stands twice in one object", "each key once")])
+        raise BadDocumentError([Finding(twice, f"'{twice}' occurs twice in one object", "each key once")])
     return result
 
 
@@ -157,9 +157,9 @@ def _translate(error: Any, model: type[BaseModel]) -> Finding:
         case "string_pattern_mismatch" if "[key]" in error["loc"]:
             return Finding(path, f"'{key}' is not a usable key", "lower case words joined by '_'")
     message = error["msg"].replace("Input should", "should")
-    given = error.get("input")
-    if isinstance(given, (str, int, float, bool)) and len(repr(given)) < 40:
-        message += f" (not {given!r})"
+    value = error.get("input")
+    if isinstance(value, (str, int, float, bool)) and len(repr(value)) < 40:
+        message += f" (not {value!r})"
     return Finding(path, message)
 
 

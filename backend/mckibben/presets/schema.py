@@ -1,4 +1,4 @@
-"""The kinds of presets as pydantic models, one class a kind."""
+"""The kinds of presets as pydantic models, one class per kind."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ Share = Annotated[float, Field(gt=0.0, le=1.0)]
 
 
 class Preset(Strict):
-    """What all presets share."""
+    """Fields and methods of all presets."""
 
     schema_version: Literal[1] = Field(alias="schema")
     kind: Any  # each kind of preset narrows it to its own word
@@ -52,7 +52,7 @@ class Preset(Strict):
         return self._origin
 
     def adopt(self, origin: Origin, effects: EffectTable | None) -> None:
-        """Called once by the library that loaded the preset: where it came from."""
+        """Set the origin of the preset; called once by the library that loads it."""
         self._origin = origin
 
     @property
@@ -69,14 +69,14 @@ class Preset(Strict):
         return {**self.to_document(), "verified": self.verified, "origin": self.origin}
 
     def findings(self, effects: EffectTable | None = None) -> Iterator[Finding]:
-        """What the types alone cannot tell: units, ranges, column lengths, effects."""
+        """Errors that the types cannot catch: units, ranges, column lengths, effects."""
         for path, quantity in quantities(self):
             if not path.startswith("effects."):
                 yield from quantity_findings(path, quantity)
 
 
 class Geometry(Strict):
-    """The muscle at rest; a wall thickness that is not known is left out."""
+    """The muscle at rest; an unknown wall thickness is left out."""
 
     inside_diameter: Quantity
     braid_diameter: Quantity
@@ -86,7 +86,7 @@ class Geometry(Strict):
 
 
 class Tolerance(Strict):
-    """How far (+-) a fit may free a geometry value."""
+    """How far (+-) a fit may change a geometry value."""
 
     braid_angle: Quantity | None = None
     braid_diameter: Quantity | None = None
@@ -95,7 +95,7 @@ class Tolerance(Strict):
 
 
 class Limits(Strict):
-    """What the maker allows; a limit that is not known is left out."""
+    """Limits stated by the maker; unknown ones are left out."""
 
     max_pressure: Quantity | None = None
     max_force: Quantity | None = None
@@ -106,14 +106,14 @@ class Limits(Strict):
 
 
 class _WithEffects(Preset):
-    """A part whose model has effects by default."""
+    """A part with default effects in its model."""
 
     effects: dict[Key, dict[Key, Quantity]] = Field(default_factory=dict)
 
     _parameter_units: dict[str, dict[str, str]] = PrivateAttr(default_factory=dict)
 
     def adopt(self, origin: Origin, effects: EffectTable | None) -> None:
-        """Adds: the SI units that the effects declare for their parameters."""
+        """Also stores the SI units that the effects declare for their parameters."""
         super().adopt(origin, effects)
         self._parameter_units = {
             name: {key: item.unit for key, item in table.items()}
@@ -163,11 +163,11 @@ class MusclePreset(_WithEffects):
     measurement: PresetId | None = None
 
     def findings(self, effects: EffectTable | None = None) -> Iterator[Finding]:
-        """Adds: the braid lies around the bore."""
-        found = list(super().findings(effects))
-        yield from found
+        """Adds: the braid is wider than the bore."""
+        inherited = list(super().findings(effects))
+        yield from inherited
         geometry = self.geometry
-        unusable = any((item.field or "").startswith("geometry.") for item in found)
+        unusable = any((item.field or "").startswith("geometry.") for item in inherited)
         if not unusable and geometry.braid_diameter.si("m") < geometry.inside_diameter.si("m"):
             yield Finding(
                 "geometry.braid_diameter.value", "the braid is narrower than the bore", "bore + wall"
@@ -191,7 +191,7 @@ class _Part(_WithEffects):
 
 
 class RegulatorPart(Strict):
-    """What a pressure regulator adds to a valve: full-scale gauge pressure and time constant."""
+    """Figures of a pressure regulator: full-scale gauge pressure and time constant."""
 
     range: Quantity
     time: Quantity
@@ -212,20 +212,20 @@ class TubePreset(_Part):
 
 
 class FittingPreset(_Part):
-    """A fitting or silencer: what its port adds to the dead volume."""
+    """A fitting or silencer, with the dead volume of its port."""
 
     kind: Literal["fitting"]
 
 
 class DesignPreset(Preset):
-    """An example document of the Design view; its content is checked by the API that runs it."""
+    """An example document of the Design view; its content is checked when it is used."""
 
     kind: Literal["design"]
     document: dict[str, Any]
 
 
 class Ground(Strict):
-    """Where a value of a drive document comes from."""
+    """Source of a value of a drive document."""
 
     source: Text
     grade: Grade
@@ -233,13 +233,13 @@ class Ground(Strict):
 
 
 class PaperFigures(Strict):
-    """What a publication prints of a drive.
+    """Published figures of a drive.
 
     Attributes:
         figure: number of the figure.
-        figures: "extend.rise_time" -> value; names of the timing table, or told in the description.
-        tolerance: share by which a figure may be missed, by the same names.
-        excluded: why a figure is not compared, by the same names.
+        figures: "extend.rise_time" -> value; names of the timing table, or explained in the description.
+        tolerance: permitted relative deviation of a figure, by the same names.
+        excluded: reason why a figure is not compared, by the same names.
     """
 
     figure: Text
@@ -249,10 +249,10 @@ class PaperFigures(Strict):
 
 
 class _DocumentPreset(Preset):
-    """A document of the API to start from; its content is checked by the API that takes it.
+    """An example document of the API; its content is checked when it is used.
 
     Attributes:
-        grounds: where its values come from, by their path in the document.
+        grounds: sources of its values, by their path in the document.
     """
 
     document: dict[str, Any]
@@ -267,13 +267,13 @@ class _DocumentPreset(Preset):
 
 
 class DrivePreset(_DocumentPreset):
-    """A drive document to start from; its content is checked by the API that runs it."""
+    """A drive document to start from; its content is checked when it is used."""
 
     kind: Literal["drive"]
     paper: PaperFigures | None = None
 
 
 class TaskPreset(_DocumentPreset):
-    """A sizing task to start from; its content is checked by the API that sizes drives for it."""
+    """A sizing task to start from; its content is checked when it is used."""
 
     kind: Literal["task"]

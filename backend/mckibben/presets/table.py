@@ -49,7 +49,7 @@ class _Table(Preset):
 
     @property
     def verified(self) -> bool:
-        """Whether the columns and all values are read or computed."""
+        """Whether the columns and all values were read in a source or computed."""
         return self.grade not in UNVERIFIED_GRADES and super().verified
 
     @property

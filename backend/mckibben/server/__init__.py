@@ -1,1 +1,1 @@
-"""The HTTP interface: thin routes (convert, call, convert), one JSON error shape, safe by default."""
+"""The HTTP interface: thin routes that only convert, one JSON form of errors, secure defaults."""

@@ -1,4 +1,4 @@
-"""JSON in and out: answers straight from numpy arrays, requests read strictly."""
+"""JSON in and out: answers written directly from numpy arrays, strict reading of requests."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from starlette.exceptions import HTTPException
 
 from mckibben.application.json_text import to_json
 
-_LONGEST_PATH = 200  # characters of a field's path that are told
-_LARGE_BODY = 50_000  # bytes; reading more takes longer than other requests should wait
+_LONGEST_PATH = 200  # most characters of a field's path in a message
+_LARGE_BODY = 50_000  # bytes; larger bodies are parsed in a thread, so that other requests need not wait
 
 
 class JsonAnswer(Response):
     """An answer written by `to_json`.
 
-    A route that returns one is not validated again at run time: that would cost more than the physics.
+    An answer of this class is not validated at run time: that would take longer than the physics.
     The tests validate real answers against the declared models instead.
     """
 
@@ -39,15 +39,15 @@ class _DuplicateKeyError(ValueError):
 
 
 def _refuse_duplicates(pairs: list[tuple[str, object]]) -> dict[str, object]:
-    found = dict(pairs)
-    if len(found) < len(pairs):
+    document = dict(pairs)
+    if len(document) < len(pairs):
         times = Counter(key for key, _ in pairs)
         raise _DuplicateKeyError(next(key for key in times if times[key] > 1))
-    return found
+    return document
 
 
 class BodyError(HTTPException):
-    """A body that is no strict JSON; ``field`` is the path of what is wrong, where it can be told."""
+    """A body that is not strict JSON; ``field`` is the path of the error, if known."""
 
     def __init__(self, message: str, *, field: str | None = None, hint: str | None = None) -> None:
         super().__init__(400, message)
@@ -58,11 +58,11 @@ def read_json(text: bytes) -> Any:
     """Strict JSON: no NaN, no number beyond double precision, no lone surrogate, no key twice.
 
     Raises:
-        BodyError: a sentence that says what is wrong and where.
+        BodyError: what is wrong and where, as a sentence.
     """
     try:
         value = orjson.loads(text)
-        # orjson keeps the last of two equal keys silently; a request that says two things says nothing.
+        # orjson silently keeps the last of two equal keys; such a request is ambiguous and refused.
         json.loads(text, object_pairs_hook=_refuse_duplicates, parse_int=float)
     except orjson.JSONDecodeError as error:
         raise _refusal(text, error) from error
@@ -74,7 +74,7 @@ def read_json(text: bytes) -> Any:
 
 
 def _refusal(text: bytes, error: orjson.JSONDecodeError) -> BodyError:
-    """The refusal of what orjson did not read: by its field where a more lenient reader finds one."""
+    """The error for a body that orjson refused; a more lenient reader finds the field where possible."""
     try:
         path, value = next(_unusable(json.loads(text, parse_int=float)))
     except (ValueError, RecursionError, StopIteration):
@@ -83,13 +83,13 @@ def _refusal(text: bytes, error: orjson.JSONDecodeError) -> BodyError:
     name = path or "The body"
     if isinstance(value, str):
         return BodyError(f"{name} holds half of a surrogate pair.", field=path or None, hint="Send a text.")
-    shown = "NaN, which is no number" if math.isnan(value) else "infinite, or beyond what a number can be"
+    shown = "NaN, which is not a number" if math.isnan(value) else "infinite, or too large for a number"
     return BodyError(f"{name} is {shown}.", field=path or None, hint="Send a finite number, or leave it out.")
 
 
 def _unusable(value: object) -> Iterator[tuple[str, float | str]]:
     """Numbers and texts that JSON cannot hold, with their paths, in the order of the text."""
-    waiting: list[tuple[str, object]] = [("", value)]  # a stack: the nesting may be deeper than Python's
+    waiting: list[tuple[str, object]] = [("", value)]  # a stack: recursion could exceed Python's limit
     while waiting:
         path, value = waiting.pop()
         inside: list[tuple[object, object]] = []
@@ -104,7 +104,7 @@ def _unusable(value: object) -> Iterator[tuple[str, float | str]]:
 
 
 def _holds(value: float | str) -> bool:
-    """Whether JSON can hold it."""
+    """Whether JSON can represent the value."""
     if isinstance(value, str):
         return not any("\ud800" <= character <= "\udfff" for character in value)
     return math.isfinite(value)

@@ -1,4 +1,4 @@
-"""Assembly of the server: settings in, application out."""
+"""Assembly of the server: from settings to the application."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from mckibben.server.settings import Settings
 from mckibben.server.timing import TimingMiddleware
 from mckibben.simulation.integrate.engine import kernel
 
-# The answer to the usual curves request stays below: compressing it takes longer than computing it.
+# Bytes. The usual curves answer is smaller: compressing it would take longer than computing it.
 _GZIP_FROM = 256 * 1024
 _WARM_AFTER = 1.0  # s
 
@@ -45,18 +45,18 @@ _TAGS = [
     {"name": "presets", "description": "Real parts, reference curves, measurements and example designs."},
     {"name": "curves", "description": "Static characteristics of a muscle."},
     {"name": "inverse", "description": "Which pressure, which contraction, which range?"},
-    {"name": "simulations", "description": "Drives through time."},
-    {"name": "sizings", "description": "From a task to drives."},
+    {"name": "simulations", "description": "Transient simulation of drives."},
+    {"name": "sizings", "description": "Sizing: from a task to ranked drives."},
     {"name": "measurements", "description": "Measurement files."},
-    {"name": "comparisons", "description": "A model beside a measurement."},
+    {"name": "comparisons", "description": "A model compared with measurements."},
     {"name": "diagnoses", "description": "Which physical effect a model is missing."},
-    {"name": "reports", "description": "Comparison and diagnosis as a file to keep."},
+    {"name": "reports", "description": "Comparison and diagnosis as an HTML report."},
     {"name": "mysteries", "description": "Measurements with hidden effects, to practise on."},
 ]
 
 
 def create_app(settings: Settings | None = None) -> FastAPI:
-    """The application with everything it serves.
+    """The application with all its routes.
 
     Raises:
         InputError: an effects folder does not exist.
@@ -67,7 +67,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         # Ready when the first page asks for it, without delaying the start.
         threading.Thread(target=app.state.plotly.compressed, daemon=True).start()
-        # Importing numba takes the interpreter for half a second, which the first page needs more.
+        # Delayed: importing numba blocks the interpreter for half a second, while the first page loads.
         warming = asyncio.get_running_loop().call_later(_WARM_AFTER, kernel.warm)
         yield
         warming.cancel()
@@ -80,7 +80,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         # Their pages load scripts from elsewhere, which the content security policy forbids.
         docs_url=None,
         redoc_url=None,
-        openapi_url=None,  # FastAPI's own route writes the description on the event loop; see `description`
+        openapi_url=None,  # FastAPI's own route would block the event loop; see `description`
         openapi_tags=_TAGS,
         generate_unique_id_function=_operation_name,
         lifespan=lifespan,
@@ -92,7 +92,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.store = MeasurementStore(settings.data)
     app.state.effects = effects.EffectsDocument(app.state.studio.catalogue)
     app.state.plotly = static.PlotlyBundle()
-    # Routes are tried in this order: the one asked at every movement of a slider first.
+    # Routes are matched in this order: first the one requested at every movement of a slider.
     for noun in (
         curves,
         simulations,
@@ -113,7 +113,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.router.redirect_slashes = False
     app.router.default = static.frontend(settings.frontend)
     errors.install(app)
-    # Added last = outermost.
+    # The middleware added last is the outermost.
     app.add_middleware(GZipMiddleware, minimum_size=_GZIP_FROM, compresslevel=1)
     app.add_middleware(BodyLimitMiddleware)
     app.add_middleware(SecurityMiddleware, settings=settings)
@@ -122,5 +122,5 @@ def create_app(settings: Settings | None = None) -> FastAPI:
 
 
 def _operation_name(route: APIRoute) -> str:
-    """``list_presets`` and the like: the function's own name, unique within the application."""
+    """Operation id: the name of the function (``list_presets``), unique within the application."""
     return route.name

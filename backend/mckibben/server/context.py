@@ -1,4 +1,4 @@
-"""What the routes work with, as annotated dependencies."""
+"""Studio and measurement store as annotated dependencies of the routes."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ from mckibben.physics.parameter import Parameter, Source
 
 
 def effects_answer(catalogue: EffectCatalogue) -> dict[str, Any]:
-    """Every effect with all it declares, and the effect files that could not be loaded."""
+    """Every effect with its declarations, and the effect files that could not be loaded."""
     return {
         "effects": [_effect(effect) for effect in catalogue.values()],
         "problems": [{"file": problem.file, "message": problem.message} for problem in catalogue.problems],
@@ -18,7 +18,7 @@ def effects_answer(catalogue: EffectCatalogue) -> dict[str, Any]:
 
 
 def _mathml(latex: str) -> str:
-    from latex2mathml.converter import convert  # 0.05 s import, only paid when the catalogue is asked for
+    from latex2mathml.converter import convert  # 0.05 s import, only when the catalogue is requested
 
     return convert(latex)
 

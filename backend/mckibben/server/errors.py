@@ -1,7 +1,7 @@
-"""One JSON error shape for everything that can go wrong.
+"""One JSON form for all errors.
 
-``{"error": {"code": …, "message": …, "field": …, "hint": …}}`` with a 4xx status when the caller can change
-something, and 500 with an id (and the traceback in the log only) when not.
+``{"error": {"code": …, "message": …, "field": …, "hint": …}}`` with a 4xx status for errors of the caller,
+and 500 with an id (and the traceback in the log only) for errors of the server.
 """
 
 from __future__ import annotations
@@ -42,14 +42,14 @@ _HINTS = {
 def error_body(
     code: str, message: str, *, field: str | None = None, hint: str | None = None
 ) -> dict[str, dict[str, str | None]]:
-    """The one shape of an error."""
+    """The JSON body of an error."""
     return {"error": {"code": code, "message": message, "field": field, "hint": hint}}
 
 
 def error_answer(
     status: int, message: str, *, code: str | None = None, field: str | None = None, hint: str | None = None
 ) -> JsonAnswer:
-    """An answer in the one error shape; the code follows from the status unless given."""
+    """An error answer; the code follows from the status unless given."""
     code = code or _CODE_OF_STATUS.get(status, "error")
     hint = hint or _HINTS.get(status)
     body = error_body(code, _printable(message), field=_printable(field), hint=_printable(hint))
@@ -57,7 +57,7 @@ def error_answer(
 
 
 def _printable(text: str | None) -> Any:
-    """Text that has a UTF-8 form (a path may hold lone surrogates)."""
+    """Text that can be encoded as UTF-8 (a path may hold lone surrogates)."""
     return text if text is None else text.encode("utf-8", "replace").decode("utf-8")
 
 
@@ -68,7 +68,7 @@ def input_error_answer(error: InputError) -> JsonAnswer:
 
 
 def unexpected_answer(error: Exception) -> JsonAnswer:
-    """500 with an id that finds the traceback in the log; nothing of the traceback leaves the server."""
+    """500 with an id under which the log has the traceback; the answer contains none of it."""
     reference = secrets.token_hex(4)
     log.error("unexpected error %s", reference, exc_info=error)
     return error_answer(
@@ -80,14 +80,14 @@ def unexpected_answer(error: Exception) -> JsonAnswer:
 
 
 def _nearest_path(path: str, app: FastAPI) -> str:
-    # The document takes a moment to write; what browsers ask for by themselves must not pay for that.
+    # Writing the description takes a moment: skip it for paths that browsers request by themselves.
     known = list(app.openapi()["paths"]) if path.startswith("/api") else []
     near = get_close_matches(path[:200], known, n=1, cutoff=0.6)
     return f"Did you mean '{near[0]}'?" if near else "The list of paths is at /openapi.json."
 
 
 def install(app: FastAPI) -> None:
-    """Make every error of the application answer in the one shape."""
+    """Register handlers so that every error of the application has this form."""
 
     @app.exception_handler(InputError)
     async def _input_error(request: Request, error: InputError) -> JsonAnswer:
@@ -99,7 +99,7 @@ def install(app: FastAPI) -> None:
         model = None if body is None else body.field_info.annotation
         problem = first_problem(error.errors(), model, error.body)
         if problem.place == "path":
-            # A path that does not fit its pattern names nothing.
+            # A path parameter that does not match its pattern: nothing exists under that path.
             return error_answer(404, problem.message, field=problem.field, hint=problem.hint)
         return error_answer(422, problem.message, code=problem.code, field=problem.field, hint=problem.hint)
 

@@ -1,7 +1,7 @@
-"""Work that takes longer than a request should block: in a thread, with progress, ended when nobody waits.
+"""Long work: runs in a thread, reports progress, and ends when the caller has disconnected.
 
-The event loop only receives and sends: reading files, preparing, computing and writing large answers happen
-in worker threads, so that other requests are answered meanwhile.
+The event loop only receives and sends. Reading files, preparing, computing and writing large answers happen
+in worker threads, so that other requests are answered in the meantime.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ _LOOK_EVERY = 0.1  # s
 
 
 def wants_events(request: Request) -> bool:
-    """Whether the caller asked for a stream of events."""
+    """Whether the caller requests a stream of events."""
     return "text/event-stream" in request.headers.get("accept", "")
 
 
 async def prepared(request: Request, prepare: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
-    """What a function returns that reads files or prepares a computation; it runs in a worker thread.
+    """Run a function that reads files or prepares a computation in a worker thread; returns its result.
 
     Raises:
-        ClientDisconnect: the caller has gone meanwhile; what was prepared need not be started.
+        ClientDisconnect: the caller has disconnected; the prepared work need not start.
     """
     result = await run_in_threadpool(prepare, *args, **kwargs)
     if await request.is_disconnected():
@@ -48,7 +48,7 @@ async def prepared(request: Request, prepare: Callable[P, T], *args: P.args, **k
 async def finished(
     request: Request, work: Work, written: Callable[[Any], bytes], *, time_limit: float = TIME_LIMIT
 ) -> bytes:
-    """The result of the work as ``written`` writes it; the work is told to stop when the caller has gone."""
+    """The result of the work, converted by ``written``; the work is cancelled if the caller disconnects."""
     gone = threading.Event()
     watch = Watch(cancelled=gone.is_set, time_limit=time_limit)
     running = asyncio.get_running_loop().run_in_executor(None, lambda: written(work(watch)))
@@ -71,7 +71,7 @@ async def _events(work: Work, time_limit: float) -> AsyncIterator[bytes]:
     gone = threading.Event()
 
     def tell(**fresh: object) -> None:
-        # The loop may have ended before the thread.
+        # The event loop may end before the thread.
         if not loop.is_closed():
             loop.call_soon_threadsafe(news.put_nowait, fresh)
 
@@ -83,7 +83,7 @@ async def _events(work: Work, time_limit: float) -> AsyncIterator[bytes]:
     )
     running = loop.run_in_executor(None, lambda: _event("done", to_json(work(watch))))
     running.add_done_callback(lambda _: news.put_nowait(None))
-    # Nobody may be left to ask for the outcome of work that was stopped.
+    # Retrieve the exception of cancelled work, which nobody else may do.
     running.add_done_callback(lambda ended: None if ended.cancelled() else ended.exception())
     try:
         share: object = 0.0
@@ -95,7 +95,7 @@ async def _events(work: Work, time_limit: float) -> AsyncIterator[bytes]:
             yield running.result()
         except InputError as error:
             yield _event("error", bytes(input_error_answer(error).body))
-        except Exception as error:  # the stream has begun: nobody else can answer any more
+        except Exception as error:  # the stream has begun: the error handlers can no longer answer
             yield _event("error", bytes(unexpected_answer(error).body))
     finally:
         gone.set()

@@ -1,4 +1,4 @@
-"""Who may talk to the server, as pure ASGI middleware.
+"""Access control of the server, as pure ASGI middleware.
 
 Four things are checked before a request reaches a route: the Host header (against DNS rebinding), the origin
 of requests that change or compute something (against other pages in the same browser), the token when the
@@ -43,7 +43,7 @@ _READING = frozenset({"GET", "HEAD"})
 
 
 def new_token() -> str:
-    """A fresh secret of 32 random bytes for the link."""
+    """A new secret of 32 random bytes for the link."""
     return secrets.token_urlsafe(32)
 
 
@@ -65,7 +65,7 @@ class SecurityMiddleware:
     def __init__(self, app: ASGIApp, *, settings: Settings) -> None:
         self.app = app
         self._token = settings.token
-        # Cookies are not kept apart by port: two servers on one machine need two names.
+        # Cookies are shared between ports: two servers on one machine need two names.
         self._cookie = f"mckibben-{settings.port}"
         self._hosts = {*LOOPBACK_NAMES, settings.host.strip("[]").lower()}
         self._any_address = is_every_interface(settings.host)
@@ -78,7 +78,7 @@ class SecurityMiddleware:
             await self.app(scope, receive, send)
             return
         if scope["type"] != "http":
-            # There is no WebSocket here; closing before accepting answers 403.
+            # There are no WebSockets; closing before accepting answers 403.
             await send({"type": "websocket.close", "code": 1008})
             return
 
@@ -94,7 +94,7 @@ class SecurityMiddleware:
         await (refusal or self.app)(scope, receive, send_with_headers)
 
     def _refuse_host(self, headers: Headers) -> Response | None:
-        """A page elsewhere can point its own name at 127.0.0.1, but it cannot change the Host header."""
+        """Refuse other host names: a foreign page can point its name at 127.0.0.1, but not change Host."""
         hosts = headers.getlist("host")
         name = _host_name(hosts[0]) if len(hosts) == 1 else None
         if name is not None and (name in self._hosts or (self._any_address and _is_address(name))):
@@ -107,7 +107,7 @@ class SecurityMiddleware:
         )
 
     def _refuse_origin(self, scope: Scope, headers: Headers) -> Response | None:
-        """Only pages of this server may send anything but GET."""
+        """Refuse requests other than GET from pages of other sites."""
         if scope["method"] in _READING:
             return None
         site, origin = headers.get("sec-fetch-site"), headers.get("origin")
@@ -123,7 +123,7 @@ class SecurityMiddleware:
         )
 
     def _refuse_stranger(self, scope: Scope, headers: Headers, token: str) -> Response | None:
-        """The token comes in the link (then it moves into a cookie), in the cookie, or in Authorization."""
+        """Refuse requests without the token, which is in the link (then set as cookie), cookie or header."""
         query = parse_qsl(scope["query_string"].decode("latin-1"), keep_blank_values=True)
         shown = [value for name, value in query if name == "token"]
         if shown and scope["method"] == "GET" and _same(shown[0], token):
@@ -148,7 +148,7 @@ class SecurityMiddleware:
 
 
 def _is_address(name: str) -> bool:
-    """A literal address cannot be rebound by a name server."""
+    """Whether the host is a literal address: it cannot be rebound by a name server."""
     try:
         ipaddress.ip_address(name)
     except ValueError:
@@ -186,7 +186,7 @@ class BodyLimitMiddleware:
             refusal = error_answer(400, "Content-Length is not a number.", code="bad_header")
             await refusal(scope, receive, send)
             return
-        # Compared by digits first: int() refuses more than 4300 of them.
+        # Compare the number of digits first: int() refuses more than 4300.
         if len(declared.lstrip("0")) > 12 or int(declared) > limit:
             await error_answer(413, message)(scope, receive, send)
             return

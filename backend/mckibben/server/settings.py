@@ -1,4 +1,4 @@
-"""What a server is started with."""
+"""Settings of a server."""
 
 from __future__ import annotations
 
@@ -30,15 +30,15 @@ def is_every_interface(host: str) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """Where the server listens, who may talk to it, and which folders it uses.
+    """Address, access token and folders of the server.
 
     Attributes:
         host, port: the address it listens on.
-        token: secret that every request must show; required when ``host`` is not loopback.
+        token: secret that every request must contain; required when ``host`` is not loopback.
         presets: folder of the built-in presets.
         user_presets: folder of the user's presets, where new ones are saved; None = saving is refused.
         effects: folders with further effect files.
-        data: folder in which uploaded measurements are kept.
+        data: folder for uploaded measurements.
         frontend: the folder served at ``/``.
     """
 

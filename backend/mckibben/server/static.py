@@ -1,4 +1,4 @@
-"""The page: the frontend's files, and plotly.js out of the installed plotly wheel."""
+"""The page: the files of the frontend, and plotly.js from the installed plotly package."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from mckibben.resources import plotly_javascript
 
-# The machine's own table may say text/plain for .js, which a browser refuses to run as a module.
+# The system's table may map .js to text/plain, which browsers refuse to run as a module.
 for _suffix, _type in {
     ".js": "text/javascript", ".mjs": "text/javascript", ".css": "text/css", ".html": "text/html",
     ".svg": "image/svg+xml", ".json": "application/json", ".woff2": "font/woff2", ".ico": "image/x-icon",
 }.items():  # fmt: skip
     mimetypes.add_type(_type, _suffix)
 
-# Files are asked for again every time, by their ETag: an upgrade never mixes old and new modules.
+# Files are revalidated every time, by their ETag: an upgrade never mixes old and new modules.
 _REVALIDATE = "no-cache"
 _FOREVER = "public, max-age=31536000, immutable"
 
@@ -40,7 +40,7 @@ class _Frontend(StaticFiles):
 
 
 def frontend(folder: Path) -> ASGIApp:
-    """Serve a folder at ``/``; whatever is not in it, and every unknown API path, answers 404."""
+    """Serve a folder at ``/``; missing files and unknown API paths answer 404."""
     files = GZipMiddleware(_Frontend(directory=folder, html=True, check_dir=False), minimum_size=1000)
 
     async def serve(scope: Scope, receive: Receive, send: Send) -> None:
@@ -78,7 +78,7 @@ router = APIRouter(include_in_schema=False)
 
 @router.get("/vendor/plotly.min.js")
 def plotly(request: Request) -> Response:
-    """plotly.js; kept by the browser for good when the link names the installed version (``?v=``)."""
+    """plotly.js; cached permanently when the link names the installed version (``?v=``)."""
     bundle: PlotlyBundle = request.app.state.plotly
     exact = request.query_params.get("v") == bundle.version
     etag = f'"plotly-{bundle.version}"'

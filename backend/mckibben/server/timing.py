@@ -1,4 +1,4 @@
-"""The outermost layer: how long an answer took, and what happens when something unexpected fails."""
+"""The outermost layer: measures the time of an answer and handles unexpected errors."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mckibben.server.errors import unexpected_answer
 
 
 class TimingMiddleware:
-    """``Server-Timing: app;dur=<ms>`` on API answers, no caching unless a route asks for it, 500 as JSON."""
+    """``Server-Timing: app;dur=<ms>`` on API answers, no caching unless a route sets it, 500 as JSON."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
@@ -45,9 +45,9 @@ class TimingMiddleware:
         try:
             await self.app(scope, timed_receive, timed_send)
         except ClientDisconnect:
-            return  # hung up in the middle of a body: nobody waits for an answer, and nothing was kept
+            return  # the client disconnected within the body: no answer is needed, and nothing is stored
         except Exception as error:
-            # Inside Starlette's own error layer, which would send a plain text and log a second time.
+            # Inside Starlette's error layer, which would send plain text and log a second time.
             if started:
                 raise
             await unexpected_answer(error)(scope, receive, timed_send)

@@ -1,4 +1,4 @@
-"""How a run ends, and who may end it early: the caller, or the clock."""
+"""How a run ends, and how the caller or a time limit ends it early."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import Enum
 
-# A drive that needs longer is in trouble, or asked for more than anyone waits for.
+# A run that takes longer has a stiff or chattering drive, or is longer than a user waits for.
 TIME_LIMIT = 10.0  # s
 _PROGRESS_EVERY = 0.1  # s
 
 
 class Outcome(Enum):
-    """How a run ended; the value says what to do next."""
+    """How a run ended; the value is advice for the user."""
 
     COMPLETED = "completed"
     STUCK = (
@@ -38,13 +38,13 @@ class Outcome(Enum):
 
 @dataclass
 class Watch:
-    """Asked now and then by a running integration whether to go on.
+    """Lets the caller follow a running computation and end it.
 
     Attributes:
-        cancelled: whether the caller has lost interest.
-        progress: told the share of the run that is done, a few times a second.
-        found: told what was found on the way, as JSON.
-        time_limit: [s] from the first question on.
+        cancelled: returns whether the caller has cancelled the run.
+        progress: called with the share of the run that is done, a few times a second.
+        found: called with intermediate results as JSON.
+        time_limit: from the first call of `ended` on [s].
     """
 
     cancelled: Callable[[], bool] | None = None
@@ -55,7 +55,7 @@ class Watch:
     _told: float = field(default=0.0, init=False, repr=False)
 
     def ended(self, share: float) -> Outcome | None:
-        """Why the run must end now, having done this share of it; None to go on."""
+        """Why the run must end now; None to go on. ``share`` of it is done."""
         now = time.monotonic()
         if self._began is None:
             self._began = self._told = now

@@ -1,4 +1,4 @@
-"""From a task to drives: what the catalogue offers, ranked, and why the rest does not do."""
+"""From a task to drives: ranked proposals from the catalogue, and the reason for each rejection."""
 
 from mckibben.sizing.catalogue import Design, MusclePart, PartsCatalogue, TubePart, ValvePart
 from mckibben.sizing.proposal import Proposal

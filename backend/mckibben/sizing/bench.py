@@ -1,6 +1,6 @@
-"""Designs through time, many of them: one compiled structure, two threads, few rows.
+"""Transient runs of many designs: one compiled structure, two threads, few rows.
 
-What a proposal states comes from a run on the fine grid (`measured`), read as every other run is.
+The figures of a proposal come from a separate run on the usual fine grid: see `mckibben.sizing.proposal`.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ from mckibben.sizing.prepared import NOTHING, ROWS_DOWN, ROWS_UP, Figures, Prepa
 from mckibben.sizing.task import Task
 
 _THREADS = 2
-_LEVEL = 1  # of the machine code: hundreds of runs share a structure
+_LEVEL = 1  # optimisation of the machine code: pays off, hundreds of runs share a structure
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 
 class EndedError(Exception):
-    """The caller has gone, or the time is over."""
+    """The caller has cancelled, or the time limit is reached."""
 
     def __init__(self, outcome: Outcome) -> None:
         super().__init__(outcome.label)
@@ -42,7 +42,7 @@ class Bench:
     """Runs designs of one task.
 
     Args:
-        task: what they do.
+        task: the task.
         watch: asked between runs whether to go on.
     """
 
@@ -62,13 +62,13 @@ class Bench:
         """Results of a function over items, in order, from two threads.
 
         Args:
-            function: lets go of the interpreter for most of its time.
-            items: what it takes.
-            share: of the whole work that is done before and after.
+            function: must release the interpreter lock for most of its time, else two threads gain nothing.
+            items: its arguments.
+            share: progress before and after, as shares of the whole work.
             total: number of items.
 
         Raises:
-            EndedError: the watch says so.
+            EndedError: the watch ends the work.
         """
         source, begin = iter(items), share[0]
         done = 0
@@ -81,11 +81,11 @@ class Bench:
                 done += len(chunk)
 
     def counted(self) -> None:
-        """One run more; from any thread."""
+        """Count one more run; may be called from any thread."""
         self.runs = next(self._runs) + 1
 
     def compile(self, group: Group) -> None:
-        """Get the equations of a group ready, so that no two threads do it at the same time."""
+        """Compile the equations of a group in advance, so that no two threads do it at the same time."""
         compiled_drive(
             DriveStructure(group.effects, group.tube.tube is not None, False, group.duty.pair), _LEVEL
         )
@@ -100,7 +100,7 @@ class Bench:
         return Prepared(design, drive, compiled, parameters, self._timeline(group, drive))
 
     def run(self, design: Design) -> Figures:
-        """A design through one cycle, on few rows."""
+        """Simulate one cycle of a design, on few rows."""
         self.counted()
         prepared = self.prepared(design)
         try:
@@ -110,10 +110,10 @@ class Bench:
 
     def _timeline(self, group: Group, drive: Drive) -> Timeline:
         key = (group.duty.pair, group.valve.id, group.tube.id)
-        found = self._timelines.get(key)
-        if found is None:
-            found = self._timelines[key] = _timeline(self.task, group, drive)
-        return found
+        timeline = self._timelines.get(key)
+        if timeline is None:
+            timeline = self._timelines[key] = _timeline(self.task, group, drive)
+        return timeline
 
 
 def _timeline(task: Task, group: Group, drive: Drive) -> Timeline:
@@ -124,7 +124,7 @@ def _timeline(task: Task, group: Group, drive: Drive) -> Timeline:
         grid = np.concatenate([grid, np.linspace(off, off + task.vent_time, ROWS_DOWN)[1:]])
     times, inputs, _ = segments_of(replace(drive, duration=float(grid[-1])))
     before = inputs[0].copy()
-    held = drive.command.before
-    for name, value in (("opening", held), ("counter_opening", drive.counter(held))):
+    rest_command = drive.command.before
+    for name, value in (("opening", rest_command), ("counter_opening", drive.counter(rest_command))):
         before[INPUTS.index(name)], before[INPUTS.index(f"{name}_slope")] = value, 0.0
     return Timeline(times, inputs, before, grid, on, off)

@@ -1,4 +1,4 @@
-"""What a drive may be made of, in SI, and the drive that a choice of it makes."""
+"""Parts a drive may be built from, in SI, and the drive that a choice of parts gives."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ Values = Mapping[str, Mapping[str, float]]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CataloguePart:
-    """A muscle, valve or tube that may be used.
+    """A muscle, valve or tube of the catalogue.
 
     Attributes:
-        effects, values: what it brings into the model.
-        unverified: names of its figures that nobody verified.
+        effects, values: effects it adds to the model, and their parameters.
+        unverified: names of its figures that are not verified.
     """
 
     id: str
@@ -38,8 +38,8 @@ class MusclePart(CataloguePart):
     """A muscle of any length between ``shortest`` and ``longest`` [m].
 
     Attributes:
-        hysteresis: largest width of its loop as a contraction ratio.
-        coldest, hottest: ambient temperatures the maker allows [K].
+        hysteresis: largest width of the hysteresis loop as a contraction ratio.
+        coldest, hottest: permitted ambient temperature [K].
     """
 
     muscle: Muscle
@@ -61,14 +61,14 @@ class ValvePart(CataloguePart):
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class TubePart(CataloguePart):
-    """A tube between the valve and each muscle; None sits the valve on the muscle."""
+    """A tube between the valve and each muscle; None = the valve is mounted on the muscle."""
 
     tube: Tube | None
 
 
 @dataclass(frozen=True, slots=True)
 class PartsCatalogue:
-    """What may be combined."""
+    """Parts that may be combined."""
 
     muscles: tuple[MusclePart, ...]
     valves: tuple[ValvePart, ...]
@@ -77,7 +77,7 @@ class PartsCatalogue:
 
 @dataclass(frozen=True, eq=False)
 class Group:
-    """A choice of parts; nominal length and pressure remain."""
+    """A choice of parts; nominal length and pressure are still free."""
 
     duty: Duty
     muscle: MusclePart
@@ -87,14 +87,14 @@ class Group:
 
     @cached_property
     def effects(self) -> tuple[Effect, ...]:
-        """Of all parts; a later part's take the place of an earlier one's."""
-        found = {effect.id: effect for part in self._parts for effect in part.effects}
-        return tuple(found.values())
+        """Effects of all parts; of two with the same id the later part's is used."""
+        effects_by_id = {effect.id: effect for part in self._parts for effect in part.effects}
+        return tuple(effects_by_id.values())
 
     @cached_property
     def values(self) -> dict[str, Mapping[str, float]]:
-        """Parameters of the effects."""
-        return {name: own for part in self._parts for name, own in dict(part.values).items()}
+        """Parameters of the effects, by effect id."""
+        return {name: parameters for part in self._parts for name, parameters in dict(part.values).items()}
 
     @property
     def _parts(self) -> tuple[CataloguePart, ...]:
@@ -102,27 +102,29 @@ class Group:
 
     @property
     def muscles(self) -> int:
-        """All muscles of the drive."""
+        """Number of muscles of the drive."""
         return self.parallel * (2 if self.duty.pair else 1)
 
     @property
     def conductance(self) -> float:
-        """Of the narrowest part of the way to one muscle [m^3/(s Pa)]."""
-        own = self.valve.valve.fill_conductance / self.parallel
+        """Sonic conductance of the narrowest part between supply and one muscle [m^3/(s Pa)]."""
+        valve_share = self.valve.valve.fill_conductance / self.parallel
         tube = self.tube.tube
         if tube is None:
-            return own
-        return min(own, float(gas.tube_conductance(diameter=tube.inside_diameter, length=tube.length)))
+            return valve_share
+        return min(
+            valve_share, float(gas.tube_conductance(diameter=tube.inside_diameter, length=tube.length))
+        )
 
     def drive(self, task: Task, length: float, pressure: float) -> Drive:
-        """The drive of one of the parallel muscles: it has its share of the load and of the valve's flow.
+        """The drive of one of the parallel muscles, with its share of the load and of the valve's flow.
 
-        Equal muscles with equal shares move alike, so this is the drive of all of them.
+        Equal muscles with equal shares move alike, so one drive represents all of them.
 
         Args:
-            task: what it does.
+            task: the task.
             length: nominal length [m].
-            pressure: of the supply, gauge [Pa].
+            pressure: gauge pressure of the supply [Pa].
         """
         duty, count = self.duty, self.parallel
         model = StaticModel.of(self.muscle.muscle._replace(nominal_length=length), self.effects, self.values)
@@ -158,20 +160,20 @@ class Group:
 
 
 def switch_on(task: Task, duty: Duty) -> float:
-    """When the fill begins [s]; the second muscle of a pair is filled before."""
+    """Start of the fill [s]; the second muscle of a pair is filled first."""
     return task.fill_time if duty.pair else 0.0
 
 
 def command_of(task: Task, duty: Duty) -> Signal:
-    """Fill, then vent."""
+    """The command: fill, then vent."""
     on = switch_on(task, duty)
     return _pulse(on, on + task.fill_time)
 
 
 @lru_cache(maxsize=64)
 def _pulse(on: float, off: float) -> Signal:
-    given = {"shape": "pulse", "on": on, "off": off}
-    return signal_from(given, unit="1", field="command", rest=-1.0, limits=(-1.0, 1.0))
+    document = {"shape": "pulse", "on": on, "off": off}
+    return signal_from(document, unit="1", field="command", rest=-1.0, limits=(-1.0, 1.0))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -184,5 +186,5 @@ class Design:
 
     @property
     def contraction(self) -> float:
-        """At the end of the stroke."""
+        """Contraction ratio at the end of the stroke."""
         return self.group.duty.pull / self.length

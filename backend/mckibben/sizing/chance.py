@@ -1,4 +1,4 @@
-"""How likely a drive does its task: specimens are simulated that vary as `mckibben.sizing.spread` says."""
+"""Probability that a drive does its task, from simulated specimens; see `mckibben.sizing.spread`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _CHUNK = 25  # specimens a thread takes at a time
 
 @dataclass(frozen=True, slots=True)
 class Chance:
-    """Share of the specimens that do the task, its standard error, and how many there were."""
+    """Share of the specimens that do the task, its standard error, and the number of specimens."""
 
     probability: float
     error: float
@@ -28,13 +28,13 @@ def chance(bench: Bench, design: Design, share: tuple[float, float], specimens: 
     """The probability that a design does the task.
 
     Args:
-        bench: of the task.
-        design: what is built.
-        share: of the whole work before and after, for its progress.
-        specimens: how many are simulated.
+        bench: runs the designs of the task.
+        design: the design.
+        share: progress before and after, as shares of the whole work.
+        specimens: number of specimens simulated.
 
     Raises:
-        EndedError: the bench's watch says so.
+        EndedError: the bench's watch ends the work.
     """
     prepared, spread = bench.prepared(design), spread_of(design, bench.task, specimens)
     starts = range(0, specimens, _CHUNK)
@@ -44,13 +44,13 @@ def chance(bench: Bench, design: Design, share: tuple[float, float], specimens: 
         return sum(_met(prepared, bench.task, spread, index) for index in chosen)
 
     probability = sum(bench.each(met, starts, share, len(starts))) / specimens
-    # At 0 and 1 as if one specimen had been otherwise.
+    # At 0 and 1 the variance is that of one deviating specimen, not zero.
     variance = max(probability * (1.0 - probability), 1.0 / specimens)
     return Chance(probability, sqrt(variance / specimens), specimens)
 
 
 def _met(prepared: Prepared, task: Task, spread: Spread, index: int) -> bool:
-    """Whether one specimen reaches the end of the stroke in time, keeps it, and is back in time."""
+    """Whether one specimen reaches the end of the stroke in time, stays there, and returns in time."""
     figures = prepared.built(
         float(spread.shift[index]),
         float(spread.friction[index]),

@@ -1,4 +1,4 @@
-"""A design ready to run with numbers that may be varied, and what a run of it shows on few rows."""
+"""A design ready to run with varied parameters, and the figures of such a run on few rows."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ from mckibben.simulation.integrate.engine import CompiledDrive, integrate
 from mckibben.sizing.catalogue import Design
 
 ROWS_UP, ROWS_DOWN = 160, 120
-# Coarse: a time within 0.1 %; what is proposed is run again at the usual tolerance.
+# Coarse, times within 0.1 %: a proposal is run again at the usual tolerance.
 _TOLERANCE = 1e-5
-#: How far from its stop a load still rests on it [m]; it presses the stop in.
+#: Distance from a stop within which a load counts as resting on it [m]: the stop is elastic.
 ON_STOP = 2e-6
-#: Share of the fill, at its end, during which it must: a load that is too heavy swings below the stop.
+#: Last share of the fill in which the load must rest on the stop: a load that is too heavy swings back.
 HELD_SHARE = 0.25
-_HOLDS_BACK = 0.999  # friction holds a load, it does not lift it
+_HOLDS_BACK = 0.999  # largest friction as a share of the load: friction holds a load, it does not lift it
 
 
 @dataclass(frozen=True, slots=True)
 class Figures:
-    """What a run shows: times [s], air of all muscles in a cycle at ANR [m^3], largest tension [N].
+    """Figures of a run: times [s], air of all muscles in a cycle at ANR [m^3], largest tension [N].
 
     Attributes:
-        time, time_down: to the end of the stroke and back; None when it is not reached in the time watched.
+        time, time_down: to the end of the stroke and back; None when not reached in the simulated time.
         held: whether the load stays there until the valve stops filling.
         reached: largest stroke of the load [m].
     """
@@ -42,19 +42,19 @@ class Figures:
     reached: float
 
 
-#: Of a run that does not come about.
+#: For a run that never starts or fails.
 NOTHING = Figures(None, None, False, 0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, eq=False)
 class Timeline:
-    """What all designs of a task with the same parts have in common.
+    """Time grid and inputs, shared by all designs of a task with the same parts.
 
     Attributes:
-        times, inputs: limits and inputs of the segments.
+        times, inputs: boundaries and inputs of the segments.
         before: inputs before the run.
-        grid: instants of the rows, `ROWS_UP` of the fill and after them those of the way back.
-        on, off: when the fill begins and ends [s].
+        grid: instants of the rows: `ROWS_UP` for the fill, then those of the return.
+        on, off: start and end of the fill [s].
     """
 
     times: np.ndarray
@@ -87,13 +87,13 @@ class Prepared:
         return list(self.compiled.model.parameters).index(name)
 
     def built(self, shift: float, friction: float, pressure: float, returns: bool) -> Figures:
-        """Run as it may turn out when it is built.
+        """Run with the deviations of one specimen.
 
         Args:
             shift: added to the contraction ratio.
-            friction: of one muscle, against the motion both ways [N].
-            pressure: factor of the supply pressure.
-            returns: whether the way back counts.
+            friction: friction of one muscle, against the motion in both directions [N].
+            pressure: factor on the supply pressure.
+            returns: whether the return stroke counts.
         """
         drive, duty = self.drive, self.design.group.duty
         parameters, inputs = self.parameters.copy(), self.inputs
@@ -101,7 +101,7 @@ class Prepared:
         supply = drive.supply_pressure * pressure + drive.ambient_pressure
         parameters[self.place("supply_pressure")] = supply
         forward = back = friction * duty.lever_ratio
-        if not duty.pair:  # what pulls back at the begin of the stroke, where a spring does not yet
+        if not duty.pair:  # the load at the start of the stroke, where a spring does not pull yet
             pulling = float(duty.load(np.zeros(1))[0]) / self.design.group.parallel
             back = min(back, _HOLDS_BACK * max(pulling, 0.0))
         filling = inputs[:, INPUTS.index("opening")] > 0.0
@@ -112,7 +112,7 @@ class Prepared:
             return NOTHING
 
     def figures(self, parameters: np.ndarray, inputs: np.ndarray, returns: bool) -> Figures:
-        """Run with these numbers.
+        """Run with the given parameters and inputs.
 
         Raises:
             InputError: nothing holds the load before the run.
@@ -156,9 +156,9 @@ class Prepared:
         )
 
     def start(self, parameters: np.ndarray, inputs: np.ndarray) -> np.ndarray:
-        """The load on its lower stop, if it rests there; else where it does rest.
+        """States at the start: the load on its lower stop if it rests there, else in equilibrium.
 
-        A pair is let go there: its second muscle holds it there before anything is looked at.
+        A pair starts on the lower stop: its second muscle has pulled it there before the fill.
         """
         compiled, line = self.compiled, self.timeline
         before = line.before.copy()
@@ -189,7 +189,10 @@ class Prepared:
 def _arrival(
     time: np.ndarray, travel: np.ndarray, speed: np.ndarray, acceleration: np.ndarray, end: float
 ) -> float | None:
-    """First instant at the end of the travel, ballistic from the row before; None when it is not reached."""
+    """First instant at the end of the travel, extrapolated at constant acceleration from the row before.
+
+    None when the end is not reached.
+    """
     there = np.flatnonzero(travel >= end - 1e-9)
     if not len(there):
         return None

@@ -1,4 +1,4 @@
-"""A proposal: a refined design with figures from a run as fine as every other run of the program."""
+"""A proposal: a refined design with figures from a run on the usual fine grid."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ class Proposal:
     """A drive that does the task.
 
     Attributes:
-        trial: design, statics and the run's figures.
-        impact_energy: of all muscles' load at the end of the stroke [J].
-        end_speed: of the load there [m/s].
+        trial: design, statics and figures of the run.
+        impact_energy: kinetic energy of the whole load at the end of the stroke [J].
+        end_speed: speed of the load there [m/s].
         pressure_start, pressure_end: in the muscle when the load leaves its stop, and on arrival [Pa].
-        max_speed: of the load [m/s].
-        chance: probability that it does the task; None when no specimens were asked for.
-        reason: why it stands where it stands.
-        front: whether no other design is better in everything.
+        max_speed: largest speed of the load [m/s].
+        chance: probability that it does the task; None when no specimens were requested.
+        reason: explanation of its rank.
+        front: whether it is on the Pareto front: no other design is better in every aim.
     """
 
     trial: Trial
@@ -49,14 +49,14 @@ class Proposal:
 
     @property
     def design(self) -> Design:
-        """What is built."""
+        """The design."""
         return self.trial.design
 
 
 def propose(trial: Trial, bench: Bench) -> Proposal | Trial:
-    """The proposal a trial becomes, in whole millimetres and hundredths of a bar where those do.
+    """The proposal of a trial, in whole millimetres and hundredths of a bar if these keep every limit.
 
-    A trial that falls behind on the fine grid comes back as it was measured.
+    A trial that breaks a limit on the fine grid is returned with its figures on that grid.
     """
     design = trial.design
     length = ceil(design.length / _MILLIMETRE - 1e-6) * _MILLIMETRE
@@ -65,17 +65,17 @@ def propose(trial: Trial, bench: Bench) -> Proposal | Trial:
     choices = [(round(length, 6), pressure), exact, (design.length, design.pressure)]
     measured = trial
     for length, pressure in dict.fromkeys(choices):
-        found = _measured(Design(design.group, length, pressure), bench)
-        if found is None:
+        candidate = _measured(Design(design.group, length, pressure), bench)
+        if candidate is None:
             continue
-        if found.trial.does:
-            return found
-        measured = found.trial
+        if candidate.trial.does:
+            return candidate
+        measured = candidate.trial
     return measured
 
 
 def _measured(design: Design, bench: Bench) -> Proposal | None:
-    """A design run finely, whether it does or not; None when the run fails."""
+    """A design run on the fine grid, whether it does the task or not; None when the run fails."""
     task, group = bench.task, design.group
     drive = group.drive(task, design.length, design.pressure)
     bench.counted()
@@ -127,6 +127,6 @@ def _measured(design: Design, bench: Bench) -> Proposal | None:
 
 
 def _air(run: Run, begin: int) -> float:
-    """Volume at ANR that one side's muscle, of a pair both, take in a cycle [m^3]."""
+    """Air that one muscle, or both muscles of a pair, take in a cycle, at ANR [m^3]."""
     names = [name for name in ("supplied", f"supplied{COUNTER}") if name in run.states]
     return sum(float(run.states[name][-1] - run.states[name][begin]) for name in names) / ANR_DENSITY

@@ -1,4 +1,4 @@
-"""The order of the proposals, the front of those that nothing beats, and why each stands where it does."""
+"""The order of the proposals, their Pareto front, and an explanation of each rank."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from mckibben.sizing.proposal import Proposal
 from mckibben.sizing.task import Task
 from mckibben.sizing.trial import Trial
 
-#: Probabilities nearer than this are not told apart when something else decides [-].
-_CLASS = 0.05
-_SURE = 0.95
+_CLASS = 0.05  # width of a class of probability: 100 specimens cannot resolve much less
+_SURE = 0.95  # probabilities above this form one class
 
 
 def ranked(proposals: list[Proposal], task: Task) -> list[Proposal]:
     """Best first, with the front and reasons filled in.
 
-    Whatever the task ranks by, a drive that probably fails comes after one that probably does: classes of
-    5 % of the probability up to 95 % come first. Ranked by probability, the probability itself does.
+    Whatever the task ranks by, a drive that probably fails comes after one that probably does the task: the
+    first key is the probability in classes of 5 % up to 95 %, the second what the task ranks by. If that is
+    the probability, the first key is the probability itself and the second the air.
     """
 
     def order(proposal: Proposal) -> tuple[float, float]:
@@ -30,12 +30,12 @@ def ranked(proposals: list[Proposal], task: Task) -> list[Proposal]:
             return -probability, proposal.trial.air
         return -float(probability), proposal.trial.worth()
 
-    found = sorted(proposals, key=order)
-    front = front_of([proposal.trial for proposal in found])
-    best = {name: min(_aims(p.trial)[name] for p in found) for name in _NAMES} if found else {}
+    ordered = sorted(proposals, key=order)
+    front = front_of([proposal.trial for proposal in ordered])
+    best = {name: min(_aims(p.trial)[name] for p in ordered) for name in _NAMES} if ordered else {}
     return [
         replace(proposal, front=on_front, reason=_reason(proposal, best))
-        for proposal, on_front in zip(found, front, strict=True)
+        for proposal, on_front in zip(ordered, front, strict=True)
     ]
 
 
@@ -61,7 +61,7 @@ _NAMES = {
 
 
 def _aims(trial: Trial) -> dict[str, float]:
-    """What is to be small, all positive."""
+    """Figures to be minimised, all positive."""
     rest = trial.rest
     return {
         "air": trial.air,

@@ -1,4 +1,4 @@
-"""Why a candidate does not do, and what would help, in words with figures."""
+"""Text on why a candidate is rejected and what would help, with figures."""
 
 from __future__ import annotations
 
@@ -19,33 +19,31 @@ def length_text(length: float) -> str:
 
 
 def number_text(parallel: int, part: MusclePart) -> str:
-    """How many of which muscle."""
+    """Number and type of the muscles."""
     return f"one {part.id}" if parallel == 1 else f"{parallel} × {part.id} in parallel"
 
 
-def why_at_rest(sheet: Sheet, parallel: int, found: Shortfall) -> str:
-    """Why no design of so many muscles keeps every limit at rest."""
+def why_at_rest(sheet: Sheet, parallel: int, lacking: Shortfall) -> str:
+    """Why no design with this number of muscles keeps every limit at rest."""
     task, part, rest = sheet.task, sheet.part, sheet.rest
     who = number_text(parallel, part)
     most = contraction_limit(part, task)
     least = sheet.duty.pull / most
     room = task.limits.max_length - task.limits.end_fittings
-    if found.best is None:
+    if lacking.best is None:
         if least > part.longest:
             return (
-                f"{length_text(sheet.duty.pull)} at {most * 100:.3g} % contraction need a muscle of "
-                f"{length_text(least)}, and {part.id} is made up to {length_text(part.longest)}"
+                f"{length_text(sheet.duty.pull)} at {most * 100:.3g} % contraction needs a muscle of "
+                f"{length_text(least)}; the longest {part.id} is {length_text(part.longest)}"
             )
         if part.shortest > room:
-            return (
-                f"{part.id} is made from {length_text(part.shortest)} on, and {length_text(room)} are there"
-            )
+            return f"the shortest {part.id} is {length_text(part.shortest)}; {length_text(room)} is available"
         if least > room:
             return (
-                f"{length_text(sheet.duty.pull)} at {most * 100:.3g} % contraction need a muscle of "
-                f"{length_text(least)}, and {length_text(room)} are there"
+                f"{length_text(sheet.duty.pull)} at {most * 100:.3g} % contraction needs a muscle of "
+                f"{length_text(least)}; {length_text(room)} is available"
             )
-    index = found.best if found.best is not None else next(iter(found.remedies.values()))[0]
+    index = lacking.best if lacking.best is not None else next(iter(lacking.remedies.values()))[0]
     at = (
         f"{who} of {length_text(rest.length[index])} at {rest.pressure[index] / _BAR:.3g} bar and "
         f"{rest.contraction[index] * 100:.3g} % contraction"
@@ -57,28 +55,28 @@ def why_at_rest(sheet: Sheet, parallel: int, found: Shortfall) -> str:
             if share <= 0.0:
                 return f"{at} does not pull at all"
             wanted = 1.0 + task.limits.force_reserve
-            return f"{at} pulls {share:.3g} times the load, and {wanted:.3g} times are wanted"
+            return f"{at} pulls {share:.3g} times the load; {wanted:.3g} times is required"
         case "force_limit":
             limit = part.limits.max_force
-            return f"{at} carries {rest.tension[index]:.4g} N a muscle; the maker allows {limit:.4g} N"
+            return f"{at} carries {rest.tension[index]:.4g} N per muscle; the maker allows {limit:.4g} N"
         case "diameter":
             room = task.limits.max_diameter or 0.0
-            return f"{at} bulges to {rest.diameter[index] * 1e3:.3g} mm, and {room * 1e3:.3g} mm are there"
+            return f"{at} bulges to {rest.diameter[index] * 1e3:.3g} mm; {room * 1e3:.3g} mm is available"
         case "stiffness":
             wanted = task.limits.stiffness or 0.0
-            return f"{at} holds with {rest.stiffness[index]:.4g} N/m, and {wanted:.4g} N/m are wanted"
+            return f"{at} has a stiffness of {rest.stiffness[index]:.4g} N/m; {wanted:.4g} N/m is required"
         case "life":
             wanted = task.limits.life or 0.0
-            return f"{at} lasts some {rest.life[index]:.2g} cycles (an estimate), and {wanted:.2g} are wanted"
+            return f"{at} lasts about {rest.life[index]:.2g} cycles (an estimate); {wanted:.2g} is required"
         case _:
             return f"{at} does not fit"
 
 
-def remedies_text(sheet: Sheet, parallel: int, found: Shortfall, others: tuple[str, ...]) -> str:
-    """What would make so many muscles do, least change first; other muscles that do at the end."""
+def remedies_text(sheet: Sheet, parallel: int, lacking: Shortfall, others: tuple[str, ...]) -> str:
+    """Changes that would make this number of muscles suffice, least change first, another muscle last."""
     task, rest, part = sheet.task, sheet.rest, sheet.part
     texts: list[str] = []
-    for name, (index, share) in sorted(found.remedies.items(), key=lambda item: item[1][1]):
+    for name, (index, share) in sorted(lacking.remedies.items(), key=lambda item: item[1][1]):
         match name:
             case "length":
                 more = rest.length[index] + task.limits.end_fittings - task.limits.max_length
@@ -109,15 +107,15 @@ def remedies_text(sheet: Sheet, parallel: int, found: Shortfall, others: tuple[s
     if more_muscles:
         texts.append(f"{more_muscles[0]} in parallel")
     if others:
-        texts.append(f"{others[0]} in its place")
+        texts.append(f"{others[0]} instead")
     return "; or ".join(texts) if texts else "nothing that is in the catalogue"
 
 
 def slow_text(trial: Trial | None, task: Task) -> str:
-    """Which demand a run misses; without a run, what the closed form says."""
+    """Which requirement a run misses; without a run, the result of the closed form."""
     if trial is None:
         wanted = min(time or task.fill_time for time in (task.time, task.cycle_time))
-        return f"even at choked flow the air for the stroke takes longer than the {wanted:.3g} s there are"
+        return f"even at choked flow the air for the stroke takes longer than the {wanted:.3g} s allowed"
     figures, design = trial.figures, trial.design
     at = f"{length_text(design.length)} at {design.pressure / _BAR:.3g} bar"
     if figures.time is None:
@@ -125,24 +123,24 @@ def slow_text(trial: Trial | None, task: Task) -> str:
         return f"{at} reaches {length_text(reached)} within {task.fill_time:.3g} s"
     match trial.binding:
         case "time":
-            return f"{at} takes {figures.time:.3g} s for the stroke, and {task.time:.3g} s are demanded"
+            return f"{at} takes {figures.time:.3g} s for the stroke; {task.time:.3g} s is required"
         case "time_down" if figures.time_down is None:
             return f"{at} does not come back within {task.vent_time:.3g} s"
         case "time_down":
-            return f"{at} takes {figures.time_down:.3g} s back, and {task.time_down:.3g} s are demanded"
+            return f"{at} takes {figures.time_down:.3g} s back; {task.time_down:.3g} s is required"
         case "cycle_time" if figures.time_down is None:
             return f"{at} does not come back within {task.vent_time:.3g} s"
         case "cycle_time":
             both = figures.time + (figures.time_down or 0.0)
-            return f"{at} takes {both:.3g} s up and down, and {task.cycle_time:.3g} s are demanded"
+            return f"{at} takes {both:.3g} s up and down; {task.cycle_time:.3g} s is required"
         case "force_limit":
             return f"{at} peaks at {figures.peak_force:.4g} N while it moves, above what the maker allows"
         case _:
-            return f"{at} does not keep the load at the end of the stroke"
+            return f"{at} does not hold the load at the end of the stroke"
 
 
 def slow_remedy(trial: Trial | None, task: Task, binding: str, works: bool) -> str:
-    """What would make such a group quick enough."""
+    """Changes that would make such a group fast enough."""
     texts = []
     demanded = {"time": task.time, "time_down": task.time_down, "cycle_time": task.cycle_time}.get(binding)
     if trial is not None and demanded is not None:
@@ -157,9 +155,9 @@ def slow_remedy(trial: Trial | None, task: Task, binding: str, works: bool) -> s
 
 
 def temperature_text(part: MusclePart, task: Task) -> str | None:
-    """Why the muscle cannot be where it shall be; None when it can."""
+    """Why the muscle does not stand the ambient temperature; None when it does."""
     low, high = part.coldest, part.hottest
     if (low is None or task.temperature >= low) and (high is None or task.temperature <= high):
         return None
     ends = [f"{end - 273.15:.3g} °C" for end in (low, high) if end is not None]
-    return f"{part.id} is made for {' to '.join(ends)}, and it is {task.temperature - 273.15:.3g} °C there"
+    return f"{part.id} is made for {' to '.join(ends)}; the task states {task.temperature - 273.15:.3g} °C"

@@ -1,4 +1,4 @@
-"""The continuous choices, nominal length and pressure, moved to where a design is worth most."""
+"""Optimises the continuous variables of a design: nominal length and pressure."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ _FIRST_STEP = (0.12, 0.2)  # of the logarithms of length and pressure
 
 
 def refined(trial: Trial, bench: Bench) -> Trial:
-    """The best of some designs around a trial, found by the simplex method of Nelder and Mead."""
+    """The best design near a trial, found by the simplex method of Nelder and Mead."""
     from scipy.optimize import minimize  # 0.2 s import, not paid at start
 
     task, group = bench.task, trial.design.group
     part = group.muscle
-    own = [p for p in (part.limits.max_pressure, group.valve.max_pressure) if p is not None]
-    highest = min(task.available_pressure, *own) if own else task.available_pressure
+    part_limits = [p for p in (part.limits.max_pressure, group.valve.max_pressure) if p is not None]
+    highest = min(task.available_pressure, *part_limits) if part_limits else task.available_pressure
     lengths = (
         max(part.shortest, group.duty.pull / contraction_limit(part, task)),
         min(part.longest, task.limits.max_length - task.limits.end_fittings),

@@ -1,4 +1,4 @@
-"""Candidates that do not do: why, the limit in the way, what would help."""
+"""Rejected candidates: the reason, the binding limit, and what would help."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ _NEVER = float("inf")
 
 @dataclass(frozen=True, slots=True)
 class Rejection:
-    """So many muscles, or these with a valve and a tube, that do not do.
+    """A number of muscles, or these with a valve and a tube, that cannot do the task.
 
     Attributes:
-        binding: the limit in the way.
-        nearness: share by which a limit would have to move; infinite where moving one does not help.
-        combinations: how many combinations this stands for.
+        binding: the limit that prevents it.
+        nearness: share by which one limit would have to move; infinite where moving one does not help.
+        combinations: number of combinations this entry covers.
     """
 
     muscle: str
@@ -47,8 +47,8 @@ class Rejection:
 def at_rest_rejections(
     sheets: Sequence[Sheet], catalogue: PartsCatalogue, task: Task, works: set[str]
 ) -> list[Rejection]:
-    """The muscles that the closed form rules out, whatever the valve; ``works`` are those that do."""
-    found = [
+    """Muscles that the closed form rules out with any valve; ``works`` names those that can do the task."""
+    rejections = [
         Rejection(part.id, 1, why, "temperature", "another muscle, or another place for it")
         for part in catalogue.muscles
         if (why := temperature_text(part, task)) is not None
@@ -64,7 +64,7 @@ def at_rest_rejections(
             if (name, count) in sound:
                 continue
             lacking = shortfall(sheet, count)
-            found.append(
+            rejections.append(
                 Rejection(
                     name,
                     count,
@@ -75,17 +75,17 @@ def at_rest_rejections(
                     combinations=int(np.sum(sheet.allowed & (sheet.rest.parallel == count))) * pairs,
                 )
             )
-    return found
+    return rejections
 
 
 def _nearest(sheets: Sequence[Sheet], task: Task) -> list[Sheet]:
-    """Of the sheets of a muscle, one for each pulley tried, that which comes nearest."""
-    found: dict[str, Sheet] = {}
+    """For each muscle the sheet that comes nearest; there is one sheet per pulley radius tried."""
+    best_sheets: dict[str, Sheet] = {}
     for sheet in sheets:
-        best = found.get(sheet.part.id)
+        best = best_sheets.get(sheet.part.id)
         if best is None or _miss(sheet) < _miss(best):
-            found[sheet.part.id] = sheet
-    return list(found.values())
+            best_sheets[sheet.part.id] = sheet
+    return list(best_sheets.values())
 
 
 def _miss(sheet: Sheet) -> float:
@@ -95,15 +95,15 @@ def _miss(sheet: Sheet) -> float:
 def slow_rejections(
     failed: Sequence[tuple[Group, Trial | None]], task: Task, works: set[str]
 ) -> list[Rejection]:
-    """Groups that are strong enough but do not move as demanded; one for each choice of valve and tube."""
-    found: dict[tuple[str, int, str, str], Rejection] = {}
+    """Groups that are strong enough but too slow; one entry per choice of valve and tube."""
+    rejections: dict[tuple[str, int, str, str], Rejection] = {}
     for group, trial in failed:
         key = (group.muscle.id, group.parallel, group.valve.id, group.tube.id)
         excess = _NEVER if trial is None else trial.excess() - 1.0
-        if key in found and found[key].nearness <= excess:
+        if key in rejections and rejections[key].nearness <= excess:
             continue
         binding = "time" if trial is None else trial.binding
-        found[key] = Rejection(
+        rejections[key] = Rejection(
             group.muscle.id,
             group.parallel,
             f"{number_text(group.parallel, group.muscle)} with {group.valve.id}: {slow_text(trial, task)}",
@@ -114,4 +114,4 @@ def slow_rejections(
             nearness=excess if excess > 0.0 else _NEVER,
             combinations=1,
         )
-    return list(found.values())
+    return list(rejections.values())

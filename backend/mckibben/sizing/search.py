@@ -1,4 +1,4 @@
-"""The search: closed form over all combinations, simulation of what is left, refinement, probability."""
+"""The search: closed form over all combinations, simulation of the remaining, refinement, probability."""
 
 from __future__ import annotations
 
@@ -22,26 +22,26 @@ from mckibben.sizing.statics import least_time
 from mckibben.sizing.task import Task
 from mckibben.sizing.trial import Trial, trial_of
 
-# Shares of the work after each stage, for the progress.
+# Progress after each stage, as a share of the whole work.
 _PRUNED, _TRIED, _REFINED, _MEASURED = 0.1, 0.35, 0.65, 0.7
-_OF_ONE_KIND = 4  # proposals with the same muscles, while there are others
-_SPARE = 4  # refined beyond the number wanted: some fall behind when they are measured
-_MOST_GROUPS = 240  # tried by simulation
-_SECOND_LOOK = 2.0  # a group that misses a time by less gets more designs tried
+_OF_ONE_KIND = 4  # most proposals with the same muscles, while there are others
+_SPARE = 4  # designs refined beyond the number requested: some fail on the fine grid
+_MOST_GROUPS = 240  # most groups simulated
+_SECOND_LOOK = 2.0  # a group gets more designs tried if its time is within this factor of the required one
 
 
 @dataclass
 class Sizing:
-    """What was found.
+    """The result of a search.
 
     Attributes:
         proposals: best first.
-        rejected: why not the others, nearest first.
+        rejected: the rejected candidates, nearest first.
         explored: the best trial of each group that does the task.
-        combinations: designs within the limits of space and pressure, times valves and tubes.
-        pruned: how many of them the closed form sorted out.
-        simulated: transients, specimens left out.
-        untried: groups that the closed form leaves and that were not simulated for lack of time.
+        combinations: designs within the limits of length, pressure and contraction, times valves and tubes.
+        pruned: number of them that the closed form ruled out.
+        simulated: number of transient runs, without those of specimens.
+        untried: groups not ruled out by the closed form and not simulated, to save time.
     """
 
     proposals: list[Proposal] = field(default_factory=list)
@@ -58,26 +58,26 @@ def size(task: Task, catalogue: PartsCatalogue, watch: Watch | None = None) -> S
     """Drives for a task.
 
     Args:
-        task: what is to be done.
-        catalogue: what may be used.
-        watch: may end the search early; what was found until then is returned.
+        task: the task.
+        catalogue: the parts that may be used.
+        watch: may end the search early; the result so far is returned.
 
     Raises:
-        InputError: the task lacks a stroke, or something that pulls the muscle long again.
+        InputError: the task has no stroke, or nothing stretches the muscle again.
     """
-    found, bench = Sizing(), Bench(task, watch or Watch())
-    search = _Search(task, catalogue, bench, found)
+    sizing, bench = Sizing(), Bench(task, watch or Watch())
+    search = _Search(task, catalogue, bench, sizing)
     try:
         search.run()
     except EndedError as end:
-        found.outcome = end.outcome
-    found.simulated = bench.runs
-    return found
+        sizing.outcome = end.outcome
+    sizing.simulated = bench.runs
+    return sizing
 
 
 @dataclass(frozen=True, eq=False)
 class DesignCandidate:
-    """A group and those of its designs that the closed form leaves, as positions in the sheet."""
+    """A group and its designs not ruled out by the closed form, as positions in the sheet."""
 
     group: Group
     sheet: Sheet
@@ -85,7 +85,7 @@ class DesignCandidate:
 
     @cached_property
     def promise(self) -> float:
-        """What the closed form says of its best design, less is better: air times the root of the length."""
+        """Estimate for its best design, less is better: air times the square root of the length."""
         rest = self.sheet.rest
         return float(np.min(rest.air[self.left] * np.sqrt(rest.length[self.left])))
 
@@ -96,25 +96,25 @@ class DesignCandidate:
 
 
 class _Search:
-    def __init__(self, task: Task, catalogue: PartsCatalogue, bench: Bench, found: Sizing) -> None:
-        self.task, self.catalogue, self.bench, self.found = task, catalogue, bench, found
+    def __init__(self, task: Task, catalogue: PartsCatalogue, bench: Bench, sizing: Sizing) -> None:
+        self.task, self.catalogue, self.bench, self.sizing = task, catalogue, bench, sizing
         self.parts = [(valve, tube) for valve in catalogue.valves for tube in catalogue.tubes]
 
     def run(self) -> None:
-        """All stages; fills `found`."""
-        task, found, bench = self.task, self.found, self.bench
+        """Run all stages; fills `sizing`."""
+        task, sizing, bench = self.task, self.sizing, self.bench
         sheets = [
             sheet_of(part, duty, task)
             for duty in task.duties()
             for part in self.catalogue.muscles
             if temperature_text(part, task) is None
         ]
-        found.rejected = at_rest_rejections(sheets, self.catalogue, task, set())
+        sizing.rejected = at_rest_rejections(sheets, self.catalogue, task, set())
         candidates, failed = self._prune(sheets)
         candidates = self._likely(candidates)
         self._look(_PRUNED)
         good, slow = self._try(candidates)
-        found.explored = good
+        sizing.explored = good
         failed += slow
         chosen = _varied(sorted(good, key=lambda trial: trial.cost()), task.max_proposals + _SPARE)
         steps = bench.each(lambda trial: refined(trial, bench), chosen, (_TRIED, _REFINED), len(chosen))
@@ -126,11 +126,11 @@ class _Search:
             else:
                 failed.append((item.design.group, item))
         works = {proposal.design.group.muscle.id for proposal in proposals}
-        found.rejected = at_rest_rejections(sheets, self.catalogue, task, works)
-        found.rejected += slow_rejections(failed, task, works)
-        found.rejected.sort(key=lambda rejection: rejection.nearness)
-        found.proposals = ranked(proposals, task)[: task.max_proposals]
-        found.proposals = self._with_chances(found.proposals)
+        sizing.rejected = at_rest_rejections(sheets, self.catalogue, task, works)
+        sizing.rejected += slow_rejections(failed, task, works)
+        sizing.rejected.sort(key=lambda rejection: rejection.nearness)
+        sizing.proposals = ranked(proposals, task)[: task.max_proposals]
+        sizing.proposals = self._with_chances(sizing.proposals)
 
     def _look(self, share: float) -> None:
         ended = self.bench.watch.ended(share)
@@ -138,11 +138,11 @@ class _Search:
             raise EndedError(ended)
 
     def _prune(self, sheets: list[Sheet]) -> tuple[list[DesignCandidate], list[tuple[Group, Trial | None]]]:
-        """What the closed form leaves, and the groups of which it leaves nothing."""
+        """Candidates not ruled out by the closed form, and groups without any such design."""
         kept: list[DesignCandidate] = []
         failed: list[tuple[Group, Trial | None]] = []
         for sheet in sheets:
-            self.found.combinations += int(sheet.allowed.sum()) * len(self.parts)
+            self.sizing.combinations += int(sheet.allowed.sum()) * len(self.parts)
             for parallel in range(1, self.task.limits.max_parallel + 1):
                 sound = sheet.sound(parallel)
                 for valve, tube in self.parts if len(sound) else []:
@@ -152,11 +152,11 @@ class _Search:
                         kept.append(DesignCandidate(group, sheet, left))
                     else:
                         failed.append((group, None))
-        self.found.pruned = self.found.combinations - sum(len(candidate.left) for candidate in kept)
+        self.sizing.pruned = self.sizing.combinations - sum(len(candidate.left) for candidate in kept)
         return kept, failed
 
     def _likely(self, candidates: list[DesignCandidate]) -> list[DesignCandidate]:
-        """Those worth simulating: of a pair's pulleys the best, not more groups than there is time for."""
+        """Candidates worth simulating: one pulley radius for each choice of parts, at most `_MOST_GROUPS`."""
         ordered = sorted(candidates, key=lambda candidate: candidate.promise)
         taken: Counter[tuple[str, int, str, str]] = Counter()
         kept: list[DesignCandidate] = []
@@ -166,11 +166,11 @@ class _Search:
             taken[key] += 1
             if taken[key] == 1 and len(kept) < _MOST_GROUPS:
                 kept.append(candidate)
-        self.found.untried = len(taken) - len(kept)
+        self.sizing.untried = len(taken) - len(kept)
         return kept
 
     def _quick(self, group: Group, sheet: Sheet, sound: np.ndarray) -> np.ndarray:
-        """The designs of a group that the closed form does not show to be too slow."""
+        """Designs of a group that the closed form does not rule out as too slow."""
         task, most = self.task, group.valve.max_pressure
         if most is not None:
             sound = sound[sheet.rest.pressure[sound] <= most]
@@ -179,7 +179,7 @@ class _Search:
         return sound[times[sound] <= wanted]
 
     def _try(self, candidates: list[DesignCandidate]) -> tuple[list[Trial], list[tuple[Group, Trial | None]]]:
-        """The best trial of each group that does the task, and the nearest of those that do not."""
+        """The best trial of each group that does the task, and the nearest trial of each other group."""
         first = [(candidate, index) for candidate in candidates for index in _first_choice(candidate)]
         ran = self._run(first, (_PRUNED, 0.8 * _TRIED))
         again = [
@@ -204,7 +204,7 @@ class _Search:
     def _run(
         self, jobs: list[tuple[DesignCandidate, int]], share: tuple[float, float]
     ) -> dict[DesignCandidate, list[Trial]]:
-        found: dict[DesignCandidate, list[Trial]] = {}
+        trials_by_candidate: dict[DesignCandidate, list[Trial]] = {}
         for candidate, _ in jobs:
             self.bench.compile(candidate.group)
         trials = self.bench.each(
@@ -214,8 +214,8 @@ class _Search:
             len(jobs),
         )
         for (candidate, _), trial in zip(jobs, trials, strict=True):
-            found.setdefault(candidate, []).append(trial)
-        return found
+            trials_by_candidate.setdefault(candidate, []).append(trial)
+        return trials_by_candidate
 
     def _with_chances(self, proposals: list[Proposal]) -> list[Proposal]:
         specimens = self.task.uncertainty.specimens
@@ -238,7 +238,7 @@ class _Search:
 
 
 def _varied(trials: list[Trial], count: int) -> list[Trial]:
-    """The first so many, but of one choice of muscles only a few while there are others."""
+    """The first ``count`` trials, at most `_OF_ONE_KIND` with the same muscles while there are others."""
     taken: Counter[tuple[str, int]] = Counter()
     first: list[Trial] = []
     rest: list[Trial] = []
@@ -261,7 +261,7 @@ def _first_choice(candidate: DesignCandidate) -> list[int]:
 def _second_choice(candidate: DesignCandidate) -> list[int]:
     """Every length at its highest pressure."""
     rest, left = candidate.sheet.rest, candidate.left
-    found: dict[float, int] = {}
+    by_length: dict[float, int] = {}
     for index in left[np.argsort(rest.pressure[left])]:
-        found[float(rest.length[index])] = int(index)
-    return list(found.values())
+        by_length[float(rest.length[index])] = int(index)
+    return list(by_length.values())

@@ -1,14 +1,14 @@
-"""How specimens, friction and supply differ from what was computed.
+"""How specimens, friction and supply differ from the computed values.
 
-- The blocked force is normally distributed, two standard deviations = the spread the task states. Between
-  specimens and laboratories the curves are displaced along the contraction axis (the length at which a
-  muscle is called uncontracted differs), so a specimen starts from a contraction of its own: its force at
-  kappa is that of the computed muscle at kappa + shift, and the shift makes its blocked force differ.
-- Hysteresis is evenly distributed between none and the full width of the loop: a force that opposes the
-  motion both ways, half the loop wide.
-- The supply pressure is evenly distributed within its tolerance.
+- The blocked force is normally distributed; two standard deviations are the spread the task states. The
+  curves of specimens and laboratories are displaced along the contraction axis, because the length taken as
+  uncontracted differs. So the force of a specimen at kappa is that of the computed muscle at kappa + shift,
+  and the shift changes its blocked force.
+- Hysteresis is uniformly distributed between none and the full width of the loop: a force of half that width
+  against the motion in both directions.
+- The supply pressure is uniformly distributed within its tolerance.
 
-All muscles of a drive deviate together, as muscles of one batch do; that is the harder case.
+All muscles of a drive deviate together, like muscles of one batch; that is the harder case.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ from mckibben.sizing.statics import outputs
 from mckibben.sizing.task import Task
 
 _SEED = 20260
-_STEP = 1e-3  # of contraction, for a slope
-# All three at once: as rare as the worst of one alone.
+_STEP = 1e-3  # contraction step for a slope
+# A weak specimen has all three deviations at once: together as rare as an extreme value of one alone.
 _WEAK, _USUAL = 1.5, 0.6
 
 
 @dataclass(frozen=True, slots=True)
 class Deviation:
-    """Of one muscle: standard deviation of the shift [-], half of the loop at its widest [N]."""
+    """Deviations of one muscle: standard deviation of the shift [-], half the largest loop width [N]."""
 
     shift: float
     friction: float
@@ -42,7 +42,7 @@ class Spread:
     Attributes:
         shift: added to the contraction ratio.
         friction: force of one muscle against the motion [N].
-        pressure: factor of the supply pressure.
+        pressure: factor on the supply pressure.
     """
 
     shift: np.ndarray
@@ -51,25 +51,25 @@ class Spread:
 
 
 def deviation_of(design: Design, task: Task) -> Deviation:
-    """Linear at the blocked force for the shift, and at the end of the stroke for the loop."""
-    part, given, end = design.group.muscle, task.uncertainty, design.contraction
+    """Deviations of a design, linearised at the blocked force (shift) and at the end of the stroke (loop)."""
+    part, stated, end = design.group.muscle, task.uncertainty, design.contraction
     points = np.array([0.0, _STEP, end, end + _STEP])
     force = _force(design, task, points)
     lost = np.maximum(force[[0, 2]] - force[[1, 3]], 1e-9) / _STEP  # N per contraction
-    width = part.hysteresis if given.hysteresis is None else given.hysteresis
-    shift = 0.5 * given.blocked_force * max(float(force[0]), 0.0) / float(lost[0])
+    width = part.hysteresis if stated.hysteresis is None else stated.hysteresis
+    shift = 0.5 * stated.blocked_force * max(float(force[0]), 0.0) / float(lost[0])
     return Deviation(shift, 0.5 * width * float(lost[1]))
 
 
 def weak(design: Design, task: Task) -> tuple[float, float, float]:
-    """Shift, friction and pressure factor of a specimen that about 19 of 20 are better than."""
+    """Shift, friction and pressure factor of a weak specimen: about 19 of 20 are better."""
     deviation = deviation_of(design, task)
     shift = _WEAK * deviation.shift
     return shift, _USUAL * deviation.friction, 1.0 - (1.0 - _USUAL) * task.uncertainty.supply_pressure
 
 
 def spread_of(design: Design, task: Task, count: int) -> Spread:
-    """Deviations of so many specimens: a Latin hypercube, the same at every call."""
+    """Deviations of ``count`` specimens: a Latin hypercube, the same at every call."""
     from scipy.special import ndtri  # 0.2 s import, not paid at start
 
     random = np.random.default_rng(_SEED)

@@ -1,6 +1,6 @@
-"""The closed form: what a muscle holds, needs and measures at rest, over whole arrays of designs.
+"""The closed form: force, pressure and dimensions of a muscle at rest, over whole arrays of designs.
 
-It is the static model with the muscle's own effects (`mckibben.simulation.statics`), not the ideal force.
+It uses the static model with the effects of the muscle (`mckibben.simulation.statics`), not the ideal force.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Array = np.ndarray
 # Life of a fluidic muscle, "100 000 to 10 million load cycles depending on load": general knowledge.
 _LONGEST_LIFE, _LIFE_DECADES = 1e7, 2.0
 _NO_FORCE = 1e-9  # N
-#: More than enough of something that is not limited.
+#: Margin of a quantity that has no limit.
 AMPLE = 1e3
 
 
@@ -39,8 +39,8 @@ def outputs(
     ``length`` is the nominal one [m], ``pressure`` gauge [Pa]; direction -1 fills.
     """
     compiled = compiled_state(part.effects)
-    own = compiled.pack(part.muscle, part.values)
-    constants = np.repeat(own[None, :], len(length), axis=0)
+    packed = compiled.pack(part.muscle, part.values)
+    constants = np.repeat(packed[None, :], len(length), axis=0)
     constants[:, GEOMETRY.index("nominal_length")] = length
     state = {
         "length": length * (1.0 - contraction),
@@ -54,19 +54,19 @@ def outputs(
 
 @dataclass(frozen=True, eq=False)
 class Rest:
-    """Designs of one muscle and duty at rest; arrays of shape (designs,), of one muscle where not said.
+    """Designs of one muscle and duty at rest; arrays of shape (designs,), per muscle unless stated otherwise.
 
     Attributes:
         length, pressure, parallel: the designs.
-        contraction: at the end of the stroke.
-        capacity: least ratio of force to load over the stroke, of all parallel muscles.
+        contraction: contraction ratio at the end of the stroke.
+        capacity: least ratio of force to load over the stroke, of all parallel muscles together.
         tension: largest load of one muscle [N].
         needed: pressure that just carries the load at the end of the stroke [Pa]; NaN where none does.
-        lifting: pressure that just carries it at the begin [Pa].
+        lifting: pressure that just carries it at the start [Pa].
         stiffness, stiffness_closed: at the load at the end of the stroke, valve open and closed [N/m].
-        diameter: outside at the end of the stroke [m].
-        volume_start, volume: of one muscle [m^3].
-        blocked: force at the begin of the stroke [N].
+        diameter: outside diameter at the end of the stroke [m].
+        volume_start, volume: at the start and at the end of the stroke [m^3].
+        blocked: force at the start of the stroke [N].
         life: load cycles, an estimate.
     """
 
@@ -92,7 +92,7 @@ class Rest:
 
     @property
     def air(self) -> Array:
-        """Air that all muscles of one side take for a full fill, at ANR and ambient temperature [m^3]."""
+        """Air that all muscles of one side take for a full fill, at ANR [m^3]."""
         filled = (self.pressure + ideal.ATMOSPHERE) * self.volume - ideal.ATMOSPHERE * self.volume_start
         return self.parallel * filled / (gas.GAS_CONSTANT * gas.ANR_TEMPERATURE * gas.ANR_DENSITY)
 
@@ -124,7 +124,7 @@ def at_rest(
     demand = share + against
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = np.where(demand > 0.0, force / np.maximum(demand, 1e-9), AMPLE)
-        # At a fixed length force is nearly straight in pressure.
+        # At a fixed length the force is nearly linear in pressure.
         slope = (force - passive) / pressure[:, None]
         carrying = np.where(slope > 0.0, (demand - passive) / slope, np.nan)
     end = {name: full[name].reshape(count, stations)[:, -1] for name in full}
@@ -159,7 +159,7 @@ def at_rest(
 
 
 def margins(rest: Rest, part: MusclePart, task: Task) -> dict[str, Array]:
-    """How far each limit is kept, as a share of it; negative where it is not. Shape (designs,) each."""
+    """Margin to each limit as a share of it, negative where it is violated; shape (designs,) each."""
     limits = task.limits
     most = contraction_limit(part, task)
     none = np.full(len(rest.length), AMPLE)
@@ -167,7 +167,7 @@ def margins(rest: Rest, part: MusclePart, task: Task) -> dict[str, Array]:
     if limits.stiffness is not None:
         stiffness = rest.stiffness / limits.stiffness - 1.0
     tension = none
-    if part.limits.max_force is not None:  # a pair without a torque has nothing to pull at rest
+    if part.limits.max_force is not None:  # a pair without a torque has no tension at rest
         tension = part.limits.max_force / np.maximum(rest.tension, _NO_FORCE) - 1.0
     return {
         "length": limits.max_length / (rest.length + limits.end_fittings) - 1.0,
@@ -182,24 +182,28 @@ def margins(rest: Rest, part: MusclePart, task: Task) -> dict[str, Array]:
 
 
 def contraction_limit(part: MusclePart, task: Task) -> float:
-    """The smaller of the task's and the maker's."""
-    own = part.limits.max_contraction
-    return task.limits.max_contraction if own is None else min(own, task.limits.max_contraction)
+    """The smaller of the task's and the maker's limit of the contraction ratio."""
+    makers_limit = part.limits.max_contraction
+    return (
+        task.limits.max_contraction
+        if makers_limit is None
+        else min(makers_limit, task.limits.max_contraction)
+    )
 
 
 def least_time(rest: Rest, duty: Duty, task: Task, *, conductance: float) -> Array:
-    """A time below which no stroke of these designs can be [s]; shape (designs,).
+    """Lower bound of the stroke time of these designs [s]; shape (designs,).
 
-    Until the load lifts, at least the air for that pressure must have come in at choked flow; from then on
-    the largest force at the largest pressure accelerates it.
+    The load lifts when the air for the lifting pressure has come in at choked flow. From then on at most the
+    blocked force at full pressure accelerates it.
 
     Args:
         rest: shape (designs,).
-        conductance: sonic, of the narrowest part of the way of one muscle's air [m^3/(s Pa)].
+        conductance: sonic conductance of the narrowest part between supply and one muscle [m^3/(s Pa)].
     """
     supply = rest.pressure + ideal.ATMOSPHERE
     flow = conductance * gas.ANR_DENSITY * supply * np.sqrt(gas.ANR_TEMPERATURE / task.temperature)
-    per_mass = 1.4 * gas.GAS_CONSTANT * task.temperature  # adiabatic: the quickest rise
+    per_mass = 1.4 * gas.GAS_CONSTANT * task.temperature  # adiabatic: the fastest rise of pressure
     lifting = np.where(np.isfinite(rest.lifting), rest.lifting, 0.0)
     lift_off = lifting * rest.volume_start / (per_mass * flow)
     lowest = float(np.min(duty.load(STATIONS * duty.stroke)))

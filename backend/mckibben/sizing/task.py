@@ -1,4 +1,4 @@
-"""A task of a drive in SI: what is moved how far in what time, within which limits."""
+"""The task of a drive in SI: load, stroke, times and limits."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from mckibben.physics.errors import InputError
 GRAVITY = 9.80665  # m/s2
 #: Shares of the stroke at which load and muscle are compared.
 STATIONS = np.linspace(0.0, 1.0, 7)
-#: Pulley radii that are tried when the task leaves it open [m].
+#: Pulley radii tried when the task does not fix one [m].
 _RADII = (0.01, 0.015, 0.02, 0.03, 0.04, 0.06, 0.08, 0.12)
-_UNTIMED = 4.0  # s; how long a fill is watched when no time is demanded
-_SHORTEST_FILL = 0.2  # s; a valve's dead time and a settling pressure fit in it
+_UNTIMED = 4.0  # s; simulated fill when no time is required
+_SHORTEST_FILL = 0.2  # s; long enough for a valve's dead time and for the pressure to settle
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,17 +30,17 @@ class Pair:
 
 @dataclass(frozen=True, slots=True)
 class DesignLimits:
-    """What a drive must keep to; None = no such limit.
+    """Limits of a drive; None = no such limit.
 
     Attributes:
         max_contraction: contraction ratio at the end of the stroke.
         force_reserve: share by which the static force must exceed the load everywhere on the stroke.
-        pressure_reserve: share of the supply pressure that is not counted on.
-        max_length, end_fittings: installed length, and what both end fittings take of it [m].
-        max_diameter: outside, bulged at the end of the stroke [m].
-        max_parallel: muscles side by side (on each side of a pair).
-        stiffness: against the load at the end of the stroke, valve open [N/m].
-        life: load cycles.
+        pressure_reserve: share of the supply pressure kept in reserve.
+        max_length, end_fittings: installed length, and the length of both end fittings within it [m].
+        max_diameter: largest outside diameter, at the end of the stroke [m].
+        max_parallel: largest number of parallel muscles (on each side of a pair).
+        stiffness: least stiffness at the load at the end of the stroke, valve open [N/m].
+        life: least number of load cycles.
     """
 
     max_contraction: float = 0.2
@@ -56,13 +56,13 @@ class DesignLimits:
 
 @dataclass(frozen=True, slots=True)
 class Uncertainty:
-    """How far what is built may differ from what was computed.
+    """How far a built drive may differ from the computed one.
 
     Attributes:
-        blocked_force: two standard deviations of the blocked force between specimens, share of it.
-        hysteresis: largest width of the loop as a contraction ratio; None takes the muscle's own.
-        supply_pressure: largest deviation of the supply, share of it.
-        specimens: drives that are simulated for each proposal.
+        blocked_force: two standard deviations of the blocked force between specimens, as a share of it.
+        hysteresis: largest width of the loop as a contraction ratio; None = that of the muscle.
+        supply_pressure: largest deviation of the supply pressure, as a share of it.
+        specimens: number of specimens simulated for each proposal.
     """
 
     blocked_force: float = 0.1
@@ -73,13 +73,13 @@ class Uncertainty:
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """What a drive has to do; SI, pressures gauge, strokes and forces at the load.
+    """A task; SI, pressures gauge, strokes and forces at the load.
 
     Attributes:
-        force_over_stroke: further force against the pull as (strokes, forces), linear between.
-        counterweight: mass that hangs on the other side of a pulley and pulls with the muscle [kg].
+        force_over_stroke: additional force against the pull as (strokes, forces), linear in between.
+        counterweight: mass on the other side of a pulley that pulls with the muscle [kg].
         lever_ratio: stroke of the muscle per stroke of the load.
-        time, time_down, cycle_time: demanded [s]; None = as it comes.
+        time, time_down, cycle_time: required times [s]; None = not required.
     """
 
     stroke: float = 0.0
@@ -103,31 +103,31 @@ class Task:
 
     @property
     def available_pressure(self) -> float:
-        """What may be counted on [Pa]."""
+        """Supply pressure less the reserve [Pa]."""
         return self.supply_pressure * (1.0 - self.limits.pressure_reserve)
 
     @property
     def fill_time(self) -> float:
-        """How long the valve fills [s]: twice the time demanded, to see whether the load stays."""
+        """Duration of the fill [s]: twice the required time, to see whether the load stays."""
         whole = _least(self.time, self.cycle_time)
         return _UNTIMED if whole is None else max(2.0 * whole, _SHORTEST_FILL)
 
     @property
     def vent_time(self) -> float:
-        """How long it vents afterwards [s]."""
+        """Duration of the venting after it [s]."""
         whole = _least(self.time_down, self.cycle_time)
         return self.fill_time if whole is None else max(2.0 * whole, _SHORTEST_FILL)
 
     @property
     def returns(self) -> bool:
-        """Whether the way back counts."""
+        """Whether the return stroke is timed."""
         return self.time_down is not None or self.cycle_time is not None
 
     def duties(self) -> list[Duty]:
-        """What the muscles see; one for each pulley that may be tried.
+        """The duty of the muscles; one for each pulley radius to try.
 
         Raises:
-            InputError: nothing is to be moved, or nothing pulls the muscle long again.
+            InputError: there is no stroke, or nothing stretches the muscle again.
         """
         if self.pair is not None:
             pair = self.pair
@@ -158,7 +158,7 @@ class Task:
         )
         if not float(duty.load(np.array([0.02 * self.stroke]))[0]) > 0.0:
             raise InputError(
-                "nothing pulls the load back at the begin of the stroke, and a muscle cannot push",
+                "nothing pulls the load back at the start of the stroke, and a muscle cannot push",
                 field="load",
                 hint="give a mass to lift, a force, a spring, or an antagonist pair",
             )
@@ -167,11 +167,11 @@ class Task:
 
 @dataclass(frozen=True, slots=True)
 class Duty:
-    """A task as the muscles see it: moved mass, static load over the stroke.
+    """The load on the muscles: moved mass and static force over the stroke.
 
     Attributes:
-        force: constant force against the pull besides the weight of ``mass`` [N].
-        pulley_radius: of a pair; its stroke is that of the rim.
+        force: constant force against the pull in addition to the weight of ``mass`` [N].
+        pulley_radius: pulley radius of a pair [m]; the stroke is then that of the rim.
     """
 
     stroke: float
@@ -199,14 +199,14 @@ class Duty:
         return self.mass * GRAVITY * sin(self.inclination)
 
     def load(self, stroke: np.ndarray) -> np.ndarray:
-        """Static force against the pull at strokes of the load [N], shape of ``stroke``."""
+        """Static force against the pull at each stroke of the load [N]; shape of ``stroke``."""
         return self.weight + self.force + self.spring * stroke + self._profile(stroke)
 
     def straight(self) -> tuple[float, float]:
-        """Constant force [N] and spring [N/m] that are nowhere below the load's, weight left out.
+        """Constant force [N] and spring [N/m] that are nowhere below the load's, without the weight.
 
-        Of all lines above the profile that do not fall, the one with the least excess: a drive document
-        knows a constant force and a spring.
+        A drive has only a constant force and a spring. So this is the line with the least excess among all
+        lines above the profile that do not fall.
         """
         strokes = np.array(self.profile[0])
         if not len(strokes):
@@ -228,5 +228,5 @@ class Duty:
 
 
 def _least(*times: float | None) -> float | None:
-    given = [time for time in times if time is not None]
-    return min(given) if given else None
+    stated = [time for time in times if time is not None]
+    return min(stated) if stated else None

@@ -1,4 +1,4 @@
-"""A design that has been run: does it do the task, how much is left to each limit, what is it worth."""
+"""A simulated design: whether it does the task, its margin to each limit, and its cost."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ from mckibben.sizing.spread import weak
 from mckibben.sizing.statics import AMPLE, Rest, at_rest, margins
 from mckibben.sizing.task import Task
 
-_HAIR = 1e-9
-#: Limits that what is built may miss though the design keeps them: a design keeps this much to them.
+_HAIR = 1e-9  # a margin is kept down to this far below zero: rounding
 _SOFT = ("force", "stiffness", "time", "time_down", "cycle_time")
+# Margin to each limit of `_SOFT`, so that manufacturing tolerances do not break it.
 _KEPT = 0.08
-# What it costs to come nearer (1 = a factor e in air), and to break a limit.
+# Cost of a margin below that (1 = a factor e in air), and of a violated limit.
 _NEAR, _BROKEN = 1.0, 30.0
-# By which share a weak specimen may be late for the same.
+# Share by which a weak specimen may be late for the same cost.
 _WEAK = 0.08
 
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """A design, its statics (arrays of one entry), and what a run shows; margins by limit.
+    """A design, its statics (arrays of one entry), the figures of a run, and its margins by limit.
 
     Attributes:
-        weak: what a run of a weak specimen shows; None where none was run.
+        weak: figures of a run of a weak specimen; None if none was run.
     """
 
     design: Design
@@ -51,21 +51,21 @@ class Trial:
 
     @property
     def air(self) -> float:
-        """Of all muscles in a cycle at ANR [m^3]."""
+        """Air of all muscles in a cycle, at ANR [m^3]."""
         return self.figures.air
 
     @property
     def force_reserve(self) -> float:
-        """Share by which the static force exceeds the load where it does least."""
+        """Least share by which the static force exceeds the load."""
         return float(self.rest.capacity[0]) - 1.0
 
     def excess(self) -> float:
-        """Largest ratio of a time taken to the time demanded; infinite when an end is not reached."""
+        """Largest ratio of a time taken to the time required; infinite when an end is not reached."""
         ratios = times_over(self.figures, self.task).values()
         return max(ratios, default=0.0 if self.figures.time is not None else inf)
 
     def worth(self) -> float:
-        """What the task ranks by, less is better; logarithms, so that shares count."""
+        """The figure the task ranks by, less is better; a logarithm, so that ratios count."""
         task = self.task
         length = self.design.length + task.limits.end_fittings
         match task.rank_by:
@@ -84,7 +84,7 @@ class Trial:
                 return log(max(self.air, 1e-12)) + 0.5 * log(length * self.design.group.muscles)
 
     def cost(self) -> float:
-        """Worth with what it costs to come near a limit, or to break one."""
+        """Worth plus penalties for small margins and violated limits."""
         total = self.worth() if self.figures.time is not None else 10.0
         for name, margin in self.margins.items():
             if margin < 0.0:
@@ -93,7 +93,7 @@ class Trial:
                 total += _NEAR * (max(0.0, _KEPT - margin) / _KEPT) ** 2
         if self.weak is not None:
             late = max(times_over(self.weak, self.task).values(), default=1.0)
-            if not late < 2.0:  # not in the time watched; the stroke that is missing tells which way is up
+            if not late < 2.0:  # not within the simulated time; the missing stroke gives the cost a slope
                 late = 3.0 - min(self.weak.reached / self.design.group.duty.stroke, 1.0)
             total += _NEAR * (max(late - 1.0, 0.0) / _WEAK) ** 2
             total += 0.0 if self.weak.held else _NEAR / _WEAK
@@ -101,41 +101,41 @@ class Trial:
 
 
 def trial_of(design: Design, bench: Bench, rest: Rest | None = None) -> Trial:
-    """Run a design; its statics may be known already."""
+    """Run a design; ``rest`` are its statics, if known already."""
     return judged(design, bench.run(design), bench.task, rest)
 
 
 def hard_trial_of(design: Design, bench: Bench) -> Trial:
-    """Run a design, and a weak specimen of it."""
+    """Run a design and a weak specimen of it."""
     poor = bench.prepared(design).built(*weak(design, bench.task), bench.task.returns)
     bench.counted()
     return replace(trial_of(design, bench), weak=poor)
 
 
 def judged(design: Design, figures: Figures, task: Task, rest: Rest | None = None) -> Trial:
-    """A design with what a run of it showed."""
+    """A design with the figures of its run and its margins."""
     group = design.group
     if rest is None:
         single = (np.array([value]) for value in (design.length, design.pressure, float(group.parallel)))
         rest = at_rest(group.muscle, group.duty, task, *single)
-    found = {name: float(margin[0]) for name, margin in margins(rest, group.muscle, task).items()}
+    all_margins = {name: float(margin[0]) for name, margin in margins(rest, group.muscle, task).items()}
     for name, ratio in times_over(figures, task).items():
-        found[name] = 1.0 / ratio - 1.0
+        all_margins[name] = 1.0 / ratio - 1.0
     most = group.muscle.limits.max_force
     if most is not None and figures.peak_force > 0.0:
-        found["force_limit"] = min(found["force_limit"], most / figures.peak_force - 1.0)
-    kept = {name: value for name, value in found.items() if value < AMPLE}
+        all_margins["force_limit"] = min(all_margins["force_limit"], most / figures.peak_force - 1.0)
+    kept = {name: value for name, value in all_margins.items() if value < AMPLE}
     return Trial(design, rest, figures, kept, task)
 
 
 def times_over(figures: Figures, task: Task) -> dict[str, float]:
-    """Times taken as shares of the times demanded; infinite where an end is not reached."""
+    """Times taken as shares of the times required; infinite where an end is not reached."""
     up, down = figures.time, figures.time_down
-    found: dict[str, float] = {}
+    ratios: dict[str, float] = {}
     if task.time is not None:
-        found["time"] = inf if up is None else up / task.time
+        ratios["time"] = inf if up is None else up / task.time
     if task.time_down is not None:
-        found["time_down"] = inf if down is None else down / task.time_down
+        ratios["time_down"] = inf if down is None else down / task.time_down
     if task.cycle_time is not None:
-        found["cycle_time"] = inf if up is None or down is None else (up + down) / task.cycle_time
-    return found
+        ratios["cycle_time"] = inf if up is None or down is None else (up + down) / task.cycle_time
+    return ratios

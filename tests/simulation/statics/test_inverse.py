@@ -77,7 +77,7 @@ def test_pressure_over_the_limit_is_answered_and_flagged(ideal):
 
 
 @pytest.mark.parametrize(
-    ("force", "length", "why"), [(10.0, 0.15, "slack"), (10.0, 0.34, "locks"), (9e5, 0.29, "give only")]
+    ("force", "length", "why"), [(10.0, 0.15, "slack"), (10.0, 0.34, "locks"), (9e5, 0.29, "gives only")]
 )
 def test_unreachable_pressure_says_why(ideal, force, length, why):
     answer = inverse.pressure_for_force(ideal, force=force, length=length)

@@ -8,7 +8,7 @@ With :math:`\lambda_z = L/L_0`, the braid ties the hoop stretch to the axial one
 
 neo-Hookean for y = 0 and :math:`C_{01}=0`, Mooney-Rivlin for y = 0, Yeoh's of second order for
 :math:`C_{01}=0`. Because the hoop stretch dominates, the tension falls steeply over the first 5 % of
-contraction and then saturates, whatever the pressure; a stiffening wall (y > 0) goes on.
+contraction and then saturates, whatever the pressure; with a stiffening wall (y > 0) it falls further.
 """
 
 from mckibben.physics import ops
@@ -54,7 +54,7 @@ EFFECT = Effect(
     family="elastomer",
     type="static",
     cause="The elastomer wall is stretched around the muscle when the braid makes it thicker. Its energy "
-    "has to be paid by the gas, so the muscle pulls less the more it is contracted.",
+    "comes from the gas, so the muscle pulls less the more it is contracted.",
     equation=r"F_{bl} = \frac{\pi D_b H L_0}{L_0}\,\frac{d}{d\lambda_z}"
     r"\left[C_{10}\{(I_1-3)+y(I_1-3)^2\} + C_{01}(I_2-3)\right],\quad "
     r"\lambda_\theta^2 = 1+\cot^2\theta_0\,(1-\lambda_z^2)",
@@ -92,8 +92,8 @@ EFFECT = Effect(
             lower=0.0,
             upper=0.2,
             source=Source("Yeoh's C20/C10; Gent's 1/(2 J_m): 0.005 of gum, 0.1 of highly filled rubber", "M"),
-            description="Excess of the energy at large strain; 0 is a neo-Hookean wall, chains near "
-            "their end have more.",
+            description="Excess of the energy at large strain; 0 is a neo-Hookean wall, larger when polymer "
+            "chains approach their limit of extension.",
             fitted=False,
         ),
     ),

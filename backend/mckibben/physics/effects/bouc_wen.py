@@ -1,4 +1,4 @@
-r"""Bouc-Wen hysteresis, normalised: A = 1 and the bound of z put to 1, because the usual set is redundant.
+r"""Bouc-Wen hysteresis, normalised to A = 1 and |z| <= 1, because the usual set of parameters is redundant.
 
 .. math:: F = F_c\,z, \qquad
    \dot z = \frac{1}{\varepsilon_b L_0}\Bigl[\dot L - \beta|\dot L||z|^{n-1}z - (1-\beta)\,\dot L|z|^n\Bigr]
@@ -13,7 +13,7 @@ from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
-# |z|^n is taken as (z^2 + this)^(n/2), so that its derivatives by z and by n are finite at z = 0.
+# |z|^n is computed as (z^2 + this)^(n/2), so that its derivatives by z and by n are finite at z = 0.
 _ROUNDING = 1e-12
 
 
@@ -62,7 +62,7 @@ EFFECT = Effect(
             lower=0.0,
             upper=200.0,
             source=_RANGE,
-            description="Friction after a long way.",
+            description="Friction after a long travel.",
             off=0.0,
         ),
         Parameter(
@@ -73,7 +73,7 @@ EFFECT = Effect(
             lower=1.0e-4,
             upper=0.03,
             source=_WAY,
-            description="Way over which friction builds up, as a share of the nominal length.",
+            description="Travel over which friction builds up, as a share of the nominal length.",
             fitted=False,
         ),
         Parameter(

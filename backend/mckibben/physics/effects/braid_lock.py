@@ -6,7 +6,7 @@ the contraction before the ideal model does; the jammed braid is a stiff one-sid
 
 .. math:: F = -k_l\,d\,(d/d_r)^{m-1}, \quad d = \max(b\cos\theta_{max}-L,\,0), \quad d_r = L_0/100
 
-At :math:`d_r` beyond the lock the stiffness is force over way whatever the exponent m is.
+At :math:`d_r` beyond the lock the stiffness is force over travel for any exponent m.
 """
 
 from mckibben.physics import ops
@@ -15,9 +15,9 @@ from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
-# Way beyond the lock, of the nominal length, at which the stiffness is given.
+# Travel beyond the lock at which the stiffness is stated, as a share of the nominal length.
 REFERENCE_SHARE = 0.01
-# Under this share of the reference the spring is linear: 0 has no logarithm, which a slope by m would take.
+# Below this share of the reference the spring is linear: the derivative by m has a logarithm, singular at 0.
 _LEAST_SHARE = 1e-6
 
 
@@ -51,8 +51,8 @@ EFFECT = Effect(
             lower=0.0,
             upper=5.0e6,
             source=Source("2-20 times the muscle's own stiffness at high pressure", "E"),
-            description="Stiffness of the jammed braid: force over way, with another exponent than 1 that "
-            "at 1 % of the nominal length beyond the lock.",
+            description="Stiffness of the jammed braid: force over travel, for an exponent other than 1 at "
+            "1 % of the nominal length beyond the lock.",
             off=0.0,
         ),
         Parameter(
@@ -73,8 +73,7 @@ EFFECT = Effect(
             lower=1.0,
             upper=3.0,
             source=Source("1.5 for round strands in Hertzian contact, more where they touch one by one", "E"),
-            description="Power of the way beyond the lock that the force goes with; 1 is a spring with "
-            "a kink.",
+            description="Exponent of the force over the travel beyond the lock; 1 is a linear spring.",
             fitted=False,
         ),
     ),

@@ -1,7 +1,7 @@
 r"""Braid stiffening: beyond its largest length the threads are taut along the axis and act as a stiff spring.
 
 The source paper prints this as eq. (23) with the condition :math:`L > L_{min}`, which would make the braid
-push over the whole working range; the spring is meant beyond :math:`L_{max}`.
+push over the whole working range; the spring is meant to act beyond :math:`L_{max}`.
 """
 
 from mckibben.physics import ops

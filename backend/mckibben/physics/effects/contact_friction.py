@@ -12,7 +12,7 @@ from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
-# S has a pole at the braid lock (theta = 0), far outside any working range; sin(theta)^2 is held above this.
+# S has a pole at the braid lock (theta = 0), far outside any working range; lower bound of sin(theta)^2.
 _LEAST_SINE_SQUARED = 0.01
 
 
@@ -87,7 +87,7 @@ EFFECT = Effect(
             lower=0.01,
             upper=1.0,
             source=_TONDU,
-            description="Speed of the change from the one to the other.",
+            description="Speed of the transition between the two coefficients.",
             fitted=False,
         ),
     ),

@@ -50,7 +50,7 @@ def shape(
 def tension(
     *, length: Value, muscle: Muscle, pressure: Value, factor: Value, excess: Value, decay_pressure: Value
 ) -> Value:
-    """F_e = dU/dL [N], what the ends hold back; 0 for a factor that does not depend on pressure."""
+    """F_e = dU/dL [N], tension from the energy of the ends; 0 if the factor is independent of pressure."""
     above = ops.positive_part(pressure)
     fading = excess * ops.exp(-above / decay_pressure)
     stroke = muscle.nominal_length - length
@@ -84,8 +84,8 @@ EFFECT = Effect(
             lower=0.7,
             upper=2.5,
             source=_TONDU,
-            description="Contraction of the cylindrical middle over that of the whole muscle; at high "
-            "pressure when it depends on pressure.",
+            description="Contraction of the cylindrical middle over that of the whole muscle; the value at "
+            "high pressure if it depends on pressure.",
             off=1.0,
         ),
         Parameter(
@@ -96,8 +96,7 @@ EFFECT = Effect(
             lower=0.0,
             upper=1.0,
             source=Source("0.02-0.3 beside an elastic bladder, more where it stands for the bladder", "E"),
-            description="What the factor has in addition at low pressure; 0 is the same factor at every "
-            "pressure.",
+            description="Excess of the factor at low pressure; 0 is the same factor at every pressure.",
             off=0.0,
             fitted=False,
         ),
@@ -109,7 +108,7 @@ EFFECT = Effect(
             lower=2.0e4,
             upper=1.0e6,
             source=Source("1-3 bar", "E"),
-            description="Gauge pressure at which 1/e of the excess is left.",
+            description="Gauge pressure at which the excess has fallen to 1/e.",
             fitted=False,
         ),
     ),

@@ -2,8 +2,8 @@ r"""Coulomb friction between the threads and between threads and bladder, which 
 
 .. math:: F = F_c\,\bigl[1 + s\,e^{-|\dot L|/v_s}\bigr]\operatorname{sgn}\dot L, \quad s = F_s/F_c - 1
 
-Without a static share s it is constant; with one it falls from :math:`F_s` to :math:`F_c` (Stribeck). What is
-evaluated with a direction but without a speed, a static curve, takes :math:`F_s`.
+Without a static excess s it is constant; with one it falls from :math:`F_s` to :math:`F_c` (Stribeck). A
+static curve has a direction but no speed: it uses :math:`F_s`.
 """
 
 from mckibben.physics import ops
@@ -43,7 +43,7 @@ EFFECT = Effect(
             lower=0.0,
             upper=200.0,
             source=_RANGE,
-            description="Half the width of the force loop; with a static share that at high speed.",
+            description="Half the width of the force loop; with a static excess, that at high speed.",
             off=0.0,
         ),
         Parameter(
@@ -66,7 +66,7 @@ EFFECT = Effect(
             lower=0.001,
             upper=0.1,
             source=_STRIBECK,
-            description="Speed at which 1/e of the static share is left.",
+            description="Speed at which the static excess has fallen to 1/e.",
             fitted=False,
         ),
     ),

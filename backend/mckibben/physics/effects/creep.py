@@ -1,12 +1,13 @@
 r"""Creep and relaxation of the elastomer: three Maxwell arms, a decade apart in time, beside the wall.
 
-With the extension :math:`d_j` of the spring in arm j, counted from when it was last relaxed,
+With the extension :math:`d_j` of the spring in arm j from its relaxed length,
 
 .. math:: F = k\,\frac{\sum_j s_j^{-\alpha} d_j}{\sum_j s_j^{-\alpha}}, \qquad
    \dot d_j = \dot L - \frac{d_j}{s_j\tau}, \qquad s_j = \frac{1}{s},\ 1,\ s
 
-Slow motion adds nothing, fast motion the stiffness k. With a spread s of 10 a step relaxes nearly with the
-log of time for :math:`\alpha = 0`, with a power of time for :math:`\alpha > 0`; a spread of 1 is one arm.
+Slow motion adds no force, fast motion adds the stiffness k. With a spread s of 10 a step relaxes nearly with
+the logarithm of time for :math:`\alpha = 0`, with a power of time for :math:`\alpha > 0`; a spread of 1 is
+one arm.
 """
 
 from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
@@ -52,7 +53,7 @@ EFFECT = Effect(
             lower=0.0,
             upper=2.0e4,
             source=Source("5-25 % of the bladder's stiffness; 3 % of that of a size 20 at 6 bar", "E"),
-            description="Stiffness that the three arms add to a fast motion, together.",
+            description="Total stiffness that the three arms add to a fast motion.",
             off=0.0,
         ),
         Parameter(
@@ -88,8 +89,7 @@ EFFECT = Effect(
             source=Source(
                 "relaxation of filled rubber with a power of time, exponents of some 0.01 to some 0.1", "E"
             ),
-            description="How much stronger the faster arms are: weights with the power -alpha of their "
-            "times.",
+            description="Larger weight of the faster arms: weights with the power -alpha of their times.",
             fitted=False,
         ),
     ),

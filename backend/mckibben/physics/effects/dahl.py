@@ -1,11 +1,11 @@
-r"""Dahl friction: Coulomb friction that builds up over a short way after each reversal.
+r"""Dahl friction: Coulomb friction that builds up over a short travel after each reversal.
 
 With the break-away distance :math:`x_b = \varepsilon_b L_0` and the share z of full friction
 
 .. math:: F = F_c\,z, \qquad \dot z = \frac{\dot L - |\dot L|\,z}{x_b}
 
 Dahl's stiffness is :math:`\sigma_0 = F_c/x_b` from rest, and twice that after a reversal at full
-friction. Written with z as a share, no friction is a plain zero. Minor loops do not close.
+friction. Because z is a share, the force is exactly zero for F_c = 0. Minor loops do not close.
 """
 
 from mckibben.physics import ops
@@ -36,7 +36,7 @@ EFFECT = Effect(
     family="friction",
     type="hysteretic",
     cause="Threads that touch first shear elastically before they slide. The friction therefore turns over "
-    "smoothly at a reversal, along a short way of the muscle.",
+    "smoothly at a reversal, over a short travel of the muscle.",
     equation=r"F_{h} = F_c\,z,\quad \dot z = \frac{\dot L-|\dot L|\,z}{\varepsilon_b L_0}",
     parameters=(
         Parameter(
@@ -47,7 +47,7 @@ EFFECT = Effect(
             lower=0.0,
             upper=200.0,
             source=_RANGE,
-            description="Friction after a long way.",
+            description="Friction after a long travel.",
             off=0.0,
         ),
         Parameter(
@@ -58,7 +58,7 @@ EFFECT = Effect(
             lower=1.0e-4,
             upper=0.03,
             source=_WAY,
-            description="Way over which friction builds up, as a share of the nominal length.",
+            description="Travel over which friction builds up, as a share of the nominal length.",
             fitted=False,
         ),
     ),

@@ -29,7 +29,7 @@ EFFECT = Effect(
             lower=0.0,
             upper=5.0e-4,
             source=_RANGE,
-            description="Gas volume besides the muscle's own.",
+            description="Gas volume outside the muscle.",
             off=0.0,
         ),
     ),

@@ -2,8 +2,8 @@ r"""Effectiveness: all losses lumped into one factor, optionally with a pressure
 
 :math:`F = E\,(1 - P_0/P)_+\,F_\text{ideal}`: a constant factor when :math:`P_0 = 0`, the threshold form
 otherwise. It scales the force without touching the volume, so it stores no energy and dissipates none: it
-is a correction, not a mechanism. A constant factor leaves the largest contraction where the ideal model has
-it.
+is a correction, not a mechanism. A constant factor does not change the largest contraction of the ideal
+model.
 """
 
 from mckibben.physics import ops
@@ -11,7 +11,7 @@ from mckibben.physics.effect import Effect, Example, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
-# Below this gauge pressure [Pa] P0/P is held: it stays finite at P = 0, where the force is 0 anyway.
+# Lower bound of P in P0/P [Pa], so that it stays finite at P = 0, where the force is 0 anyway.
 _LEAST_PRESSURE = 1.0
 
 

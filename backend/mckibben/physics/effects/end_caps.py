@@ -20,12 +20,12 @@ from mckibben.physics.slots import Shape
 
 
 def shape(*, inner: Callable[[Value], Shape], length: Value, muscle: Muscle, cone_factor: Value) -> Shape:
-    """The shape without what the two cones do not enclose; the diameter is that at mid-span."""
+    """The shape with the volume reduced by the two cones; the diameter is that at mid-span."""
     whole = inner(length)
     fitting = ops.where(
         ops.greater(muscle.inside_diameter, 0.0), muscle.inside_diameter, muscle.braid_diameter
     )
-    # One-sided: a muscle stretched to less than the fitting's diameter has no cones.
+    # One-sided: a muscle stretched below the diameter of the fitting has no cones.
     step = ops.positive_part(whole.diameter - fitting)
     lost = ops.pi / 12.0 * cone_factor * (2.0 * whole.diameter + fitting) * step**2
     return Shape(whole.volume - lost, whole.diameter)

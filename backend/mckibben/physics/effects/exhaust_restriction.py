@@ -1,4 +1,4 @@
-r"""Exhaust unlike the inlet, :math:`C_{ex}' = f_{ex}\,C_{ex}`: a silencer, a throttle, another port.
+r"""Exhaust restricted by a silencer, throttle or smaller port, :math:`C_{ex}' = f_{ex}\,C_{ex}`.
 
 A silencer of conductance C_s in series is about :math:`f_{ex} = 1/\sqrt{1 + (C_{ex}/C_s)^2}`.
 """
@@ -20,7 +20,7 @@ EFFECT = Effect(
     title="Restriction of the exhaust",
     family="valve",
     type="static",
-    cause="A silencer, a throttle or a smaller port holds the exhaust back. Venting takes longer than "
+    cause="A silencer, a throttle or a smaller port restricts the exhaust. Venting takes longer than "
     "filling, with a long tail of low pressure.",
     equation=r"C_{ex}' = f_{ex}\,C_{ex}",
     parameters=(

@@ -1,4 +1,4 @@
-r"""Zero error of the force sensor, :math:`F_{read} = F + o_F`; the weight of what hangs on it is one."""
+r"""Zero error of the force sensor, :math:`F_{read} = F + o_F`, e.g. the weight of parts attached to it."""
 
 from mckibben.physics.effect import Effect, Example, Signature, Twin
 from mckibben.physics.ops import Value
@@ -7,7 +7,7 @@ from mckibben.physics.slots import Reading
 
 
 def force_sensor(*, offset: Value) -> Reading:
-    """What the sensor reads: the true force plus the offset."""
+    """Reading of the sensor: the true force plus the offset."""
     return Reading(1.0, offset)
 
 
@@ -19,8 +19,8 @@ EFFECT = Effect(
     title="Force sensor: zero error",
     family="sensor",
     type="measurement",
-    cause="The force sensor does not read zero without the muscle, or carries the weight of what hangs on "
-    "it. Every force is then too high or too low by the same amount.",
+    cause="The force sensor does not read zero without the muscle, or carries the weight of attached "
+    "parts. Every force is then too high or too low by the same amount.",
     equation=r"F_{read} = F + o_F",
     parameters=(
         Parameter(
@@ -31,7 +31,7 @@ EFFECT = Effect(
             lower=-200.0,
             upper=200.0,
             source=_RANGE,
-            description="What the sensor reads without the muscle.",
+            description="Reading of the sensor without the muscle.",
             off=0.0,
         ),
     ),

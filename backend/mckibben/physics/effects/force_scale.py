@@ -10,7 +10,7 @@ from mckibben.physics.slots import Reading
 
 
 def force_sensor(*, scale: Value) -> Reading:
-    """What the sensor reads: the true force times the scale."""
+    """Reading of the sensor: the true force times the scale."""
     return Reading(scale, 0.0)
 
 

@@ -1,13 +1,13 @@
-r"""Friction of the load's guide: bristles that bend and then slide, and a part with the speed.
+r"""Friction of the load's guide: presliding and sliding friction, and a viscous part.
 
 With the share z of the friction at high speed
 
 .. math:: F_g = F_{cg}\,z + c_g\,\dot s, \qquad x_g\,\dot z = \dot s - \frac{|\dot s|\,z}{g},
    \quad g = 1 + \varsigma\,e^{-|\dot s|/v_s}, \quad \varsigma = F_{sg}/F_{cg} - 1
 
-Over a way of some x_g it comes to :math:`F_{cg}\,g\operatorname{sgn}\dot s`, which falls with the speed where
-there is a static share (Stribeck); below, the guide holds the load like a spring. It acts on the load, so it
-is missing from a force that is measured at the muscle.
+After a travel of a few x_g it reaches :math:`F_{cg}\,g\operatorname{sgn}\dot s`, which falls with the speed
+if there is a static excess (Stribeck). Over a shorter travel the guide acts like a spring. The friction acts
+on the load, so a force sensor at the muscle does not see it.
 """
 
 from mckibben.physics import ops
@@ -17,7 +17,7 @@ from mckibben.physics.parameter import Parameter, Source
 
 
 def guide(*, presliding: Value, speed: Value, force: Value, coefficient: Value) -> Value:
-    """F_cg z + c_g v [N], positive against a stroke that grows."""
+    """F_cg z + c_g v [N], positive against a growing stroke."""
     return force * presliding + coefficient * speed
 
 
@@ -86,7 +86,7 @@ EFFECT = Effect(
             lower=0.001,
             upper=0.1,
             source=_STRIBECK,
-            description="Speed at which 1/e of the static share is left.",
+            description="Speed at which the static excess has fallen to 1/e.",
             fitted=False,
         ),
         Parameter(
@@ -97,8 +97,8 @@ EFFECT = Effect(
             lower=2e-6,
             upper=2e-3,
             source=Source("presliding of rolling and plain guides, some 1 to some 100 micrometres", "E"),
-            description="Way over which the friction builds up after a reversal; below it the guide "
-            "holds like a spring.",
+            description="Travel over which the friction builds up after a reversal; over a shorter travel "
+            "the guide acts like a spring.",
             fitted=False,
         ),
     ),

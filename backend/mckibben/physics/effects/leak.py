@@ -1,4 +1,4 @@
-r"""Leak from the muscle to the atmosphere: an orifice after ISO 6358, a laminar gap, or in between.
+r"""Leak from the muscle to the atmosphere: an orifice after ISO 6358, a laminar gap, or a mixture of both.
 
 .. math:: \dot m_l = C_l\,\rho_0\Bigl[(1-\lambda)\,p\sqrt{T_0/T}\;\psi(p_a/p)
    + \lambda\,\frac{T_0}{T}\,\frac{p^2-p_a^2}{p_r}\Bigr], \quad p_r = 3.75\,bar
@@ -6,7 +6,7 @@ r"""Leak from the muscle to the atmosphere: an orifice after ISO 6358, a laminar
 Choked, the pressure of a closed muscle falls exponentially with :math:`V/(C_l p_0)`; through a gap it falls
 faster when it is high and slower when it is low (isothermal flow of constant viscosity).
 With :math:`p_r` both laws pass the same at 20 degC from 4 to 1 bar (absolute), where an orifice of
-:math:`b_l \ge 0.25` is choked. Below the atmosphere the flow turns round.
+:math:`b_l \ge 0.25` is choked. Below atmospheric pressure the flow reverses.
 """
 
 from mckibben.physics import gas

@@ -1,6 +1,6 @@
 r"""Zero error of the length, :math:`L_{read} = L + o_L`.
 
-A rest length that is not what the name plate says, or a pretension that was not noted, reads the same way.
+A rest length that differs from the name plate, or an unrecorded pretension, has the same effect.
 """
 
 from mckibben.physics.effect import Effect, Example, Signature, Twin
@@ -10,7 +10,7 @@ from mckibben.physics.slots import Reading
 
 
 def length_sensor(*, offset: Value) -> Reading:
-    """What the sensor reads: the true length plus the offset."""
+    """Reading of the sensor: the true length plus the offset."""
     return Reading(1.0, offset)
 
 
@@ -22,8 +22,8 @@ EFFECT = Effect(
     title="Length sensor: zero error",
     family="sensor",
     type="measurement",
-    cause="The length is not counted from where the muscle is at rest: mounting, pretension, or a nominal "
-    "length that is not the true one. The whole working range is shifted.",
+    cause="The length is not measured from the rest position of the muscle, because of mounting, pretension "
+    "or a wrong nominal length. The whole working range is shifted.",
     equation=r"L_{read} = L + o_L",
     parameters=(
         Parameter(
@@ -34,7 +34,7 @@ EFFECT = Effect(
             lower=-0.01,
             upper=0.01,
             source=_RANGE,
-            description="Length read minus true length.",
+            description="Measured minus true length.",
             off=0.0,
         ),
     ),

@@ -1,4 +1,4 @@
-r"""Linear elasticity: the elastomer as a spring that is free at the nominal length.
+r"""Linear elasticity: the elastomer as a spring that is relaxed at the nominal length.
 
 The braid makes the wall stiffer than its rubber: for small strain of a tube of modulus E and cross-section
 :math:`A_w` it is :math:`k_e = \tfrac23\frac{E A_w}{L_0}[1+q^2+(q-1)^2]`, :math:`q=\cot^2\theta_0`, some 17
@@ -25,7 +25,7 @@ EFFECT = Effect(
     family="elastomer",
     type="static",
     cause="The braid stretches the elastomer around the muscle when it contracts. For small strain this "
-    "acts like a spring that is free at the nominal length.",
+    "acts like a spring that is relaxed at the nominal length.",
     equation=r"F_{el} = -k_e\,(L_0-L)",
     parameters=(
         Parameter(
@@ -36,7 +36,7 @@ EFFECT = Effect(
             lower=0.0,
             upper=1.0e5,
             source=_MAPS,
-            description="Tension lost per contraction stroke, the same at every pressure.",
+            description="Loss of tension per contraction stroke, the same at every pressure.",
             off=0.0,
         ),
     ),

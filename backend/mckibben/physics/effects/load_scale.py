@@ -1,4 +1,4 @@
-r"""The load differs from what is stated by one factor, :math:`M' = f_M M,\ F_{ext}' = f_M F_{ext}`."""
+r"""The load differs from the stated one by a factor, :math:`M' = f_M M,\ F_{ext}' = f_M F_{ext}`."""
 
 from mckibben.physics.effect import Effect, Example, Signature, Twin
 from mckibben.physics.ops import Value
@@ -43,7 +43,7 @@ EFFECT = Effect(
         energy="conservative",
     ),
     confused_with=(
-        Twin("moving_mass", "weigh the load: a mass that does not weigh leaves the rest position"),
+        Twin("moving_mass", "weigh the load: a mass without weight does not change the rest position"),
         Twin("force_scale", "dead weights on the force sensor"),
         Twin("effectiveness", "weigh the load"),
     ),

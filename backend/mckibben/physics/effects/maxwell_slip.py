@@ -6,8 +6,8 @@ after :math:`\varepsilon_b L_0`. With the deflection :math:`z_i` of a cell as a 
 .. math:: F = \frac{F_c}{4}\sum_{i=1}^4 z_i, \qquad
    \dot z_i = \frac{\dot L}{x_i}\bigl[1 - s(z_i \operatorname{sgn}\dot L)\bigr]
 
-The saturation s is 0 up to 0.9 of the limit and a smooth step from there to 1 at the limit: a cell is exactly
-elastic before, never passes the limit, and the rate has no jump for the solver to find.
+The saturation s is 0 up to 0.9 of the limit and a smooth step from there to 1 at the limit. So a cell is
+elastic below 0.9, never passes the limit, and its rate has no jump.
 """
 
 from mckibben.physics import ops
@@ -42,12 +42,12 @@ def rates(
     ratio: Value,
 ) -> tuple[Value, ...]:
     """dz_i/dt [1/s] of the four cells; exactly 0 at rest."""
-    given = []
+    cell_rates = []
     for index, cell in enumerate((cell_1, cell_2, cell_3, cell_4), start=1):
         limit = break_strain * muscle.nominal_length / ratio ** (_CELLS - index)
         along = ops.where(ops.greater(velocity, 0.0), cell, -cell)
-        given.append(velocity / limit * (1.0 - _saturation(along)))
-    return tuple(given)
+        cell_rates.append(velocity / limit * (1.0 - _saturation(along)))
+    return tuple(cell_rates)
 
 
 _MINH = Source("Vo-Minh, Tjahjowidodo, Ramon & Van Brussel, IEEE/ASME Trans. Mech. 16 (2011) 177", "M")
@@ -60,8 +60,8 @@ EFFECT = Effect(
     title="Maxwell-slip hysteresis",
     family="friction",
     type="hysteretic",
-    cause="The crossings of the braid do not slide all at once: some give way early, some late. The friction "
-    "remembers every reversal, so small loops close within large ones.",
+    cause="The crossings of the braid do not all slide at once: some slip early, some late. The friction "
+    "depends on earlier reversals, so small loops close within large ones.",
     equation=r"F_{h} = \frac{F_c}{4}\sum_i z_i,\quad \dot z_i = \frac{\dot L}{x_i}"
     r"\left[1-s(z_i\operatorname{sgn}\dot L)\right],\quad x_i = \varepsilon_b L_0\,\rho^{\,i-4}",
     parameters=(
@@ -73,7 +73,7 @@ EFFECT = Effect(
             lower=0.0,
             upper=200.0,
             source=_RANGE,
-            description="Friction after a long way.",
+            description="Friction after a long travel.",
             off=0.0,
         ),
         Parameter(
@@ -84,7 +84,7 @@ EFFECT = Effect(
             lower=1.0e-3,
             upper=0.06,
             source=_WAY,
-            description="Way until the last cell slides, as a share of the nominal length.",
+            description="Travel until the last cell slides, as a share of the nominal length.",
             fitted=False,
         ),
         Parameter(
@@ -95,7 +95,7 @@ EFFECT = Effect(
             lower=1.1,
             upper=5.0,
             source=_WAY,
-            description="Way of one cell over that of the one before.",
+            description="Ratio of the travel limits of successive cells.",
             fitted=False,
         ),
     ),

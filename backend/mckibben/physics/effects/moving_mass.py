@@ -1,4 +1,4 @@
-r"""Mass that moves without weighing on the muscle, :math:`(M + M_x)\,\ddot s = \dots`: pulleys, carriage."""
+r"""Moving mass without weight on the muscle, :math:`(M + M_x)\,\ddot s = \dots`: pulleys, carriage."""
 
 from mckibben.physics.effect import Effect, Example, Signature, Twin
 from mckibben.physics.ops import Value
@@ -14,11 +14,11 @@ _RANGE = Source("carriage, fittings and the inertia of pulleys over their radius
 _DEFINITION = Source("definition", "D")
 
 EFFECT = Effect(
-    title="Further moving mass",
+    title="Additional moving mass",
     family="load",
     type="dynamic",
-    cause="Carriage, fittings and pulleys are accelerated together with the load. They hardly change what "
-    "the muscle holds at rest, but it starts and stops more slowly and rings lower.",
+    cause="Carriage, fittings and pulleys are accelerated together with the load. They hardly change the "
+    "force at rest, but the load starts and stops more slowly and oscillates at a lower frequency.",
     equation=r"(M+M_x)\,\ddot s = \dots",
     parameters=(
         Parameter(
@@ -29,7 +29,7 @@ EFFECT = Effect(
             lower=0.0,
             upper=100.0,
             source=_RANGE,
-            description="Mass that moves besides the load.",
+            description="Moving mass in addition to the load.",
             off=0.0,
         ),
     ),

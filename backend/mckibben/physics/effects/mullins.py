@@ -1,11 +1,12 @@
-r"""Mullins effect: rubber that was once stretched further is softer below that stretch (run-in).
+r"""Mullins effect: rubber is softer below the largest stretch it has seen (run-in).
 
 With the largest contraction :math:`\varepsilon_m` the muscle has seen,
 
 .. math:: F_{el} \to F_{el}\left[1 - d\left(1-e^{-(\varepsilon_m-\varepsilon)/\varepsilon_c}\right)\right]
    \ (0 \le \varepsilon < \varepsilon_m), \quad \dot\varepsilon_m = \max(\varepsilon-\varepsilon_m,0)/\tau
 
-The memory follows within 2 ms, so that its rate has no jump. Here it never heals, really in hours or days.
+The state follows within 2 ms, so that its rate has no jump. The model has no recovery; real rubber recovers
+in hours or days.
 """
 
 from mckibben.physics import ops
@@ -50,7 +51,7 @@ EFFECT = Effect(
             lower=0.0,
             upper=0.5,
             source=_LOSS,
-            description="Share of the elastic force that is lost at most.",
+            description="Largest share of the elastic force that is lost.",
             off=0.0,
         ),
         Parameter(

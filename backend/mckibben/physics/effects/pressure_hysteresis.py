@@ -74,8 +74,8 @@ EFFECT = Effect(
             lower=0.0,
             upper=1.0,
             source=_SHARE,
-            description="Share of the loop that follows the effective area; 1: one width in pressure at "
-            "every length.",
+            description="Share of the loop that follows the effective area; 1 = the same width in pressure "
+            "at every length.",
             fitted=False,
             natural=True,
         ),

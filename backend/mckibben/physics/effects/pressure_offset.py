@@ -1,7 +1,7 @@
 r"""Zero error of the pressure sensor: :math:`P_{read} = P + o_P`.
 
-A gauge that is read as absolute, or the weather for an absolute one, is such an offset: 1 atm is worth 90 N
-on a 10 mm and 265 N on a 20 mm muscle.
+Gauge pressure read as absolute, or the weather with an absolute sensor, gives such an offset: 1 atm changes
+the force by 90 N for a 10 mm and 265 N for a 20 mm muscle.
 """
 
 from mckibben.physics.effect import Effect, Example, Signature, Twin
@@ -11,7 +11,7 @@ from mckibben.physics.slots import Reading
 
 
 def pressure_sensor(*, offset: Value) -> Reading:
-    """What the sensor reads: the true pressure plus the offset."""
+    """Reading of the sensor: the true pressure plus the offset."""
     return Reading(1.0, offset)
 
 
@@ -37,7 +37,7 @@ EFFECT = Effect(
             lower=-5.0e4,
             upper=5.0e4,
             source=_RANGE,
-            description="What the sensor reads at atmospheric pressure.",
+            description="Reading of the sensor at atmospheric pressure.",
             off=0.0,
         ),
     ),

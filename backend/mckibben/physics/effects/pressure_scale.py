@@ -7,7 +7,7 @@ from mckibben.physics.slots import Reading
 
 
 def pressure_sensor(*, scale: Value) -> Reading:
-    """What the sensor reads: the true pressure times the scale."""
+    """Reading of the sensor: the true pressure times the scale."""
     return Reading(scale, 0.0)
 
 

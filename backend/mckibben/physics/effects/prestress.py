@@ -1,4 +1,4 @@
-r"""Prestress: one tension at every length and pressure, because the bladder does not fit.
+r"""Prestress: a constant tension at every length and pressure, from a bladder of the wrong length.
 
 It is shorter or longer than the braid at rest. The tension belongs to the elastomer, and changes with its
 temperature.
@@ -34,7 +34,7 @@ EFFECT = Effect(
             lower=-200.0,
             upper=500.0,
             source=_MAPS,
-            description="Tension that is missing everywhere; negative when the bladder pulls.",
+            description="Constant loss of tension; negative when the bladder pulls.",
             off=0.0,
         ),
     ),

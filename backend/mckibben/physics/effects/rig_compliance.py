@@ -1,7 +1,7 @@
 r"""Compliance in series: cord, pulley and frame stretch under the force, :math:`L_{muscle} = L - c_r F`.
 
-The force has to be known to know the length, so this effect only states the compliance; whoever asks for a
-force at a length of the rig solves for both.
+The length of the muscle depends on the force, so this effect only states the compliance; the caller solves
+for force and length together.
 """
 
 from mckibben.physics.effect import Effect, Example, Signature, Twin
@@ -10,7 +10,7 @@ from mckibben.physics.parameter import Parameter, Source
 
 
 def compliance(*, compliance: Value) -> Value:
-    """Extension per force of what is in series with the muscle [m/N]."""
+    """Extension per force of the parts in series with the muscle [m/N]."""
     return compliance
 
 
@@ -21,7 +21,7 @@ EFFECT = Effect(
     title="Compliance of the rig",
     family="load",
     type="static",
-    cause="Cord, pulley and frame give way under the force of the muscle. The muscle is then shorter than "
+    cause="Cord, pulley and frame deform under the force of the muscle. The muscle is then shorter than "
     "the length that is measured over the rig.",
     equation=r"L_{muscle} = L - c_r\,F",
     parameters=(

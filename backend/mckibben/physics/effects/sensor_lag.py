@@ -2,8 +2,8 @@ r"""Low-pass filters of the sensors and their amplifiers, one or two stages per 
 
 .. math:: \tau\,\dot y = r - y,\qquad \varsigma\tau\,\dot z = y - z
 
-A stage below 10 microseconds is passed by. A lag makes loops that look like hysteresis, of the width
-:math:`2\tau(1+\varsigma)|\dot F|`; the same lag on all channels makes none.
+A stage below 10 microseconds is bypassed. A lag causes loops that look like hysteresis, of the width
+:math:`2\tau(1+\varsigma)|\dot F|`; the same lag on all channels causes none.
 """
 
 from mckibben.physics import ops
@@ -65,7 +65,7 @@ def drive_rates(
     stroke_time: Value,
     second_share: Value,
 ) -> tuple[Value, ...]:
-    """dy/dt of force, pressure and stroke, then dz/dt; a stage that is passed by stands still."""
+    """dy/dt of force, pressure and stroke, then dz/dt; 0 for a bypassed stage."""
     return (
         _rate(instant_force_reading, force_first, force_time),
         _rate(instant_pressure_reading, pressure_first, pressure_time),
@@ -115,8 +115,8 @@ EFFECT = Effect(
     title="Lag of the sensors",
     family="sensor",
     type="measurement",
-    cause="Sensors and their amplifiers smooth what they show. A channel that is slower than another one "
-    "opens a loop between both that is no hysteresis of the muscle.",
+    cause="Sensors and their amplifiers smooth their signals. A channel that is slower than another one "
+    "opens a loop between the two that is not hysteresis of the muscle.",
     equation=r"\tau_c\,\dot y_c = r_c-y_c,\quad \varsigma\tau_c\,\dot z_c = y_c-z_c,\quad c = F, P, s",
     parameters=(
         _time("force", r"\tau_F", 0.005),

@@ -2,7 +2,7 @@ r"""The spool follows its command as a mass on a spring.
 
 .. math:: \tau^2\,\ddot x + 2\zeta\tau\,\dot x + x = u, \qquad \tau = \frac{1}{2\pi f_n}
 
-A natural frequency of 100 Hz is :math:`\tau = 1.6` ms. Faster than 10 microseconds counts as immediate.
+A natural frequency of 100 Hz is :math:`\tau = 1.6` ms. A lag below 10 microseconds is ignored.
 """
 
 from mckibben.physics import ops
@@ -23,8 +23,8 @@ def drive_rates(
 ) -> tuple[Value, Value]:
     """dx/dt and d2x/dt2 of the spool [1/s, 1/s^2]; at rest where the position is the command."""
     acts = ops.where(ops.greater(time, _SHORTEST), 1.0, 0.0)
-    held = ops.maximum(time, _SHORTEST)
-    return acts * rate, acts * ((opening - position) / held - 2.0 * damping * rate) / held
+    bounded_time = ops.maximum(time, _SHORTEST)
+    return acts * rate, acts * ((opening - position) / bounded_time - 2.0 * damping * rate) / bounded_time
 
 
 _DYNAMICS = Source("65-125 Hz, damping ratio 0.6-1, proportional spool valves", "M")
@@ -68,7 +68,7 @@ EFFECT = Effect(
             "rate", r"\dot x", "1/s", 500.0, "Speed of the spool in openings per second.", settled=True
         ),
     ),
-    order=-10,  # after the slack of its drive (-20), before the overlap of its edges (0)
+    order=-10,  # after the play of the spool (valve_hysteresis, -20), before the overlap (valve_deadband, 0)
     kinds=frozenset({"transient"}),
     signature=Signature(
         text="a rounded start of pressure steps, and a fast loss of amplitude above one frequency",

@@ -1,12 +1,12 @@
-r"""The supply gives way: its pressure falls with the flow drawn, and recovers.
+r"""Droop of the supply: its pressure falls with the flow drawn, and recovers.
 
 With the drop d below the nominal supply pressure, the flow :math:`q = \dot m/\rho_0` and :math:`d_1` = 1 bar
 
 .. math:: p_s = p_{s,0} - d, \qquad \tau\,\dot d = R\,q - d\left(\frac{d}{d_1}\right)^{m-1}
 
-R is the droop of what refills, at a drop of 1 bar: linear (m = 1) for a pressure regulator, with the root of
-the drop (m = 0.5) for an orifice or a long line. A reservoir of volume :math:`V_r = \tau R_g T\rho_0/R`
-(:math:`\tau p_0/R`, 2.5 l with the defaults) makes it slow.
+R is the droop per flow at a drop of 1 bar. The refilling flow is linear in the drop (m = 1) for a pressure
+regulator, and goes with its square root (m = 0.5) for an orifice or a long line. A reservoir of volume
+:math:`V_r = \tau R_g T\rho_0/R` (:math:`\tau p_0/R`, 2.5 l with the defaults) slows it down.
 """
 
 from mckibben.physics import gas, ops
@@ -20,7 +20,7 @@ _ROUNDING = 0.01
 
 def supply(*, supply_pressure: Value, drop: Value, droop: Value) -> Value:
     """p_s - d [Pa]."""
-    # The droop decides that the state counts, so that a supply without one is left alone exactly.
+    # The state acts only with a droop, so that a supply without one is exactly unchanged.
     return supply_pressure - ops.where(ops.greater(droop, 0.0), drop, 0.0)
 
 
@@ -77,7 +77,7 @@ EFFECT = Effect(
             lower=0.5,
             upper=1.0,
             source=Source("flow over a pressure drop: laminar or regulated 1, turbulent 0.5", "D"),
-            description="How the flow that refills grows with the drop: 1 a regulator, 0.5 an orifice "
+            description="Exponent of the refilling flow over the drop: 1 for a regulator, 0.5 for an orifice "
             "or a long line.",
             fitted=False,
             natural=True,

@@ -15,12 +15,12 @@ from mckibben.physics.effect import Effect, Example, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
-# Threads that would double are torn long before; the law is held there so that it stays finite.
+# Upper bound that keeps the law finite: threads break long before they double in length.
 _LARGEST_Q = 0.5
 
 
 def braid(*, braid: Braid, pressure: Value, length: Value, compliance: Value) -> Braid:
-    """The braid with stretched threads; the turns stay."""
+    """The braid with stretched threads and the same turns."""
     unit_tension = pressure * braid.thread_length * length / (2.0 * ops.pi * braid.turns**2)
     q = ops.minimum(compliance * unit_tension, _LARGEST_Q)
     return Braid(braid.thread_length / (1.0 - q), braid.turns)
@@ -49,7 +49,7 @@ EFFECT = Effect(
             lower=0.0,
             upper=1.0e-4,
             source=_STIFF,
-            description="Strain of the threads per tension of all of them together, 1/(N E_t A_t).",
+            description="Strain of the threads per total tension, 1/(N E_t A_t).",
             off=0.0,
         ),
     ),

@@ -1,8 +1,8 @@
 r"""Threshold pressure: the gas first has to widen the bladder until it touches the braid.
 
 A thin tube of modulus E, wall H and inner radius :math:`r_i` reaches a braid of radius :math:`r_b` at
-:math:`P_{th} \approx E H (r_b-r_i)/r_i^2`. What the gas spends below contact is not in this law, so it is a
-lumped one: force and gas work balance only while the pressure stays above the threshold.
+:math:`P_{th} \approx E H (r_b-r_i)/r_i^2`. The work of the gas below contact is not modelled, so the law is
+lumped: force and gas work balance only while the pressure stays above the threshold.
 """
 
 from mckibben.physics import ops
@@ -13,7 +13,7 @@ from mckibben.physics.parameter import Parameter, Source
 
 def pressure(*, pressure: Value, threshold: Value) -> Value:
     """max(P - P_th, 0) [Pa]; without a threshold P itself."""
-    # Written as P minus what is held back, so that a threshold of 0 leaves negative gauge pressures alone.
+    # Written as P minus a loss, so that a threshold of 0 leaves negative gauge pressures unchanged.
     return pressure - ops.minimum(threshold, ops.positive_part(pressure))
 
 
@@ -25,8 +25,8 @@ EFFECT = Effect(
     title="Threshold pressure",
     family="elastomer",
     type="static",
-    cause="The bladder is narrower than the braid and has to be blown up before it touches it. Until then "
-    "the gas drives nothing, and later the same pressure is missing.",
+    cause="The bladder is narrower than the braid and must first be inflated until it touches it. Below that "
+    "pressure there is no force, and above it the effective pressure is lower by this amount.",
     equation=r"P_{eff} = \max(P-P_{th},\,0)",
     parameters=(
         Parameter(

@@ -21,7 +21,7 @@ EFFECT = Effect(
     title="Time skew between channels",
     family="sensor",
     type="measurement",
-    cause="Channels that are sampled one after the other, or by two recorders, belong to different instants. "
+    cause="Channels sampled one after the other, or by two recorders, refer to different instants. "
     "Force and length then open a loop, clockwise or counter-clockwise.",
     equation=r"y_F(t) = F(t-\delta)",
     parameters=(
@@ -33,7 +33,7 @@ EFFECT = Effect(
             lower=-0.1,
             upper=0.1,
             source=_RANGE,
-            description="By how much the force is recorded late.",
+            description="Delay of the force channel.",
             off=0.0,
         ),
     ),

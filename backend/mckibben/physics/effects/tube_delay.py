@@ -13,7 +13,7 @@ def command_delay(*, tube_length: Value, factor: Value) -> tuple[Value, Value]:
     return time, time
 
 
-_RANGE = Source("1 for sound; slower in narrow tubes, where wall friction and heat hold the wave back", "E")
+_RANGE = Source("1 for sound; slower in narrow tubes, because of wall friction and heat transfer", "E")
 _BY_HAND = Source("3 m / 343.2 m/s", "D")
 
 EFFECT = Effect(

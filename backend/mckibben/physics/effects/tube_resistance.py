@@ -1,4 +1,4 @@
-r"""The tube passes less than its formula says, :math:`C_t' = f_t\,C_t`: bends, fittings, a kink.
+r"""A lower conductance of the tube than calculated, :math:`C_t' = f_t\,C_t`: bends, fittings, a kink.
 
 It acts on drives with a tube; the conductance of the straight tube is that of `mckibben.physics.gas`.
 """

@@ -2,7 +2,7 @@ r"""Deadband of a valve with overlap: nothing flows within :math:`\pm\delta` of 
 
 .. math:: x_{eff} = \operatorname{sgn}x\;\frac{\max(|x|-\delta,\,0)}{1-\delta}
 
-Full command stays full opening, at which the conductance of the data sheet is measured.
+Full command is still full opening, at which the conductance of the data sheet is measured.
 """
 
 from mckibben.physics import ops

@@ -1,9 +1,9 @@
-r"""Hysteresis of the valve: the spool follows its command with a play of full width w.
+r"""Hysteresis of the valve: the spool follows its command with a play (backlash) of full width w.
 
 .. math:: \tau\,\dot y = \max\!\bigl(u-\tfrac w2-y,\,0\bigr) - \max\!\bigl(y-u-\tfrac w2,\,0\bigr)
 
-This is the play operator, followed within :math:`\tau = 0.2` ms instead of at once: commands jump, and an
-operator driven by their rate would have to jump with them.
+This is the play operator with a lag of :math:`\tau = 0.2` ms, so that the state does not jump with the
+command.
 """
 
 from mckibben.physics import ops
@@ -51,7 +51,7 @@ EFFECT = Effect(
     ),
     slots={"opening": opening, "drive_rates": drive_rates},
     states=(StateVariable("position", "y", "1", 1.0, "Opening behind the play."),),
-    order=-20,  # what moves the spool comes before its dynamics (-10)
+    order=-20,  # before the dynamics of the spool (-10)
     kinds=frozenset({"transient"}),
     signature=Signature(
         text="a loop of pressure over command, while force over measured pressure has none",

@@ -3,8 +3,8 @@ r"""Viscous damping that may grow with pressure and differ between shortening an
 .. math:: F = (c_0 + c_P P)\,r\,\Bigl|\frac{\dot L}{v_r}\Bigr|^{n-1}\dot L,
    \quad r = 1\ (\dot L<0),\quad r = r_l\ (\dot L>0)
 
-At the reference speed :math:`v_r = 0.1\,m/s` the coefficient is force over speed whatever the exponent n is.
-Below some 0.1 mm/s the law becomes linear, so that its slope stays finite at rest for n < 1.
+At the reference speed :math:`v_r = 0.1\,m/s` the coefficient is force over speed for any exponent n. Below
+about 0.1 mm/s the law becomes linear, so that its slope stays finite at rest for n < 1.
 Reynolds' hand-made muscle: 1010 N s/m + 6.91e-3 N s/(m Pa) on shortening, a tenth of it on lengthening.
 """
 
@@ -14,7 +14,7 @@ from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
 REFERENCE_SPEED = 0.1  # m/s
-# Under this speed [m/s] the power of the speed is rounded off to a constant.
+# Below this speed [m/s] the power of the speed is constant.
 _CREEPING = 1e-4
 
 
@@ -46,7 +46,7 @@ EFFECT = Effect(
     title="Viscous damping",
     family="friction",
     type="rate",
-    cause="Elastomer, lubricated threads and the wall's own flow resist fast motion. The force is lower "
+    cause="Elastomer, lubricated threads and the flow within the wall resist fast motion. The force is lower "
     "while the muscle shortens and higher while it lengthens, the more the faster it moves.",
     equation=r"F_{v} = (c_0 + c_P P)\,r\left|\frac{\dot L}{v_r}\right|^{n-1}\dot L,\quad "
     r"r = 1\ (\dot L<0),\ r = r_l\ (\dot L>0),\quad v_r = 0.1\,\mathrm{m/s}",
@@ -95,7 +95,7 @@ EFFECT = Effect(
             lower=0.3,
             upper=2.0,
             source=_POWER,
-            description="Power of the speed that the force goes with; 1 is linear damping.",
+            description="Exponent of the force over the speed; 1 is linear damping.",
             fitted=False,
         ),
     ),

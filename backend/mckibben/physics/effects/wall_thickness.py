@@ -5,7 +5,7 @@ With a wall that keeps its thickness :math:`V = \pi(D-2t)^2L/4 = V_i - \pi t(D-t
 .. math:: \Delta F = \pi P\left[\frac{b}{n\pi}\,t\left(2\sin\theta-\frac{1}{\sin\theta}\right) - t^2\right] .
 
 Rubber keeps its volume instead: then bore and braid volumes differ by a constant, :math:`dV/dL` is the ideal
-one, and the correction is exactly zero. A muscle given by its braid diameter should not need this effect.
+one, and the correction is exactly zero. A muscle described by its braid diameter should not need this effect.
 """
 
 from collections.abc import Callable
@@ -34,7 +34,7 @@ EFFECT = Effect(
     family="geometry",
     type="static",
     cause="The gas only fills the bore, and a wall of constant thickness keeps it smaller than the braid. "
-    "The muscle therefore displaces less gas, and pulls less, than its braid would let it.",
+    "The muscle therefore displaces less gas, and pulls less, than its braid alone would.",
     equation=r"\Delta F = \pi P\left[\frac{b}{n\pi}\,t"
     r"\left(2\sin\theta-\frac{1}{\sin\theta}\right)-t^2\right]",
     parameters=(

@@ -1,1 +1,1 @@
-"""From request bodies to the questions of the use cases."""
+"""Conversion of request bodies to the questions of the use cases."""

@@ -1,4 +1,4 @@
-"""What a curves request asks."""
+"""Conversion of a curves request."""
 
 from __future__ import annotations
 

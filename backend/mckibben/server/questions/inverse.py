@@ -1,4 +1,4 @@
-"""What an inverse request asks."""
+"""Conversion of an inverse request."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a comparison or diagnosis request asks."""
+"""Conversion of a comparison or diagnosis request."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ def model_question(body: ModelRequest, studio: Studio, store: MeasurementStore) 
     """The question of a request.
 
     Raises:
-        InputError: an unknown preset, effect, parameter or measurement, or no model or data at all.
+        InputError: an unknown preset, effect, parameter or measurement, or no model or data.
     """
     start, drive = _model(body, studio)
     used: dict[str, list[Points]] = {"fit": [], "validation": []}
-    studio.static_model(start)  # a model that cannot be is told before its data
+    studio.static_model(start)  # errors of the model are reported before those of the data
     for place, item in enumerate(body.chosen()):
         field = "measurement" if body.measurement is not None else f"measurements.{place}.id"
         try:
@@ -44,7 +44,7 @@ def model_question(body: ModelRequest, studio: Studio, store: MeasurementStore) 
 
 
 def _model(body: ModelRequest, studio: Studio) -> tuple[StartModel, Drive | None]:
-    """The start model and the drive; the request's own muscle and effects take the place of the drive's."""
+    """The start model and the drive; muscle and effects of the request replace those of the drive."""
     if body.drive is None:
         if body.muscle is None:
             raise InputError(

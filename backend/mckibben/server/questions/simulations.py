@@ -1,4 +1,4 @@
-"""What a simulation request asks."""
+"""Conversion of a simulation request."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""One module per noun; every function converts, calls, converts."""
+"""One module per resource; a route converts the request, calls the use case, converts the result."""

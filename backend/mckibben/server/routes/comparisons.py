@@ -1,4 +1,4 @@
-"""A model beside a measurement."""
+"""A model compared with measurements."""
 
 from __future__ import annotations
 
@@ -17,5 +17,5 @@ router = APIRouter(prefix="/api/comparisons", tags=["comparisons"], route_class=
 # In a worker thread: a fit takes longer than other requests should wait.
 @router.post("", response_model=ComparisonAnswer, responses=errors(400, 404, 413, 415, 422))
 def compare_with_measurement(body: ComparisonRequest, studio: StudioDep, store: StoreDep) -> JsonAnswer:
-    """The model's error on measurements, with or without a fit: numbers, where it fails, the points."""
+    """The model's error on measurements, with or without a fit: figures, where it fails, the points."""
     return JsonAnswer(compare(model_question(body, studio, store), fit=body.fit))

@@ -17,7 +17,7 @@ router = APIRouter(prefix="/api/curves", tags=["curves"], route_class=StrictRout
 
 @router.post("", response_model=CurvesAnswer, responses=errors(400, 413, 415, 422))
 async def compute_curves(body: CurvesRequest, studio: StudioDep) -> JsonAnswer:
-    """Force, stiffness, volume and diameter over the length for each pressure, and what bounds them."""
+    """Force, stiffness, volume and diameter over the length for each pressure, and their limits."""
 
     def answer() -> JsonAnswer:
         return JsonAnswer(curves(curves_question(body, studio), studio))

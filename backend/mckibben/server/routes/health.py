@@ -1,4 +1,4 @@
-"""Is the server up, and which one is it?"""
+"""Health and version of the server."""
 
 from __future__ import annotations
 

@@ -16,5 +16,5 @@ router = APIRouter(prefix="/api/inverse", tags=["inverse"], route_class=StrictRo
 
 @router.post("", response_model=InverseAnswer, responses=errors(400, 413, 415, 422))
 def answer_question(body: InverseRequest, studio: StudioDep) -> JsonAnswer:
-    """The pressure, contraction, working range or stroke pressure asked for, with the limits it crosses."""
+    """A pressure, contraction, working range or stroke pressure, with the limits it crosses."""
     return JsonAnswer(answer(inverse_question(body, studio), studio))

@@ -1,4 +1,4 @@
-"""Measurement files: look at one, send one, read one back."""
+"""Measurement files: preview, upload, read back."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from mckibben.server.schemas.measurements import MeasurementAnswer, MeasurementD
 
 router = APIRouter(prefix="/api/measurements", tags=["measurements"], route_class=StrictRoute)
 
-# What browsers say of such files; Windows with Excel installed says vnd.ms-excel of a CSV.
+# Content types that browsers send; Windows with Excel installed sends vnd.ms-excel for CSV.
 _CONTENT_TYPES = (
     "text/csv",
     "text/plain",
@@ -49,7 +49,7 @@ _Mapping = Annotated[
     str | None,
     Query(
         max_length=MAX_LENGTH,
-        description="What the user says beyond the file, as JSON: 'columns' (header -> channel and unit, "
+        description="Corrections by the user, as JSON: 'columns' (header -> channel and unit, "
         "null = not used), 'kind', 'conditions', 'bad_rows' ('refuse' or 'skip'); each may be left out.",
         examples=[
             '{"columns": {"p1": {"channel": "pressure", "unit": "bar"}, "x9": null}, "kind": "isobaric"}'
@@ -67,9 +67,9 @@ _Mapping = Annotated[
 async def upload_measurement(
     request: Request, name: _Name, store: StoreDep, mapping: _Mapping = None
 ) -> JsonAnswer:
-    """Send a measurement file; the answer says how it was understood. Sent twice it is kept once.
+    """Upload a measurement file; the answer shows how it was read. The same file is stored once.
 
-    With a mapping the measurement has an id of its own: both readings of a file can be compared.
+    With a mapping the measurement gets its own id, so that two readings of a file can be compared.
     """
     content, correction = await _file(request, mapping)
     return await run_in_threadpool(lambda: JsonAnswer(summary_of(store.put(content, name, correction))))
@@ -82,7 +82,7 @@ async def upload_measurement(
     openapi_extra=_BODY,
 )
 async def preview_measurement(request: Request, name: _Name, mapping: _Mapping = None) -> JsonAnswer:
-    """How a file would be understood: columns, units, rows, kind, conditions. Nothing is kept."""
+    """How a file would be read: columns, units, rows, kind, conditions. Nothing is stored."""
     content, correction = await _file(request, mapping)
     return await run_in_threadpool(
         lambda: JsonAnswer(preview_of(preview(content, clean_name(name), correction)))
@@ -90,8 +90,8 @@ async def preview_measurement(request: Request, name: _Name, mapping: _Mapping =
 
 
 async def _file(request: Request, mapping: str | None) -> tuple[bytes, Correction]:
-    """The file of a request, and what the user says of it."""
-    # The body is the file whatever a client calls it (curl says urlencoded); only a form wraps it.
+    """The file of a request, and the user's corrections."""
+    # The body is the file whatever its content type (curl sends urlencoded); only a form wraps it.
     declared = request.headers.get("content-type", "")
     if declared.partition(";")[0].strip().lower() == "multipart/form-data":
         raise HTTPException(415, "Send the file itself as the body, not a form with the file in it.")

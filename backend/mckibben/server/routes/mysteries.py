@@ -15,10 +15,10 @@ from mckibben.server.schemas.mysteries import Mystery, RevealAnswer, RevealReque
 router = APIRouter(prefix="/api/mysteries", tags=["mysteries"], route_class=StrictRoute)
 
 
-# Worker threads: the library looks at the user's folder.
+# In worker threads: the library reads the user's folder.
 @router.get("", response_model=list[Mystery], responses=errors())
 def list_mysteries(studio: StudioDep) -> JsonAnswer:
-    """Every mystery with its story and the start model; comparisons take its measurement by the id."""
+    """Every mystery with its story and start model; comparisons accept its measurement by id."""
     return JsonAnswer(mysteries(studio.library))
 
 
@@ -28,5 +28,5 @@ def reveal_mystery(
     body: RevealRequest,
     studio: StudioDep,
 ) -> JsonAnswer:
-    """What is hidden in a mystery, held against one's own diagnosis."""
+    """The hidden effects of a mystery, compared with the user's diagnosis."""
     return JsonAnswer(reveal(studio.library, mystery_id, body.effects))

@@ -17,7 +17,7 @@ router = APIRouter(prefix="/api/presets", tags=["presets"], route_class=StrictRo
 Kind = Annotated[PresetKind, Path(description="Which presets.")]
 
 
-# Worker threads: the library looks at the user's folder.
+# In worker threads: the library reads the user's folder.
 @router.get("/{kind}", response_model=PresetsAnswer, responses=errors(404, 422))
 def list_presets(kind: Kind, studio: StudioDep) -> JsonAnswer:
     """All presets of a kind with unit, source and grade of each figure, and the files that were refused."""
@@ -44,6 +44,6 @@ def read_preset(
     "/muscles", status_code=201, response_model=MuscleAnswer, responses=errors(400, 409, 413, 415, 422)
 )
 def save_muscle(body: MusclePreset, studio: StudioDep) -> JsonAnswer:
-    """Keep a muscle among the user's presets; one of the same id is replaced, a built-in one never."""
+    """Save a muscle as a user preset; replaces one of the same id, never a built-in one."""
     saved = studio.library.save_muscle(body.to_document())
     return JsonAnswer(saved.public(), status_code=201)

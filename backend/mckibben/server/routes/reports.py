@@ -23,11 +23,11 @@ router = APIRouter(prefix="/api/reports", tags=["reports"], route_class=StrictRo
 
 @router.post(
     "",
-    response_class=Response,  # errors are JSON all the same
+    response_class=Response,  # errors are still JSON
     responses={**ReportAnswer, **errors(400, 404, 413, 415, 422)},
 )
 async def write_report(body: ReportRequest, request: Request, studio: StudioDep, store: StoreDep) -> Response:
-    """The comparison and the diagnosis of a model as one file to keep and to print."""
+    """The comparison and the diagnosis of a model as one file for archive and print."""
     question = await prepared(request, model_question, body, studio, store)
     options = await prepared(request, _options, body, studio, store)
     work = await prepared(request, prepare, question, studio, options, diagnose=body.diagnose)

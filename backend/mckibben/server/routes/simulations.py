@@ -1,4 +1,4 @@
-"""A drive through time."""
+"""Transient simulation of a drive."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ router = APIRouter(prefix="/api/simulations", tags=["simulations"], route_class=
     "", response_model=SimulationAnswer, responses={**errors(400, 413, 415, 422), **SimulationEvents}
 )
 async def simulate_drive(body: SimulationRequest, request: Request, studio: StudioDep) -> Response:
-    """Position, speed, pressures, force, flows and the timing table of a drive; closing ends the run."""
+    """Motion, pressures, force, flows and timing table of a drive; closing the connection ends the run."""
     work = await prepared(request, _run_of, body, studio)
     if wants_events(request):
         return events(work)

@@ -1,4 +1,4 @@
-"""Drives for a task, and one of them written down."""
+"""Drives for a task, and a report of one of them."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _RESPONSES: dict[int | str, dict[str, Any]] = {**errors(400, 413, 415, 422), **S
 
 @router.post("", response_model=SizingAnswer, responses=_RESPONSES)
 async def size_drives(body: SizingTask, request: Request, studio: StudioDep) -> Response:
-    """Ranked drives of the catalogue for a task, and why not the others; closing ends the search."""
+    """Ranked drives for a task, and rejected ones with reasons; closing the connection ends the search."""
     work = await prepared(request, _search_of, body, studio)
     if wants_events(request):
         return events(work)
@@ -42,11 +42,11 @@ def _search_of(body: SizingTask, studio: Studio) -> Callable[[Watch], SizingResu
 
 @router.post(
     "/reports",
-    response_class=Response,  # errors are JSON all the same
+    response_class=Response,  # errors are still JSON
     responses={**ReportAnswer, **errors(400, 413, 415, 422)},
 )
 async def write_sizing_report(body: SizingReportRequest, request: Request, studio: StudioDep) -> Response:
-    """The search once more and one of its drives as one file to keep and to print; closing ends it."""
+    """A new search, and one of its drives as a file for archive and print; disconnecting ends the search."""
     work = await prepared(
         request, prepare_report, body.task, studio, proposal=body.proposal, title=body.title
     )

@@ -1,1 +1,1 @@
-"""What goes over the wire: one module per noun, separate shapes for requests and answers."""
+"""Schemas of requests and answers; one module per resource."""

@@ -1,4 +1,4 @@
-"""What several nouns share: strict models, fields with units, errors, flags."""
+"""Shared schemas: strict models, fields with units, errors, flags."""
 
 from __future__ import annotations
 
@@ -21,21 +21,21 @@ class ErrorDetail(Strict):
 
 
 class ErrorBody(Strict):
-    """The one shape of every error."""
+    """The body of every error."""
 
     error: ErrorDetail
 
 
 class Flag(Strict):
-    """Something the user should know about an answer: a limit, a value out of reach, an unverified figure."""
+    """A remark on an answer: a crossed limit, a value out of reach, an unverified figure."""
 
     code: str = Field(examples=["over_force_limit"])
-    message: str = Field(description="In physical words.")
+    message: str = Field(description="Explanation for the user.")
     field: str | None = Field(default=None, description="The input it belongs to.")
 
 
 class SourceText(Strict):
-    """Where a figure comes from, and how sure it is."""
+    """Source of a figure, and its grade."""
 
     text: str = Field(description="Short source.")
     grade: str = Field(
@@ -50,8 +50,8 @@ ERRORS: dict[int | str, dict[str, Any]] = {
     for status, text in {
         400: "The body or a header is malformed.",
         403: "Host, origin or token refused.",
-        404: "There is no such thing.",
-        409: "It collides with what is kept, or cannot be kept.",
+        404: "Not found.",
+        409: "It conflicts with what is stored, or cannot be stored.",
         413: "The body is too large.",
         415: "The body is of another content type.",
         422: "The input cannot be used.",

@@ -1,4 +1,4 @@
-"""Request and answer of ``/api/comparisons``: a model beside a measurement."""
+"""Request and answer of ``/api/comparisons``: a model compared with measurements."""
 
 from __future__ import annotations
 
@@ -24,29 +24,29 @@ FreeGeometry = Literal["nominal_length", "braid_diameter", "braid_angle", "wall_
 
 
 class UsedMeasurement(Strict):
-    """A measurement, and what for."""
+    """A measurement and its use."""
 
     id: MeasurementId
-    use: Literal["fit", "validation"] = Field("fit", description="Fitted to, or only judged by.")
+    use: Literal["fit", "validation"] = Field("fit", description="Used for the fit, or only for validation.")
 
 
 class ModelRequest(Strict):
-    """A model and the measurements it is held against."""
+    """A model and the measurements it is compared with."""
 
     muscle: MuscleInput | None = Field(None, description="Null: the drive's.")
     effects: EffectsInput | None = None
     drive: DriveDocument | None = Field(
         None,
-        description="Valve, tube, supply and load of transient measurements with a command channel, whose "
-        "command takes the place of one given here.",
+        description="Valve, tube, supply and load of transient measurements with a command channel; the "
+        "measured command replaces the one given here.",
     )
     measurement: MeasurementId | None = Field(None, description="One measurement to fit to.")
     measurements: list[UsedMeasurement] = Field(default=[], max_length=16)
     free: list[FreeGeometry] = Field(
-        default=[], max_length=5, description="Geometry that is fitted too, within its tolerance."
+        default=[], max_length=5, description="Geometry to fit as well, within its tolerance."
     )
     freed: list[ParameterPath] = Field(
-        default=[], max_length=64, description="Further constants that are fitted, as effect.parameter."
+        default=[], max_length=64, description="Additional parameters to fit, as effect.parameter."
     )
     noise: float | None = Field(
         None,
@@ -56,13 +56,13 @@ class ModelRequest(Strict):
     )
 
     def chosen(self) -> list[UsedMeasurement]:
-        """All measurements, whichever way they were named."""
+        """All measurements, from either field."""
         single = [] if self.measurement is None else [UsedMeasurement(id=self.measurement, use="fit")]
         return [*single, *self.measurements]
 
 
 class ComparisonRequest(ModelRequest):
-    """Which model beside which measurements, and whether to fit it."""
+    """A model, the measurements to compare it with, and whether to fit it."""
 
     fit: bool = Field(False, description="Fit the effects' parameters to the data.")
 
@@ -77,11 +77,11 @@ class FittedParameter(Strict):
     stderr: float | None = Field(description="Standard error; null when not fitted or not determined.")
     unit: str = Field(description="SI unit.")
     at_bound: bool = Field(description="The fit stopped at a bound.")
-    fitted: bool = Field(description="The fit was free to change it.")
+    fitted: bool = Field(description="Whether the fit could change it.")
 
 
 class Correlation(Strict):
-    """How far two fitted parameters can stand in for each other."""
+    """Correlation of two fitted parameters."""
 
     a: str
     b: str
@@ -120,17 +120,17 @@ class ResidualProfile(Strict):
     """The residual over one variable."""
 
     over: str = Field(examples=["pressure"])
-    share_explained: float = Field(description="Share of its mean square that this variable predicts.")
+    share_explained: float = Field(description="Share of its mean square explained by this variable.")
     worst: str = Field(description="The range with the largest error.", examples=["pressure 5.5 to 6 bar"])
     rmse: float = Field(description="Error in that range.")
-    edges: Series = Field(description="Limits of the ranges, SI; one more than ranges.")
+    edges: Series = Field(description="Boundaries of the ranges, SI; one more than ranges.")
     mean: Series
     rms: Series
     count: list[int]
 
 
 class HeatMap(Strict):
-    """The residual over two variables; rows are y, null where there is no point."""
+    """The residual over two variables; rows are y, null where there are no points."""
 
     x: str
     y: str
@@ -146,21 +146,21 @@ class WhitenessAnswer(Strict):
 
     autocorrelation: Series
     band: float = Field(description="Half-width of the 95 % band of noise.")
-    outside: float = Field(description="Share of the lags outside of it.")
-    runs: float = Field(description="Runs of one sign over what noise would have.")
+    outside: float = Field(description="Share of the lags outside the band.")
+    runs: float = Field(description="Number of runs of one sign over that expected of noise.")
     white: bool
 
 
 class Loop(Strict):
-    """Area of the force residual over a closed way: energy that the model lacks or has too much."""
+    """Area of the force residual over a closed path: energy dissipation that the model misses."""
 
     group: int
-    area: float = si_field("J", "Positive: friction takes it out of the motion.")
-    span: float = si_field("m", "Way between the turns.")
+    area: float = si_field("J", "Positive: the model lacks friction.")
+    span: float = si_field("m", "Travel between the reversals.")
 
 
 class ValidationAnswer(Strict):
-    """The model on measurements it was not fitted to."""
+    """The error of the model on measurements not used for the fit."""
 
     rmse: float | None
     nrmse_percent: float | None
@@ -169,34 +169,34 @@ class ValidationAnswer(Strict):
 
 
 class ComparisonAnswer(Strict):
-    """The model's error in numbers, and the points."""
+    """The figures of the model's error, and the points."""
 
     kind: str = Field(description="Measurement kind.")
     rows: int
     rows_used: int
     predicted: str = Field(description="The predicted channel, or several.", examples=["force"])
     unit: str = Field(
-        description='SI unit of the error; "1": over the noise of each channel.', examples=["N"]
+        description='SI unit of the error; "1" = relative to the noise of each channel.', examples=["N"]
     )
     rmse: float | None = Field(description="Root mean square of the residual.")
     nrmse_percent: float | None = Field(description="RMSE over the largest measured magnitude.")
     full_scale: float | None = Field(description="The largest measured magnitude.")
     holdout_rmse: float | None = Field(description="RMSE with whole groups left out of the fit.")
-    noise_floor: float | None = Field(description="Noise of the data, when it can be told.")
-    noise_how: str = Field(description="From what the noise was told.")
+    noise_floor: float | None = Field(description="Noise of the data, if it can be estimated.")
+    noise_how: str = Field(description="How the noise was estimated.")
     residual_mean: float | None
-    channels: dict[str, ChannelError] = Field(description="Each channel when there are several.")
+    channels: dict[str, ChannelError] = Field(description="Error of each channel when there are several.")
     parameters: dict[str, dict[str, FittedParameter]] = Field(description="Effect -> parameter -> value.")
     correlations: list[Correlation]
-    excluded: dict[str, int] = Field(description="Why rows were left out -> how many.")
+    excluded: dict[str, int] = Field(description="Reason for leaving rows out -> number of rows.")
     where: list[ResidualProfile]
     heat_map: HeatMap | None
     whiteness: WhitenessAnswer
     loops: list[Loop]
-    sentences: list[str] = Field(description="Where the model fails, in words.")
+    sentences: list[str] = Field(description="Where the model fails, as sentences.")
     validation: ValidationAnswer | None
     messages: list[str]
     geometry: MuscleGeometry
     series: list[ComparisonSeries]
-    model: dict[str, EffectsJson] = Field(description="Effects and values as a request takes them.")
+    model: dict[str, EffectsJson] = Field(description="Effects and values in the form of a request.")
     flags: list[Flag]

@@ -20,7 +20,7 @@ _DEFAULT_PRESSURES = [1e5, 2e5, 3e5, 4e5, 5e5, 6e5]
 
 
 class CurvesOptions(Strict):
-    """Which pressures, which range, which conditions."""
+    """Pressures, range and conditions of the curves."""
 
     pressures: list[Pressure] = Field(
         default=_DEFAULT_PRESSURES, min_length=1, max_length=12, description="Gauge pressures of the curves."
@@ -29,7 +29,7 @@ class CurvesOptions(Strict):
     direction: Direction = 0
     temperature: Temperature = Field(293.15, description="Temperature of the muscle.")
     unclipped: bool = Field(False, description="Also negative forces, which a muscle cannot exert.")
-    dead_volume: Volume = Field(0.0, description="Gas volume besides the muscle, for the closed valve.")
+    dead_volume: Volume = Field(0.0, description="Gas volume outside the muscle, for the closed valve.")
     polytropic_exponent: float = Field(1.4, ge=1.0, le=1.7, description="1 isothermal, 1.4 adiabatic (air).")
     contraction_from: Contraction | None = Field(
         None, description="Start of the range; null: the pretension limit."
@@ -42,14 +42,14 @@ class CurvesOptions(Strict):
 
 
 class CurvesRequest(CurvesOptions):
-    """Which muscle, which pressures, which range."""
+    """A muscle, and the pressures and range of its curves."""
 
     muscle: MuscleInput
     effects: EffectsInput | None = None
 
 
 class CurveLimits(Strict):
-    """What bounds the use of the muscle; null where the preset does not say."""
+    """Limits of the muscle; null where the preset does not state one."""
 
     max_pressure: float | None = si_field("Pa", "Highest gauge pressure.")
     max_force: float | None = si_field("N", "Highest force.")
@@ -65,7 +65,9 @@ class Characteristics(Strict):
     pressure: float = si_field("Pa", "Gauge pressure.")
     blocked_force: float | None = si_field("N", "Force at the nominal length.")
     free_contraction: float | None = si_field("1", "Contraction without load.")
-    free_contraction_flag: str | None = Field(description="Why the free contraction is not a plain figure.")
+    free_contraction_flag: str | None = Field(
+        description="Code of the limit that the free contraction crosses."
+    )
     max_work: float | None = si_field("J", "Work of one stroke from nominal length to free contraction.")
     thread_tension_total: float | None = si_field("N", "Ideal tension of all threads at nominal length.")
 
@@ -79,7 +81,7 @@ class RhombusAnswer(Strict):
 
 
 class MuscleGeometry(Strict):
-    """The muscle at rest in all its forms."""
+    """The geometry of the muscle at rest in all forms."""
 
     braid_diameter: float = si_field("m", "Diameter of the braid at the braid angle.")
     braid_angle: float = si_field("rad", "Angle between thread and axis.")
@@ -92,7 +94,7 @@ class MuscleGeometry(Strict):
 
 
 class ModelAnswer(Strict):
-    """The effects that were used, with all their values in SI."""
+    """The effects used, with all their values in SI."""
 
     effects: dict[str, dict[str, float]]
 
@@ -125,16 +127,16 @@ class OverPressure(Strict):
 
 
 class OperatingPoint(Strict):
-    """Where the muscle holds the load at one pressure."""
+    """The state in which the muscle holds the load at one pressure."""
 
     pressure: float = si_field("Pa", "Gauge pressure.")
     contraction: float | None = si_field("1", "Contraction; null when out of reach.")
     length: float | None = si_field("m", "Length; null when out of reach.")
-    force: float | None = si_field("N", "The load that is held.")
+    force: float | None = si_field("N", "The load.")
     stiffness: float | None = si_field("N/m", "Stiffness at constant pressure.")
     stiffness_closed: float | None = si_field("N/m", "Stiffness with the valve closed.")
     diameter: float | None = si_field("m", "Braid diameter.")
-    flags: list[str] = Field(description="Codes of the flags that hold here.")
+    flags: list[str] = Field(description="Codes of the flags of this point.")
 
 
 class CurvesAnswer(Strict):
@@ -149,7 +151,7 @@ class CurvesAnswer(Strict):
     stiffness_closed: Rows = si_field("N/m", "dF/dL at constant gas mass.")
     volume: Series = si_field("m3", "Enclosed volume at the highest pressure.")
     diameter: Series = si_field("m", "Braid diameter at the highest pressure.")
-    outer_diameter: Series = si_field("m", "Outer diameter of the wall, which keeps its volume.")
+    outer_diameter: Series = si_field("m", "Outer diameter of the wall, at constant wall volume.")
     limits: CurveLimits
     characteristics: list[Characteristics]
     geometry: MuscleGeometry

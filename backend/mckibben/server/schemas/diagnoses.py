@@ -19,7 +19,7 @@ from mckibben.server.schemas.curves import MuscleGeometry
 
 
 class DiagnosisRequest(ModelRequest):
-    """The start model and the measurements that it should explain."""
+    """The start model and the measurements to explain."""
 
 
 class Baseline(Strict):
@@ -31,20 +31,20 @@ class Baseline(Strict):
 
 
 class NoiseFloor(Strict):
-    """Below this error there is nothing to learn."""
+    """The error due to noise; a smaller one cannot be reached."""
 
     rmse: float | None
     how: str
 
 
 class ModelJson(Strict):
-    """A model as a request takes it."""
+    """A model in the form of a request."""
 
     effects: EffectsJson
 
 
 class Candidate(Strict):
-    """The start model with one more effect, all numbers refitted."""
+    """The start model with one more effect, all parameters refitted."""
 
     effect: str
     title: str
@@ -56,16 +56,16 @@ class Candidate(Strict):
         description="Older name of score_change, for this version only.", deprecated=True
     )
     parameters: dict[str, FittedParameter]
-    twins: list[str] = Field(description="Candidates that these data cannot tell from it.")
+    twins: list[str] = Field(description="Candidates that these data cannot distinguish from it.")
     why: str
     equation: str = Field(description="LaTeX.")
     freed: list[str]
-    next_measurement: str | None = Field(description="What would tell it from its first twin.")
+    next_measurement: str | None = Field(description="Experiment that separates it from its first twin.")
     model: ModelJson
 
 
 class PathStep(Strict):
-    """The error after each addition; the first is the start model as given."""
+    """The error after adding an effect; the first step is the start model as given."""
 
     added: str | None
     rmse: float
@@ -75,7 +75,7 @@ class PathStep(Strict):
 
 
 class TermCurve(Strict):
-    """The proposed term and the residual it is for, over one variable."""
+    """The proposed term and the residual it explains, over one variable."""
 
     x: str
     values: Series
@@ -84,26 +84,26 @@ class TermCurve(Strict):
 
 
 class ProposedTerm(Strict):
-    """A formula for what no catalogued effect explains."""
+    """A formula for a residual that no catalogued effect explains."""
 
     formula: str
     coefficients: dict[str, float]
-    share: float = Field(description="Share of the residual's mean square that it takes away.")
+    share: float = Field(description="Share of the residual's mean square that it removes.")
     model: ModelJson
     curve: TermCurve
 
 
 class Experiment(Strict):
-    """What would separate two effects that look alike."""
+    """An experiment that separates two effects that look alike."""
 
     pair: list[str]
     declared: str
     protocol: str
-    separation: float = Field(description="Standard deviations of one reading.")
+    separation: float = Field(description="Expected difference, in standard deviations of one reading.")
 
 
 class Verdict(Strict):
-    """The answer."""
+    """The verdict of the diagnosis."""
 
     status: Literal["adequate", "missing_effects", "ambiguous", "unknown_effect"]
     title: str = Field(description="The status in words.")
@@ -118,19 +118,19 @@ class Verdict(Strict):
 
 
 class NotTried(Strict):
-    """An effect that these data cannot show, or that the question excludes."""
+    """An effect that these data cannot show, or that the request excludes."""
 
     effect: str
     why: str
 
 
 class DiagnosisAnswer(Strict):
-    """What the model is missing, and how sure that is."""
+    """What the model is missing, and how certain that is."""
 
     kind: str
     rows: int
     rows_used: int
-    excluded: dict[str, int] = Field(description="Why rows were left out -> how many.")
+    excluded: dict[str, int] = Field(description="Reason for leaving rows out -> number of rows.")
     predicted: str
     unit: str
     baseline: Baseline
@@ -146,7 +146,7 @@ class DiagnosisAnswer(Strict):
     model: dict[str, Any] = Field(description="Muscle and effects; can be given to a comparison as a drive.")
     freed: list[str]
     not_tried: list[NotTried] = Field(
-        description="Effects of the catalogue that were no candidates, and why."
+        description="Effects of the catalogue that were not tried, with the reason."
     )
     messages: list[str]
 
@@ -157,7 +157,7 @@ DiagnosisEvents: dict[int | str, dict[str, Any]] = {
             "text/event-stream": {
                 "schema": {
                     "type": "string",
-                    "description": "Asked for with `Accept: text/event-stream`: events `progress` "
+                    "description": "With `Accept: text/event-stream`: events `progress` "
                     '({"share": 0 to 1, "found": a candidate or null}), then `done` (the answer) or `error`.',
                 }
             }

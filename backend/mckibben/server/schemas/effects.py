@@ -16,8 +16,8 @@ class EffectParameter(Strict):
     symbol_mathml: str = Field(description="The symbol as MathML.")
     unit: str = Field(description="SI unit of all figures here.", examples=["Pa"])
     default: float = Field(description="A typical value.")
-    lower: float = Field(description="Lower bound of what is plausible.")
-    upper: float = Field(description="Upper bound of what is plausible.")
+    lower: float = Field(description="Lower bound of the plausible range.")
+    upper: float = Field(description="Upper bound of the plausible range.")
     off: float | None = Field(description="The value at which the effect vanishes.")
     fitted: bool = Field(description="Whether a fit frees it by default.")
     description: str
@@ -30,7 +30,7 @@ class Signature(Strict):
     text: str = Field(description="In words.")
     direction: str | None = Field(description="Parity when the motion reverses: even, odd or null.")
     pressure_power: float | None = Field(description="n when it grows with the n-th power of pressure.")
-    zero_at: list[str] = Field(description="States at which it contributes nothing.")
+    zero_at: list[str] = Field(description="States in which it contributes nothing.")
     energy: str = Field(description="conservative, dissipative, lumped or reading.")
 
 
@@ -38,7 +38,7 @@ class Twin(Strict):
     """Another effect that looks alike."""
 
     effect: str = Field(description="Its id.")
-    separated_by: str = Field(description="The experiment that tells the two apart.")
+    separated_by: str = Field(description="The experiment that separates the two.")
 
 
 class EffectAnswer(Strict):
@@ -56,7 +56,7 @@ class EffectAnswer(Strict):
     signature: Signature
     confused_with: list[Twin]
     references: list[SourceText]
-    slots: list[str] = Field(description="The places of the model it fills.")
+    slots: list[str] = Field(description="The places in the model where it acts.")
 
 
 class FileProblem(Strict):

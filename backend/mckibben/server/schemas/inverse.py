@@ -1,4 +1,4 @@
-"""Requests and answer of ``/api/inverse``: which pressure, which length, which range."""
+"""Requests and answer of ``/api/inverse``: pressure, contraction or stroke for a requirement."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ class _Question(Strict):
 
 
 class PressureQuestion(_Question):
-    """Which pressure gives this force at this length (or contraction)?"""
+    """The pressure for a force at a length or contraction."""
 
     question: Literal["pressure"]
-    force: Load = Field(description="The force wanted.")
+    force: Load = Field(description="The required force.")
     length: Length | None = Field(None, description="The length; or give the contraction.")
     contraction: Contraction | None = Field(None, description="The contraction; or give the length.")
 
 
 class ContractionQuestion(_Question):
-    """How far is the muscle contracted at this force and pressure?"""
+    """The contraction at a force and pressure."""
 
     question: Literal["contraction"]
     force: Load = Field(description="The force held.")
@@ -38,9 +38,9 @@ class ContractionQuestion(_Question):
 
 
 class WorkingRangeQuestion(_Question):
-    """Which stroke is there from the preload without pressure to the load at the highest pressure?
+    """The stroke from the preload without pressure to the load at the highest pressure.
 
-    It begins venting and ends filling, whatever ``direction`` says.
+    The start is taken while venting and the end while filling, whatever ``direction`` is.
     """
 
     question: Literal["working_range"]
@@ -50,7 +50,7 @@ class WorkingRangeQuestion(_Question):
 
 
 class StrokePressureQuestion(_Question):
-    """Which pressure lifts this load by this stroke?"""
+    """The pressure that lifts a load by a stroke."""
 
     question: Literal["stroke_pressure"]
     load: Load
@@ -65,7 +65,7 @@ InverseRequest = Annotated[
 
 
 class InverseAnswer(Strict):
-    """The value asked for, in SI, with what to know about it."""
+    """The requested value in SI, with flags."""
 
     question: Literal["pressure", "contraction", "working_range", "stroke_pressure"]
     value: float | None = Field(description="The answer; null when there is none (a flag says why).")

@@ -9,7 +9,7 @@ from mckibben.server.schemas.common import ErrorDetail
 
 
 class Channel(Strict):
-    """One column of a measurement that is used."""
+    """One used column of a measurement."""
 
     name: str = Field(description="Name of the channel.", examples=["pressure"])
     column: str = Field(description="Header of the file.", examples=["p_bar"])
@@ -20,9 +20,9 @@ class Channel(Strict):
 
 
 class Segmentation(Strict):
-    """How the rows fall into sweeps."""
+    """Division of the rows into sweeps."""
 
-    signal: str = Field(description="The channel that decides.", examples=["length"])
+    signal: str = Field(description="The channel that defines the sweeps.", examples=["length"])
     sweeps: int = Field(description="Number of sweeps.")
     cycles: int = Field(description="Number of cycles.")
     held_rows: int = Field(description="Rows in which nothing moves.")
@@ -32,17 +32,17 @@ class Segmentation(Strict):
 
 
 class MissingCondition(Strict):
-    """A condition that a comparison of this kind needs and the file does not say."""
+    """A condition that a comparison of this kind needs and the file does not state."""
 
     key: str = Field(description="Name of the condition.", examples=["load_mass"])
     unit: str = Field(description="Its SI unit.", examples=["kg"])
     why: str = Field(description="What it is needed for.")
-    example: str = Field(description="A right value.", examples=["6 kg"])
-    alternatives: list[str] = Field(description="Conditions that do as well.", examples=[["load_force"]])
+    example: str = Field(description="An example value.", examples=["6 kg"])
+    alternatives: list[str] = Field(description="Conditions that replace it.", examples=[["load_force"]])
 
 
 class MeasurementAnswer(Strict):
-    """A measurement as it was understood."""
+    """A measurement as it was read."""
 
     id: str = Field(
         description="SHA-256 of the file's content (and of the mapping, if one was given).",
@@ -53,26 +53,26 @@ class MeasurementAnswer(Strict):
     kind_detected: bool = Field(description="Detected from the data, not given in the file.")
     kind_reason: str = Field(description="Why this kind was detected; empty when it was given.")
     rows: int
-    usable_rows: int = Field(description="Rows that hold what was to be measured.")
+    usable_rows: int = Field(description="Rows with a usable measurement.")
     excluded: dict[str, int] = Field(
-        description="Why rows of the measurement are not usable -> how many.", examples=[{"slack": 66}]
+        description="Reason why rows are not usable -> number of rows.", examples=[{"slack": 66}]
     )
-    skipped: dict[str, int] = Field(description="Why rows of the file could not be read -> how many.")
+    skipped: dict[str, int] = Field(description="Reason why rows could not be read -> number of rows.")
     channels: list[Channel]
     ignored: list[str] = Field(description="Columns that are not used.")
     conditions: dict[str, str | float | None] = Field(description="Conditions of the test, SI.")
     missing: list[MissingCondition] = Field(description="Conditions to ask for.")
-    groups: int = Field(description="How many sweeps or cycles the rows belong to.")
+    groups: int = Field(description="Number of sweeps or cycles of the rows.")
     segments: Segmentation
-    messages: list[str] = Field(description="What to know about the file.")
+    messages: list[str] = Field(description="Remarks on the file.")
 
 
 class MeasurementDetail(MeasurementAnswer):
     """A measurement with its data."""
 
     columns: dict[str, list[float | bool | None]] = Field(
-        description="Channel -> values in SI; 'slack' marks rows without pulling force, 'usable' those that "
-        "hold what was to be measured, 'sweep' and 'cycle' number them, 'motion' is -1 shortening, "
+        description="Channel -> values in SI; 'slack' marks rows without pulling force, 'usable' those with "
+        "a usable measurement, 'sweep' and 'cycle' number them, 'motion' is -1 shortening, "
         "+1 lengthening, 0 held."
     )
 
@@ -83,11 +83,11 @@ class PreviewColumn(Strict):
     header: str = Field(description="Header of the file; the key of a mapping.", examples=["p_bar"])
     channel: str | None = Field(description="The guessed or chosen channel; null = not used.")
     unit: str | None = Field(description="The guessed, given or chosen unit; null = not used.")
-    unit_given: bool = Field(description="The unit stands in the header (or was chosen), it is no guess.")
-    absolute: bool | None = Field(description="A pressure above vacuum; null = not said, gauge is assumed.")
+    unit_given: bool = Field(description="The unit is stated in the header or was chosen, not guessed.")
+    absolute: bool | None = Field(description="An absolute pressure; null = not stated, gauge is assumed.")
     minimum: float | None = Field(description="Smallest value of the channel, SI.")
     maximum: float | None = Field(description="Largest value of the channel, SI.")
-    why: str | None = Field(description="Why the column cannot be used as its header says.")
+    why: str | None = Field(description="Why the column cannot be used as its header states.")
 
 
 class SkippedRows(Strict):
@@ -99,7 +99,7 @@ class SkippedRows(Strict):
 
 
 class ChannelChoice(Strict):
-    """What a column can be mapped to."""
+    """A channel to which a column can be mapped."""
 
     name: str = Field(examples=["pressure"])
     si_unit: str = Field(examples=["Pa"])
@@ -107,12 +107,12 @@ class ChannelChoice(Strict):
 
 
 class PreviewAnswer(Strict):
-    """What a file would be read as; nothing is kept."""
+    """How a file would be read; nothing is stored."""
 
     name: str
     format: str = Field(description="csv, xlsx, mat or tdms.")
     columns: list[PreviewColumn] = Field(description="All columns of the file, in its order.")
-    sample: list[list[str]] = Field(description="The first rows as they are written, up to 8.")
+    sample: list[list[str]] = Field(description="The first rows as written in the file, up to 8.")
     rows: int = Field(description="Rows below the header.")
     valid_rows: int = Field(description="Rows that can be read.")
     skipped: list[SkippedRows]
@@ -122,12 +122,12 @@ class PreviewAnswer(Strict):
     conditions: dict[str, str | float | None] = Field(description="Conditions found or given, SI.")
     missing: list[MissingCondition] = Field(description="Conditions to ask for.")
     measurement: MeasurementAnswer | None = Field(
-        description="As it would be kept, without the skipped rows; null while the file cannot be used."
+        description="As it would be stored, without the skipped rows; null while the file cannot be used."
     )
-    problem: ErrorDetail | None = Field(description="What PUT would refuse it for.")
+    problem: ErrorDetail | None = Field(description="The error with which PUT would refuse the file.")
     only_bad_rows: bool = Field(
-        description="Only bad rows stand in the way: the mapping {'bad_rows': 'skip'} leaves them out."
+        description="The only problem are bad rows: the mapping {'bad_rows': 'skip'} leaves them out."
     )
-    messages: list[str] = Field(description="What was assumed.")
+    messages: list[str] = Field(description="Assumptions made.")
     channel_choices: list[ChannelChoice]
     kind_choices: list[str]

@@ -1,4 +1,4 @@
-"""Answers of ``/api/mysteries``: measurements with hidden effects, and what is hidden when somebody asks."""
+"""Answers of ``/api/mysteries``: measurements with hidden effects, and the solutions."""
 
 from __future__ import annotations
 
@@ -11,20 +11,22 @@ from mckibben.server.schemas.comparisons import EffectsJson
 
 
 class Mystery(Strict):
-    """A measurement to practise on; says nothing of what is hidden."""
+    """A measurement to practise on; without the solution."""
 
     id: str = Field(examples=["two-lines-per-pressure"])
     title: str
-    story: str = Field(description="What an engineer would tell of it.")
+    story: str = Field(description="The situation, as an engineer would describe it.")
     kind: str = Field(description="Measurement kind.")
-    muscle: dict[str, Any] = Field(description="As a comparison takes it.")
-    drive: dict[str, Any] | None = Field(description="As a comparison takes it; null where none is needed.")
+    muscle: dict[str, Any] = Field(description="In the form of a comparison request.")
+    drive: dict[str, Any] | None = Field(
+        description="In the form of a comparison request; null if not needed."
+    )
     effects: EffectsJson = Field(description="The start model.")
-    measurement: str = Field(description="Id by which comparisons and diagnoses take the measurement.")
+    measurement: str = Field(description="Id of the measurement for comparisons and diagnoses.")
 
 
 class RevealRequest(Strict):
-    """The user's own diagnosis."""
+    """The user's diagnosis."""
 
     effects: list[Name] = Field(
         default=[], max_length=64, description="Ids of the effects of the user's model.", examples=[[]]
@@ -32,17 +34,17 @@ class RevealRequest(Strict):
 
 
 class Hidden(Strict):
-    """One thing that the start model lacks."""
+    """One effect that the start model lacks."""
 
     title: str
-    what: str = Field(description="What it does, and how it shows.")
-    effects: list[str] = Field(description="Effect ids that are right answers.")
+    what: str = Field(description="What it does, and how it shows in the data.")
+    effects: list[str] = Field(description="Effect ids accepted as right answers.")
 
 
 class RevealAnswer(Strict):
-    """What is hidden, beside what was found."""
+    """The hidden effects, compared with the user's diagnosis."""
 
     hidden: list[Hidden]
-    found: list[bool] = Field(description="For each hidden effect: is it among the given ones?")
+    found: list[bool] = Field(description="For each hidden effect: whether it is among the given ones.")
     surplus: list[str] = Field(description="Given effects that are neither hidden nor of the start model.")
     text: str

@@ -1,4 +1,4 @@
-"""Answers of ``/api/presets``: each kind of preset as its file is written, with where it came from."""
+"""Answers of ``/api/presets``: each kind of preset in the form of its file, with its origin."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ PresetKind = Literal[
 def _answer(preset: type[Preset], name: str) -> type[BaseModel]:
     """The fields of a preset file with ``verified`` and ``origin`` added.
 
-    A new model rather than a subclass: the presets have properties of these names.
+    A new model rather than a subclass, because the presets have properties of these names.
     """
     fields: dict[str, Any] = {key: (field.annotation, field) for key, field in preset.model_fields.items()}
     return create_model(
@@ -37,7 +37,7 @@ def _answer(preset: type[Preset], name: str) -> type[BaseModel]:
         __doc__=preset.__doc__,
         **fields,
         verified=(bool, Field(description="No figure is general knowledge (M) or an estimate (E).")),
-        origin=(Literal["built-in", "user"], Field(description="With the program, or the user's own.")),
+        origin=(Literal["built-in", "user"], Field(description="Part of the program, or saved by the user.")),
     )
 
 

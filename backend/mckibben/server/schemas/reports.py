@@ -1,4 +1,4 @@
-"""Request of ``/api/reports``: a comparison, with or without a diagnosis, to be written down."""
+"""Request of ``/api/reports``: a report of a comparison, with or without a diagnosis."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ from mckibben.server.schemas.comparisons import ComparisonRequest, ParameterPath
 
 
 class HistoryStep(Strict):
-    """A model on the way to the one of the report."""
+    """An earlier model in the user's history."""
 
     label: str = Field(max_length=200, examples=["start model"])
-    effects: EffectsInput | None = Field(None, description="As in the request itself.")
+    effects: EffectsInput | None = Field(None, description="As in the request.")
     freed: list[ParameterPath] = Field(default=[], max_length=64)
     muscle: MuscleInput | None = Field(None, description="Null: that of the request.")
 
 
 class ReportRequest(ComparisonRequest):
-    """What a comparison takes, and what else the report tells."""
+    """A comparison request, with further content of the report."""
 
-    history: list[HistoryStep] = Field(default=[], max_length=32, description="The oldest first.")
-    title: str = Field("", max_length=200, description="Empty: names of the measurements.")
-    diagnose: bool = Field(True, description="Find out what the model is missing; takes some seconds.")
+    history: list[HistoryStep] = Field(default=[], max_length=32, description="Oldest first.")
+    title: str = Field("", max_length=200, description="Empty = names of the measurements.")
+    diagnose: bool = Field(True, description="Include a diagnosis; takes some seconds.")
 
 
 ReportAnswer: dict[int | str, dict[str, Any]] = {
     200: {
-        "description": "One HTML file that needs nothing else.",
+        "description": "A self-contained HTML file.",
         "content": {"text/html": {"schema": {"type": "string"}}},
     }
 }

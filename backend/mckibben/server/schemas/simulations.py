@@ -1,4 +1,4 @@
-"""Request and answer of ``/api/simulations``: a drive through time."""
+"""Request and answer of ``/api/simulations``: transient simulation of a drive."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Instant = Annotated[float, Quantity("s", "0.5 s", at_least=0.0, at_most=LONGEST)
 
 
 class SimulationRequest(Strict):
-    """A drive, and which part of its run to answer."""
+    """A drive, and the part of its run to return."""
 
     drive: DriveOrId = Field(description="A drive document, or the id of a drive preset.")
     points: Annotated[int, Field(ge=2, le=20_001)] = Field(2001, description="Rows of the answer.")
@@ -35,7 +35,7 @@ PhaseFigures = Annotated[
     Field(
         description="Figures of one phase in SI: "
         + ", ".join(f"{name} [{_UNITS.get(name, 's')}]" for name in FIGURES)
-        + ". Null where it does not exist; notes say why."
+        + ". Null where it does not exist; see notes for the reason."
     ),
 ]
 
@@ -45,15 +45,15 @@ class Timing(Strict):
 
     extend: PhaseFigures
     retract: PhaseFigures
-    notes: dict[str, str] = Field(description='"extend.rise_time" -> why it is null, or what to know of it.')
+    notes: dict[str, str] = Field(description='"extend.rise_time" -> why it is null, or a remark on it.')
 
 
 class Overshoot(Strict):
-    """A step of the reference and how far the position went beyond it."""
+    """A step of the reference, and its overshoot."""
 
     time: float = si_field("s", "When.")
     size: float = si_field("m", "Signed height of the step.")
-    overshoot: float = si_field("1", "Share of the height.")
+    overshoot: float = si_field("1", "Overshoot as a share of the height.")
 
 
 class TrackingAnswer(Strict):
@@ -61,13 +61,13 @@ class TrackingAnswer(Strict):
 
     rms: float = si_field("m", "Root mean square of the error over time.")
     max: float = si_field("m", "Largest error.")
-    lag: float | None = si_field("s", "Delay that describes the position best; null when none does.")
+    lag: float | None = si_field("s", "Delay with the best correlation; null if none fits.")
     overshoot: list[Overshoot]
     notes: dict[str, str]
 
 
 class Choked(Strict):
-    """A time in which the flow of the valve does not depend on the pressure behind it."""
+    """Interval in which the flow of the valve does not depend on the downstream pressure."""
 
     begin: float = Field(alias="from", description="Start.", json_schema_extra={"unit": "s"})
     end: float = Field(alias="to", description="End.", json_schema_extra={"unit": "s"})
@@ -75,7 +75,7 @@ class Choked(Strict):
 
 
 class DriveLimits(Strict):
-    """What the maker allows (null = not known), and the end stops."""
+    """Limits stated by the maker (null = not known), and the end stops."""
 
     max_pressure: float | None = si_field("Pa", "Gauge pressure.")
     max_force: float | None = si_field("N", "Force.")
@@ -86,7 +86,7 @@ class DriveLimits(Strict):
 
 
 class Readings(Strict):
-    """What the sensors say."""
+    """Sensor readings."""
 
     pressure: Series = si_field("Pa", "Gauge pressure.")
     force: Series = si_field("N", "Force.")
@@ -94,55 +94,57 @@ class Readings(Strict):
 
 
 class Joint(Strict):
-    """The pulley of an antagonist pair, and the muscle that pulls the other way."""
+    """The pulley of an antagonist pair, and its second muscle."""
 
-    angle: Series = si_field("rad", "Of the pulley, from the middle; positive as the first muscle pulls.")
-    torque: Series = si_field("N*m", "Of both muscles on the pulley.")
-    stiffness: Series = si_field("N*m/rad", "Of the joint at constant pressures.")
+    angle: Series = si_field("rad", "Pulley angle from the middle, positive as the first muscle pulls.")
+    torque: Series = si_field("N*m", "Torque of both muscles on the pulley.")
+    stiffness: Series = si_field("N*m/rad", "Stiffness of the joint at constant pressures.")
     counter_force: Series = si_field("N", "Tension of the second muscle.")
-    counter_pressure: Series = si_field("Pa", "In the second muscle.")
+    counter_pressure: Series = si_field("Pa", "Pressure in the second muscle.")
 
 
 class SimulationAnswer(Strict):
     """Columns over time, in SI; pressures gauge, positions positive = muscle shorter."""
 
-    time: list[float] = si_field("s", "Instants of the rows; fewer than asked for when the run ended early.")
+    time: list[float] = si_field("s", "Instants of the rows; fewer than requested if the run ended early.")
     position: Series = si_field("m", "Stroke of the load.")
-    velocity: Series = si_field("m/s", "Of the load.")
-    acceleration: Series = si_field("m/s^2", "Of the load.")
-    pressure: Series = si_field("Pa", "In the muscle.")
+    velocity: Series = si_field("m/s", "Speed of the load.")
+    acceleration: Series = si_field("m/s^2", "Acceleration of the load.")
+    pressure: Series = si_field("Pa", "Pressure in the muscle.")
     force: Series = si_field("N", "Tension of the muscle.")
-    mass_flow: Series = si_field("kg/s", "Into the muscle.")
-    command: Series = si_field("1", "Command as given, before dead times.")
+    mass_flow: Series = si_field("kg/s", "Mass flow into the muscle.")
+    command: Series = si_field("1", "Command before dead times.")
     opening: Series = si_field("1", "Opening of the valve after all effects.")
     reference: Series | None = si_field("m", "Set point of the controller.")
-    supply_flow: Series = si_field("kg/s", "From the supply.")
-    exhaust_flow: Series = si_field("kg/s", "To the surroundings.")
-    tube_pressure: Series | None = si_field("Pa", "In the tube, when there is one.")
-    regulator_pressure: Series | None = si_field("Pa", "After the regulator, when there is one.")
+    supply_flow: Series = si_field("kg/s", "Mass flow from the supply.")
+    exhaust_flow: Series = si_field("kg/s", "Mass flow to the atmosphere.")
+    tube_pressure: Series | None = si_field("Pa", "Pressure in the tube, if there is one.")
+    regulator_pressure: Series | None = si_field("Pa", "Pressure after the regulator, if there is one.")
     volume: Series = si_field("m^3", "Gas volume of the muscle with all dead volumes.")
     diameter: Series = si_field("m", "Braid diameter at mid-span.")
-    length: Series = si_field("m", "Of the muscle.")
-    contraction: Series = si_field("1", "Of the muscle.")
+    length: Series = si_field("m", "Length of the muscle.")
+    contraction: Series = si_field("1", "Contraction ratio of the muscle.")
     load_force: Series = si_field("N", "External force on the load.")
-    temperature: Series = si_field("K", "Of the gas in the muscle.")
-    contact: list[bool] = Field(description="Whether an end stop is touched.")
-    readings: Readings | None = Field(description="Null when no effect changes what the sensors say.")
-    joint: Joint | None = Field(description="Of an antagonist pair.")
-    choked: list[Choked] = Field(description="Within the whole run, whatever rows are asked for.")
+    temperature: Series = si_field("K", "Temperature of the gas in the muscle.")
+    contact: list[bool] = Field(description="Whether the load touches an end stop.")
+    readings: Readings | None = Field(description="Null if no effect changes the sensor readings.")
+    joint: Joint | None = Field(description="Joint of an antagonist pair.")
+    choked: list[Choked] = Field(
+        description="Choked intervals of the whole run, whatever rows are requested."
+    )
     timing: Timing
-    tracking: TrackingAnswer | None = Field(description="Of a controlled run.")
+    tracking: TrackingAnswer | None = Field(description="Tracking figures of a controlled run.")
     outcome: Literal["completed", "stuck", "diverged", "timed_out", "cancelled"]
-    message: str | None = Field(description="What to do when the run did not complete.")
-    wall_ms: float = Field(description="Time of the integration in ms.")
+    message: str | None = Field(description="Advice if the run did not complete.")
+    wall_ms: float = Field(description="Computing time of the integration in ms.")
     engine: Literal["rodas", "lsoda"]
     steps: int = Field(description="Steps of the integrator.")
     flags: list[Flag]
-    notes: dict[str, str] = Field(description="Where -> remark; with those of timing and tracking.")
+    notes: dict[str, str] = Field(description="Field -> remark, including those of timing and tracking.")
     limits: DriveLimits
     geometry: MuscleGeometry
     model: ModelAnswer
-    duration: float = si_field("s", "Of the whole run.")
+    duration: float = si_field("s", "Duration of the whole run.")
 
 
 SimulationEvents: dict[int | str, dict[str, Any]] = {
@@ -151,7 +153,7 @@ SimulationEvents: dict[int | str, dict[str, Any]] = {
             "text/event-stream": {
                 "schema": {
                     "type": "string",
-                    "description": "Asked for with `Accept: text/event-stream`: events `progress` "
+                    "description": "With `Accept: text/event-stream`: events `progress` "
                     '({"share": 0 to 1}), then `done` (the answer) or `error` (the error body).',
                 }
             }

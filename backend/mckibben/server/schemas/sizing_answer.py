@@ -1,4 +1,4 @@
-"""Answer of ``/api/sizings``: proposals, rejected candidates, the front."""
+"""Answer of ``/api/sizings``: proposals, rejected candidates, Pareto front."""
 
 from __future__ import annotations
 
@@ -13,94 +13,100 @@ Binding = Literal[
     "length", "pressure", "contraction", "force", "force_limit", "diameter", "stiffness", "life",
     "temperature", "time", "time_down", "cycle_time",
 ]  # fmt: skip
-_MARGINS = "Limit -> share of it that is left; limits that are not set are left out."
+_MARGINS = "Limit -> margin as a share of the limit; limits that are not set are left out."
 
 
 class ExploredDesign(Strict):
-    """A simulated design that does the task; coarse figures, for a picture of the choices."""
+    """A simulated design that does the task; coarse figures, for a plot of the alternatives."""
 
     muscle: str
-    nominal_length: float = si_field("m", "Of each muscle.")
-    parallel: int = Field(description="Muscles side by side.")
+    nominal_length: float = si_field("m", "Nominal length of each muscle.")
+    parallel: int = Field(description="Number of parallel muscles.")
     valve: str
     tube: str | None
-    pressure: float = si_field("Pa", "Of the supply, gauge.")
-    time: float = si_field("s", "For the stroke.")
-    air_volume_anr: float = si_field("m^3", "In a cycle.")
+    pressure: float = si_field("Pa", "Gauge pressure of the supply.")
+    time: float = si_field("s", "Time for the stroke.")
+    air_volume_anr: float = si_field("m^3", "Air per cycle at ANR.")
     force_reserve: float = si_field("1", "Share by which the static force exceeds the load.")
-    stiffness: float = si_field("N/m", "At the load, valve open.")
-    front: bool = Field(description="No other explored design is better in everything.")
+    stiffness: float = si_field("N/m", "Stiffness at the load, valve open.")
+    front: bool = Field(description="On the Pareto front of the explored designs.")
 
 
 class ProposalAnswer(Strict):
-    """A drive that does the task. Figures of all muscles together where it says so, else of each."""
+    """A drive that does the task. Figures are per muscle unless stated otherwise."""
 
     muscle: str = Field(description="Id of the preset.")
-    nominal_length: float = si_field("m", "Of each muscle.")
-    parallel: int = Field(description="Muscles side by side (on each side of a pair).")
-    muscles: int = Field(description="All muscles of the drive.")
-    valve: str = Field(description="One for all parallel muscles; a pair has one on each side.")
-    tube: str | None = Field(description="One from the valve to each muscle.")
-    tube_length: float = si_field("m", "0 without a tube.")
-    pulley_radius: float | None = si_field("m", "Of a pair.")
-    pressure: float = si_field("Pa", "Of the supply at the valve, gauge; a regulator sets it.")
-    time: float = si_field("s", "For the stroke, to the end stop.")
-    time_down: float | None = si_field(
-        "s", "For the way back; null when it does not end in the time watched."
+    nominal_length: float = si_field("m", "Nominal length of each muscle.")
+    parallel: int = Field(description="Number of parallel muscles (on each side of a pair).")
+    muscles: int = Field(description="Number of all muscles of the drive.")
+    valve: str = Field(
+        description="Id of the preset; one for all parallel muscles, one on each side of a pair."
     )
-    contraction: float = si_field("1", "At the end of the stroke.")
-    force_reserve: float = si_field("1", "Share by which the static force exceeds the load at least.")
-    needed_pressure: float | None = si_field("Pa", "That just carries the load at the end of the stroke.")
-    pressure_start: float = si_field("Pa", "In the muscle when the load leaves its stop.")
-    pressure_end: float = si_field("Pa", "In the muscle on arrival.")
-    air_volume_anr: float = si_field("m^3", "Of all muscles in a cycle.")
-    impact_energy: float = si_field("J", "Of the whole load on the end stop.")
-    end_speed: float = si_field("m/s", "Of the load there.")
-    max_speed: float = si_field("m/s", "Of the load.")
+    tube: str | None = Field(description="Id of the preset; one tube from the valve to each muscle.")
+    tube_length: float = si_field("m", "Length of the tube; 0 without one.")
+    pulley_radius: float | None = si_field("m", "Pulley radius of a pair.")
+    pressure: float = si_field("Pa", "Gauge pressure of the supply at the valve, set by a regulator.")
+    time: float = si_field("s", "Time for the stroke to the end stop.")
+    time_down: float | None = si_field("s", "Time for the return; null if not reached in the simulated time.")
+    contraction: float = si_field("1", "Contraction ratio at the end of the stroke.")
+    force_reserve: float = si_field("1", "Least share by which the static force exceeds the load.")
+    needed_pressure: float | None = si_field(
+        "Pa", "Pressure that just carries the load at the end of the stroke."
+    )
+    pressure_start: float = si_field("Pa", "Pressure in the muscle when the load leaves its stop.")
+    pressure_end: float = si_field("Pa", "Pressure in the muscle on arrival.")
+    air_volume_anr: float = si_field("m^3", "Air of all muscles per cycle at ANR.")
+    impact_energy: float = si_field("J", "Kinetic energy of the whole load at the end stop.")
+    end_speed: float = si_field("m/s", "Speed of the load there.")
+    max_speed: float = si_field("m/s", "Largest speed of the load.")
     peak_force: float = si_field("N", "Largest tension of a muscle.")
-    stiffness: float = si_field("N/m", "Of the load at the end of the stroke, valve open.")
+    stiffness: float = si_field("N/m", "Stiffness at the load at the end of the stroke, valve open.")
     stiffness_closed: float = si_field("N/m", "The same with the valve closed.")
     installed_length: float = si_field("m", "Nominal length and end fittings.")
-    diameter: float = si_field("m", "Outside, bulged at the end of the stroke.")
+    diameter: float = si_field("m", "Outside diameter at the end of the stroke.")
     life: float = si_field("1", "Load cycles; an estimate, not verified.")
-    probability: float | None = si_field("1", "That what is built does the task; null without specimens.")
+    probability: float | None = si_field(
+        "1", "Probability that a built drive does the task; null without specimens."
+    )
     probability_error: float | None = si_field("1", "Its standard error.")
-    specimens: int = Field(description="Simulated for it.")
+    specimens: int = Field(description="Number of specimens simulated for it.")
     margins: dict[str, float] = Field(description=_MARGINS)
     binding: Binding = Field(description="The limit with the least margin.")
-    reason: str = Field(description="Why it stands where it stands.")
-    front: bool = Field(description="No other proposal is better in everything.")
-    notes: list[str] = Field(description="What to know when it is built.")
-    unverified: list[str] = Field(description="Figures that enter and nobody verified, by preset.")
-    drive: dict[str, Any] = Field(description="A drive document for /api/simulations; of one of the muscles.")
+    reason: str = Field(description="Explanation of its rank.")
+    front: bool = Field(description="On the Pareto front of the proposals.")
+    notes: list[str] = Field(description="Remarks for building it.")
+    unverified: list[str] = Field(description="Unverified figures it depends on, by preset.")
+    drive: dict[str, Any] = Field(description="Drive document for /api/simulations, of one of the muscles.")
 
 
 class RejectedAnswer(Strict):
-    """A candidate that does not do."""
+    """A rejected candidate."""
 
     muscle: str
     parallel: int
-    valve: str | None = Field(description="Null: whatever the valve.")
-    tube: str | None = Field(description="Null: whatever the tube.")
-    why: str = Field(description="In figures.")
+    valve: str | None = Field(description="Null = with any valve.")
+    tube: str | None = Field(description="Null = with any tube.")
+    why: str = Field(description="The reason, with figures.")
     binding: Binding = Field(description="The limit that must move by the least share when no other moves.")
     would_work_if: str = Field(description="What would help, least change first.")
-    combinations: int = Field(description="How many combinations it stands for.")
+    combinations: int = Field(description="Number of combinations this entry covers.")
 
 
 class SizingAnswer(Strict):
-    """Proposals best first, and everything else with its reason; SI, pressures gauge."""
+    """Proposals, best first, and rejected candidates with reasons; SI, pressures gauge."""
 
-    proposals: list[ProposalAnswer] = Field(description="Empty when nothing does; that is an answer too.")
+    proposals: list[ProposalAnswer] = Field(description="Best first; empty if no candidate does the task.")
     rejected: list[RejectedAnswer] = Field(description="Nearest first.")
-    explored: list[ExploredDesign] = Field(description="One for each choice of parts that does the task.")
-    combinations: int = Field(
-        description="Muscle, length, number, pressure, valve and tube within the limits."
+    explored: list[ExploredDesign] = Field(
+        description="The best design of each choice of parts that does the task."
     )
-    pruned: int = Field(description="Of these sorted out in closed form.")
-    simulated: int = Field(description="Transients run, specimens left out.")
-    specimens: int = Field(description="Transients run for probabilities.")
+    combinations: int = Field(
+        description="Combinations of muscle, length, number, pressure, valve and tube within the limits."
+    )
+    pruned: int = Field(description="Number of them ruled out in closed form.")
+    simulated: int = Field(description="Number of transient runs, without those of specimens.")
+    specimens: int = Field(description="Number of transient runs for probabilities.")
     outcome: Literal["completed", "timed_out", "cancelled"]
-    message: str | None = Field(description="What to do when the search did not complete.")
+    message: str | None = Field(description="Advice if the search did not complete.")
     flags: list[Flag]
-    wall_ms: float = Field(description="Time of the whole search in ms.")
+    wall_ms: float = Field(description="Computing time of the search in ms.")

@@ -1,4 +1,4 @@
-"""Request of ``/api/sizings/reports``: a task and which of its proposals to write down."""
+"""Request of ``/api/sizings/reports``: a task and the rank of the proposal to report."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from mckibben.documents.task import SizingTask
 
 
 class SizingReportRequest(Strict):
-    """The search is made again: no figure of the report comes from the caller."""
+    """The search runs again, so that no figure of the report comes from the caller."""
 
     task: SizingTask = Field(description="As for `/api/sizings`.")
     proposal: Annotated[int, Field(ge=1, le=30)] = Field(
-        1, description="Rank of the proposal to write down, 1 the best. A task without any has a report too."
+        1, description="Rank of the proposal, 1 the best. A task without proposals also has a report."
     )
-    title: str = Field("", max_length=200, description="Empty: that of the task, else what it is about.")
+    title: str = Field("", max_length=200, description="Empty = title of the task, or a summary of it.")

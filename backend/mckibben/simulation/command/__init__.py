@@ -1,1 +1,1 @@
-"""What commands a drive: signals of time as linear segments, and the sampled position controller."""
+"""The command of a drive: signals of time as linear segments, and the sampled position controller."""

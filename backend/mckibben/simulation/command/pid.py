@@ -11,9 +11,9 @@ Units of the gains. Inside, all gains are SI: command (1 = full opening, or full
 regulator) per metre. A document gives plain numbers in **percent of the full command per millimetre** (kp
 %/mm, ki %/(mm s), kd % s/mm), or texts with a unit. Why this reading: with kp = 2, ki = 10, kd = 0.01 and a
 muscle that moves at about 1 m/s with the valve fully open, percent per mm gives kp = 20 1/m, ki = 100 1/(m
-s): the loop :math:`s^2 + 20 s + 100 = (s + 10)^2` is critically damped with 0.1 s, full opening comes at 50
-mm error, and the derivative (5 ms) is a small lead. Read per metre, the same numbers give :math:`s^2 + 2 s
-+ 10`: poorly damped and too slow for a reference with a period of 1 s. Read as full opening per mm, the
+s): the loop :math:`s^2 + 20 s + 100 = (s + 10)^2` is critically damped with 0.1 s, the valve opens fully at
+50 mm error, and the derivative (5 ms) is a small lead. Read per metre, the same numbers give :math:`s^2 + 2
+s + 10`: poorly damped and too slow for a reference with a period of 1 s. Read as full opening per mm, the
 valve would switch between its ends at 0.5 mm error.
 """
 
@@ -28,14 +28,14 @@ from typing import Any, NamedTuple
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import si
 
-#: Percent per millimetre in 1/m: what a gain given as plain number is multiplied by.
+#: Percent per millimetre in 1/m: the factor of a gain written as a plain number.
 GAIN_SCALE = 0.01 / 1e-3
 MAX_GAIN = 1e9
 SHORTEST_SAMPLE, LONGEST_SAMPLE = 1e-5, 1.0
 
 
 class PidState(NamedTuple):
-    """What the controller remembers from one sample to the next.
+    """State of the controller from one sample to the next.
 
     Attributes:
         integral: I, in units of the command [-].
@@ -83,7 +83,7 @@ def pid_step(
 
 @cache
 def compiled_pid_step() -> Callable[..., tuple[float, float, float]]:
-    """`pid_step` as a numba function, to be called from other numba functions; numba is loaded only now."""
+    """`pid_step` as a numba function, for other numba functions; numba is imported at the first call."""
     from numba import njit
 
     return njit(pid_step, error_model="numpy", nogil=True)
@@ -145,8 +145,8 @@ class PidController:
     ) -> PidState:
         """The state before the first sample, at rest at ``measurement`` [m].
 
-        With ``command`` (and the reference it belongs to) the controller takes over without a bump: a first
-        sample at the same measurement gives this command, but for the first integration step.
+        With ``command`` and its reference the transfer is bumpless: a first sample at the same measurement
+        gives this command, except for the first integration step.
         """
         integral = 0.0
         if command is not None:
@@ -192,12 +192,12 @@ def controller_from(
 ) -> PidController:
     """The controller of a drive document: ``{"type": "pid", "kp": 2.0, "ki": 10.0, "kd": 0.01, ...}``.
 
-    A gain is a plain number in %/mm, %/(mm s), % s/mm, or a text with its unit (``"20 1/m"``). ``reference``
-    belongs to the document too and is read by `signals.signal_from`.
+    A gain is a plain number in %/mm, %/(mm s), % s/mm, or a text with its unit (``"20 1/m"``). The key
+    ``reference`` of the document is read by `signals.signal_from`.
 
     Args:
         document: the part of the document.
-        field: where it stands, for messages.
+        field: its path, for messages.
         output_min: default lower limit: -1 for a valve that also exhausts, 0 for a pressure regulator.
 
     Raises:

@@ -1,4 +1,4 @@
-"""Piecewise-linear signals of time as the integrator takes them: a list of segments, jumps between them."""
+"""Piecewise-linear signals of time for the integrator: a list of segments, with jumps between them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-#: Pieces shorter than this are left out [s]: rounding of ``k * period`` makes slivers, no valve does.
+#: Pieces shorter than this are left out [s]: they come from rounding of ``k * period``, not from a valve.
 SHORTEST = 1e-12
 
 Array = NDArray[np.float64]
@@ -18,9 +18,9 @@ class Segments(NamedTuple):
     """y(t) = start_values[i] + slopes[i] (t - times[i]) for times[i] <= t < times[i + 1].
 
     Attributes:
-        times: limits [s], ascending, one more than segments; the first is 0, the last the duration.
+        times: boundaries [s], ascending, one more than segments; the first is 0, the last the duration.
         start_values: value at the beginning of each segment [unit of the signal].
-        slopes: its rate in the segment [unit/s].
+        slopes: rate within each segment [unit/s].
     """
 
     times: Array
@@ -46,12 +46,12 @@ class Segments(NamedTuple):
 
 
 def clipped(starts: ArrayLike, values: ArrayLike, slopes: ArrayLike, *, duration: float) -> Segments:
-    """Segments on [0, duration] from pieces that each last until the next one starts, the last for ever.
+    """Segments on [0, duration] from pieces; each lasts until the next one starts.
 
-    Pieces that only go on with the same level are joined.
+    Adjacent pieces with the same constant level are joined.
 
     Args:
-        starts: ascending instants [s]; before the first its start value holds. Equal ones: the last counts.
+        starts: ascending instants [s]; its value holds before the first. Of equal ones the last counts.
         values, slopes: value at, and rate from, each start.
         duration: end [s], positive.
     """
@@ -75,8 +75,8 @@ def delayed(
 ) -> Segments:
     """The signal after a dead time that differs for rising and falling edges.
 
-    A jump upwards happens ``on_delay`` later, a jump downwards ``off_delay`` later; what follows the jump is
-    shifted with it. A kink without jump keeps the delay of the last edge (at the start: by the direction of
+    A jump upwards happens ``on_delay`` later, a jump downwards ``off_delay`` later; the signal after the jump
+    is shifted with it. A kink without a jump keeps the delay of the last edge (at the start: by the sign of
     the first slope), so a continuous signal stays continuous. Where the next edge comes later than the piece
     lasts, its end value is held; where it comes earlier, the piece is cut. An edge that would overtake the
     one before it cancels it: a pulse shorter than ``on_delay - off_delay`` never opens the valve, a pause
@@ -85,8 +85,8 @@ def delayed(
     Args:
         segments: the signal [any unit].
         on_delay, off_delay: dead times [s], not negative.
-        before: value before t = 0; when it differs from the first value there is an edge at t = 0. None: no
-            edge, the first value has always been there.
+        before: value before t = 0; if it differs from the first value there is an edge at t = 0. None: no
+            edge at t = 0.
 
     Raises:
         ValueError: a negative or infinite delay.
@@ -98,7 +98,7 @@ def delayed(
     ends = segments.end_values
     previous = _joined(values[0] if before is None else before, ends[:-1])
     jumps = values - previous
-    # At a kink the end of one piece and the start of the next differ by rounding: that is no edge.
+    # At a kink the end of one piece and the start of the next differ by rounding only: no edge.
     scale = max(np.abs(values).max(), np.abs(previous).max())
     edges = np.where(np.abs(jumps) > 1e-9 * scale, np.sign(jumps), 0.0)
     if edges[0] == 0.0:
@@ -110,10 +110,10 @@ def delayed(
     later = _joined(np.minimum.accumulate(begin[::-1])[::-1][1:], np.inf)
     alive = begin < later
     shifted_end = segments.times[1:] + delay
-    held = alive & (later > shifted_end + SHORTEST)
-    at = _joined(begin[alive], shifted_end[held])
-    level = _joined(values[alive], ends[held])
-    rate = _joined(slopes[alive], np.zeros(int(held.sum())))
+    extended = alive & (later > shifted_end + SHORTEST)
+    at = _joined(begin[alive], shifted_end[extended])
+    level = _joined(values[alive], ends[extended])
+    rate = _joined(slopes[alive], np.zeros(int(extended.sum())))
     order = np.argsort(at, kind="stable")
     first = float(previous[0])
     return clipped(
@@ -133,7 +133,7 @@ def merged(a: Segments, b: Segments) -> tuple[Segments, Segments]:
     inner = union[(union - union[0] > SHORTEST) & (union[-1] - union > SHORTEST)]
     inner = inner[np.diff(inner, prepend=-np.inf) > SHORTEST]
     times = _joined(union[0], inner, union[-1])
-    middle = 0.5 * (times[1:] + times[:-1])  # asks each signal for its piece away from its own jumps
+    middle = 0.5 * (times[1:] + times[:-1])  # away from the jumps of either signal
 
     def on_common(signal: Segments) -> Segments:
         piece = signal._piece(middle)
@@ -143,22 +143,22 @@ def merged(a: Segments, b: Segments) -> tuple[Segments, Segments]:
 
 
 def _joined(*parts: ArrayLike) -> Array:
-    """Numbers and arrays one after the other; numpy's `r_` takes six times as long, and runs are short."""
+    """Concatenates numbers and arrays; numpy's `r_` takes six times as long, which counts in short runs."""
     return np.concatenate([np.atleast_1d(np.asarray(part, dtype=np.float64)) for part in parts])
 
 
 def phases(command: Segments) -> tuple[Interval | None, Interval | None]:
-    """The first fill (command above 0) and what follows it, as (start, end) instants of the command [s].
+    """The first fill (command above 0) and the exhaust after it, as (start, end) instants of the command [s].
 
-    The exhaust begins when the command of the fill ends, be it by closing or by venting, and lasts to the
-    next fill or the end. Without a fill it begins with the first negative command.
+    The exhaust begins when the command of the fill ends, by closing or by venting, and lasts until the next
+    fill or the end. Without a fill it begins with the first negative command.
     """
     middle = 0.5 * (command.start_values + command.end_values)
     duration = float(command.times[-1])
 
     def first(holds: NDArray[np.bool_], after: float) -> float | None:
-        found = np.flatnonzero(holds & (command.times[:-1] >= after))
-        return float(command.times[found[0]]) if len(found) else None
+        positions = np.flatnonzero(holds & (command.times[:-1] >= after))
+        return float(command.times[positions[0]]) if len(positions) else None
 
     on = first(middle > 0.0, 0.0)
     off = first(middle < 0.0, 0.0) if on is None else first(middle <= 0.0, on)

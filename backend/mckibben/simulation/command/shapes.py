@@ -1,6 +1,6 @@
-"""What every signal of time can do, and the shapes made of straight pieces.
+"""The base class of signals of time, and the shapes made of straight pieces.
 
-Levels are in the unit of the reader: a share of the valve opening ("1"), a stroke ("m"), a force ("N").
+The unit of the levels depends on the use: a share of the valve opening ("1"), a stroke ("m"), a force ("N").
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ MAX_SEGMENTS = 100_000
 #: Largest distance of a smooth shape from its chords, as a share of the amplitude.
 SMOOTH_ERROR = 1e-4
 
-#: Beyond these a slope or a square would leave the range of numbers.
+#: Beyond these a slope or a square would overflow.
 LARGEST, SHORTEST_TIME = 1e30, 1e-9
 
 POSITIVE, NOT_NEGATIVE = "positive", "positive or zero"
@@ -28,32 +28,32 @@ Pieces = tuple[Array, Array, Array]
 
 
 def key(kind: str, default: Any = MISSING, *, name: str = "", rule: str = "") -> Any:
-    """A field that a document may give: what it measures, its default, its name there, what must hold.
+    """A field of a document: its kind of quantity, default, name in the document, and range.
 
-    Defaults "rest" and "full" stand for the reader's values of a signal at rest and at full.
+    The defaults "rest" and "full" are replaced by the values of `signal_from` for rest and full signal.
     """
     metadata = {"kind": kind, "default": default, "rule": rule, "name": name}
-    # Values that depend on the reader have no default for the constructor.
+    # "rest" and "full" are no defaults of the constructor.
     known = default is not MISSING and default not in ("rest", "full")
     return field(default=default, metadata=metadata) if known else field(metadata=metadata)
 
 
 def require(holds: bool, name: str, message: str, hint: str | None = None) -> None:
-    """Raise InputError unless it holds."""
+    """Raise InputError unless the condition holds."""
     if not holds:
         raise InputError(message, field=name, hint=hint)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Signal:
-    """A shape of time from t = 0 on. Subclasses say which pieces it is made of.
+    """A signal from t = 0 on. Subclasses define its pieces.
 
     Raises:
-        InputError: an impossible value, its ``field`` the name in the document; more than `MAX_SEGMENTS`.
+        InputError: an impossible value, with ``field`` its path in the document; more than `MAX_SEGMENTS`.
     """
 
     shape: ClassVar[str]
-    path: str = field(default="", repr=False)  # where the document had it, for messages
+    path: str = field(default="", repr=False)  # path in the document, for messages
 
     def __post_init__(self) -> None:
         for item in fields(self):
@@ -69,7 +69,7 @@ class Signal:
 
     @property
     def before(self) -> float:
-        """Value before t = 0; a difference to the first value is an edge at t = 0 (see `delayed`)."""
+        """Value before t = 0; if it differs from the first value, there is an edge at 0 (see `delayed`)."""
         return float(self.value(0.0))
 
     @property
@@ -89,7 +89,7 @@ class Signal:
 
         Args:
             duration: end [s].
-            smooth_step: longest chord of a smooth shape [s]; chords are shorter where `SMOOTH_ERROR` asks it.
+            smooth_step: longest chord of a smooth shape [s]; shorter where `SMOOTH_ERROR` requires it.
         """
         if not (math.isfinite(duration) and duration > 0.0):
             raise InputError(
@@ -109,7 +109,7 @@ class Signal:
         require(count <= MAX_SEGMENTS, self.path, too_many)
 
     def _periods(self, until: float, period: float, pieces: int) -> Array:
-        """The beginnings of all periods up to ``until``."""
+        """The starts of all periods up to ``until``."""
         self._check_count(pieces * (until / period), f"{until:g} s in steps of {period:g} s")
         return period * np.arange(math.floor(until / period) + 1, dtype=np.float64)
 
@@ -130,7 +130,7 @@ class Step(Signal):
 
     @property
     def before(self) -> float:
-        """The level before the step, also when it is at t = 0."""
+        """The level before the step, also if the step is at t = 0."""
         return self.initial
 
     @property
@@ -167,9 +167,9 @@ class Pulse(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Square(Step):
-    """``level`` for the share ``duty`` of each period, then ``initial``; it begins with ``level`` at t = 0.
+    """``level`` for the share ``duty`` of each period, then ``initial``; starts with ``level`` at t = 0.
 
-    A document may give ``amplitude`` = level - initial in place of one of the two.
+    A document may give ``amplitude`` = level - initial instead of one of the two.
     """
 
     shape = "square"
@@ -192,7 +192,7 @@ class Square(Step):
 class Triangle(Signal):
     """From ``offset`` up to ``offset + amplitude`` and back in each period.
 
-    The amplitude is the height, so that a stroke reference with offset 0 stays on the reachable side.
+    The amplitude is the full height, so that a stroke reference with offset 0 is never negative.
     """
 
     shape = "triangle"

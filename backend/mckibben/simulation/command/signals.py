@@ -1,7 +1,7 @@
 """Commands, references and loads as shapes of time, read from a document.
 
-Every shape cuts itself into linear segments (`Signal.segments`) for the integrator and gives its exact value
-for plots (`Signal.value`). Straight shapes are in shapes.py, the others in waveforms.py.
+Every shape gives linear segments for the integrator (`Signal.segments`) and its exact value for plots
+(`Signal.value`). Straight shapes are in shapes.py, the others in waveforms.py.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ __all__ = [
 
 _SI = {"time": "s", "share": "1", "frequency": "Hz", "angle": "rad"}
 
-#: Keys that a document may use in place of a field.
+#: Keys that a document may use instead of a field.
 SYNONYMS: dict[type[Signal], tuple[str, ...]] = {Square: ("amplitude",), Sine: ("period",)}
 
 #: Name in a document -> shape.
@@ -66,14 +66,14 @@ def signal_from(
     rest: float = 0.0,
     limits: tuple[float, float] | None = None,
 ) -> Signal:
-    """The signal that a part of a document describes: ``{"shape": "pulse", "on": "0 s", "off": "2 s"}``.
+    """The signal of a part of a document: ``{"shape": "pulse", "on": "0 s", "off": "2 s"}``.
 
     Args:
         document: ``shape`` and its keys; values are numbers in SI or texts with a unit.
-        unit: SI unit of the levels; for "1" a level or amplitude left out is 1, else it must be given.
-        field: where the part stands, for messages ("command", "controller.reference").
+        unit: SI unit of the levels; for "1" a missing level or amplitude is 1, else it is required.
+        field: path of the part, for messages ("command", "controller.reference").
         rest: the level before a step, outside a pulse, in the low part of a square, ramp or random.
-        limits: levels outside are refused (±1 for a valve).
+        limits: permitted range of levels (±1 for a valve).
 
     Raises:
         InputError: not a mapping; unknown shape or key; missing, impossible or out-of-range value.
@@ -112,7 +112,7 @@ def signal_from(
 
 
 def _shown(text: object) -> str:
-    """A text of the caller, short enough for a message."""
+    """A text of the caller, shortened for a message."""
     return str(text) if len(str(text)) <= 40 else str(text)[:40] + "…"
 
 
@@ -156,7 +156,7 @@ def _column(raw: Any, unit: str, where: str) -> Array:
 
 
 def _level_of_amplitude(given: dict[str, Any], unit: str, field: str, rest: float) -> None:
-    """Replace the amplitude of a square by the level that is not given: amplitude = level - initial."""
+    """Replace the amplitude of a square by the missing level: amplitude = level - initial."""
     if "amplitude" not in given:
         return
     where = f"{field}.amplitude"

@@ -31,7 +31,7 @@ _CHIRP_BLOCKS = 64
 class _Smooth(Signal):
     """offset + amplitude sin(angle(t)), cut into chords.
 
-    A chord of width h is off by at most h^2/8 max|y''| with |y''| <= amplitude (angle'^2 + |angle''|).
+    The error of a chord of width h is at most h^2/8 max|y''|, with |y''| <= amplitude (angle'^2 + |angle''|).
     """
 
     amplitude: float = key("value", "full")
@@ -51,12 +51,12 @@ class _Smooth(Signal):
         raise NotImplementedError
 
     def _bends(self, until: float) -> tuple[Array, Array]:
-        """Limits of blocks on [0, until], and angle'^2 + |angle''| at most within each [1/s^2]."""
+        """Boundaries of blocks on [0, until], and the maximum of angle'^2 + |angle''| within each [1/s^2]."""
         raise NotImplementedError
 
     def _pieces(self, until: float, smooth_step: float | None = None) -> Pieces:
         limits, bends = self._bends(until)
-        # 1 % below the stated error: the chords' own rounding stays inside it.
+        # 1 % below the stated error, as a margin for rounding.
         steps = np.sqrt(8.0 * 0.99 * SMOOTH_ERROR / np.maximum(bends, 1e-12))  # zero frequency: a constant
         if smooth_step is not None:
             steps = np.minimum(steps, smooth_step)
@@ -85,7 +85,7 @@ class Sine(_Smooth):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Chirp(_Smooth):
-    """A sine whose frequency goes linearly from one to the other within ``duration`` and then stays."""
+    """A sine whose frequency changes linearly within ``duration`` and then stays constant."""
 
     shape = "chirp"
     begin: float = key("frequency", name="from", rule=NOT_NEGATIVE)
@@ -109,7 +109,7 @@ class Chirp(_Smooth):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Random(Signal):
-    """A new level every ``hold``, uniform between ``lower`` and ``upper``; the same for the same seed."""
+    """A new level every ``hold``, uniform between ``lower`` and ``upper``; reproducible by its seed."""
 
     shape = "random"
     hold: float = key("time", rule=POSITIVE)
@@ -126,19 +126,19 @@ class Random(Signal):
 
     @property
     def extent(self) -> tuple[float, float]:
-        """The given bounds."""
+        """Lower and upper bound."""
         return self.lower, self.upper
 
     def _pieces(self, until: float, smooth_step: float | None = None) -> Pieces:
         starts = self._periods(until, self.hold, 1)
-        # Levels are drawn in order, so a longer run begins with the levels of a shorter one.
+        # Drawn in order: a longer run begins with the levels of a shorter one.
         values = np.random.default_rng(self.seed).uniform(self.lower, self.upper, len(starts))
         return starts, values, np.zeros(len(starts))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class TableSignal(Signal):
-    """Given points, joined by lines or held until the next; the first and last value hold outside.
+    """A table of points, joined by lines or each held until the next; constant outside its range.
 
     Two points at the same time are a jump. Times may begin before 0.
     """

@@ -1,1 +1,1 @@
-"""A drive through time: its parts, where it rests, runs under a command, a controller or measured inputs."""
+"""Transient simulation of a drive: its parts, rest position, and open-loop, controlled and driven runs."""

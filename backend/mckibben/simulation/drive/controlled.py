@@ -1,6 +1,6 @@
 """A drive under a sampled position controller: integrate one sample, measure, set the next command.
 
-The kernel does the whole loop. The same loop in Python is there for integrators that cannot, and to check.
+The kernel runs the whole loop. The same loop in Python serves other integrators, and checks the kernel.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ from mckibben.simulation.integrate.engine import (
 )
 from mckibben.simulation.outcome import Watch
 
-# The kernel is asked back this often, to see whether it should go on.
+# The kernel returns this often, to check whether the run is to continue.
 _SAMPLES_AT_ONCE = 1000
 _MEASURED = OUTPUTS.index("stroke_reading")
 _PLACES = ("opening", "counter_opening", "external_force", "external_force_slope", "begin")
@@ -46,7 +46,7 @@ _PLACES = ("opening", "counter_opening", "external_force", "external_force_slope
 
 @dataclass(frozen=True)
 class ControlLoop:
-    """A controlled run to do.
+    """A controlled run and its inputs.
 
     Attributes:
         drive, compiled, parameters, tolerance: as for a free run.
@@ -81,13 +81,13 @@ def simulate_controlled(
 ) -> Run:
     """Run a drive whose controller follows its reference; the command is held between samples.
 
-    The controller sees the load's stroke as its sensor reads it. A command that rises (falls) acts after
-    the dead time of opening (closing), in the order in which the commands were given.
+    The controller uses the sensor reading of the load's stroke. A rising (falling) command acts after the
+    dead time of opening (closing). Commands act in the order in which they were issued.
 
     Args:
         drive: what to run.
         points, grid, tolerance, watch: as in `mckibben.simulation.drive.transient.simulate`.
-        engine: "rodas" waits for the kernel, "auto" takes it if it is ready, "lsoda" does without.
+        engine: "rodas" waits for the kernel, "auto" uses it if it is ready, "lsoda" never uses it.
 
     Raises:
         InputError: more than a million samples.
@@ -130,13 +130,13 @@ def simulate_controlled(
 
 
 def loop_in_kernel(loop: ControlLoop) -> tuple[Solution, np.ndarray]:
-    """The run by the kernel, and when which command became active (rows of instant and command)."""
+    """The run by the kernel, and the commands that became active (rows of instant and command)."""
     drive, compiled, external = loop.drive, loop.compiled, loop.external
     kernels = kernel.ready()
     if kernels is None:
         raise RuntimeError("the kernel is not ready")
     samples = len(loop.set_points)
-    lever = drive.load.lever_ratio  # the controller sees the load
+    lever = drive.load.lever_ratio  # the controller measures the load
     mirrored = drive.counter(0.0)
     figures = np.array(
         [drive.duration, *dead_times(drive), lever, mirrored, drive.counter(1.0) - mirrored], dtype=float
@@ -187,7 +187,7 @@ def loop_in_kernel(loop: ControlLoop) -> tuple[Solution, np.ndarray]:
 
 
 def loop_in_python(loop: ControlLoop, engine: str) -> tuple[Solution, np.ndarray]:
-    """The run sample by sample under `integrate`, otherwise as `loop_in_kernel`."""
+    """The run sample by sample by `integrate`; result as `loop_in_kernel`."""
     drive, compiled, external, grid = loop.drive, loop.compiled, loop.external, loop.grid
     period, delays, samples = loop.controller.sample_time, dead_times(drive), len(loop.set_points)
     memory = _first_memory(loop)
@@ -217,7 +217,7 @@ def loop_in_python(loop: ControlLoop, engine: str) -> tuple[Solution, np.ndarray
             stop = float(min([*limits, pending[0][0]] if pending else limits))
             upper = np.searchsorted(grid, stop, side="right" if stop >= drive.duration else "left")
             lower = np.searchsorted(grid, now, side="left")
-            found = integrate(
+            solution = integrate(
                 compiled,
                 parameters=loop.parameters,
                 start=state,
@@ -228,9 +228,9 @@ def loop_in_python(loop: ControlLoop, engine: str) -> tuple[Solution, np.ndarray
                 engine=engine,
                 first_step=first_step,
             )
-            rows.append(found.rows)
-            steps, rejected = steps + found.steps, rejected + found.rejected
-            state, now, outcome, first_step = found.end, stop, found.outcome, found.next_step
+            rows.append(solution.rows)
+            steps, rejected = steps + solution.steps, rejected + solution.rejected
+            state, now, outcome, first_step = solution.end, stop, solution.outcome, solution.next_step
         if outcome is not Outcome.COMPLETED:
             break
     name = "lsoda" if engine == "lsoda" else "rodas"
@@ -243,7 +243,7 @@ def _first_memory(loop: ControlLoop) -> PidState:
 
 def _inputs(opening: float, counter: float, external: Segments, now: float) -> np.ndarray:
     piece = int(np.clip(np.searchsorted(external.times, now, side="right") - 1, 0, len(external.slopes) - 1))
-    given = {
+    values = {
         "opening": opening,
         "opening_slope": 0.0,
         "counter_opening": counter,
@@ -252,11 +252,11 @@ def _inputs(opening: float, counter: float, external: Segments, now: float) -> n
         "external_force_slope": float(external.slopes[piece]),
         "begin": now,
     }
-    return np.array([[given[name] for name in INPUTS]])
+    return np.array([[values[name] for name in INPUTS]])
 
 
 def _measured(loop: ControlLoop, state: np.ndarray) -> float:
-    """The load's stroke as its sensor reads it [m]; the inputs of the run have no part in it."""
+    """Sensor reading of the load's stroke [m]; it does not depend on the inputs of the run."""
     packed = np.concatenate([state, loop.parameters, np.zeros(len(INPUTS))])
     reading = float(loop.compiled.rates(packed)[loop.compiled.size + _MEASURED])
     return reading / loop.drive.load.lever_ratio

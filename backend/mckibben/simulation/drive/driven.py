@@ -1,4 +1,4 @@
-"""Driven runs: measured pressure and length in, force out; or measured pressure in, motion out."""
+"""Driven runs: from measured pressure and length to force, or from measured pressure to motion."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ def driven_force(
 ) -> np.ndarray:
     """The force reading [N] at each time of a record of gauge pressure [Pa] and length [m].
 
-    Rates and memory of the effects are integrated along the record, which is taken as lines between samples;
-    before it everything is at rest at the first sample.
+    Rates and states of the effects are integrated along the record, linear between samples. Before the record
+    everything is at rest at the first sample.
 
     Args:
         model: the muscle with its effects.
@@ -36,12 +36,12 @@ def driven_force(
         pressure, length: as measured, same shape.
 
     Raises:
-        InputError: times that do not ascend, or an effect whose memory diverges on this record.
+        InputError: times that do not ascend, or an effect whose states diverge on this record.
     """
-    found = driven_states(
+    outputs = driven_states(
         model, time=time, pressure=pressure, length=length, temperature=temperature, tolerance=tolerance
     )
-    return skewed(model, time, found["force_reading"])
+    return skewed(model, time, outputs["force_reading"])
 
 
 def driven_states(
@@ -53,10 +53,10 @@ def driven_states(
     temperature: float = ROOM_TEMPERATURE,
     tolerance: float = TOLERANCE,
 ) -> dict[str, np.ndarray]:
-    """What `driven_force` integrates: each state ("effect.state") and reading at each time of the record.
+    """The states ("effect.state") and readings that `driven_force` integrates, at each time of the record.
 
     Raises:
-        InputError: as there.
+        InputError: as for `driven_force`.
     """
     compiled = compiled_driven(model.effects, motion=False)
     table = {"temperature": temperature, **_geometry(model), **_named(model)}
@@ -81,7 +81,7 @@ def driven_motion(
     Args:
         drive: muscle, load and stops; its valve, tube and command are not used.
         time, pressure: the record, see `driven_force`.
-        stroke: of the muscle at the first row [m], at rest there.
+        stroke: stroke of the muscle at the first row [m], where it is at rest.
 
     Returns:
         ``stroke_reading`` [m], ``force_reading`` [N] and ``stroke``, ``speed`` at each time.
@@ -100,9 +100,9 @@ def driven_motion(
     names = [state.name for state in compiled.model.states]
     start = np.array([state.initial or 0.0 for state in compiled.model.states])
     start[names.index("clock")], start[names.index("stroke")] = time[0], stroke
-    found = _run(compiled, table, inputs, start, time, tolerance)
-    found["force_reading"] = skewed(drive.model, time, found["force_reading"])
-    return {name: found[name] for name in ("stroke_reading", "force_reading", "stroke", "speed")}
+    outputs = _run(compiled, table, inputs, start, time, tolerance)
+    outputs["force_reading"] = skewed(drive.model, time, outputs["force_reading"])
+    return {name: outputs[name] for name in ("stroke_reading", "force_reading", "stroke", "speed")}
 
 
 def _run(
@@ -115,15 +115,15 @@ def _run(
 ) -> dict[str, np.ndarray]:
     model = compiled.model
     parameters = np.array([table[name] for name in model.parameters])
-    given = np.column_stack([inputs[name] for name in model.inputs])
-    at_rest = given[0] * ~np.array([name.endswith("_slope") for name in model.inputs])
+    packed_inputs = np.column_stack([inputs[name] for name in model.inputs])
+    at_rest = packed_inputs[0] * ~np.array([name.endswith("_slope") for name in model.inputs])
     settle(compiled, start, parameters, at_rest)
     solution = integrate(
         compiled,
         parameters=parameters,
         start=start,
         times=np.ascontiguousarray(time, dtype=float),
-        inputs=given,
+        inputs=packed_inputs,
         grid=np.ascontiguousarray(time, dtype=float),
         tolerance=tolerance,
     )
@@ -149,4 +149,8 @@ def _geometry(model: StaticModel) -> dict[str, float]:
 
 
 def _named(model: StaticModel) -> dict[str, float]:
-    return {f"{effect}.{name}": value for effect, own in model.values.items() for name, value in own.items()}
+    return {
+        f"{effect}.{name}": value
+        for effect, parameters in model.values.items()
+        for name, value in parameters.items()
+    }

@@ -1,4 +1,4 @@
-"""The parts of a drive, in SI: valve, regulator, tube, load, and the drive they make with a muscle."""
+"""The parts of a drive, in SI: valve, regulator, tube and load; and the complete drive with a muscle."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from mckibben.simulation.statics.model import StaticModel
 
 @dataclass(frozen=True, slots=True)
 class Valve:
-    """Sonic conductances [m^3/(s Pa)] and critical pressure ratios both ways."""
+    """Sonic conductances [m^3/(s Pa)] and critical pressure ratios for fill and exhaust."""
 
     fill_conductance: float
     exhaust_conductance: float
@@ -25,7 +25,7 @@ class Valve:
 
 @dataclass(frozen=True, slots=True)
 class Regulator:
-    """A pressure regulator: full-scale gauge pressure [Pa] and time constant [s] besides its conductances."""
+    """Full-scale gauge pressure [Pa] and time constant [s] of a pressure regulator."""
 
     range: float
     time: float
@@ -44,8 +44,8 @@ class Load:
     """What the muscle pulls.
 
     Attributes:
-        mass: [kg].
-        inclination: of the way it is pulled against the horizontal [rad]; 90 degrees hangs or lifts.
+        mass: moved mass [kg].
+        inclination: angle of the direction of pull to the horizontal [rad]; 90 degrees = vertical lift.
         force: external force against the pull [N], a number or a signal of time.
         spring: stiffness against the contraction [N/m].
         lever_ratio: stroke of the muscle per stroke of the load [-].
@@ -64,20 +64,20 @@ class Drive:
 
     Attributes:
         model: the muscle with its effects.
-        valve, regulator, tube: the way of the air; a regulator takes the valve's conductances.
-        assumed_tube: stands in where no tube is stated and an effect of the model acts on one; None where the
-            drive states that there is none.
-        load: what is pulled.
+        valve, regulator, tube: the air path; a regulator uses the valve's conductances.
+        assumed_tube: used if no tube is stated and an effect of the model acts on one; None if the drive
+            states that there is none.
+        load: what the muscle pulls.
         command: opening of the valve, 1 fill, 0 closed, -1 exhaust; of a regulator the share of its range.
-        supply_pressure: [Pa].
+        supply_pressure: gauge pressure of the supply [Pa].
         min_contraction, max_contraction: end stops as contraction ratios of the (first) muscle.
-        start_pressure: of the muscle at t = 0 [Pa].
-        own_mass: mass of muscle and fittings that moves [kg].
+        start_pressure: pressure in the muscle at t = 0 [Pa].
+        own_mass: moving mass of muscle and fittings [kg].
         fitting_volume: dead volume of fittings [m^3].
         pair: whether a second muscle pulls against the first; its command mirrors the first's (`counter`).
-        precontraction: contraction ratio of both muscles of a pair at the middle, from where strokes count.
-        pulley_radius: of a pair, from stroke to angle [m].
-        controller, reference: a position controller that gives the command instead, and its set point [m].
+        precontraction: contraction ratio of both muscles of a pair in the middle position, where stroke = 0.
+        pulley_radius: pulley radius of a pair [m].
+        controller, reference: a position controller that replaces the command, and its set point [m].
     """
 
     model: StaticModel
@@ -110,9 +110,9 @@ class Drive:
 
     @property
     def tube_in_use(self) -> Tube | None:
-        """The tube that resists the flow: the stated one, or the assumed one where an effect acts on it.
+        """The stated tube, or the assumed one if an effect acts on it.
 
-        None: the valve sits on the muscle.
+        None: the valve is mounted on the muscle.
         """
         if self.tube is None and any("tube_conductance" in effect.slots for effect in self.model.effects):
             return self.assumed_tube
@@ -120,7 +120,7 @@ class Drive:
 
     @property
     def tube_assumption(self) -> str | None:
-        """What to say where the assumed tube is in use."""
+        """A note for the user if the assumed tube is in use."""
         tube = self.assumed_tube
         if tube is None or self.tube is not None or not any(e.of_tube for e in self.model.effects):
             return None
@@ -131,18 +131,18 @@ class Drive:
 
     @property
     def structure(self) -> DriveStructure:
-        """What decides the equations."""
+        """The features of the drive that determine its equations."""
         return DriveStructure(
             self.model.effects, self.tube_in_use is not None, self.regulator is not None, self.pair
         )
 
     @property
     def stops(self) -> tuple[float, float]:
-        """End stops as strokes of the muscle [m]; of a pair counted from the middle."""
+        """End stops as strokes of the muscle [m]; of a pair measured from the middle position."""
         rest = self.muscle.nominal_length
         low, high = (c - self.precontraction for c in (self.min_contraction, self.max_contraction))
         return low * rest, high * rest
 
     def counter(self, command: float) -> float:
-        """Command of the second muscle of a pair: the valve the other way, the regulator's other share."""
+        """Command of the second muscle of a pair: -u for a valve, 1 - u for a regulator."""
         return 1.0 - command if self.regulator is not None else -command

@@ -1,4 +1,4 @@
-"""Where a run starts: everything at rest, found from the compiled equations themselves."""
+"""The start of a run: the rest position, computed from the compiled equations."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def start_of(drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inpu
         drive: the drive.
         compiled: its equations.
         parameters: constants of the run.
-        inputs: what acted before the run, shape (inputs,).
+        inputs: inputs before the run, shape (inputs,).
 
     Raises:
         InputError: no equilibrium short of the braid lock (the load tears the muscle off its lower stop).
@@ -65,16 +65,16 @@ def start_of(drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inpu
     start[names.index("stroke")] = packed[names.index("stroke")] = float(
         root_scalar(push, bracket=(low, high), xtol=1e-14).root
     )
-    found = compiled.rates(packed)[compiled.size :]
+    outputs = compiled.rates(packed)[compiled.size :]
     for index in masses:
         output = "volume" + names[index].removeprefix("gas_mass")
-        start[index] = specific * float(found[compiled.model.output_names.index(output)])
+        start[index] = specific * float(outputs[compiled.model.output_names.index(output)])
     settle(compiled, start, parameters, inputs)
     return start
 
 
 def settle(compiled: CompiledDrive, start: np.ndarray, parameters: np.ndarray, inputs: np.ndarray) -> None:
-    """Put the states that start settled (a spool, a lagged reading) where their rates are zero, in place.
+    """Set the states that start settled (a spool, a lagged reading) to where their rates are zero, in place.
 
     Their rates are linear in them. Least squares, because a lag of zero makes a rate that is always zero.
     """

@@ -1,4 +1,4 @@
-"""A drive through time: from its parts to states, outputs and phases on a time grid."""
+"""Transient simulation of a drive: from its parts to states and outputs on a time grid."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ from mckibben.simulation.statics.model import StaticModel
 GRAVITY = 9.80665  # m/s2
 # End stops: natural frequency of the load on them [rad/s]; critically damped, so an impact does not bounce.
 _STOP_FREQUENCY = 2000.0
-_STOP_GIVE = 5e-5  # m; a light load must not let the blocked force press further into the stop
-_LIGHTEST = 1e-3  # kg; a drive without any mass has no equation of motion
+_STOP_GIVE = 5e-5  # m; the blocked force presses a stop in by at most this, even under a light load
+_LIGHTEST = 1e-3  # kg; least moving mass: without mass there is no equation of motion
 # At 1e-5 a step may jump over the moment at which a load leaves its stop (0.4 mm in paper-ramp).
 TOLERANCE = 1e-6
 
@@ -36,9 +36,9 @@ class Run:
     Attributes:
         states: state name -> values.
         outputs: name of `OUTPUTS` -> values.
-        outcome: how it ended; rows stop where a run did.
+        outcome: how the run ended; a run that ended early has fewer rows.
         command: the command after all dead times.
-        wall_seconds: time of the integration.
+        wall_seconds: computing time of the integration [s].
     """
 
     time: np.ndarray
@@ -59,7 +59,7 @@ class Run:
 
 
 def constants_of(drive: Drive) -> dict[str, float]:
-    """The numbers of a run by the names of the model's parameters."""
+    """The constants of a run by the names of the model's parameters."""
     load, tube, rest = drive.load, drive.tube_in_use, drive.muscle.nominal_length
     mass = max(load.mass + drive.own_mass, _LIGHTEST)
     blocked = ideal.force(braid=drive.muscle.braid, pressure=drive.supply_pressure, length=rest)
@@ -96,21 +96,21 @@ def constants_of(drive: Drive) -> dict[str, float]:
         "stop_stiffness": stop,
         "stop_damping": 2.0 * sqrt(mass * stop),
     }
-    assert set(table) == set(CONSTANTS)  # noqa: S101 - a constant without a value is our own mistake
+    assert set(table) == set(CONSTANTS)  # noqa: S101 - a constant without a value is a programming error
     table |= {name: float(getattr(drive.muscle, name)) for name in GEOMETRY}
-    for effect, own in drive.model.values.items():
-        table |= {f"{effect}.{name}": value for name, value in own.items()}
+    for effect, effect_values in drive.model.values.items():
+        table |= {f"{effect}.{name}": value for name, value in effect_values.items()}
     return table
 
 
 def parameters_of(drive: Drive, compiled: CompiledDrive) -> np.ndarray:
-    """The numbers of a run in the order of the compiled model's parameters."""
+    """The constants of a run in the order of the compiled model's parameters."""
     table = constants_of(drive)
     return np.array([table[name] for name in compiled.model.parameters])
 
 
 def dead_times(drive: Drive) -> tuple[float, float]:
-    """Dead time of opening and of closing that the effects make [s]."""
+    """Dead times of opening and of closing due to the effects [s]."""
     tube = drive.tube or drive.assumed_tube
     tube_length = 0.0 if tube is None else tube.length
     on, off = 0.0, 0.0
@@ -130,15 +130,15 @@ def external_force(drive: Drive) -> Segments:
 
 
 def segments_of(drive: Drive) -> tuple[np.ndarray, np.ndarray, Segments]:
-    """Segment limits, inputs of each segment, and the command after the dead times of the effects."""
+    """Segment boundaries, inputs of each segment, and the command after the dead times of the effects."""
     on, off = dead_times(drive)
     command = delayed(drive.command.segments(drive.duration), on, off, before=drive.command.before)
     command, external = merged(command, external_force(drive))
-    counter = command  # of a single muscle nothing follows it
+    counter = command  # unused for a single muscle
     if drive.pair:
-        given = drive.command.segments(drive.duration)
-        opposite = np.array([drive.counter(value) for value in given.start_values])
-        mirrored = Segments(given.times, opposite, -given.slopes)
+        unshifted = drive.command.segments(drive.duration)
+        opposite = np.array([drive.counter(value) for value in unshifted.start_values])
+        mirrored = Segments(unshifted.times, opposite, -unshifted.slopes)
         counter, _ = merged(delayed(mirrored, on, off, before=drive.counter(drive.command.before)), command)
         command, external = merged(command, counter)[0], merged(external, counter)[0]
     columns = {
@@ -167,7 +167,7 @@ def simulate(
     Args:
         drive: what to run.
         points: rows of the evenly spaced time grid.
-        grid: ascending times of the rows instead, within the duration.
+        grid: ascending times of the rows within the duration; replaces ``points``.
         tolerance: relative error per step.
         watch: may end the run early.
         engine: see `mckibben.simulation.integrate.engine.integrate`.
@@ -175,10 +175,10 @@ def simulate(
     compiled = compiled_drive(drive.structure)
     parameters = parameters_of(drive, compiled)
     times, inputs, command = segments_of(drive)
-    # Until t = 0 the valve was where the command starts from, not where its first segment is.
+    # Before t = 0 the valve has the command's value before t = 0, not that of its first segment.
     before = inputs[0].copy()
-    held = drive.command.before
-    for name, value in (("opening", held), ("counter_opening", drive.counter(held))):
+    rest_command = drive.command.before
+    for name, value in (("opening", rest_command), ("counter_opening", drive.counter(rest_command))):
         before[INPUTS.index(name)], before[INPUTS.index(f"{name}_slope")] = value, 0.0
     start = start_of(drive, compiled, parameters, before)
     grid = np.linspace(0.0, drive.duration, points) if grid is None else grid
@@ -225,6 +225,6 @@ def run_of(
 
 
 def skewed(model: StaticModel, time: np.ndarray, reading: np.ndarray) -> np.ndarray:
-    """The force reading as it arrives: later than the other channels by the skew of the effects."""
+    """The force reading delayed by the time skew of the effects."""
     delay = float(Model(model.effects).sum("skew", model.values, {}))
     return np.interp(time - delay, time, reading) if delay and len(time) else reading

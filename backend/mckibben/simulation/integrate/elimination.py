@@ -1,10 +1,10 @@
-"""How the linear systems of a structure are solved: an order of its states, from which rate needs which.
+"""Elimination plan for the linear systems of a structure: an order of its states by their dependencies.
 
-The kernel solves (1/(gamma h) - J) x = b some thousand times a run, and most of J is zero. The states fall
-into blocks that need each other (strongly connected), and the blocks into an order in which each needs only
-earlier ones: a valve before the muscle, an integral last. Only within a block is anything eliminated, along
-the diagonal and in the order of least fill. Pivots stay on the diagonal: 1/(gamma h) is added to it, so a
-pivot that vanishes means a step that is too long, which the kernel then shortens.
+The kernel solves (1/(gamma h) - J) x = b some thousand times a run, and most of J is zero. The states form
+strongly connected blocks, ordered so that each block depends only on earlier ones: a valve before the muscle,
+an integral last. Elimination is needed within a block only, along the diagonal and in the order of least
+fill. Pivots stay on the diagonal: 1/(gamma h) is added to it, so a vanishing pivot means that the step is too
+long; the kernel then shortens it.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ class Plan(NamedTuple):
     """Elimination as lists of positions in one array of matrix entries; the last position holds 1.
 
     Attributes:
-        places: position of each entry of the Jacobian, in the order given.
+        places: position of each entry of the Jacobian, in the order of ``entries``.
         diagonal: positions of the diagonal entries.
         pivots: rows (position of the pivot, first and last + 1 of its column in ``lower``, first and last + 1
             of its ``updates``).
         lower: positions of the entries below pivots.
         updates: rows (target, below, right): target -= below * right.
         rows: steps of a solution, rows (state, first and last + 1 of its ``terms``, position of its factor).
-        terms: rows (position, state): what is subtracted, entry times solution.
+        terms: rows (position, state) of the products entry * solution to subtract.
         size: number of positions.
     """
 
@@ -45,13 +45,13 @@ def plan_of(size: int, entries: Iterable[tuple[int, int]], *, without: int = -1)
 
     Args:
         size: number of states.
-        entries: (row, column) of what is not zero, in the order in which the values will come.
-        without: a state that is known beforehand (the clock); it has no entries.
+        entries: (row, column) of the nonzero entries, in the order of their values.
+        without: a state that is known in advance (the clock); it has no entries.
     """
-    given = list(entries)
+    pairs = list(entries)
     states = [state for state in range(size) if state != without]
-    needs = {state: {column for row, column in given if row == state} - {state} for state in states}
-    position = {entry: index for index, entry in enumerate(given)}
+    needs = {state: {column for row, column in pairs if row == state} - {state} for state in states}
+    position = {entry: index for index, entry in enumerate(pairs)}
 
     def place(row: int, column: int) -> int:
         return position.setdefault((row, column), len(position))
@@ -91,7 +91,7 @@ def plan_of(size: int, entries: Iterable[tuple[int, int]], *, without: int = -1)
     one = len(position)
     table = [(*row, one if factor is None else position[factor]) for *row, factor in rows]
     return Plan(
-        places=np.array([position[entry] for entry in given], np.int64),
+        places=np.array([position[entry] for entry in pairs], np.int64),
         diagonal=np.array(list(diagonal.values()), np.int64),
         pivots=np.array(pivots, np.int64).reshape(-1, 5),
         lower=np.array(lower, np.int64),
@@ -105,7 +105,7 @@ def plan_of(size: int, entries: Iterable[tuple[int, int]], *, without: int = -1)
 def _eliminate(
     block: list[int], needs: dict[int, set[int]]
 ) -> tuple[list[int], tuple[dict[int, set[int]], dict[int, set[int]]]]:
-    """The order of least fill; for each state later columns of its row, and later rows of its column."""
+    """The order of least fill; for each state the later columns of its row and later rows of its column."""
     across = {state: set(needs[state]) for state in block}
     down = {state: {row for row in block if state in needs[row]} for state in block}
     order: list[int] = []
@@ -126,7 +126,7 @@ def _eliminate(
 
 
 def _blocks(needs: dict[int, set[int]]) -> list[list[int]]:
-    """Strongly connected states, each block after those it needs (Tarjan)."""
+    """Strongly connected states, each block after those it depends on (Tarjan)."""
     index: dict[int, int] = {}
     low: dict[int, int] = {}
     stack: list[int] = []

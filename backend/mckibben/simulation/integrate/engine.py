@@ -80,7 +80,7 @@ kernel = _Kernel()
 
 
 class _EndedError(Exception):
-    """Leaves an integrator that cannot be told to stop."""
+    """Aborts an integrator that has no way to stop it."""
 
     def __init__(self, outcome: Outcome) -> None:
         super().__init__(outcome.label)
@@ -89,7 +89,7 @@ class _EndedError(Exception):
 
 @dataclass(frozen=True)
 class Solution:
-    """Rows of states and outputs on the grid, the end state, how it went, and the step to go on with."""
+    """Rows of states and outputs on the grid, the end state, step counts, outcome, and the next step size."""
 
     rows: np.ndarray
     end: np.ndarray
@@ -119,13 +119,13 @@ def integrate(
         drive: the compiled structure.
         parameters: constants of the run in the order of ``drive.model.parameters``.
         start: states at ``times[0]``.
-        times: segment limits, one more than rows of ``inputs``.
+        times: segment boundaries, one more than rows of ``inputs``.
         inputs: constants of each segment in the order of the model's inputs.
-        grid: times of the rows wanted, inside the limits.
-        tolerance: relative error per step; the absolute one is the state's scale times it.
+        grid: times of the rows, within the boundaries.
+        tolerance: relative error per step; the absolute one is this times the scale of the state.
         engine: "rodas", "lsoda", or "auto" for the first that is ready.
-        watch: may end LSODA early; the kernel is not asked, its steps are limited instead.
-        first_step: that the kernel tries [s].
+        watch: may end LSODA early; the kernel has a limit of steps instead.
+        first_step: first step that the kernel tries [s].
     """
     kernels = kernel.ready() if engine == "auto" else None
     if engine == "rodas":
@@ -157,7 +157,7 @@ def integrate(
 
 
 def outcome_of(status: int) -> Outcome:
-    """What a status of the kernel means."""
+    """The outcome that corresponds to a status of the kernel."""
     return {0: Outcome.COMPLETED, 2: Outcome.STUCK}.get(int(status), Outcome.DIVERGED)
 
 
@@ -189,16 +189,16 @@ def _lsoda(
         packed[:size] = y
         return drive.dense(drive.codes.jacobian(packed))
 
-    for segment, given in enumerate(inputs):
+    for segment, segment_inputs in enumerate(inputs):
         begin, finish = times[segment], times[segment + 1]
         if not finish > begin:
             continue
-        packed[size + len(constants) :] = given
+        packed[size + len(constants) :] = segment_inputs
         last = segment == len(inputs) - 1
         stop = np.searchsorted(grid, finish, side="right" if last else "left")
         wanted = grid[written:stop]
         try:
-            # LSODA also warns of what its result says.
+            # LSODA warns of failures that its result reports as well.
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 found = solve_ivp(

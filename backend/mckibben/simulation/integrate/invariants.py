@@ -1,4 +1,4 @@
-"""What stays the same throughout a run is taken out of the equations, to be computed once."""
+"""Takes subexpressions that are constant during a run out of the equations, to compute them once."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 import symengine as se
 
-# symengine's relations have no ``func`` to build them anew with.
+# symengine's relations have no ``func`` to rebuild them with.
 _BUILT = {
     "StrictLessThan": se.Lt,
     "LessThan": se.Le,
@@ -20,13 +20,13 @@ _BUILT = {
 
 
 class Invariants:
-    """Rewrites expressions: each largest part that holds nothing but constants becomes a symbol of its own.
+    """Rewrites expressions: each maximal subexpression of constants only is replaced by a new symbol.
 
     Args:
         constants: symbols that do not change during a run.
 
     Attributes:
-        values: part -> its symbol, of all expressions rewritten so far; a constant alone is a part too.
+        values: subexpression -> its symbol, of all expressions so far; single constants included.
     """
 
     def __init__(self, constants: Iterable[Any]) -> None:
@@ -35,20 +35,20 @@ class Invariants:
         self._known: dict[Any, tuple[Any, bool]] = {}
 
     def without(self, expressions: Sequence[Any]) -> list[Any]:
-        """The expressions on what varies and on symbols of `values`."""
+        """The expressions in terms of what varies and of the symbols of `values`."""
         return [self._symbol(*self._rewritten(se.sympify(expression))) for expression in expressions]
 
     def _symbol(self, expression: Any, constant: bool = True) -> Any:
-        """The symbol of a constant part; numbers stay, and so does what varies."""
+        """The symbol of a constant subexpression; numbers and what varies stay as they are."""
         if not constant or not expression.free_symbols:
             return expression
         build = _BUILT.get(type(expression).__name__)
-        if build is not None:  # a condition is no number and stays
+        if build is not None:  # a condition is not a number and stays
             return build(*(self._symbol(part) for part in expression.args))
         return self.values.setdefault(expression, se.Symbol(f"c_{len(self.values)}"))
 
     def _rewritten(self, expression: Any) -> tuple[Any, bool]:
-        """The expression with its constant parts replaced, or as it is, and whether it is constant itself."""
+        """The expression with its constant parts replaced, and whether the expression itself is constant."""
         known = self._known.get(expression)
         if known is None:
             known = self._known[expression] = self._walked(expression)

@@ -31,7 +31,7 @@ class Status(IntEnum):
 
 
 def _stamped(function: Callable[..., int]) -> Callable[..., int]:
-    """Name a function after the sources it is made of.
+    """Name a function by a hash of its sources.
 
     numba's cache goes by the name, and by the age of this file alone: a change of the others must not leave
     it with old code.
@@ -74,15 +74,15 @@ def rodas4(
         pointers: addresses of the functions ``rates`` and ``jacobian``.
         plan, positions: see `mckibben.simulation.integrate.elimination.Plan`.
         clock: number of the state that is time.
-        constants: what the functions take between states and inputs.
+        constants: arguments of the functions between states and inputs.
         state: start, overwritten with the end.
-        times: segment limits, one more than segments, ascending; none may be skipped by a step.
+        times: segment boundaries, one more than segments, ascending; no step crosses one.
         inputs: constants of each segment, shape (segments, inputs).
-        first_step: to try, shape (1,); overwritten with what would be tried next.
-        grid: ascending times between the first and the last limit at which ``out`` is written.
+        first_step: first step to try, shape (1,); overwritten with the next step to try.
+        grid: ascending times between the first and the last boundary, at which ``out`` is written.
         rtol, atol: error per step: weighted root mean square below 1; ``atol`` has one entry per state.
         out: shape (grid, states + outputs).
-        counts: accepted and rejected steps, and the number of grid rows written, are added to here.
+        counts: accepted steps, rejected steps and grid rows written; incremented in place.
         max_steps: give up after this many accepted and rejected steps.
 
     Returns:
@@ -141,9 +141,9 @@ def rodas4_sampled(
     counts: np.ndarray,
     max_steps: int,
 ) -> int:
-    """Integrate samples ``first`` to before ``stop`` of a controlled run: measure, step the PID, go on.
+    """Integrate samples ``first`` to ``stop`` - 1 of a controlled run: measure, step the PID, integrate.
 
-    A command waits for the dead time of its direction and never overtakes an earlier one.
+    A command is delayed by the dead time of its direction and never overtakes an earlier one.
 
     Args:
         loop: duration, dead times of opening and closing, lever ratio, and the second muscle's command at
@@ -153,11 +153,11 @@ def rodas4_sampled(
             and begin; the last entry is the number of inputs.
         signals: set point of every sample; times, start values and slopes of the external force.
         memory: integral, rate, last measurement, last command, active command, next step to try.
-        marks: first and last + 1 of the commands that wait, number of switches so far.
-        queue: commands that wait, rows (instant, command); one row per sample.
+        marks: first and last + 1 of the pending commands, number of switches so far.
+        queue: pending commands, rows (instant, command); one row per sample.
         switches: commands that became active, rows (instant, command); one row more than samples.
 
-    The other arguments are those of `rodas4`; memory, marks, queue and switches go on from call to call.
+    The other arguments are those of `rodas4`; memory, marks, queue and switches persist between calls.
     """
     duration, opening_time, closing_time, lever, counter, counter_slope = loop
     set_points, force_times, forces, force_slopes = signals

@@ -1,4 +1,4 @@
-"""Machine code of symbolic expressions, by way of LLVM's own language.
+"""Machine code of symbolic expressions, by way of LLVM's intermediate language.
 
 symengine can compile its expressions itself; for functions of this size that takes three to four times as
 long. Here every expression becomes straight-line code without a branch (a ``Piecewise`` is a select), which
@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 import symengine as se
 
-# Function of symengine -> what LLVM calls; those without a dot are taken from the C library.
+# Function of symengine -> function for LLVM to call; those without a dot are from the C library.
 _FUNCTIONS = {
     "sin": "llvm.sin.f64", "cos": "llvm.cos.f64", "log": "llvm.log.f64", "Abs": "llvm.fabs.f64",
     "tan": "tan", "asin": "asin", "acos": "acos", "atan": "atan", "sinh": "sinh", "cosh": "cosh",
@@ -25,7 +25,7 @@ _FUNCTIONS = {
 }  # fmt: skip
 _LIBRARY = ("sin", "cos", "log", "exp", "pow", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh")
 _COMPARISONS = {"StrictLessThan": "olt", "LessThan": "ole", "Equality": "oeq", "Unequality": "une"}
-# Largest whole exponent that is multiplied out.
+# Largest integer exponent that is expanded into multiplications.
 _MOST_FACTORS = 32
 
 
@@ -39,7 +39,7 @@ class Function:
     """
 
     def __init__(self, engine: Any, name: str, size: int, width: int) -> None:
-        self._engine = engine  # owns the code
+        self._engine = engine  # owns the code: keeps it alive
         self.address: int = engine.get_function_address(name)
         self.size, self.width = size, width
         self._call = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)(self.address)
@@ -50,11 +50,11 @@ class Function:
         Raises:
             ValueError: not ``size`` arguments.
         """
-        packed, found = np.ascontiguousarray(given, dtype=np.float64), np.empty(self.width)
+        packed, results = np.ascontiguousarray(given, dtype=np.float64), np.empty(self.width)
         if packed.shape != (self.size,):
             raise ValueError(f"{self.size} arguments are needed, not {packed.shape}")
-        self._call(found.ctypes.data, packed.ctypes.data, None)
-        return found
+        self._call(results.ctypes.data, packed.ctypes.data, None)
+        return results
 
 
 def machine_code(
@@ -63,9 +63,9 @@ def machine_code(
     """Compile functions together.
 
     Args:
-        functions: name -> (symbols in the order in which their values will be packed, expressions).
-        level: of LLVM's code generator, 0 to 3. Level 1 takes twice as long in all, and what it makes runs
-            1.5 to 2 times as fast; more gains nothing.
+        functions: name -> (symbols in the order of their packed values, expressions).
+        level: level of LLVM's code generator, 0 to 3. Level 1 compiles in twice the time, and its code runs
+            1.5 to 2 times as fast; higher levels gain nothing.
 
     Raises:
         NotImplementedError: an expression with a function that has no machine code here.
@@ -90,7 +90,7 @@ def machine_code(
 
 @cache
 def _ready() -> Any:
-    """The target of this machine, with the C library's functions made known."""
+    """The target of this machine, with the C library's functions registered."""
     import llvmlite.binding as llvm
 
     llvm.initialize_native_target()
@@ -102,7 +102,7 @@ def _ready() -> Any:
 
 
 def _host(level: int) -> Any:
-    """A machine to compile for; each compilation takes one."""
+    """A target machine; each compilation needs a new one."""
     import llvmlite.binding as llvm
 
     target = _ready()
@@ -111,7 +111,7 @@ def _host(level: int) -> Any:
 
 
 class _Writer:
-    """Writes one function; equal expressions are computed once."""
+    """Writes the code of one function; equal expressions are computed once."""
 
     def __init__(self, arguments: Sequence[Any], shared: Mapping[Any, Any]) -> None:
         self._index = {symbol: index for index, symbol in enumerate(arguments)}
@@ -122,7 +122,7 @@ class _Writer:
         self.declared: set[str] = set()
 
     def function(self, name: str, results: Sequence[Any]) -> str:
-        """Its text; `declared` then holds the declarations it needs."""
+        """The code; `declared` then holds the declarations it needs."""
         for index, result in enumerate(results):
             value = self._value(result)
             place = self._new(f"getelementptr double, ptr %out, i64 {index}")
@@ -192,7 +192,7 @@ class _Writer:
         return value
 
     def _product(self, factors: Sequence[Any]) -> str:
-        """One division at most."""
+        """A product with at most one division."""
         above, below = [], []
         for factor in factors:
             base, exponent = factor.args if type(factor).__name__ == "Pow" else (factor, None)

@@ -1,11 +1,11 @@
 """The step of the kernel: Rodas4, a stiff Rosenbrock method, over two compiled functions.
 
-It holds no physics, so numba compiles it once per installation, whatever is simulated. A model comes in as
-the addresses of two functions of states, constants and inputs: ``rates`` (-> rates and outputs) and
-``jacobian`` (-> rates, the entries of the Jacobian that are not zero, derivatives by time), and as the plan
-of its linear systems (`mckibben.simulation.integrate.elimination`). Inputs are constant within a segment;
-switching instants are segment ends, so no step crosses a jump. One state is the clock: it is known and takes
-no part in the linear systems.
+It holds no physics, so numba compiles it once per installation, whatever is simulated. A model is passed as
+the addresses of two functions of states, constants and inputs, ``rates`` (-> rates and outputs) and
+``jacobian`` (-> rates, nonzero entries of the Jacobian, derivatives by time), and as the plan of its linear
+systems (`mckibben.simulation.integrate.elimination`). Inputs are constant within a segment; switching
+instants are segment ends, so no step crosses a jump. One state is the clock: it is known in advance and not
+part of the linear systems.
 
 Method: Rodas4 of Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.7: six stages, order
 4 with an embedded order 3, L-stable, dense output of order 3.
@@ -54,7 +54,7 @@ _C = np.array([
     [7.496443313967647, -10.24680431464352, -33.99990352819905, 11.70890893206160, 0.0],
     [8.083246795921522, -7.981132988064893, -31.52159432874371, 16.31930543123136, -6.058818238834054],
 ])  # fmt: skip
-# When each stage looks at time, and its share of the derivative by time.
+# Time of each stage as a share of the step, and its factor of the derivative by time.
 _ALPHA = np.array([0.0, 0.386, 0.21, 0.63, 1.0, 1.0])
 _DELTA = np.array([0.25, -0.1043, 0.1035, -0.0362, 0.0, 0.0])
 _D2 = np.array(
@@ -67,7 +67,7 @@ _D3 = np.array(
 
 @njit(inline="always", error_model="numpy", fastmath={"contract"})
 def _factorise(a: np.ndarray, least: float, plan: Any) -> bool:
-    """Factors in place, pivots as reciprocals. False when a pivot is all but zero."""
+    """Factorise in place, with reciprocal pivots. False when a pivot is close to zero."""
     _, _, _, pivots, lower, updates, _, _ = plan
     for k in range(pivots.shape[0]):
         if not abs(a[pivots[k, 0]]) > least:
@@ -110,11 +110,11 @@ def advance(
     max_steps: int,
     buffers: Any,
 ) -> int:
-    """Integrate over ``span`` = (begin, end, first step to try; becomes the next one) with constant inputs.
+    """Integrate over ``span`` = (begin, end, first step; overwritten with the next) at constant inputs.
 
     Arrays are copied in loops: numba takes 2 s to compile the message for shapes that do not fit.
 
-    Writes the rows of the grid in between, from row ``counts[2]`` to before ``last_row``; see
+    Writes the rows of the grid in between, from row ``counts[2]`` to ``last_row`` - 1; see
     `mckibben.simulation.integrate.kernels.rodas4`.
     """
     rates, jacobian = pointers
@@ -198,7 +198,7 @@ def advance(
                     bent = dense[0, i] + s * dense[1, i]
                     packed[i] = state[i] * (1.0 - s) + s * (trial[i] + (1.0 - s) * bent)
                 packed[clock] = grid[row]
-                # Rates and outputs go where the row is; the states then take the place of the rates.
+                # Rates and outputs are written to the row; the states then overwrite the rates.
                 call(rates, at_out + 8 * width * row, at_packed)
                 for i in range(n):
                     out[row, i] = packed[i]
@@ -218,7 +218,7 @@ def advance(
 
 @njit(error_model="numpy")
 def buffers_of(n: int, width: int, positions: int, plan: Any) -> Any:
-    """Room for the stages, trial, right side, matrix, rates and outputs, Jacobian, dense output."""
+    """Work arrays: stages, trial, right side, matrix, rates and outputs, Jacobian, dense output."""
     both = np.zeros(n + plan[0].shape[0] + plan[1].shape[0])
     stages, dense = np.zeros((n, 6)), np.zeros((2, n))
     return stages, np.zeros(n), np.zeros(n), np.zeros(positions), np.zeros(width), both, dense
@@ -226,7 +226,7 @@ def buffers_of(n: int, width: int, positions: int, plan: Any) -> Any:
 
 @njit(error_model="numpy")
 def packed_for(n: int, constants: np.ndarray, inputs: int) -> np.ndarray:
-    """Arguments of the functions, with the constants in their place."""
+    """Argument array of the functions, with the constants filled in."""
     packed = np.zeros(n + constants.shape[0] + inputs)
     for i in range(constants.shape[0]):
         packed[n + i] = constants[i]

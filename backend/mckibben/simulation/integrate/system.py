@@ -1,4 +1,4 @@
-"""A drive's equations as machine code: rates, entries of the exact Jacobian, how to solve with them."""
+"""A drive's equations as machine code: rates, exact Jacobian and elimination plan."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ class Codes:
     """The functions of a system; their arguments are the states, the run's constants and a segment's inputs.
 
     Attributes:
-        constants: parameters -> the run's constants, in which everything is computed that does not vary.
+        constants: parameters -> constants of a run: all subexpressions that do not vary.
         rates: -> rates and outputs.
         jacobian: -> rates, the entries of ``entries`` and the derivatives by time of the rates ``timed``.
-        entries: (row, column) of the Jacobian, where it is not zero; shape (entries, 2).
+        entries: (row, column) of the nonzero entries of the Jacobian; shape (entries, 2).
         timed: rates that depend on time.
         plan: elimination for ``entries``.
         clock: number of the state that is time.
@@ -60,7 +60,7 @@ class CompiledDrive:
 
     Attributes:
         model: names of states, parameters, inputs.
-        codes: what the integrators call.
+        codes: the functions for the integrators.
         scales: magnitude of each state, for error control.
     """
 
@@ -84,23 +84,21 @@ class CompiledDrive:
 
     def jacobian(self, packed: np.ndarray) -> np.ndarray:
         """Rates, then the whole Jacobian by rows, of packed states, parameters and inputs."""
-        found = self.codes.jacobian(self._prepared(packed))
-        return np.concatenate([found[: self.size], self.dense(found).ravel()])
+        entries = self.codes.jacobian(self._prepared(packed))
+        return np.concatenate([entries[: self.size], self.dense(entries).ravel()])
 
-    def dense(self, found: np.ndarray) -> np.ndarray:
+    def dense(self, values: np.ndarray) -> np.ndarray:
         """The Jacobian as a matrix, from a result of ``codes.jacobian``."""
         matrix = np.zeros((self.size, self.size))
         entries, timed = self.codes.entries, self.codes.timed
-        matrix[entries[:, 0], entries[:, 1]] = found[self.size : self.size + len(entries)]
-        matrix[timed, self.codes.clock] = found[self.size + len(entries) :]
+        matrix[entries[:, 0], entries[:, 1]] = values[self.size : self.size + len(entries)]
+        matrix[timed, self.codes.clock] = values[self.size + len(entries) :]
         return matrix
 
     def _prepared(self, packed: np.ndarray) -> np.ndarray:
-        given = np.asarray(packed, dtype=np.float64)
+        row = np.asarray(packed, dtype=np.float64)
         stop = self.size + len(self.model.parameters)
-        return np.concatenate(
-            [given[: self.size], self.codes.constants(given[self.size : stop]), given[stop:]]
-        )
+        return np.concatenate([row[: self.size], self.codes.constants(row[self.size : stop]), row[stop:]])
 
 
 @lru_cache(maxsize=128)
@@ -108,8 +106,8 @@ def compiled_drive(structure: DriveStructure, level: int = 0) -> CompiledDrive:
     """A drive's compiled equations, built once (20 to 40 ms) and kept.
 
     Args:
-        structure: what decides the equations.
-        level: see `mckibben.simulation.integrate.machine_code`; 1 pays from some hundred runs on.
+        structure: features of the drive that determine its equations.
+        level: see `mckibben.simulation.integrate.machine_code`; 1 pays off from a few hundred runs on.
 
     Raises:
         InputError: a typed term among the effects cannot be compiled.
@@ -136,11 +134,11 @@ def compile_system(model: DriveModel | DrivenModel, level: int = 0) -> CompiledD
     invariants = Invariants(model.parameters.values())
     results = invariants.without([*model.rates, *model.outputs])
     rates = results[: len(states)]
-    # A derivative by what a rate does not hold need not be taken, and would not always come out as 0.
-    held = [rate.free_symbols for rate in rates]
-    found = [(row, column) for row in range(len(rates)) for column in range(len(states))]
-    entries = [(i, j) for i, j in found if j != clock and states[j] in held[i]]
-    timed = [row for row in range(len(rates)) if states[clock] in held[row]]
+    # Skip derivatives by symbols that a rate does not contain: they would not always simplify to 0.
+    free_symbols_of = [rate.free_symbols for rate in rates]
+    positions = [(row, column) for row in range(len(rates)) for column in range(len(states))]
+    entries = [(i, j) for i, j in positions if j != clock and states[j] in free_symbols_of[i]]
+    timed = [row for row in range(len(rates)) if states[clock] in free_symbols_of[row]]
     derivatives = [rates[i].diff(states[j]) for i, j in entries]
     derivatives += [rates[i].diff(states[clock]) for i in timed]
     parameters = list(model.parameters.values())

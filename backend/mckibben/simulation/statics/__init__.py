@@ -1,1 +1,1 @@
-"""One muscle at rest: curves, limits, inverse questions, compiled from the symbolic model."""
+"""Statics of one muscle: curves, limits and inverse questions, compiled from the symbolic model."""

@@ -1,4 +1,4 @@
-"""Figures of a muscle at rest: blocked force, free contraction, work, operating points, and over pressure."""
+"""Static figures of a muscle: blocked force, contraction, work, operating points, curves over pressure."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ FILLING, VENTING = -1.0, 1.0  # sign of dL/dt
 
 @dataclass(frozen=True, slots=True)
 class Conditions:
-    """Under which conditions a muscle is looked at.
+    """Conditions for static figures.
 
     Attributes:
         direction: sign of dL/dt, for friction.
-        temperature: of the elastomer [K].
-        dead_volume: gas volume besides the muscle [m^3], for the closed valve.
-        polytropic_exponent: of the gas behind a closed valve.
+        temperature: temperature of the elastomer [K].
+        dead_volume: gas volume outside the muscle [m^3], for the closed valve.
+        polytropic_exponent: exponent of the gas behind a closed valve.
     """
 
     direction: float = 0.0
@@ -43,11 +43,11 @@ class Characteristics:
     """Figures at one pressure.
 
     Attributes:
-        pressure: gauge [Pa].
-        blocked_force: at the nominal length [N].
-        free_contraction: without load [-]; NaN when out of reach.
-        free_contraction_flag: code of the limit that it crosses, None for a plain figure.
-        max_work: of one stroke from the nominal length to the free contraction [J].
+        pressure: gauge pressure [Pa].
+        blocked_force: force at the nominal length [N].
+        free_contraction: contraction ratio without load [-]; NaN when out of reach.
+        free_contraction_flag: code of the limit that it crosses, None if it crosses none.
+        max_work: work of one stroke from the nominal length to the free contraction [J].
         thread_tension_total: ideal tension of all threads at the nominal length [N].
     """
 
@@ -61,10 +61,10 @@ class Characteristics:
 
 @dataclass(frozen=True, slots=True)
 class OperatingPoint:
-    """Where a muscle holds a load at one pressure, in SI; NaN and None where it cannot.
+    """State in which a muscle holds a load at one pressure, SI; NaN and None where it cannot.
 
     Attributes:
-        flags: codes of the limits that are crossed there.
+        flags: codes of the limits that this state crosses.
     """
 
     pressure: float
@@ -79,7 +79,7 @@ class OperatingPoint:
 
 @dataclass(frozen=True, slots=True)
 class PressureBranch:
-    """Position under a constant load over the pressure, in one direction; NaN where it is not held."""
+    """Position under a constant load over pressure, in one direction; NaN where the load cannot be held."""
 
     contraction: Array
     length: Array
@@ -89,7 +89,7 @@ class PressureBranch:
 
 @dataclass(frozen=True, slots=True)
 class ForceBranches:
-    """Force at a fixed length over the pressure [N], while shortening and while lengthening."""
+    """Force at a fixed length over pressure [N], while shortening and while lengthening."""
 
     filling: Array
     venting: Array
@@ -107,13 +107,13 @@ class HeldContractions(NamedTuple):
 def held_contractions(
     model: StaticModel, pressures: Array, grid: Array, load: float | None, conditions: Conditions
 ) -> HeldContractions:
-    """All equilibria that curves need, in one vectorised search: the calls cost more than the rows.
+    """All equilibria that the curves need, in one vectorised search: each call costs more than its rows.
 
     Args:
         model: the muscle.
-        pressures: of the curves, gauge [Pa].
+        pressures: gauge pressures of the curves [Pa].
         grid: pressures of the curves over pressure [Pa].
-        load: [N], None without one.
+        load: load [N], None without one.
         conditions: direction and temperature.
     """
     here = np.full(len(pressures), float(conditions.direction))
@@ -125,10 +125,10 @@ def held_contractions(
             (np.full(len(grid), load), grid, np.full(len(grid), VENTING)),
         ]
     loads, at, direction = (np.concatenate(column) for column in zip(*parts, strict=True))
-    found = contraction_at(
+    contractions = contraction_at(
         model, load=loads, pressures=at, direction=direction, temperature=conditions.temperature
     )
-    pieces = np.split(found, np.cumsum([len(part[0]) for part in parts])[:-1])
+    pieces = np.split(contractions, np.cumsum([len(part[0]) for part in parts])[:-1])
     return HeldContractions(*pieces, *[np.empty(0)] * (4 - len(pieces)))
 
 
@@ -140,12 +140,12 @@ def characteristics(
     Args:
         model: the muscle.
         pressures: gauge [Pa].
-        free: contraction without load at each of them; NaN when out of reach.
+        free: contraction without load at each pressure; NaN when out of reach.
         conditions: direction and temperature.
     """
     rest = model.muscle.nominal_length
     stroke = np.where(np.isfinite(free) & (free > 0.0), free, 0.0)
-    # The first column is the nominal length itself, the others each pressure's own range.
+    # The first column is the nominal length, the others cover the range of each pressure.
     at = np.concatenate([[0.0], (_NODES + 1.0) / 2.0]) * stroke[:, None]
     force = model.force(
         length=rest * (1.0 - at.ravel()),
@@ -178,14 +178,14 @@ def _free_flag(model: StaticModel, contraction: float) -> str | None:
 def operating_points(
     model: StaticModel, pressures: Array, load: float, held: Array, conditions: Conditions
 ) -> tuple[list[OperatingPoint], list[LimitFlag]]:
-    """Where the muscle holds a load at each pressure, and every limit that is crossed there.
+    """The state in which the muscle holds a load at each pressure, and every limit it crosses.
 
     Args:
         model: the muscle.
         pressures: gauge [Pa].
         load: [N].
         held: contraction under the load at each pressure; NaN when out of reach.
-        conditions: direction, temperature, and what is behind a closed valve.
+        conditions: direction, temperature, and the gas behind a closed valve.
     """
     reached = np.flatnonzero(np.isfinite(held))
     length = model.muscle.nominal_length * (1.0 - held)
@@ -210,7 +210,7 @@ def operating_points(
         if inside:
             crossed = model.limits.flags(pressure=pressure, force=load, contraction=held[index])
         else:
-            why = f"{load:.4g} N stretch the muscle to the braid lock at {pressure / 1e5:.3g} bar"
+            why = f"{load:.4g} N stretches the muscle to the braid lock at {pressure / 1e5:.3g} bar"
             crossed = [LimitFlag(FlagCode.OUT_OF_REACH, why, "load")]
         flags += crossed
         points.append(

@@ -1,7 +1,7 @@
 """From the symbolic model to machine code: symengine builds and differentiates, its LLVM back end compiles.
 
-One structure (one choice of effects) is compiled once, with geometry and parameters as inputs, so a slider
-never compiles. The functions run over whole arrays of states.
+One structure (one choice of effects) is compiled once, with geometry and parameters as inputs, so changing a
+value never compiles. The functions run over whole arrays of states.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from mckibben.physics.muscle import GEOMETRY, Muscle
 
 # Inputs that vary from row to row, in this order; geometry and parameters follow.
 INPUTS = ("length", "pressure", "velocity", "direction", "temperature")
-# Exact derivatives that follow the fields of State, as (field, by which input).
+# Exact derivatives after the fields of State, as (field, input).
 DERIVATIVES = (
     ("force", "length"),
     ("force", "pressure"),
@@ -31,7 +31,7 @@ DERIVATIVES = (
     ("volume", "pressure"),
 )
 OUTPUTS = (*State._fields, *(f"{field}_by_{by}" for field, by in DERIVATIVES))
-# The compiled function holds the interpreter while it runs: in short calls other threads come in between.
+# The compiled function holds the interpreter lock: short calls let other threads run in between.
 _ROWS_AT_ONCE = 20_000
 
 
@@ -39,12 +39,11 @@ class CompiledState:
     """`Model.evaluate` and its exact derivatives as machine code.
 
     Args:
-        effects: the structure.
-        gradient: names whose derivatives are added, geometry fields, "effect.parameter" or (with memory)
-            "effect.state"; for each the outputs gain d force, d tension, d length and d compliance, in this
-            order.
-        memory: whether the states of effects in the muscle are inputs of each row; else they are at rest.
-        quick: compiled in half the time, for structures that are tried once: 1.6 times as long per row.
+        effects: the effects of the structure.
+        gradient: names to differentiate by: geometry fields, "effect.parameter" or (with memory)
+            "effect.state". Each adds the outputs d force, d tension, d length, d compliance, in this order.
+        memory: whether the states of the muscle's effects are inputs of each row; else they are at rest.
+        quick: compile in half the time, for structures used once; each row then takes 1.6 times as long.
 
     Attributes:
         constants: names of geometry and parameters, in the order in which they are packed.

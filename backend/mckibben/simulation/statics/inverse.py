@@ -1,7 +1,7 @@
 """Inverse questions of the static model: the pressure for a force, the contraction under a load, the range.
 
-Every answer carries flags instead of being clipped: a value is None only when no state of the muscle answers
-the question, and the flag says why.
+Answers are flagged, not clipped: a value is None only when no state of the muscle answers the question, and
+the flag says why.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.simulation.statics.limits import FlagCode, LimitFlag
 from mckibben.simulation.statics.model import StaticModel
 
-SEARCH_PRESSURE = 4e6  # Pa; no fluidic muscle works beyond, so no answer is looked for there
-_SHORTEST = 0.35  # share of the nominal length down to which a contraction is looked for
+SEARCH_PRESSURE = 4e6  # Pa; upper end of the search: no fluidic muscle works beyond
+_SHORTEST = 0.35  # lower end of the search, as a share of the nominal length
 _STEPS = 60
 
 
 @dataclass(frozen=True, slots=True)
 class InverseResult:
-    """The answer to an inverse question in SI, with the details that led to it and the crossed limits."""
+    """The answer to an inverse question in SI, with further figures and the crossed limits."""
 
     value: float | None
     unit: str
@@ -61,7 +61,7 @@ def contraction_at(
             newton = length - value / slope
             inside = (newton >= low) & (newton <= high)
             following = np.where(inside, newton, 0.5 * (low + high))
-            # Newton's next error is the square of this step's share of the length.
+            # Newton's method: the next relative error is about the square of this relative step.
             done = ~reachable | (inside & (np.abs(following - length) < 1e-6 * rest))
             length = following
             if done.all():
@@ -98,7 +98,7 @@ def pressure_for_force(
             "the braid locks before this length"
             if most is None
             else f"at {contraction * 100:.3g} % contraction even {SEARCH_PRESSURE / 1e5:.0f} bar "
-            + (f"give only {most:.4g} N" if most > 0.0 else "leave the muscle slack")
+            + (f"gives only {most:.4g} N" if most > 0.0 else "leaves the muscle slack")
         )
         return InverseResult(None, "Pa", details, [*flags, LimitFlag(FlagCode.OUT_OF_REACH, why, "force")])
     without = excess(0.0)
@@ -131,7 +131,7 @@ def contraction_for_force(
     details: dict[str, float | None] = {"force": force, "pressure": pressure}
     flags = model.limits.flags(pressure=pressure, force=force)
     if np.isnan(contraction):
-        why = f"{force:.4g} N stretch the muscle to the braid lock at {pressure / 1e5:.3g} bar"
+        why = f"{force:.4g} N stretches the muscle to the braid lock at {pressure / 1e5:.3g} bar"
         return InverseResult(None, "1", details, [*flags, LimitFlag(FlagCode.OUT_OF_REACH, why, "force")])
     details["length"] = model.muscle.nominal_length * (1.0 - contraction)
     return InverseResult(contraction, "1", details, [*flags, *model.limits.flags(contraction=contraction)])

@@ -1,4 +1,4 @@
-"""Limits of a muscle, and the flags that say which of them a result crosses."""
+"""Limits of a muscle, and the flags of the limits that a result crosses."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from enum import StrEnum
 
 
 class FlagCode(StrEnum):
-    """What a result crosses; never clipped away."""
+    """Code of a crossed limit; results are flagged, never clipped."""
 
     OUT_OF_REACH = "out_of_reach"
     OVER_FORCE_LIMIT = "over_force_limit"
@@ -27,7 +27,7 @@ class LimitFlag:
 
 @dataclass(frozen=True, slots=True)
 class MuscleLimits:
-    """What the maker allows; None where it is not known.
+    """Limits stated by the maker; None where not known.
 
     Attributes:
         max_pressure: operating pressure, gauge [Pa].

@@ -41,9 +41,9 @@ class StaticModel:
 
     Args:
         muscle: geometry, checked here.
-        effects: effect id -> parameter values in SI; parameters left out take the effect's default.
-        catalogue: where effects are looked up; the project's own by default.
-        limits: what the maker allows.
+        effects: effect id -> parameter values in SI; missing parameters take their defaults.
+        catalogue: effects by id; the built-in catalogue by default.
+        limits: limits stated by the maker.
 
     Raises:
         InputError: an unknown effect or parameter (with the nearest match), a value outside its bounds, a
@@ -76,7 +76,7 @@ class StaticModel:
     def of(
         cls, muscle: Muscle, effects: tuple[Effect, ...], values: Mapping[str, Mapping[str, float]]
     ) -> StaticModel:
-        """A model of effects and complete values that are known to be right, as a fit tries them."""
+        """A model without checks, for a fit: the effects and values must be complete and valid."""
         model = cls.__new__(cls)
         model.muscle, model.limits = muscle, MuscleLimits()
         model.effects = effects
@@ -93,7 +93,7 @@ class StaticModel:
 
     @property
     def longest(self) -> float:
-        """The longest length that may be asked for: just below the braid lock L = b [m]."""
+        """The longest permitted length: just below the braid lock L = b [m]."""
         return 0.9999 * float(self.muscle.braid.thread_length)
 
     def outputs(
@@ -121,7 +121,7 @@ class StaticModel:
         return settle(self._compiled, self._constants, state)[0]
 
     def force(self, *, clipped: bool = True, **state: Any) -> np.ndarray:
-        """Tension as measured [N]; a slack muscle (it would push) reads as zero tension unless unclipped."""
+        """Measured tension [N]; a slack muscle (it would push) has zero tension unless unclipped."""
         outputs = self.outputs(**state)
         return clip_slack(outputs) if clipped else outputs["force"]
 
@@ -164,12 +164,12 @@ class StaticModel:
 
 
 def checked_values(effects: EffectValues, catalogue: Mapping[str, Effect]) -> dict[str, dict[str, float]]:
-    """Values of every parameter of the named effects, defaults filled in; unknown names are refused."""
+    """Values of every parameter of the named effects, with defaults filled in; unknown names are refused."""
     values: dict[str, dict[str, float]] = {}
-    for effect_id, given in effects.items():
+    for effect_id, stated in effects.items():
         effect = catalogue[effect_id]
         known = {parameter.name: parameter for parameter in effect.parameters}
-        for name, value in given.items():
+        for name, value in stated.items():
             field = f"effects.{effect_id}.{name}"
             if name not in known:
                 raise InputError(
@@ -185,19 +185,19 @@ def checked_values(effects: EffectValues, catalogue: Mapping[str, Effect]) -> di
                     field=field,
                     hint=f"a typical value is {parameter.default:g} {parameter.unit}",
                 )
-        values[effect_id] = {**effect.defaults, **given}
+        values[effect_id] = {**effect.defaults, **stated}
     return values
 
 
 def clip_slack(outputs: Mapping[str, np.ndarray]) -> np.ndarray:
-    """Force readings with slack muscles (negative tension) reading as zero tension."""
+    """Force readings, with zero tension for slack muscles (negative tension)."""
     return np.where(outputs["tension"] > 0.0, outputs["force"], outputs["slack_force"])
 
 
 def settle(
     compiled: CompiledState, constants: np.ndarray, state: Mapping[str, Any]
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """Outputs with the series compliance solved for, and the raw rows beyond `OUTPUTS` (gradients)."""
+    """Outputs with the series compliance solved for, and the remaining rows after `OUTPUTS` (gradients)."""
     rows = compiled(constants, **state)
     out = dict(zip(OUTPUTS, rows, strict=False))
     if not (compiled.compliant and np.any(out["compliance"])):
@@ -217,7 +217,7 @@ def settle(
     pulling = out["tension"] > 0.0
     compliance = np.where(pulling, out["compliance"], 0.0)
     slope = out["length_by_length"] + compliance * out["tension_by_length"]
-    # How the muscle's own reading follows the measured length, and the pressure at a fixed measured length.
+    # Derivatives of the muscle's length by the measured length, and by pressure at a fixed measured length.
     by_length = out["length_by_length"] / slope
     by_pressure = -compliance * out["tension_by_pressure"] / slope
     for name in ("force", "volume"):

@@ -1,1 +1,1 @@
-"""What is read off a run: its trace, its phases, the timing figures, how a reference is followed."""
+"""Evaluation of a run: trace, phases, timing figures, tracking of a reference."""

@@ -1,4 +1,4 @@
-"""The trace, phases, timing and choked times of a run, in coordinates of the load; once for everybody."""
+"""The trace, phases, timing and choked intervals of a run, in coordinates of the load."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from mckibben.simulation.timing.tracking import Tracking, tracking
 
 Array = np.ndarray
 
-# The timing table is read off a grid at least this fine; impacts are found between two of its rows.
+# The timing table is computed on a grid at least this fine; impacts are located between two of its rows.
 _FINEST, _FEWEST, _MOST = 1e-3, 2000, 20_000
 _FILL, _EXHAUST = 1, 2
-_FEWEST_TRACKED = 4  # rows
+_FEWEST_TRACKED = 4  # least number of rows for tracking figures
 
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """Times to integrate for, and which of them are rows of the result."""
+    """Times of the integration, and which of them are rows of the result."""
 
     time: Array
     rows: Array
@@ -34,7 +34,7 @@ class Grid:
 
 @dataclass(frozen=True, slots=True)
 class ChokedInterval:
-    """A time in which the flow of the valve does not depend on the pressure behind it [s]."""
+    """Interval in which the flow of the valve does not depend on the downstream pressure [s]."""
 
     JSON_KEYS: ClassVar = {"begin": ("from",), "end": ("to",)}
 
@@ -44,12 +44,12 @@ class ChokedInterval:
 
 
 def time_step(duration: float) -> float:
-    """Step of a grid that is fine enough for the timing table [s]."""
+    """Step of the grid for the timing table [s]."""
     return max(min(_FINEST, duration / _FEWEST), duration / _MOST)
 
 
 def grid_of(*, duration: float, begin: float, end: float, points: int) -> Grid:
-    """Evenly spaced rows from begin to end inside a finer grid of the whole run [s]."""
+    """Evenly spaced rows from begin to end within a finer grid of the whole run [s]."""
     step = time_step(duration)
     finer = max(1, ceil((end - begin) / (points - 1) / step - 1e-9))
     inner = np.linspace(begin, end, finer * (points - 1) + 1)
@@ -60,7 +60,7 @@ def grid_of(*, duration: float, begin: float, end: float, points: int) -> Grid:
 
 
 def trace_of(run: Run) -> Trace | None:
-    """The run in coordinates of the load; None when it has no two rows of numbers."""
+    """The run in coordinates of the load; None when fewer than two rows are finite."""
     out, lever = run.outputs, run.drive.load.lever_ratio
     columns = {
         "time": run.time,
@@ -89,7 +89,7 @@ def stops_of(drive: Drive) -> Interval:
 
 
 def moving_mass(drive: Drive) -> float:
-    """The mass that meets a stop, with what effects add [kg]."""
+    """The mass that hits a stop, including the mass added by effects [kg]."""
     model, values = Model(drive.model.effects), drive.model.values
     factor = float(model.product("load_factor", values, {}))
     added = float(model.sum("inertia", values, {"muscle": drive.muscle}))
@@ -97,7 +97,7 @@ def moving_mass(drive: Drive) -> float:
 
 
 def phases_of(drive: Drive) -> tuple[Interval | None, Interval | None]:
-    """The first fill and what follows it; under a controller the reference's first rise and fall."""
+    """The first fill and the exhaust after it; of a controlled run the reference's first rise and fall."""
     if drive.reference is None:
         return phases(drive.command.segments(drive.duration))
     reference = drive.reference.segments(drive.duration)
@@ -108,14 +108,14 @@ def phases_of(drive: Drive) -> tuple[Interval | None, Interval | None]:
 
 
 def _last_trend(trend: Array) -> Array:
-    """A constant piece belongs to the phase that leads to it."""
+    """The trend with constant pieces counted to the phase before them."""
     moving = np.where(trend != 0.0, np.arange(len(trend)), -1)
     last = np.maximum.accumulate(moving)
     return np.where(last >= 0, trend[np.maximum(last, 0)], 0.0)
 
 
 def timing_of(drive: Drive, trace: Trace | None) -> TimingTable:
-    """The timing table of a run by the phases of its own command."""
+    """The timing table of a run, with phases by its command."""
     if trace is None:
         return TimingTable.missing("the run ended before this phase")
     fill, exhaust = phases_of(drive)
@@ -123,7 +123,7 @@ def timing_of(drive: Drive, trace: Trace | None) -> TimingTable:
 
 
 def tracking_of(run: Run, trace: Trace | None) -> Tracking | None:
-    """How a controlled run follows its reference; None without a reference, or with too few rows."""
+    """Tracking figures of a controlled run; None without a reference, or with too few rows."""
     reference = run.drive.reference
     if reference is None or trace is None or len(trace.time) < _FEWEST_TRACKED:
         return None
@@ -131,7 +131,7 @@ def tracking_of(run: Run, trace: Trace | None) -> Tracking | None:
 
 
 def choked_intervals(time: Array, side: Array) -> list[ChokedInterval]:
-    """Where the valve is choked; side: 1 filling, 2 venting, 0 not, at each time."""
+    """Intervals of choked flow; ``side`` at each time: 1 filling, 2 venting, 0 not choked."""
     if not len(time):
         return []
     edges = np.flatnonzero(np.diff(side)) + 1
@@ -144,12 +144,12 @@ def choked_intervals(time: Array, side: Array) -> list[ChokedInterval]:
 
 
 def choked_of(run: Run) -> list[ChokedInterval]:
-    """Where the valve of a run is choked."""
+    """Intervals of choked flow of a run."""
     return choked_intervals(run.time, _choked_side(run))
 
 
 def _choked_side(run: Run) -> Array:
-    """1 while filling is choked, 2 while venting is, else 0."""
+    """1 where filling is choked, 2 where venting is, else 0."""
     out, valve = run.outputs, run.drive.valve
     fill = (out["supply_flow"] > 0.0) & (out["fill_pressure_ratio"] < valve.fill_ratio)
     exhaust = (out["exhaust_flow"] > 0.0) & (out["exhaust_pressure_ratio"] < valve.exhaust_ratio)

@@ -1,4 +1,4 @@
-"""The timing table of a drive: what an engineer reads off one fill and one exhaust, SI throughout.
+"""The timing table of a drive: figures of one fill and one exhaust, SI throughout.
 
 All times count from the switching instant of their phase (ProPneu prints those of the exhaust in run
 time). With s the travel since that instant, positive in the direction of the phase (fill: shorter), and S
@@ -8,17 +8,16 @@ the stroke of the phase: to the stop it ends on, else to where it ends, or the d
   band) S.
 - rise_time: from first s = 0.1 S to first s = 0.9 S; no dead time in it. delay_time: first s = 0.5 S.
 - settling_time: from here to the end of the phase |s - S| <= band S. The band is 5 % by default: after the
-  impact a load hangs from the gas and swings by a few per cent with next to no damping, long after every user
-  would call it arrived; a narrower band tells when that swing has died away.
-- average_speed: S / positioning_time. end_speed: ds/dt at the impact, without one at positioning_time.
-- max_speed, max_speed_at: largest ds/dt, the instant before the impact included.
+  impact a load swings on the gas spring by a few per cent, almost undamped, long after it has arrived for
+  practical purposes. A narrower band gives the time until that oscillation has decayed.
+- average_speed: S / positioning_time. end_speed: ds/dt at the impact, or without one at positioning_time.
+- max_speed, max_speed_at: largest ds/dt, including the instant before the impact.
 - max_acceleration, min_acceleration: largest and smallest second derivative of the position, positive =
-  towards shorter in both phases. Impacts are excluded: samples in contact with a stop and the neighbours
-  of those do not count.
+  towards shorter in both phases. Impacts are excluded: samples in contact with a stop and their neighbours
+  do not count.
 - impact_energy: m v^2/2 of the first impact; 0 without one.
-- pressure_rise_time, pressure_delay_time: 10-90 % and 50 % of the pressure step of the phase (its end
-  minus its start); pressure_settling_time: from here on within 1 % of that step around the end (99 %
-  filled, 1 % left).
+- pressure_rise_time, pressure_delay_time: 10-90 % and 50 % of the pressure step of the phase (end minus
+  start); pressure_settling_time: from here on within 1 % of that step around the end value.
 - air_mass: air taken from the supply (fill), let out to the atmosphere (exhaust); air_volume_anr: that at
   ANR.
 - choked_share: share of the phase in which the flow of the valve is choked.
@@ -47,10 +46,10 @@ PRESSURE_FIGURES = ("pressure_rise_time", "pressure_delay_time", "pressure_settl
 AIR_FIGURES = ("air_mass", "air_volume_anr", "choked_share")
 FIGURES = (*MOTION_FIGURES, *PRESSURE_FIGURES, *AIR_FIGURES)
 
-#: Less travel [m] or pressure change [Pa] than this is none.
+#: Travel [m] and pressure change [Pa] below these count as none.
 SMALLEST_STROKE, SMALLEST_STEP = 1e-5, 100.0
 PRESSURE_BAND = 0.01
-#: What settles only in this last share of a phase is still under way.
+#: A signal that settles only in this last share of a phase counts as not settled.
 _STILL_MOVING = 0.1
 
 Array = NDArray[np.float64]
@@ -58,7 +57,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class PhaseFigures:
-    """Figures of one phase, SI, as the module says; None where one does not exist."""
+    """Figures of one phase, SI, as defined in the module docstring; None where one does not exist."""
 
     positioning_time: float | None = None
     rise_time: float | None = None
@@ -88,7 +87,7 @@ class TimingTable:
 
     Attributes:
         extend, retract: fill and exhaust.
-        notes: "extend.rise_time" -> why it is None, or what to know of it.
+        notes: "extend.rise_time" -> why it is None, or a remark on it.
     """
 
     extend: PhaseFigures = field(default_factory=PhaseFigures)
@@ -97,7 +96,7 @@ class TimingTable:
 
     @classmethod
     def missing(cls, why: str) -> TimingTable:
-        """A table without any figure, and why."""
+        """A table without any figure, with the reason as a note."""
         return cls(notes={f"{phase}.{name}": why for phase in ("extend", "retract") for name in FIGURES})
 
 
@@ -117,8 +116,8 @@ def timing(
         trace: the run.
         fill, exhaust: start and end of the phases by the command [s], see `phases`; None when there is none.
         mass: moving mass, for the impact energy [kg].
-        stops: lower and upper stop as positions [m]; with them the impact is found between two samples.
-        stroke: demanded stroke of the fill [m]; figures beyond what was reached are None.
+        stops: lower and upper stop as positions [m]; with them the impact is located between two samples.
+        stroke: demanded stroke of the fill [m]; figures for a stroke that is not reached are None.
         band: settling band as a share of the stroke.
     """
     notes: dict[str, str] = {}
@@ -153,7 +152,7 @@ class _Phase:
         self.time = window.time - window.time[0]
         self.contact, position = window.contact, window.position
         start, end = float(position[0]), float(position[-1])
-        if stops is not None:  # a loaded stop gives way a little: the stop itself is the end of the stroke
+        if stops is not None:  # a loaded stop deflects: the undeflected stop is the end of the stroke
             start = min(stops, key=lambda stop: abs(stop - start)) if self.contact[0] else start
             end = min(stops, key=lambda stop: abs(stop - end)) if self.contact[-1] else end
         self.travel = sign * (position - start)
@@ -267,17 +266,17 @@ class _Phase:
                 notes |= dict.fromkeys((name, f"{name}_at"), "no sample is away from the stops")
 
     def _impact(self) -> tuple[float, float] | None:
-        """Instant and speed of the first impact on the stop ahead."""
+        """Instant and speed of the first impact on the stop at the end of the stroke."""
         far = self.travel[1:] > 0.5 * self.travel.max()
-        found = ~self.contact[:-1] & self.contact[1:] & far
+        impacts = ~self.contact[:-1] & self.contact[1:] & far
         width = np.diff(self.time)
         if self.wall is not None:  # a bounce between two samples: flying on would have passed the stop
             flown = self.travel[:-1] + width * (self.speed[:-1] + 0.5 * width * self.acceleration[:-1])
             through = (self.travel[:-1] < self.wall) & (flown >= self.wall)
-            found |= far & through & (self.speed[:-1] > 0.0) & (self.speed[1:] <= 0.0)
-        if not found.any():
+            impacts |= far & through & (self.speed[:-1] > 0.0) & (self.speed[1:] <= 0.0)
+        if not impacts.any():
             return None
-        self.hit = before = int(np.argmax(found))
+        self.hit = before = int(np.argmax(impacts))
         at = self._between(before, float(self.travel[before + 1]) if self.wall is None else self.wall)
         speed = self.speed[before] + self.acceleration[before] * (at - self.time[before])
         return at, max(float(speed), 0.0)
@@ -318,7 +317,7 @@ class _Phase:
         return float(np.interp(level, values[index - 1 : index + 1], self.time[index - 1 : index + 1]))
 
     def _settled(self, values: Array, end: float, width: float, *, linear: bool = False) -> float | None:
-        """Instant after which the values stay within the width around the end; None when still under way."""
+        """Instant after which the values stay within the width around the end; None when not settled."""
         outside = np.flatnonzero(np.abs(values - end) > width)
         index = int(outside[-1]) if len(outside) else 0
         if index + 1 >= len(values):

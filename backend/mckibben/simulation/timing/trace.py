@@ -18,12 +18,12 @@ class Trace:
         time: ascending [s].
         position: stroke, positive = shorter [m]; velocity [m/s] and acceleration [m/s^2] likewise.
         pressure: of the muscle, gauge [Pa].
-        force: of the muscle [N].
+        force: tension of the muscle [N].
         mass_flow: into the muscle [kg/s], negative = out.
-        contact: whether a stop is touched.
+        contact: whether the load touches a stop.
         choked: whether, or on which side, the valve is choked; 0 = not.
-        supply_mass_flow: from the supply [kg/s]; left out = what flows into the muscle.
-        exhaust_mass_flow: to the atmosphere, positive [kg/s]; left out = what flows out of the muscle.
+        supply_mass_flow: from the supply [kg/s]; default: the flow into the muscle.
+        exhaust_mass_flow: to the atmosphere, positive [kg/s]; default: the flow out of the muscle.
 
     Raises:
         ValueError: columns of different length, fewer than two rows, time not ascending, nan or inf.
@@ -51,8 +51,8 @@ class Trace:
         }
         kinds = {"contact": np.bool_, "choked": np.int_}
         for item in fields(self):
-            given = getattr(self, item.name)
-            column = np.asarray(absent[item.name] if given is None else given)
+            stated = getattr(self, item.name)
+            column = np.asarray(absent[item.name] if stated is None else stated)
             column = column.astype(kinds.get(item.name, np.float64))
             if column.shape != (len(self.time),) or not np.isfinite(column).all():
                 raise ValueError(f"{item.name}: {len(self.time)} finite values are needed")

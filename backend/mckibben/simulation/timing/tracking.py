@@ -1,4 +1,4 @@
-"""How well a controlled run follows its reference: error, lag, overshoot of each step."""
+"""Tracking figures of a controlled run: error, lag, overshoot of each step."""
 
 from __future__ import annotations
 
@@ -41,8 +41,8 @@ def tracking(time: ArrayLike, reference: ArrayLike, position: ArrayLike) -> Trac
       a + b reference(t - tau), that is, the largest correlation coefficient over the common time. Gain and
       offset errors do not change it. Of equally good shifts (a periodic reference) the smallest. Between
       samples by bracketing. None when reference or position is constant, or nothing fits.
-    - overshoot: for each jump of the reference to a level that is then held, the largest travel beyond that
-      level before the next jump, as a share of the jump.
+    - overshoot: for each jump of the reference to a constant level, the largest travel beyond that level
+      before the next jump, as a share of the jump.
 
     Args:
         time: ascending [s]; reference, position: same length [m].
@@ -85,8 +85,8 @@ def _lag(t: Array, r: Array, y: Array) -> float | None:
         return -_correlation(np.interp(late - shift, t, r), np.interp(late, t, y))
 
     bracket = (max(0.0, (best - 1) * step), (best + 1) * step)
-    found = minimize_scalar(misfit, bounds=bracket, method="bounded", options={"xatol": 1e-6 * step})
-    return 0.0 if misfit(0.0) <= found.fun and best <= 1 else float(found.x)
+    minimum = minimize_scalar(misfit, bounds=bracket, method="bounded", options={"xatol": 1e-6 * step})
+    return 0.0 if misfit(0.0) <= minimum.fun and best <= 1 else float(minimum.x)
 
 
 def _tops(score: Array) -> Array:
@@ -109,19 +109,19 @@ def _correlation(a: Array, b: Array) -> float:
 
 
 def _overshoots(t: Array, r: Array, y: Array) -> list[StepOvershoot]:
-    """Overshoot of every jump to a held level."""
+    """Overshoot of every jump to a constant level."""
     change = np.diff(r)
     small = 1e-9 * float(np.ptp(r)) if len(r) else 0.0
     moving = np.abs(change) > small
-    # A jump is one moving interval between two at rest; a ramp or a sine moves all the time.
+    # A jump is one interval of change between two constant ones; a ramp or a sine changes all the time.
     rest_after = np.r_[~moving[1:], True]
     rest_before = np.r_[True, ~moving[:-1]]
     jumps = np.flatnonzero(moving & rest_after & rest_before)
-    found: list[StepOvershoot] = []
+    steps: list[StepOvershoot] = []
     for number, index in enumerate(jumps):
         end = jumps[number + 1] + 1 if number + 1 < len(jumps) else len(t)
         size, level = float(change[index]), float(r[index + 1])
         beyond = float(np.max(np.sign(size) * (y[index + 1 : end] - level)))
         at = float(t[index + 1])
-        found.append(StepOvershoot(at, size, max(0.0, beyond) / abs(size)))
-    return found
+        steps.append(StepOvershoot(at, size, max(0.0, beyond) / abs(size)))
+    return steps
