@@ -115,6 +115,82 @@ def test_a_broken_file_of_the_user_becomes_a_problem(
     assert message in problem.message
 
 
+@pytest.mark.parametrize(
+    ("code", "message"),
+    [
+        (
+            "raise SystemExit",
+            "line 1: it ends the program (SystemExit) when it is loaded; an effect",
+        ),
+        ("import sys\nsys.exit(3)", "line 2: it ends the program (SystemExit: 3) when it is loaded"),
+        ("raise GeneratorExit('g')", "it ends the program (GeneratorExit: g)"),
+        ("import asyncio\nraise asyncio.CancelledError", "line 2: it ends the program (CancelledError)"),
+        ("class Own(BaseException): pass\nraise Own('x')", "line 2: it ends the program (Own: x)"),
+        ("raise BaseExceptionGroup('all', [SystemExit()])", "it ends the program (BaseExceptionGroup: all"),
+        ("\n\n1 / 0", "line 3: ZeroDivisionError: division by zero"),
+        ("raise ValueError('two\\nlines')", "line 1: ValueError: effect file broken.py: two lines"),
+        ("class Own(Exception):\n def __str__(self): 1 / 0\nraise Own", "line 3: Own"),
+        ("def f(): f()\nf()", "RecursionError: maximum recursion depth"),
+        ("\0", "null byte"),
+    ],
+)
+def test_however_a_file_ends_it_becomes_a_problem(tmp_path: Path, code: str, message: str) -> None:
+    (tmp_path / "broken.py").write_text(code, "utf-8")
+    write(tmp_path, "sound.py")
+    catalogue = EffectCatalogue([tmp_path])
+    assert "sound" in catalogue, "the others still load"
+    (problem,) = catalogue.problems
+    assert message in problem.message
+    assert "\n" not in problem.message
+
+
+def test_a_long_message_is_cut(tmp_path: Path) -> None:
+    (tmp_path / "broken.py").write_text("raise RuntimeError('x' * 100_000)", "utf-8")
+    (problem,) = EffectCatalogue([tmp_path]).problems
+    assert 300 < len(problem.message) < 400
+
+
+def test_a_real_interrupt_ends_the_loading(tmp_path: Path) -> None:
+    (tmp_path / "slow.py").write_text("raise KeyboardInterrupt", "utf-8")
+    with pytest.raises(KeyboardInterrupt):
+        EffectCatalogue([tmp_path])
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("seal.drag.py", "'seal.drag' cannot be the id of an effect; name the file with at most 64 letters"),
+        ("seal drag.py", "'seal drag' cannot be the id"),
+        ("1st.py", "'1st' cannot be the id"),
+        ("überdruck.py", "cannot be the id"),
+        ("x" * 65 + ".py", "cannot be the id"),
+        ("custom.py", "'custom' is the id of the typed term; rename the file"),
+    ],
+)
+def test_a_name_that_no_request_could_use_is_refused(tmp_path: Path, name: str, message: str) -> None:
+    write(tmp_path, name)
+    catalogue = EffectCatalogue([tmp_path])
+    assert set(catalogue) == set(default_catalogue())
+    assert message in catalogue.problems[0].message
+
+
+def test_what_is_no_plain_file_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "folder.py").mkdir()
+    (tmp_path / "nowhere.py").symlink_to(tmp_path / "gone")
+    problems = EffectCatalogue([tmp_path]).problems
+    assert [problem.message for problem in problems] == ["ValueError: it is not a plain file"] * 2
+
+
+@pytest.mark.parametrize("code", ["raise SystemExit('x')", "raise ValueError('x')", "return nothing"])
+def test_a_function_that_fails_names_effect_and_slot(tmp_path: Path, code: str) -> None:
+    write(tmp_path, "broken.py", ("return force * direction", code))
+    effect = EffectCatalogue([tmp_path])["broken"]
+    with pytest.raises(InputError, match="effect 'broken', slot 'friction': ") as caught:
+        effect.call("friction", {"direction": 1.0, "velocity": 0.0}, effect.defaults)
+    assert caught.value.field == "effects.broken"
+    assert "broken.py" in str(caught.value.hint)
+
+
 def test_a_parameter_that_nothing_takes_is_refused(tmp_path: Path) -> None:
     write(
         tmp_path,

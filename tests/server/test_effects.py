@@ -51,6 +51,27 @@ def test_a_new_effect_file_appears_everywhere(tmp_path: Path) -> None:
         assert_error(post(client, "/api/curves", {**request, "effects": {"broken": {}}}), 422)
 
 
+def test_a_file_that_ends_the_program_is_told_and_the_server_goes_on(tmp_path: Path) -> None:
+    source = (BUILT_IN_FOLDER / "prestress.py").read_text("utf-8")
+    (tmp_path / "at_once.py").write_text("import sys\nsys.exit('bye')\n", "utf-8")
+    (tmp_path / "later.py").write_text(source.replace("return -force", "raise SystemExit('bye')"), "utf-8")
+    settings = Settings(data=tmp_path / "data", effects=(tmp_path,))
+    with TestClient(create_app(settings), base_url=URL) as client:
+        (problem,) = client.get("/api/effects").json()["problems"]
+        assert problem["file"] == "at_once.py"
+        assert problem["message"].startswith(
+            "line 2: it ends the program (SystemExit: bye) when it is loaded"
+        )
+        for path, body in (
+            ("/api/curves", {}),
+            ("/api/diagnoses", {"measurement": "martens-dmsp-20-300"}),
+        ):
+            request = {"muscle": {"preset": "DMSP-20"}, "effects": {"later": {}}, **body}
+            error = assert_error(post(client, path, request), 422, field="effects.later")
+            assert "it ends the program (SystemExit: bye)" in error["message"]
+        assert client.get("/api/health").status_code == 200
+
+
 def test_a_missing_effects_folder_is_an_input_error(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="does not exist"):
         create_app(Settings(data=tmp_path, effects=(tmp_path / "none",)))

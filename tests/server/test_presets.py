@@ -118,6 +118,24 @@ def test_a_bad_file_is_reported_and_the_others_still_load(tmp_path: Path) -> Non
     assert body["problems"][0]["message"]
 
 
+def test_a_preset_that_was_refused_says_why_where_it_is_named(client: TestClient, settings: Settings) -> None:
+    folder = (settings.user_presets or Path()) / "muscles"
+    folder.mkdir(parents=True)
+    wrong = {("titel" if key == "title" else key): value for key, value in MINE.items()}
+    (folder / "mine-20.json").write_text(json.dumps(wrong), "utf-8")
+    (folder.parent / "valves.json").write_text(json.dumps(MINE | {"kind": "valve"}), "utf-8")
+    error = assert_error(client.get("/api/presets/muscles/mine-20"), 404, code="not_found")
+    assert "user/muscles/mine-20.json, titel: 'titel' is not a known key" in error["message"]
+    assert error["hint"] == "Did you mean 'title'?"
+    error = assert_error(post(client, "/api/curves", {"muscle": {"preset": "Mine-20"}}), 422)
+    assert "titel" in error["message"]
+    assert {p["file"] for p in client.get("/api/presets/muscles").json()["problems"]} == {
+        "user/muscles/mine-20.json"
+    }
+    (stray,) = client.get("/api/presets/valves").json()["problems"]
+    assert (stray["file"], stray["hint"]) == ("user/valves.json", "put it into valves/")
+
+
 def test_only_muscles_can_be_saved(client: TestClient) -> None:
     assert_error(post(client, "/api/presets/valves", MINE), 405)
 

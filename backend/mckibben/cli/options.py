@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
+from contextlib import redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, cast
@@ -84,13 +86,14 @@ def folders(presets: Path | None, effects: Sequence[Path] | None, data: Path | N
 
 def open_studio(presets: Path | None, effects: Sequence[Path] | None, data: Path | None) -> Studio:
     """Presets and effects for a command that runs without a server."""
+    from mckibben.cli.problems import tell_problems
     from mckibben.documents.studio import Studio
     from mckibben.resources import presets_folder
 
     chosen = folders(presets, effects, data)
-    studio = Studio(presets=presets_folder(), user_presets=chosen.user_presets, effects=chosen.effects)
-    for problem in studio.catalogue.problems:
-        typer.echo(f"effect file {problem.file} is not used: {problem.message}", err=True)
+    with redirect_stdout(sys.stderr):  # what an effect file prints when it is loaded is no answer
+        studio = Studio(presets=presets_folder(), user_presets=chosen.user_presets, effects=chosen.effects)
+    tell_problems(studio, chosen.user_presets)
     return studio
 
 

@@ -39,6 +39,7 @@ def run(
     # Imported only after the port is bound: errors of the address are reported at once.
     import uvicorn
 
+    from mckibben.cli.problems import tell_problems
     from mckibben.server.app import create_app
     from mckibben.server.security import new_token
     from mckibben.server.settings import Settings, is_every_interface, is_loopback
@@ -65,8 +66,10 @@ def run(
             if open_browser and _has_screen():
                 threading.Thread(target=webbrowser.open, args=(link,), daemon=True).start()
 
+    app = create_app(settings)
+    tell_problems(app.state.studio, chosen.user_presets)
     config = uvicorn.Config(
-        create_app(settings),
+        app,
         log_level="warning",
         access_log=False,
         server_header=False,

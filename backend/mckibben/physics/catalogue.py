@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import importlib.util
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from mckibben.physics.custom import CUSTOM
 from mckibben.physics.effect import Effect
-from mckibben.physics.errors import InputError, did_you_mean
+from mckibben.physics.errors import InputError, did_you_mean, told
 
 BUILT_IN_FOLDER = Path(__file__).parent / "effects"
+_LONGEST_NAME = 64  # characters, as in a request
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +28,8 @@ class EffectCatalogue(Mapping[str, Effect]):
     """Effects by id, sorted; the id is the file name without ``.py``.
 
     A broken file of the effects folder raises. A broken file of an additional folder is reported in
-    ``problems``, and the others still load. Two files with the same id are refused.
+    ``problems``, and the others still load. Two files with the same id are refused. Only a real interrupt
+    (Ctrl+C) ends the loading.
 
     Args:
         folders: additional folders whose Python files are loaded, and thus executed, as effects.
@@ -40,11 +43,14 @@ class EffectCatalogue(Mapping[str, Effect]):
                 raise InputError(f"effects folder {folder} does not exist", field="effects")
             for path in _files(folder):
                 try:
-                    if path.stem in by_id:
-                        raise ValueError(f"an effect '{path.stem}' exists already; rename the file")
+                    _check_name(path, by_id)
                     by_id[path.stem] = _load(path)
-                except Exception as error:  # a user's file may fail in any way
-                    self.problems.append(EffectProblem(path.name, f"{type(error).__name__}: {error}"))
+                except KeyboardInterrupt:
+                    raise
+                except (
+                    BaseException
+                ) as error:  # a user's file may fail in any way, also by ending the program
+                    self.problems.append(EffectProblem(path.name, _told(error, path)))
         self._effects = dict(sorted(by_id.items()))
 
     def __getitem__(self, effect_id: str) -> Effect:
@@ -76,6 +82,36 @@ def default_catalogue() -> EffectCatalogue:
 
 def _files(folder: Path) -> list[Path]:
     return sorted(path for path in folder.glob("*.py") if not path.stem.startswith("_"))
+
+
+def _check_name(path: Path, known: Iterable[str]) -> None:
+    """Refuse a file whose name cannot be the id of an effect, or that is no plain file."""
+    name = path.stem
+    if not path.is_file():  # reading a pipe would never end
+        raise ValueError("it is not a plain file")
+    if name in known:
+        raise ValueError(f"an effect '{name}' exists already; rename the file")
+    if name == CUSTOM:
+        raise ValueError(f"'{name}' is the id of the typed term; rename the file")
+    if not (name.isascii() and name.isidentifier() and len(name) <= _LONGEST_NAME):
+        raise ValueError(
+            f"'{name[:_LONGEST_NAME]}' cannot be the id of an effect; name the file with at most "
+            f"{_LONGEST_NAME} letters, digits and underscores, e.g. seal_drag.py"
+        )
+
+
+def _told(error: BaseException, path: Path) -> str:
+    """What is wrong with a file, in one line: where in it, which error, what the error says."""
+    line, file = 0, str(path.absolute())
+    for raised in (error, error.__cause__):
+        step = None if raised is None else raised.__traceback__
+        while step is not None:
+            line = step.tb_lineno if step.tb_frame.f_code.co_filename == file else line
+            step = step.tb_next
+    what = told(error)
+    if not isinstance(error, Exception):
+        what = f"{what} when it is loaded; an effect file only defines functions and EFFECT"
+    return f"line {line}: {what}" if line else what
 
 
 def _load(path: Path) -> Effect:

@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
+from mckibben.physics.errors import InputError, told
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 from mckibben.physics.slots import SLOTS
@@ -175,13 +176,26 @@ class Effect:
         return replace(self, id=effect_id)
 
     def call(self, slot: str, context: Mapping[str, Value], values: Mapping[str, Value]) -> Value:
-        """Call the slot's function with the arguments it requests, from values, context or states at rest."""
+        """Call the slot's function with the arguments it requests, from values, context or states at rest.
+
+        Raises:
+            InputError: the function fails; names the effect and the slot.
+        """
         rest = {state.name: state.initial for state in self.states}
         sources = (values, context, rest)
         arguments = {
             name: next(source[name] for source in sources if name in source) for name in self._wanted[slot]
         }
-        return self.slots[slot](**arguments)
+        try:
+            return self.slots[slot](**arguments)
+        except (InputError, KeyboardInterrupt):
+            raise
+        except BaseException as error:  # the function may be a user's, and may even end the program
+            raise InputError(
+                f"effect '{self.id}', slot '{slot}': {told(error)}",
+                field=f"effects.{self.id}",
+                hint=f"correct the function in {self.id}.py, or take the file out of its folder",
+            ) from error
 
     @property
     def defaults(self) -> dict[str, float]:

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from difflib import get_close_matches
 
+_LONGEST = 300  # characters of an error of a user's code that are told
+
 
 class InputError(ValueError):
     """Input of the caller that cannot be used.
@@ -59,3 +61,13 @@ def did_you_mean(word: str, options: Iterable[str]) -> str | None:
     if 1 < len(near) <= 4:
         return f"Did you mean one of {', '.join(sorted(by_lower[option] for option in near))}?"
     return f"Known: {', '.join(known)}." if 0 < len(known) <= 60 else None
+
+
+def told(error: BaseException) -> str:
+    """An error of a user's code in one line: its kind, what it says, and that it ends programs if it does."""
+    try:
+        said = " ".join(str(error).split())[:_LONGEST]
+    except Exception:  # its own way to tell itself is broken too
+        said = ""
+    what = f"{type(error).__name__}: {said}" if said else type(error).__name__
+    return what if isinstance(error, Exception) else f"it ends the program ({what})"

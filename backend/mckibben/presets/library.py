@@ -15,6 +15,7 @@ from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.presets.quantity import Finding
 from mckibben.presets.reading import KINDS, MAX_BYTES, BadDocumentError, parse, read_file, slug
 from mckibben.presets.schema import EffectTable, MusclePreset, Origin, Preset
+from mckibben.presets.stray import strays
 
 USER_ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9-]{0,63}")
 
@@ -91,12 +92,25 @@ class PresetLibrary:
         match = presets.get(slug(preset_id).lower())
         if match is None:
             known = [preset.id for preset in presets.values()]
+            self._raise_refused(kind, preset_id)
             raise InputError(
                 f"there is no preset '{preset_id[:80]}' among the {kind}",
                 hint=did_you_mean(preset_id[:80], known),
                 code="not_found",
             )
         return match
+
+    def _raise_refused(self, kind: str, preset_id: str) -> None:
+        """Say why the preset of this id is not there, if there is a file of its name that was refused."""
+        wanted = slug(preset_id).lower()
+        for problem in self._built_in[kind].problems + self._user[kind].problems:
+            if Path(problem.file).stem.lower() == wanted:
+                where = f"{problem.file}, {problem.field}" if problem.field else problem.file
+                raise InputError(
+                    f"the preset '{preset_id[:80]}' cannot be used: {where}: {problem.message}",
+                    hint=problem.hint,
+                    code="not_found",
+                )
 
     def is_built_in(self, kind: str, preset_id: str) -> bool:
         """Whether a preset comes with the program; reads no file."""
@@ -108,16 +122,17 @@ class PresetLibrary:
         return cast(MusclePreset, preset)
 
     def problems(self, kind: str | None = None) -> list[LibraryProblem]:
-        """Files that were not loaded, of one kind or of all."""
+        """Files that were not loaded, of one kind or of all; with those of the user that lie elsewhere."""
         kinds = KINDS if kind is None else [kind]
         for name in kinds:
             self._refresh(name)
+        found = [] if self._user_folder is None else strays(self._user_folder)
         return [
             problem
             for name in kinds
             for shelf in (self._built_in, self._user)
             for problem in shelf[name].problems
-        ]
+        ] + [LibraryProblem(f"user/{stray.file}", *stray.finding) for stray in found if stray.kind in kinds]
 
     def save_muscle(self, document: dict[str, Any]) -> MusclePreset:
         """Save a muscle of the user; replaces a user preset of the same id, never a built-in one.

@@ -84,8 +84,9 @@ def read_file(path: Path, *, follow_links: bool) -> object:
         raise BadDocumentError([Finding(where, f"is not JSON: {error.msg}")]) from error
     except RecursionError as error:
         raise BadDocumentError([_too_deep(None)]) from error
-    except ValueError as error:  # a number of thousands of digits
-        raise BadDocumentError([Finding(None, f"is not JSON: {error}")]) from error
+    except ValueError as error:  # what Python says of it is about Python
+        what = "holds a number of thousands of digits"
+        raise BadDocumentError([Finding(None, what, "a number below 9e18")]) from error
 
 
 def parse(model: type[Preset], document: object, effects: EffectTable | None) -> Preset:
@@ -98,6 +99,8 @@ def parse(model: type[Preset], document: object, effects: EffectTable | None) ->
             preset = model.model_validate(document)
         except ValidationError as error:
             findings = [_translate(item, model) for item in error.errors(include_url=False)]
+            # A misspelt key before the key that is missing instead of it: it says more.
+            findings.sort(key=lambda finding: finding.hint is None)
         else:
             findings = list(preset.findings(effects))
             if not findings:

@@ -1,0 +1,34 @@
+"""Which of the user's own files are not used: where each is wrong, why, and what would be right."""
+
+from __future__ import annotations
+
+from itertools import groupby
+from pathlib import Path
+
+import typer
+
+from mckibben.documents.studio import Studio
+
+_SHOWN = 3  # problems of one preset file
+
+
+def tell_problems(studio: Studio, user_presets: Path | None) -> None:
+    """Say on stderr which files of effects and presets are not used, where and why, what would be right.
+
+    Args:
+        studio: what was loaded.
+        user_presets: the user's folder of presets.
+    """
+    for problem in studio.catalogue.problems:
+        typer.echo(f"effect file {problem.file} is not used: {problem.message}", err=True)
+    for file, problems in groupby(studio.library.problems(), key=lambda problem: problem.file):
+        own = file.removeprefix("user/")
+        path = file if own == file or user_presets is None else user_presets / own
+        found = list(problems)
+        for problem in found[:_SHOWN]:
+            known = not problem.field or problem.field in problem.message.replace("'", "")
+            said = problem.message if known else f"{problem.field}: {problem.message}"
+            hint = f" ({problem.hint.rstrip('.')})" if problem.hint else ""
+            typer.echo(" ".join(f"preset file {path} is not used: {said}{hint}".split()), err=True)
+        if more := len(found[_SHOWN:]):
+            typer.echo(f"preset file {path}: and {more} more", err=True)
