@@ -90,7 +90,7 @@ def test_an_unknown_measurement_is_not_found(shared_client: TestClient) -> None:
     error = assert_error(post(shared_client, "/api/comparisons", body), 404, field="measurement")
     assert error["hint"] == "Did you mean 'musclesim-20'?"
     error = assert_error(post(shared_client, "/api/comparisons", {**body, "measurement": "0" * 64}), 404)
-    assert "send the file again" in error["hint"]
+    assert "upload the file again" in error["hint"]
 
 
 # --- where it fails
