@@ -124,7 +124,7 @@ def test_kind_is_detected(case):
 )
 def test_no_kind(columns):
     with pytest.raises(
-        InputError, match=r"^a.csv: no kind of measurement can be made of the columns"
+        InputError, match=r"^a.csv: no kind of measurement fits the columns"
     ) as caught:
         make(columns)
     assert "pressure" in caught.value.hint
