@@ -250,7 +250,7 @@ export interface components {
       /** [Pa] */
       pressure: number | string;
     };
-    /** A sampled PID controller of the load's position; without a unit, gains are percent of full command per mm (and s). */
+    /** A sampled PID controller of the load's position. Gains without a unit are in percent of full command per mm (and s). */
     ControllerInput: {
       type?: "pid";
       /** Proportional gain, %/mm. [1/m] */
@@ -261,15 +261,15 @@ export interface components {
       kd?: number | string | null;
       /** Command per reference, %/mm. [1/m] */
       feed_forward?: number | string | null;
-      /** Filter of the derivative; 5 ms if left out. [s] */
+      /** Filter time of the derivative. Default 5 ms. [s] */
       derivative_filter?: number | string | null;
-      /** 1 ms if left out. [s] */
+      /** Sample time. Default 1 ms. [s] */
       sample_time?: number | string | null;
-      /** Lowest command; -1 for a valve, 0 for a regulator. [1] */
+      /** Lowest command. Default -1 for a valve, 0 for a regulator. [1] */
       output_min?: number | string | null;
-      /** Highest command; 1 if left out. [1] */
+      /** Highest command. Default 1. [1] */
       output_max?: number | string | null;
-      /** Position wanted, as a signal of time. [m] */
+      /** Desired position, as a signal of time. [m] */
       reference: {
         shape: "step";
         /** [s] */
@@ -550,19 +550,19 @@ export interface components {
     DriveDocument: {
       /** Version of the document. */
       schema?: 1;
-      /** For people. */
+      /** Title for display. */
       title?: string;
       muscle: components["schemas"]["MuscleInput"];
       effects?: { [key: string]: { [key: string]: number | string } } | null;
       supply: components["schemas"]["SupplyInput"];
       valve: components["schemas"]["ValveInput"];
       regulator?: components["schemas"]["RegulatorInput"] | null;
-      /** Left out: the valve sits on the muscle, and a diagnosis tries a typical tube (4 mm, 1 m) as an explanation. null: there is none, and none is tried. */
+      /** Default: the valve is on the muscle, but a diagnosis tries a typical tube (4 mm, 1 m) as an explanation. null: there is no tube, and a diagnosis tries none. */
       tube?: components["schemas"]["TubeInput"] | null;
       /** Fitting presets; they add their port volumes. */
       fittings?: string[];
       load?: components["schemas"]["LoadInput"];
-      /** Opening of the valve: 1 fill, 0 closed, -1 exhaust; of a regulator the share of its range. What a shape leaves open, e.g. outside a pulse, is exhaust (0 for a regulator). To be left out with a controller, or beside a measurement, which brings its own. [1] */
+      /** Opening of the valve: 1 fill, 0 closed, -1 exhaust; for a regulator, the share of its range. Where a shape has no value, e.g. outside a pulse, the valve exhausts (0 for a regulator). Not needed with a controller or a measurement, which supply the command. [1] */
       command?: {
         shape: "step";
         /** [s] */
@@ -658,7 +658,7 @@ export interface components {
         };
         interpolation?: "linear" | "hold";
       } | null;
-      /** Gives the command instead. */
+      /** Controller that generates the command. */
       controller?: components["schemas"]["ControllerInput"] | null;
       gas?: components["schemas"]["GasInput"];
       stops?: components["schemas"]["StopsInput"];
@@ -830,22 +830,22 @@ export interface components {
       /** While lengthening. [N] */
       venting: (number | null)[];
     };
-    /** A force that depends on where the load is, linear between the points. */
+    /** A force that depends on the position of the load, linear between the points. */
     ForceOverStroke: {
       /** Strokes of the load, ascending. */
       strokes: (number | string)[];
-      /** Force against the pull there. */
+      /** Force against the pull at these strokes. */
       forces: (number | string)[];
     };
     /** The air and its surroundings. */
     GasInput: {
       /** 1 isothermal, 1.4 adiabatic. [1] */
       polytropic_exponent?: number | string;
-      /** Of the supply and the surroundings. [K] */
+      /** Temperature of the supply and the surroundings. [K] */
       temperature?: number | string;
       /** Absolute pressure of the surroundings. [Pa] */
       ambient_pressure?: number | string;
-      /** Gas volume besides muscle and tube: ports, a reservoir. [m3] */
+      /** Gas volume in addition to muscle and tube: ports, a reservoir. [m3] */
       dead_volume?: number | string;
     };
     /** The muscle at rest; an unknown wall thickness is left out. */
@@ -932,7 +932,7 @@ export interface components {
       min_nominal_length?: components["schemas"]["Quantity"] | null;
       max_nominal_length?: components["schemas"]["Quantity"] | null;
     };
-    /** What the muscle pulls. */
+    /** The load of the muscle. */
     LoadInput: {
       /** Mass of the load. [kg] */
       mass?: number | string;
@@ -1032,17 +1032,17 @@ export interface components {
         };
         interpolation?: "linear" | "hold";
       };
-      /** Of the way the load is pulled against the horizontal; 90 deg when left out. [rad] */
+      /** Angle between the motion of the load and the horizontal. Default 90 deg. [rad] */
       inclination?: number | string | null;
-      /** Hanging is 90 deg, horizontal 0 deg; a lever needs its ratio; an antagonist pair on a pulley needs its radius: a second, equal muscle with the mirrored command pulls the other way. */
+      /** Hanging is 90 deg, horizontal 0 deg. A lever needs lever_ratio. An antagonist pair needs pulley_radius: a second, equal muscle with the mirrored command pulls in the other direction. */
       arrangement?: "hanging" | "inclined" | "horizontal" | "lever" | "antagonist" | null;
       /** Spring against the contraction, at the load. [N/m] */
       spring?: number | string;
       /** Stroke of the muscle per stroke of the load. [1] */
       lever_ratio?: number | string | null;
-      /** Of an antagonist pair's pulley. [m] */
+      /** Radius of the pulley of an antagonist pair. [m] */
       pulley_radius?: number | string | null;
-      /** Of both muscles of a pair at the middle; 10 % when left out. [1] */
+      /** Contraction of both muscles of a pair in the middle position. Default 10 %. [1] */
       precontraction?: number | string | null;
     };
     /** Area of the force residual over a closed path: energy dissipation that the model misses. */
@@ -1211,14 +1211,14 @@ export interface components {
       /** The lattice, when the muscle was given by it. */
       rhombus: components["schemas"]["RhombusAnswer"] | null;
     };
-    /** A preset id, or a length with exactly one of: diameter and angle, thread length and turns, rhombus. With a preset the given fields take the place of the preset's own. */
+    /** A preset id, or a length with exactly one of: diameter and angle, thread length and turns, rhombus. With a preset, the fields given override its values. */
     MuscleInput: {
       preset?: string | null;
       /** Length between the fittings at rest. [m] */
       nominal_length?: number | string | null;
       /** Bore at rest. [m] */
       inside_diameter?: number | string | null;
-      /** Diameter of the braid at the braid angle; without it the inside diameter is taken. [m] */
+      /** Diameter of the braid at the braid angle. Default: the inside diameter. [m] */
       braid_diameter?: number | string | null;
       /** Angle between thread and muscle axis at rest. [rad] */
       braid_angle?: number | string | null;
@@ -1326,15 +1326,15 @@ export interface components {
       /** Overshoot as a share of the height. [1] */
       overshoot: number;
     };
-    /** Two equal muscles that pull a pulley against each other. */
+    /** Two equal muscles that pull a pulley in opposite directions. */
     PairInput: {
-      /** Whole swing, from one end to the other. [rad] */
+      /** Total angle, from one end to the other. [rad] */
       angle: number | string;
-      /** Against the first muscle, over the whole swing. 0: a pulley turns about its centre. [N*m] */
+      /** Torque against the first muscle, over the whole angle. 0 = no torque. [N*m] */
       torque?: number | string;
-      /** Of everything that turns. 0: then the muscles' own air decides the time. [kg*m^2] */
+      /** Moment of inertia of all rotating parts. 0 = no inertia. [kg*m^2] */
       inertia?: number | string;
-      /** Left out, eight radii from 10 to 120 mm are tried: a free choice of the designer. [m] */
+      /** Radius of the pulley. Default: eight radii from 10 to 120 mm are tried. [m] */
       pulley_radius?: number | string | null;
     };
     /** Published figures of a drive. Attributes: figure: number of the figure. figures: "extend.rise_time" -> value; names of the timing table, or explained in the description. tolerance: permitted relative deviation of a figure, by the same names. excluded: reason why a figure is not compared, by the same names. */
@@ -1536,7 +1536,7 @@ export interface components {
       /** Position of the load. [m] */
       position: (number | null)[];
     };
-    /** Makes the valve a pressure regulator; a regulator preset has figures of its own. */
+    /** Makes the valve a pressure regulator; a regulator preset has its own values. */
     RegulatorInput: {
       /** Gauge pressure at full command. [Pa] */
       range?: number | string | null;
@@ -1628,7 +1628,7 @@ export interface components {
       /** Rhombi around the muscle. [1] */
       around: number;
     };
-    /** The lattice of the braid: rhombi of one side, so many along the muscle and around it. */
+    /** The lattice of the braid: side of the rhombi, and their numbers along and around the muscle. */
     RhombusInput: {
       /** Side of one rhombus. [m] */
       side: number | string;
@@ -1780,31 +1780,31 @@ export interface components {
     SizingTask: {
       /** Version of the document. */
       schema?: 1;
-      /** For people. */
+      /** Title for display. */
       title?: string;
       load: components["schemas"]["TaskLoad"];
-      /** Of the load; a pair has an angle instead. [m] */
+      /** Stroke of the load; a pair has an angle instead. [m] */
       stroke?: number | string | null;
-      /** For the stroke. None: the drives are compared by what they take. [s] */
+      /** Time for the stroke. Leave empty for no limit. [s] */
       time?: number | string | null;
-      /** For the way back. None: it may take its time. [s] */
+      /** Time for the return stroke. Leave empty for no limit. [s] */
       time_down?: number | string | null;
-      /** Up and down together. None: see the times. [s] */
+      /** Time for both strokes together. Leave empty for no limit. [s] */
       cycle_time?: number | string | null;
-      /** Average speed in place of the time. None: the time says it. [m/s] */
+      /** Average speed of the stroke, instead of the time. [m/s] */
       speed?: number | string | null;
-      /** Wanted against the load at the end of the stroke, valve open (a closed valve holds stiffer). None: it is told instead. [N/m] */
+      /** Least stiffness at the load at the end of the stroke with an open valve (with a closed valve it is higher). Leave empty for no limit. [N/m] */
       stiffness?: number | string | null;
-      /** Gauge. 6 bar: the usual net, and the limit of most muscles. [Pa] */
+      /** Gauge pressure of the supply. Default 6 bar, the limit of most muscles. [Pa] */
       supply_pressure?: number | string;
-      /** 20 °C: a workshop. [K] */
+      /** Ambient temperature. Default 20 °C. [K] */
       ambient_temperature?: number | string;
       limits?: components["schemas"]["TaskLimits"];
       catalogue?: components["schemas"]["TaskCatalogue"];
       uncertainty?: components["schemas"]["TaskUncertainty"];
-      /** Balanced: air times the root of installed length and number of muscles, because air costs every day and room once. Drives that probably fail come last in any order. */
+      /** Order of the proposals. Balanced: by air consumption times the square root of installed length and number of muscles. Drives that probably fail come last in any order. */
       rank_by?: "balanced" | "air" | "time" | "length" | "reserve" | "probability";
-      /** Proposals wanted. 10: more nobody compares. */
+      /** Most proposals. Default 10. */
       max_proposals?: number;
     };
     /** Rows of the file that cannot be read, for one reason. */
@@ -1825,7 +1825,7 @@ export interface components {
     StopsInput: {
       /** The load rests here without pressure. [1] */
       min_contraction?: number | string;
-      /** The limit of the muscle preset when left out, else 25 %. [1] */
+      /** Default: the limit of the muscle preset, else 25 %. [1] */
       max_contraction?: number | string | null;
     };
     /** The pressure that lifts a load by a stroke. */
@@ -1863,64 +1863,64 @@ export interface components {
       /** Part of the program, or saved by the user. */
       origin: "built-in" | "user";
     };
-    /** What may be used. */
+    /** Parts that may be used. */
     TaskCatalogue: {
-      /** Muscle presets. Left out: all with complete catalogue data, because then every limit is known. */
+      /** Muscle presets. Default: all with complete catalogue data, because then every limit is known. */
       muscles?: string[] | null;
-      /** Valve presets. Left out: all whose flow is known; regulators switch too slowly. */
+      /** Valve presets. Default: all switching and proportional valves with known flow. */
       valves?: string[] | null;
-      /** Tube presets. Left out: all. */
+      /** Tube presets. Default: all. */
       tubes?: string[] | null;
-      /** From the valve to each muscle; 0 for none. 1 m: valves seldom sit on the muscle. [m] */
+      /** Tube length from the valve to each muscle; 0 for no tube. Default 1 m. [m] */
       tube_length?: number | string;
     };
-    /** What a drive must keep to. */
+    /** Limits of a drive. */
     TaskLimits: {
-      /** At the end of the stroke. 20 %: makers allow 25 %, but the last of it hardly pulls; the maker's own limit holds where it is lower. [1] */
+      /** Contraction at the end of the stroke. Default 20 %: makers allow 25 %, but there the force is small. A lower limit of the maker takes precedence. [1] */
       max_contraction?: number | string;
-      /** Share by which the static force exceeds the load everywhere on the stroke. 10 %: so much do specimens differ. [1] */
+      /** Least excess of the static force over the load on the whole stroke, as a share of the load. Default 10 %: specimens differ by this much. [1] */
       force_reserve?: number | string;
-      /** Share of the supply that is not counted on. 0: the supply tolerance has its own field. [1] */
+      /** Unused share of the supply pressure. Default 0: its tolerance has a field of its own. [1] */
       pressure_reserve?: number | string;
-      /** Installed, without pressure. 1 m: longer muscles are made, machines seldom have room. [m] */
+      /** Installed length without pressure. Default 1 m. Longer muscles exist. [m] */
       max_length?: number | string;
-      /** What both end fittings take of it. 0: no verified figure is known; add yours. [m] */
+      /** Length of both end fittings together. Default 0: no verified value is known. [m] */
       end_fittings?: number | string;
-      /** Outside, bulged at the end of the stroke. None: the figure is told instead. [m] */
+      /** Outside diameter at the end of the stroke. Leave empty for no limit. [m] */
       max_diameter?: number | string | null;
-      /** Muscles side by side. 2: more seldom share a load evenly. */
+      /** Most parallel muscles. Default 2: more muscles rarely share a load evenly. */
       max_parallel?: number;
-      /** Load cycles. None: makers publish no curve; what is told is an estimate (100 000 cycles at full force or contraction, 10 million without load, unverified). [1] */
+      /** Load cycles. Leave empty for no limit. Makers publish no curve; the program uses an unverified estimate (100 000 cycles at full force or contraction, 10 million without load). [1] */
       life?: number | string | null;
     };
-    /** What is moved. Everything is counted at the load; forces are positive against the pull. */
+    /** The load. All values are those at the load; forces are positive against the pull. */
     TaskLoad: {
-      /** Moved mass. 0: only what is stated is moved. [kg] */
+      /** Mass moved by the muscle. 0 = no mass. [kg] */
       mass?: number | string;
-      /** Of the way against the horizontal. 90 deg: a muscle can only pull, so most loads hang. [rad] */
+      /** Angle between the motion and the horizontal. Default 90 deg: most loads hang. [rad] */
       inclination?: number | string;
-      /** Constant force besides the weight. 0: only what is stated pulls back. [N] */
+      /** Constant force in addition to the weight. 0 = no force. [N] */
       force?: number | string;
-      /** Further force, by the stroke. The closed form takes it as it is; a run takes the lowest straight line that is nowhere below it and does not fall. */
+      /** Additional force that depends on the stroke. Static calculations use it as it is; a simulation uses the lowest straight line that is nowhere below it and does not fall. */
       force_over_stroke?: components["schemas"]["ForceOverStroke"] | null;
-      /** Against the contraction, slack at the begin. 0: a weight pulls a muscle long again. [N/m] */
+      /** Spring against the contraction, relaxed at the start of the stroke. 0 = no spring. [N/m] */
       spring?: number | string;
-      /** Hangs on the other side of a pulley and pulls with the muscle. 0: none is usual. [kg] */
+      /** Mass on the other side of a pulley that pulls with the muscle. 0 = none. [kg] */
       counterweight?: number | string;
-      /** Stroke of the muscle per stroke of the load. 1: the muscle pulls directly. [1] */
+      /** Stroke of the muscle per stroke of the load. 1 = the muscle pulls directly. [1] */
       lever_ratio?: number | string;
-      /** An antagonist pair on a pulley instead: it takes no other field of the load. */
+      /** An antagonist pair on a pulley. No other field of the load may be given with it. */
       pair?: components["schemas"]["PairInput"] | null;
     };
-    /** How far what is built may differ from what was computed. */
+    /** Expected deviations of real drives from the calculation. */
     TaskUncertainty: {
-      /** Two standard deviations between specimens. 10 % of the blocked force: published curves of the same size differ by so much. [1] */
+      /** Two standard deviations of the blocked force between specimens. Default 10 %: published curves of the same size differ by this much. [1] */
       blocked_force?: number | string;
-      /** Largest width of the loop, share of the nominal length. Left out: the catalogue's. [1] */
+      /** Largest width of the loop, share of the nominal length. Default: that of the catalogue. [1] */
       hysteresis?: number | string | null;
-      /** Largest deviation of the supply. 3 %: a usual service regulator. [1] */
+      /** Largest deviation of the supply pressure. Default 3 %: a common service regulator. [1] */
       supply_pressure?: number | string;
-      /** Simulated for each proposal; 0 for none. 100: within 5 % of the probability. */
+      /** Simulated specimens of each proposal. 100 give the probability within 5 %. */
       specimens?: number;
     };
     /** The proposed term and the residual it explains, over one variable. */
@@ -1978,7 +1978,7 @@ export interface components {
       preset?: string | null;
       /** [m] */
       inside_diameter?: number | string | null;
-      /** Its length; that of the preset's figures if left out. [m] */
+      /** Length of the tube. Default: that for which the preset is specified. [m] */
       length?: number | string | null;
     };
     /** Another effect that looks alike. */
@@ -2020,18 +2020,18 @@ export interface components {
       /** Part of the program, or saved by the user. */
       origin: "built-in" | "user";
     };
-    /** A valve preset, or its flow both ways by value; values given besides a preset take its place. */
+    /** A valve preset, or flow values for filling and venting; values override those of the preset. */
     ValveInput: {
       preset?: string | null;
       /** Conductance of filling, ISO 6358. [m^3/(s*Pa)] */
       sonic_conductance?: number | string | null;
-      /** Conductance of venting; that of filling when left out. [m^3/(s*Pa)] */
+      /** Conductance of venting. Default: that of filling. [m^3/(s*Pa)] */
       exhaust_conductance?: number | string | null;
-      /** Critical pressure ratio b of filling; 0.3 when neither preset nor value says it. [1] */
+      /** Critical pressure ratio b of filling. Default: that of the preset, else 0.3. [1] */
       critical_pressure_ratio?: number | string | null;
-      /** Critical pressure ratio of venting; that of filling when left out. [1] */
+      /** Critical pressure ratio of venting. Default: that of filling. [1] */
       exhaust_critical_pressure_ratio?: number | string | null;
-      /** Standard nominal flow (6 to 5 bar gauge, normal litres) in place of a conductance. [m^3/s] */
+      /** Standard nominal flow (6 to 5 bar gauge, normal litres) instead of a conductance. [m^3/s] */
       nominal_flow?: number | string | null;
     };
     /** The verdict of the diagnosis. */

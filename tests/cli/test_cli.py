@@ -138,7 +138,7 @@ def test_compare_prints_tables_and_what_to_know(run: Run) -> None:
     assert code == 0
     assert "RMS error" in out
     assert "geometry.braid_angle" in out
-    assert "direction of motion unknown" in err
+    assert "direction of motion is unknown" in err
 
 
 def test_several_files_are_compared_together(run: Run) -> None:

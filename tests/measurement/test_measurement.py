@@ -123,9 +123,7 @@ def test_kind_is_detected(case):
     "columns", [{"pressure": RAMP}, {"force": RAMP, "time": RAMP}, {"temperature": RAMP}]
 )
 def test_no_kind(columns):
-    with pytest.raises(
-        InputError, match=r"^a.csv: no kind of measurement can be made of the columns"
-    ) as caught:
+    with pytest.raises(InputError, match=r"^a.csv: no kind of measurement fits the columns") as caught:
         make(columns)
     assert "pressure" in caught.value.hint
 

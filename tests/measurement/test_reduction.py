@@ -112,6 +112,6 @@ def test_a_small_measurement_is_left_as_it_is() -> None:
 
 def test_it_says_what_was_done() -> None:
     few = reduced(loops())
-    assert "weighted by their number, in place of 100000 rows" in few.message
+    assert "weighted by their number, instead of 100000 rows" in few.message
     assert few.message in few.measurement.messages
     assert few.measurement.id != loops().id

@@ -82,7 +82,7 @@ def test_long_curves_are_thinned_and_the_figures_use_all_rows(client: TestClient
 
 def test_a_sample_of_another_length_is_pointed_out(shared_client: TestClient) -> None:
     answer = compare(shared_client, {"preset": "DMSP-20", "nominal_length": "330 mm"}, "martens-dmsp-20-300")
-    assert any("do not belong together" in message for message in answer["messages"])
+    assert any("may belong to another muscle" in message for message in answer["messages"])
 
 
 def test_an_unknown_measurement_is_not_found(shared_client: TestClient) -> None:
@@ -90,7 +90,7 @@ def test_an_unknown_measurement_is_not_found(shared_client: TestClient) -> None:
     error = assert_error(post(shared_client, "/api/comparisons", body), 404, field="measurement")
     assert error["hint"] == "Did you mean 'musclesim-20'?"
     error = assert_error(post(shared_client, "/api/comparisons", {**body, "measurement": "0" * 64}), 404)
-    assert "send the file again" in error["hint"]
+    assert "upload the file again" in error["hint"]
 
 
 # --- where it fails

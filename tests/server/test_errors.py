@@ -87,7 +87,7 @@ REFUSED = [
         "/api/curves",
         {"muscle": DMSP, "contraction_from": 0.2, "contraction_to": 0.1},
         "contraction_to",
-        "begins",
+        "end of the range",
     ),
     ("/api/curves", {"muscle": DMSP, "fixed_length": "1 m"}, "fixed_length", "out of reach"),
     ("/api/curves", [], None, "must be an object, not a list"),

@@ -77,7 +77,7 @@ def test_it_is_there_after_a_restart(client: TestClient, settings: Settings) -> 
 
 def test_an_unknown_id_asks_to_send_the_file_again(client: TestClient) -> None:
     error = assert_error(client.get(f"/api/measurements/{ID}"), 404, code="not_found")
-    assert "send the file again" in error["hint"]
+    assert "upload the file again" in error["hint"]
 
 
 @pytest.mark.parametrize("name", ["x", "A" * 64, "g" * 64, f"{ID}.data", f"{ID}%0a"])

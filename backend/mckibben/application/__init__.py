@@ -1,1 +1,1 @@
-"""The use cases, the same for HTTP, command line and Python: a typed question in, a result out."""
+"""The use cases for HTTP, command line and Python: each takes a typed question and returns a result."""

@@ -1,4 +1,4 @@
-"""A model beside measurements: the error in numbers, where it fails, and the points for the plots."""
+"""Comparison of a model with measurements: the error, where the model fails, and curves for plots."""
 
 from __future__ import annotations
 
@@ -37,23 +37,22 @@ from mckibben.identification.residual.profiles import (
 )
 from mckibben.measurement.points import Points
 
-# A sample this much longer or shorter than the muscle is another muscle.
-_OTHER_LENGTH = 0.05
-_TELLING = 0.05  # share of the error from which a variable is worth a sentence
+_OTHER_LENGTH = 0.05  # relative difference above which sample and muscle have different lengths
+_TELLING = 0.05  # share of the error from which a variable is mentioned
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
 class ModelDocument:
-    """A model as a caller gives it."""
+    """A model in the form of a request."""
 
     effects: EffectDocument
 
 
 @dataclass(frozen=True, slots=True)
 class ValidationResult:
-    """The model on measurements it was not fitted to."""
+    """The error of the model for measurements that it was not fitted to."""
 
     rmse: float
     nrmse_percent: float
@@ -67,19 +66,23 @@ class ComparisonResult:
 
     Attributes:
         kind: of the measurement.
-        rows, rows_used, excluded: of the data, those compared, why not the others -> how many.
-        predicted, unit: names of the predicted channels; unit of the error, "1": over each channel's noise.
-        rmse, nrmse_percent, full_scale: root mean square of the residual; over the largest measured one.
+        rows, rows_used: number of rows, and of compared rows.
+        excluded: reason -> number of rows that are not compared.
+        predicted: names of the predicted channels.
+        unit: of the error; "1" if it is scaled by the noise of each channel.
+        rmse: root mean square of the residual.
+        nrmse_percent, full_scale: rmse over the largest measured magnitude; this magnitude.
         holdout_rmse: with whole groups left out of the fit; None with one group.
-        noise_floor, noise_how: noise of the data, None when it cannot be told; from what.
+        noise_floor, noise_how: noise of the data, None when it cannot be estimated; how it was obtained.
         residual_mean: mean of the residual over its scale.
         channels: each channel where there are several.
         parameters, correlations: of the model; of its fit.
         geometry: of the muscle, fitted where it was freed.
         where, heat_map, whiteness, loops, sentences: where the model fails, in figures and words.
-        series: the points, at most 400 a curve; validation: on other data.
-        model: effects and values as a caller gives them.
-        messages, flags: what has to be said of the data; of the muscle.
+        series: the points, at most 400 per curve.
+        validation: the error for other data.
+        model: effects and values in the form of a request.
+        messages, flags: notes on the data; on the muscle.
     """
 
     kind: str
@@ -116,13 +119,13 @@ def compare(question: ModelQuestion, *, fit: bool = False) -> ComparisonResult:
 
     Args:
         question: the model and the measurements.
-        fit: fit the parameters that the effects declare as fitted, and what the question frees.
+        fit: fit the parameters that the effects declare as fitted, and those freed by the question.
 
     Raises:
         InputError: the measurement does not allow the comparison, or a geometry field cannot be freed.
     """
     start, points = question.start, question.points
-    found = compared(
+    comparison = compared(
         question.predictor,
         question.fit_model(),
         rows=points.measurement.rows,
@@ -131,60 +134,60 @@ def compare(question: ModelQuestion, *, fit: bool = False) -> ComparisonResult:
         freed=question.freed,
         noise=question.noise,
     )
-    predictor, left_out = found.predictor, sum(points.left_out.values())
-    series, thinned = series_of(found, "fit")
-    messages = [*found.messages, *_length_messages(question)]
+    predictor, left_out = comparison.predictor, sum(points.left_out.values())
+    series, thinned = series_of(comparison, "fit")
+    messages = [*comparison.messages, *_length_messages(question)]
     validation = None
     if question.validation is not None:
-        validation, thin = _validation(question, question.validation, found)
+        validation, thin = _validation(question, question.validation, comparison)
         thinned = thinned or thin
     if thinned:
         messages.append(f"curves show at most {MAX_POINTS_PER_SERIES} points each; the figures use all rows")
-    residual = found.residual / predictor.scale
-    variables = variables_of(predictor, found.fit_model.muscle.nominal_length)
+    residual = comparison.residual / predictor.scale
+    variables = variables_of(predictor, comparison.fit_model.muscle.nominal_length)
     where = profiles(residual, variables, predictor.folds[0])
     white = whiteness(residual, predictor.sweeps)
     return ComparisonResult(
         kind=predictor.kind,
-        rows=found.rows + left_out,
+        rows=comparison.rows + left_out,
         rows_used=predictor.rows_used,
-        excluded=points.left_out | dict(found.excluded),
+        excluded=points.left_out | dict(comparison.excluded),
         predicted=predictor.predicted,
         unit=predictor.unit,
-        rmse=found.rmse,
-        nrmse_percent=found.nrmse_percent,
-        full_scale=found.full_scale,
-        holdout_rmse=found.holdout_rmse,
-        noise_floor=found.noise,
-        noise_how=found.noise_how,
-        residual_mean=found.residual_mean,
-        channels=found.channels,
-        parameters=found.parameters,
-        correlations=correlations_of(found.fit),
-        geometry=geometry_of(start, found.fit_model.muscle),
+        rmse=comparison.rmse,
+        nrmse_percent=comparison.nrmse_percent,
+        full_scale=comparison.full_scale,
+        holdout_rmse=comparison.holdout_rmse,
+        noise_floor=comparison.noise,
+        noise_how=comparison.noise_how,
+        residual_mean=comparison.residual_mean,
+        channels=comparison.channels,
+        parameters=comparison.parameters,
+        correlations=correlations_of(comparison.fit),
+        geometry=geometry_of(start, comparison.fit_model.muscle),
         where=where,
         heat_map=heat_map(residual, variables),
         whiteness=white,
-        loops=_loops(found, residual),
+        loops=_loops(comparison, residual),
         sentences=_sentences(where, white, predictor.unit),
         series=series,
         validation=validation,
-        model=ModelDocument(question.effect_document(found.fit_model)),
+        model=ModelDocument(question.effect_document(comparison.fit_model)),
         messages=messages,
         flags=start_notices(start),
     )
 
 
-def _loops(found: Comparison, residual: Array) -> list[ResidualLoop]:
-    """Areas of the residual of a force that was measured in time."""
-    predictor = found.predictor
+def _loops(comparison: Comparison, residual: Array) -> list[ResidualLoop]:
+    """Loop areas of the residual, for a force measured over time."""
+    predictor = comparison.predictor
     if predictor.predicted != "force" or not {"length", "time"} <= predictor.inputs.keys():
         return []
     return loops(residual, predictor.inputs["length"], predictor.groups)[:MAX_SERIES]
 
 
 def _sentences(where: list[Profile], white: Whiteness, unit: str) -> list[str]:
-    """Where the model fails, in words; and whether the rest is noise."""
+    """Where the model fails, and whether the residual is noise, in words."""
     shown = "" if unit == "1" else f" {unit}"
     words = [
         f"{profile.worst}: {profile.rmse:.3g}{shown} rms; this variable alone predicts "
@@ -199,11 +202,11 @@ def _sentences(where: list[Profile], white: Whiteness, unit: str) -> list[str]:
 
 
 def _validation(question: ModelQuestion, points: Points, fitted: Comparison) -> tuple[ValidationResult, bool]:
-    """The fitted model on what it has not seen, and whether its curves were thinned."""
+    """The error of the fitted model for validation data, and whether the curves were thinned."""
     predictor = predictor_of(points.measurement, fitted.fit_model.muscle, question.drive)
-    found = compared(predictor, fitted.fit_model, rows=points.measurement.rows, noise=question.noise)
-    series, thinned = series_of(found, "validation")
-    return ValidationResult(found.rmse, found.nrmse_percent, predictor.rows_used, series), thinned
+    validation = compared(predictor, fitted.fit_model, rows=points.measurement.rows, noise=question.noise)
+    series, thinned = series_of(validation, "validation")
+    return ValidationResult(validation.rmse, validation.nrmse_percent, predictor.rows_used, series), thinned
 
 
 def _length_messages(question: ModelQuestion) -> list[str]:
@@ -212,5 +215,5 @@ def _length_messages(question: ModelQuestion) -> list[str]:
         return []
     return [
         f"the measured sample is {sample * 1e3:.4g} mm long, the muscle {muscle * 1e3:.4g} mm: "
-        "the lengths do not belong together"
+        "the measurement may belong to another muscle"
     ]

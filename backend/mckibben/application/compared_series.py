@@ -11,7 +11,7 @@ from mckibben.identification.fit.comparison import Comparison
 
 MAX_POINTS_PER_SERIES = 400
 MAX_SERIES = 200
-_HELD = 0.03  # of its level: a quantity that changes by less is held
+_HELD = 0.03  # share of its mean; a quantity that changes by less is held
 
 Array = NDArray[np.float64]
 
@@ -22,11 +22,12 @@ class ComparedSeries:
 
     Attributes:
         label: in words, e.g. "3 bar".
-        channel, unit: what was predicted, and its SI unit.
+        channel, unit: the predicted channel and its SI unit.
         use: "fit" or "validation".
-        pressure: of the series, where it is held.
-        x_pressure: of each point.
-        velocity: dL/dt; direction: its sign; NaN where not known.
+        pressure: of the series, if it is held.
+        x_pressure: pressure of each point.
+        velocity: dL/dt; NaN where not known.
+        direction: sign of dL/dt; NaN where not known.
         residual: measured minus predicted.
     """
 
@@ -47,7 +48,7 @@ class ComparedSeries:
 
 
 def series_of(found: Comparison, use: str) -> tuple[list[ComparedSeries], bool]:
-    """One curve per channel and group of rows, thinned for the screen; and whether any was."""
+    """One curve per channel and group of rows, thinned for the screen; and whether any was thinned."""
     predictor, rest = found.predictor, found.fit_model.muscle.nominal_length
     inputs = predictor.inputs
     count = len(predictor.measured)
@@ -94,7 +95,7 @@ def series_of(found: Comparison, use: str) -> tuple[list[ComparedSeries], bool]:
 
 
 def _held(values: Array) -> float | None:
-    """The level of a quantity that stays the same, else None."""
+    """The level of a constant quantity, else None."""
     level = float(np.mean(values))
     return level if np.ptp(values) <= _HELD * abs(level) else None
 

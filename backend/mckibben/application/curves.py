@@ -1,4 +1,4 @@
-"""The static characteristics of a muscle: curves and figures per pressure, position over pressure."""
+"""Static characteristics of a muscle: curves and key figures per pressure, position over pressure."""
 
 from __future__ import annotations
 
@@ -38,23 +38,23 @@ from mckibben.simulation.statics.characteristics import (
 from mckibben.simulation.statics.model import StaticModel
 
 _OVER_PRESSURE_POINTS = 81
-_SHORTEST = 0.05  # share of the nominal length; nothing contracts further
+_SHORTEST = 0.05  # shortest length accepted, share of the nominal length; no muscle contracts so far
 
 
 @dataclass(frozen=True, slots=True)
 class CurvesQuestion:
-    """Which muscle, which pressures, which range; SI.
+    """Muscle, pressures and range of the curves; SI.
 
     Attributes:
         start: the muscle with its effects.
         pressures: gauge pressures of the curves [Pa], at least one.
         points: number of points along the length, at least two.
-        unclipped: whether negative forces are shown, which a muscle cannot exert.
-        contraction_from, contraction_to: the range; None: from the pretension limit to where the last curve
-            ends.
+        unclipped: whether to show negative forces, which a muscle cannot exert.
+        contraction_from, contraction_to: the range; None = from the pretension limit to the end of the last
+            curve.
         load: constant load for the operating points [N]; None without them.
         fixed_length: length at which the force is shown over the pressure [m]; None without it.
-        conditions: direction of motion, temperature, what is behind a closed valve.
+        conditions: direction of motion, temperature, volume behind a closed valve.
     """
 
     start: StartModel
@@ -70,10 +70,10 @@ class CurvesQuestion:
 
 @dataclass(frozen=True, slots=True)
 class CurveLimits:
-    """What bounds the use of the muscle, SI; None where the preset does not say.
+    """Limits of the muscle, SI; None where the preset does not state them.
 
     Attributes:
-        ideal_max_contraction: where the ideal force is zero.
+        ideal_max_contraction: contraction at which the ideal force is zero.
         braid_lock_force: ideal force of the fully stretched braid, per pressure.
     """
 
@@ -87,7 +87,7 @@ class CurveLimits:
 
 @dataclass(frozen=True, slots=True)
 class OverPressure:
-    """Position at the load and force at the fixed length, from zero to the highest pressure, both ways."""
+    """Position at the load and force at the fixed length over the pressure, for filling and venting."""
 
     pressure: Array
     load: float | None
@@ -112,7 +112,7 @@ class CurvesResult:
         pressure: gauge pressures of the rows, shape (P,).
         length, contraction: of the columns, shape (N,).
         force, stiffness, stiffness_closed: shape (P, N).
-        braid_angle, volume, diameter, outer_diameter: shape (N,), at the highest pressure where the pressure
+        braid_angle, volume, diameter, outer_diameter: shape (N,); at the highest pressure if the pressure
             stretches the braid.
         model: the effects with all their values.
         over_pressure: None without load and fixed length.
@@ -141,8 +141,8 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
     """The curves of a muscle.
 
     Raises:
-        InputError: the geometry cannot pull, a parameter is out of bounds, the range cannot be used;
-            names the field of the question.
+        InputError: impossible geometry, a parameter out of bounds or an invalid range; names the field of
+            the question.
     """
     start, conditions = question.start, question.conditions
     model = studio.static_model(start)
@@ -165,8 +165,8 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
     if question.load is not None:
         points, flags = operating_points(model, pressures, question.load, held.loaded, conditions)
         crossed += flags
-    # Volume, diameter and angle depend on the length; where an effect lets the pressure stretch the braid,
-    # they are those of the highest pressure.
+    # Volume, diameter and angle depend on the length only, unless an effect lets the pressure stretch the
+    # braid; then they are those of the highest pressure.
     top = int(np.argmax(pressures))
     limits = model.limits
     return CurvesResult(
@@ -198,7 +198,7 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
 
 
 def _range(question: CurvesQuestion, model: StaticModel, free: Array) -> Array:
-    """Contractions of the columns; unless given, the permitted range, and on to where the last curve ends."""
+    """Contractions of the columns; by default the permitted range, extended to the end of the last curve."""
     locked = 1.0 - model.longest / model.muscle.nominal_length
     first, last = question.contraction_from, question.contraction_to
     if first is None:
@@ -221,13 +221,13 @@ def _range(question: CurvesQuestion, model: StaticModel, free: Array) -> Array:
             raise InputError(f"no muscle contracts by {value * 100:.3g} %", field=name, hint="e.g. '25 %'")
     if not last > first:
         raise InputError(
-            f"the range ends at {last * 100:.3g} %, not after it begins at {first * 100:.3g} %",
+            f"the end of the range, {last * 100:.3g} %, must be greater than its start, {first * 100:.3g} %",
             field="contraction_to" if question.contraction_to is not None else "contraction_from",
         )
     columns = np.linspace(first, last, question.points)
     nearest = int(np.argmin(np.abs(columns)))
     if 0 < nearest < len(columns) - 1:
-        columns[nearest] = 0.0  # the nominal length itself, where the blocked force is read
+        columns[nearest] = 0.0  # the nominal length, at which the blocked force is shown
     return columns
 
 

@@ -1,4 +1,4 @@
-"""Which physical effect a model is missing: candidates, path, verdict, and models that can be sent back."""
+"""Diagnosis of a model: candidates, path, verdict, and models that can be used in further requests."""
 
 from __future__ import annotations
 
@@ -51,8 +51,8 @@ from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.simulation.outcome import Watch
 
-_MOST_ROWS = 3000
-_CURVE = 200
+_MOST_ROWS = 3000  # of a diagnosis; longer measurements are reduced
+_CURVE = 200  # points of the curve of a proposed term
 
 #: A diagnosis that takes longer is stopped [s].
 TIME_LIMIT = 300.0
@@ -62,7 +62,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class _Data:
-    """What is diagnosed: the predictor of all rows or of fewer with the same information."""
+    """The data of a diagnosis: all rows, or fewer with the same information."""
 
     predictor: Predictor
     rows: int
@@ -71,10 +71,10 @@ class _Data:
 
 
 def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], DiagnosisResult]:
-    """The diagnosis of a question, ready to start; the watch is told each candidate as it is tried.
+    """The diagnosis of a question, ready to start; the watch receives each candidate when it is fitted.
 
     Raises:
-        InputError: the measurement does not allow it.
+        InputError: the measurement does not allow a diagnosis.
     """
     start = question.fit_model()
     data = _data(question)
@@ -89,9 +89,9 @@ def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], Diagno
     geometry = question.free_geometry()
     if question.noise is not None and len(data.predictor.channels) > 1:
         raise InputError(
-            "one noise cannot be stated for several predicted channels", field="noise", hint="leave it out"
+            "one noise cannot be stated for several predicted channels", field="noise", hint="omit it"
         )
-    # A typed term is not a candidate, but stays in the model that has it.
+    # A custom term is not a candidate, but stays in a model that has it.
     catalogue = {**studio.catalogue, **question.start.catalogue}
 
     def work(watch: Watch) -> DiagnosisResult:
@@ -112,7 +112,9 @@ def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], Diagno
             )
         except CancelledError as stop:
             raise InputError(
-                "the diagnosis was stopped before it was done", hint="fewer rows or effects", code="stopped"
+                "the diagnosis was stopped before it was finished",
+                hint="use fewer rows or effects",
+                code="stopped",
             ) from stop
         return _result(question, data, found, catalogue)
 
@@ -208,7 +210,7 @@ def _verdict(question: ModelQuestion, found: Diagnosis, catalogue: Mapping[str, 
 
 
 def groups_of(found: Diagnosis) -> list[list[str]]:
-    """Effects that these data cannot tell apart: each added effect with what could stand in for it."""
+    """Groups of effects that the data cannot distinguish: each added effect with its alternatives."""
     groups = []
     for added in found.added:
         others = [other.effect for other in found.alternatives if other.of == added]
@@ -256,13 +258,13 @@ def _parameters(fitted: FittedModel, effect: Effect) -> dict[str, ParameterValue
 
 
 def _term(question: ModelQuestion, found: Diagnosis) -> TermProposal | None:
-    """The proposed term with a model that has it and a curve over what it mostly depends on."""
+    """The proposed term, a model with it, and a curve over its most important variable."""
     term = found.term
     if term is None:
         return None
     effects = question.effect_document(found.best.fit_model)
     formula, coefficients = term.formula, dict(term.coefficients)
-    if CUSTOM in effects:  # one typed term at a time: the new one goes on where it ends
+    if CUSTOM in effects:  # a model has only one custom term: the new one is added to it
         formula, coefficients = _joined(effects[CUSTOM], formula, coefficients)
     variables = variables_of(found.predictor, found.best.fit_model.muscle.nominal_length)
     name = next(
@@ -284,7 +286,7 @@ def _term(question: ModelQuestion, found: Diagnosis) -> TermProposal | None:
 def _joined(
     old: Mapping[str, Any], formula: str, coefficients: Mapping[str, float]
 ) -> tuple[str, dict[str, float]]:
-    """A typed term and a proposed one as one term; the coefficients of the new one are renamed."""
+    """The sum of a custom term and a proposed one; the coefficients of the proposed one are renamed."""
     renamed = {name: f"d{name[1:]}" for name in coefficients}
     for name, other in renamed.items():
         formula = formula.replace(f"{name}*", f"{other}*")

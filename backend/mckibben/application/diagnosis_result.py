@@ -1,4 +1,4 @@
-"""What a diagnosis tells: candidates, path, verdict, and models that can be sent back."""
+"""Result of a diagnosis: candidates, path, verdict, and models that can be used in further requests."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Baseline:
-    """The start model as given: error, in percent of full scale, on groups left out."""
+    """The start model as given: error, error in percent of full scale, hold-out error."""
 
     rmse: float
     nrmse_percent: float | None
@@ -30,7 +30,7 @@ class Baseline:
 
 @dataclass(frozen=True, slots=True)
 class NoiseFloor:
-    """Below this error there is nothing to learn; None when the data do not tell it; and from what."""
+    """Noise of the data, None when it cannot be estimated, and how it was obtained."""
 
     rmse: float | None
     how: str
@@ -38,17 +38,17 @@ class NoiseFloor:
 
 @dataclass(frozen=True, slots=True)
 class CandidateResult:
-    """The start model with one more effect, all numbers refitted.
+    """The start model with one more effect, all parameters refitted.
 
     Attributes:
         effect, title, equation: id, name and LaTeX of the effect.
-        gain_percent: share of the error that it takes away.
+        gain_percent: relative reduction of the error.
         score_change: change of the score; negative is better.
-        twins: candidates that these data cannot tell from it.
-        why: what speaks for and against it.
+        twins: candidates that the data cannot distinguish from it.
+        why: reasons for and against it.
         freed: further constants that were freed.
-        next_measurement: what would tell it from its first twin.
-        model: as a caller gives it.
+        next_measurement: measurement that would separate it from its first twin.
+        model: in the form of a request.
     """
 
     JSON_KEYS: ClassVar = {"score_change": ("score_change", "delta_bic")}  # the old name, for one version
@@ -81,7 +81,7 @@ class PathPoint:
 
 @dataclass(frozen=True, slots=True)
 class TermCurve:
-    """A proposed term and the residual it is for, over one variable."""
+    """A proposed term and the residual that it describes, over one variable."""
 
     x: str
     values: Array
@@ -91,7 +91,7 @@ class TermCurve:
 
 @dataclass(frozen=True, slots=True)
 class TermProposal:
-    """A formula for what no catalogued effect explains; share: of the residual's mean square."""
+    """A formula for the unexplained residual; share: explained part of its mean square."""
 
     formula: str
     coefficients: dict[str, float]
@@ -102,7 +102,7 @@ class TermProposal:
 
 @dataclass(frozen=True, slots=True)
 class ExperimentProposal:
-    """What would separate two effects that look alike; separation: standard deviations of one reading."""
+    """An experiment that separates two similar effects; separation: in standard deviations of one reading."""
 
     pair: list[str]
     declared: str
@@ -112,15 +112,16 @@ class ExperimentProposal:
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """The answer.
+    """Verdict of a diagnosis.
 
     Attributes:
-        status: adequate, missing_effects, ambiguous or unknown_effect; title: the same in words.
-        effects: what is missing.
-        indistinguishable: groups that these data cannot tell apart.
-        unexplained_share, unexplained_in: structure that is left, and in what.
-        next_measurement: what to measure next.
-        sentence: everything in one to three sentences.
+        status: adequate, missing_effects, ambiguous or unknown_effect.
+        title: the status in words.
+        effects: the missing effects.
+        indistinguishable: groups of effects that the data cannot distinguish.
+        unexplained_share, unexplained_in: structure left in the residual, and the variables it depends on.
+        next_measurement: recommended next measurement.
+        sentence: the verdict in one to three sentences.
     """
 
     status: Status
@@ -137,7 +138,7 @@ class Verdict:
 
 @dataclass(frozen=True, slots=True)
 class DiagnosedModel:
-    """The model a diagnosis ends with, as a caller gives it."""
+    """The best model of a diagnosis, in the form of a request."""
 
     muscle: dict[str, float]
     effects: EffectDocument
@@ -145,17 +146,18 @@ class DiagnosedModel:
 
 @dataclass(frozen=True, slots=True)
 class DiagnosisResult:
-    """What a model is missing, and how sure that is; SI.
+    """The missing effects of a model, with the evidence; SI.
 
     Attributes:
-        kind, predicted, unit: as of a comparison.
-        rows, rows_used, excluded: of the data, those that count, why not the others -> how many.
+        kind, predicted, unit: as in a comparison.
+        rows, rows_used: number of rows, and of those used.
+        excluded: reason -> number of rows that are not used.
         where: the start model's residual over each variable.
         candidates: single additions, the best first.
-        path: the best model, in the order of adding that lowers the error fastest.
+        path: steps to the best model; each adds the effect that lowers the error most.
         parameters, correlations, geometry, model, freed: of the best model.
-        not_tried: effects that were no candidates, with the reason.
-        messages: what has to be said.
+        not_tried: effects that were not candidates, with the reason.
+        messages: notes for the user.
     """
 
     rows: int

@@ -1,4 +1,4 @@
-"""A design of the search as a drive document."""
+"""Converts a design of the sizing search to a drive document."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from mckibben.sizing.catalogue import switch_on
 
 
 def drive_document(design: Design, task: Task) -> dict[str, Any]:
-    """The drive of one of the parallel muscles as a document; its run shows the proposal's figures."""
+    """The drive of one of the parallel muscles as a document; its simulation gives the proposal's figures."""
     group, drive = design.group, design.group.drive(task, design.length, design.pressure)
     duty, load = group.duty, drive.load
     on = switch_on(task, duty)

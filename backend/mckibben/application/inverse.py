@@ -1,4 +1,4 @@
-"""Inverse questions: which pressure, which contraction, which range."""
+"""Inverse problems: pressure, contraction or stroke for a given force or load."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from mckibben.physics.errors import InputError
 from mckibben.simulation.statics import inverse
 from mckibben.simulation.statics.model import StaticModel
 
-_LONGEST_STROKE = 0.95  # of the nominal length
-_SHORTEST = 0.05  # share of the nominal length; nothing contracts further
+_LONGEST_STROKE = 0.95  # largest stroke accepted, share of the nominal length
+_SHORTEST = 0.05  # shortest length accepted, share of the nominal length
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,7 +28,7 @@ class _About:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PressureForForce(_About):
-    """Which pressure gives this force [N] at this length [m] or this contraction? One of the two is given."""
+    """Which pressure gives this force [N] at this length [m] or contraction? Exactly one of them is given."""
 
     NAME: ClassVar = "pressure"
 
@@ -76,8 +76,8 @@ class InverseFinding:
     """The answer to an inverse question.
 
     Attributes:
-        question: which one.
-        value: the answer; NaN when there is none, and a flag says why.
+        question: name of the question.
+        value: the answer; NaN without a solution, with a flag that gives the reason.
         unit: its SI unit.
         details: further figures, SI.
     """
@@ -90,18 +90,18 @@ class InverseFinding:
 
 
 def answer(question: InverseQuestion, studio: Studio) -> InverseFinding:
-    """The answer to one question, with the limits that it crosses.
+    """The answer to one question, with the limits that it exceeds.
 
     Raises:
-        InputError: the muscle, an effect or the question cannot be used; names the field of the question.
+        InputError: invalid muscle, effect or question; names the field of the question.
     """
-    found = _ask(question, studio.static_model(question.start))
+    solution = _ask(question, studio.static_model(question.start))
     return InverseFinding(
         question=question.NAME,
-        value=found.value,
-        unit=found.unit,
-        details=found.details,
-        flags=[*start_notices(question.start), *limit_notices(found.flags)],
+        value=solution.value,
+        unit=solution.unit,
+        details=solution.details,
+        flags=[*start_notices(question.start), *limit_notices(solution.flags)],
     )
 
 
@@ -152,7 +152,7 @@ def _ask(question: InverseQuestion, model: StaticModel) -> inverse.InverseResult
 
 
 def _length(question: PressureForForce, model: StaticModel) -> float:
-    """The length asked about, given as such or as a contraction."""
+    """The length of the question, given directly or as a contraction."""
     rest = model.muscle.nominal_length
     if question.length is not None and question.contraction is None:
         field, length = "length", question.length

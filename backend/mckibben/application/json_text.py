@@ -1,7 +1,7 @@
 """Results as JSON text: dataclasses by the names of their fields, numpy arrays, enums.
 
-A dataclass may declare ``JSON_KEYS``, field -> keys, where a key cannot be the name of a field ("from"), or
-where a field goes by an older name besides its own for one version.
+A dataclass may declare ``JSON_KEYS``, field -> keys, for a key that cannot be the name of a field ("from"),
+or for an older name of a field that is kept for one version.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def _keys(kind: type) -> tuple[tuple[str, str], ...]:
 
 
 def _plain(value: object) -> object:
-    """What orjson does not take by itself."""
+    """Conversion of values that orjson does not support."""
     if is_dataclass(value):
         return {key: getattr(value, name) for key, name in _keys(type(value))}
     if isinstance(value, np.ndarray):  # not contiguous

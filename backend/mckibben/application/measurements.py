@@ -1,4 +1,4 @@
-"""How a measurement was understood, and what a file would be read as."""
+"""Summary of a measurement as it was read, and preview of a file before reading."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mckibben.measurement.measurement import CHANNEL_UNITS, KINDS, Measurement
 from mckibben.measurement.read.preview import MissingCondition, Preview, PreviewColumn, missing_conditions
 
-#: Units a form offers for each channel.
+#: Units offered by a form for each channel.
 _USUAL_UNITS = {
     "time": ("s", "ms", "min"), "pressure": ("bar", "kPa", "MPa", "mbar", "psi", "Pa"),
     "force": ("N", "kN", "lbf"), "length": ("mm", "m", "cm", "in"), "contraction": ("%", "1"),
@@ -33,7 +33,7 @@ class ChannelSummary:
 
 @dataclass(frozen=True, slots=True)
 class SweepSummary:
-    """What moves: the signal, number of sweeps and cycles, rows at rest, speeds that occur."""
+    """Sweeps: their signal, number of sweeps and cycles, held rows, speeds."""
 
     signal: str | None
     sweeps: int
@@ -44,18 +44,19 @@ class SweepSummary:
 
 @dataclass(frozen=True)
 class MeasurementSummary:
-    """How a measurement was understood.
+    """A measurement as it was read.
 
     Attributes:
         id: SHA-256 of the content.
-        kind, kind_detected, kind_reason: of the measurement; whether the file did not state it; why then.
-        rows, usable_rows: read, and those that may be compared.
-        excluded, skipped: rows that may not, and rows that could not be read: why -> how many.
+        kind: of the measurement.
+        kind_detected, kind_reason: whether the kind was detected, and the reason.
+        rows, usable_rows: number of rows read, and of comparable rows.
+        excluded, skipped: reason -> number of rows that cannot be compared, and that could not be read.
         ignored: columns that are not used.
         conditions: of the test, SI.
         missing: conditions that a comparison needs and the file does not state.
         groups: number of groups of rows.
-        messages: what was assumed.
+        messages: the assumptions.
     """
 
     id: str
@@ -85,7 +86,7 @@ class MeasurementDetails(MeasurementSummary):
 
 @dataclass(frozen=True, slots=True)
 class SkippedSummary:
-    """Rows that could not be read: why, how many, the first one."""
+    """Rows that could not be read: reason, number, the first one."""
 
     reason: str
     rows: int
@@ -94,7 +95,7 @@ class SkippedSummary:
 
 @dataclass(frozen=True, slots=True)
 class FileProblem:
-    """Why a file gives no measurement."""
+    """Why a file cannot be read as a measurement."""
 
     code: str
     message: str
@@ -104,7 +105,7 @@ class FileProblem:
 
 @dataclass(frozen=True, slots=True)
 class ChannelOption:
-    """A channel that a column may be, its SI unit, and units that a form offers."""
+    """A possible channel of a column, its SI unit, and the units offered by a form."""
 
     name: str
     si_unit: str
@@ -113,16 +114,18 @@ class ChannelOption:
 
 @dataclass(frozen=True, slots=True)
 class PreviewResult:
-    """What a file would be read as.
+    """Preview of a file.
 
     Attributes:
-        columns: how each column is understood; sample: first rows as they stand in the file.
+        columns: interpretation of each column.
+        sample: first rows as in the file.
         rows, valid_rows, skipped: of the table.
-        kind, kind_detected, kind_reason: None where no measurement comes about.
-        conditions, missing: of the test, and what is to be asked.
-        measurement: what would be kept; problem: why nothing would be.
-        only_bad_rows: whether leaving out the bad rows would help.
-        channel_choices, kind_choices: what the user may say instead.
+        kind, kind_detected, kind_reason: as in a summary; kind is None for a file that cannot be read.
+        conditions, missing: stated conditions of the test, and missing ones.
+        measurement: the measurement, or None.
+        problem: why the file cannot be read, or None.
+        only_bad_rows: whether the file can be read without the bad rows.
+        channel_choices, kind_choices: options for corrections by the user.
     """
 
     name: str
@@ -146,7 +149,7 @@ class PreviewResult:
 
 
 def summary_of(measurement: Measurement) -> MeasurementSummary:
-    """How a measurement was understood."""
+    """Summary of a measurement."""
     sweeps = measurement.segments
     return MeasurementSummary(
         id=measurement.id,
@@ -185,21 +188,21 @@ def summary_of(measurement: Measurement) -> MeasurementSummary:
 
 
 def details_of(measurement: Measurement) -> MeasurementDetails:
-    """A measurement with its columns, and what was found out about each row."""
+    """A measurement with its columns and the properties of each row."""
     summary, sweeps = summary_of(measurement), measurement.segments
-    own = {item.name: getattr(summary, item.name) for item in fields(summary)}
-    found = {
+    summary_fields = {item.name: getattr(summary, item.name) for item in fields(summary)}
+    row_columns = {
         "slack": measurement.slack,
         "usable": measurement.usable,
         "sweep": sweeps.sweep,
         "cycle": sweeps.cycle,
         "motion": sweeps.direction,
     }
-    return MeasurementDetails(**own, columns=dict(measurement.columns) | found)
+    return MeasurementDetails(**summary_fields, columns=dict(measurement.columns) | row_columns)
 
 
 def preview_of(preview: Preview) -> PreviewResult:
-    """What a file would be read as."""
+    """Preview of a file."""
     measurement, problem = preview.measurement, preview.problem
     return PreviewResult(
         name=preview.name,

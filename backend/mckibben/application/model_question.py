@@ -1,4 +1,4 @@
-"""A model beside measurements: what comparisons, diagnoses and their reports are asked about."""
+"""A model and measurements: the common input of comparisons, diagnoses and their reports."""
 
 from __future__ import annotations
 
@@ -16,25 +16,25 @@ from mckibben.physics.custom import CUSTOM, TERM
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.simulation.drive.parts import Drive
 
-#: Effects as a caller gives them: effect id -> parameter -> value; a typed term with its text.
+#: Effects in the form of a request: effect id -> parameter -> value; a custom term with its text.
 EffectDocument = dict[str, dict[str, float | str]]
 
 
 @dataclass(frozen=True)
 class ModelQuestion:
-    """A start model and the measurements that it is held against.
+    """A start model and the measurements that it is compared with.
 
     Attributes:
         start: muscle and effects.
-        points: what models are fitted to.
+        points: data for fits.
         drive: of transient measurements.
-        validation: what they are only judged by.
-        free: geometry fields that fits may change too, within their tolerance.
+        validation: data that models are not fitted to.
+        free: geometry fields that fits may change as well, within their tolerance.
         freed: further constants that fits may change, as "effect.parameter".
         noise: standard deviation of the predicted channel, when it is known [SI].
 
     Raises:
-        InputError: a geometry field is to be fitted that nobody stated.
+        InputError: a geometry field to be fitted is not stated.
     """
 
     start: StartModel
@@ -51,7 +51,7 @@ class ModelQuestion:
                 raise InputError(
                     f"the muscle's {name.replace('_', ' ')} is not known, so no fit can start from it",
                     field=f"muscle.{name}",
-                    hint=f"state {name}, or leave it out of 'free'",
+                    hint=f"state {name}, or remove it from 'free'",
                 )
 
     @cached_property
@@ -65,11 +65,11 @@ class ModelQuestion:
 
     @property
     def tolerance(self) -> Mapping[str, float]:
-        """Geometry field -> how far a fit may free it, by the preset."""
+        """Geometry field -> largest change by a fit, from the preset."""
         return {} if self.start.preset is None else self.start.preset.tolerance
 
     def fit_model(self) -> FitModel:
-        """The start model as fits take it."""
+        """The start model in the form for fits."""
         start = self.start
         effects = tuple(start.catalogue[name] for name in start.effects)
         return FitModel(start.muscle.checked(), effects, start.effects, assumed=frozenset(start.assumed))
@@ -78,21 +78,21 @@ class ModelQuestion:
         """The freed geometry with its bounds.
 
         Raises:
-            InputError: not a field of the geometry, or the muscle does not have it.
+            InputError: a name is not a geometry field, or its value is not known.
         """
         return free_geometry(self.start.muscle, self.free, self.tolerance)
 
     def effect_document(self, fit_model: FitModel) -> EffectDocument:
-        """The effects of a model as a caller gives them, a typed term with its text."""
-        found: EffectDocument = {name: dict(own) for name, own in fit_model.values.items()}
-        if CUSTOM in found and self.start.term is not None:
-            found[CUSTOM] = {TERM: self.start.term, **found[CUSTOM]}
-        return found
+        """The effects of a model in the form of a request, a custom term with its text."""
+        document: EffectDocument = {name: dict(own) for name, own in fit_model.values.items()}
+        if CUSTOM in document and self.start.term is not None:
+            document[CUSTOM] = {TERM: self.start.term, **document[CUSTOM]}
+        return document
 
     def with_data_of(self, other: ModelQuestion) -> ModelQuestion:
-        """This question, with the data of another one about the same sample where they are the same.
+        """This question, with the predictor of another one if their data are the same.
 
-        Rows depend on the length and braid of the muscle; which effects a model has does not matter.
+        The data depend on length and braid of the muscle, but not on the effects of the model.
         """
         mine, theirs = self.start.muscle, other.start.muscle
         if (
@@ -118,15 +118,15 @@ def question_of(
     """A checked question.
 
     Raises:
-        InputError: a value out of bounds, a geometry that cannot pull, or a constant that does not exist.
+        InputError: a value out of bounds, an impossible geometry, or an unknown constant.
     """
     studio.static_model(start)
     known = {f"{effect.id}.{p.name}" for effect in start.catalogue.values() for p in effect.parameters}
     for place, name in enumerate(freed):
         if name not in known:
-            own = {each for each in known if each.startswith(name.partition(".")[0])} or known
+            similar = {each for each in known if each.startswith(name.partition(".")[0])} or known
             raise InputError(
-                f"there is no constant '{name}'", field=f"freed.{place}", hint=did_you_mean(name, own)
+                f"there is no constant '{name}'", field=f"freed.{place}", hint=did_you_mean(name, similar)
             )
     return ModelQuestion(start, points, drive, validation, free, freed, noise)
 
@@ -139,7 +139,7 @@ def with_model(
     *,
     freed: Sequence[str] = (),
 ) -> ModelQuestion:
-    """The same question about another model of the same sample, with no geometry freed.
+    """The same question for another model of the same sample, without freed geometry.
 
     Raises:
         InputError: a geometry, effect or value that cannot be used.

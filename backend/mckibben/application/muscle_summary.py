@@ -1,4 +1,4 @@
-"""What every result says of its muscle: the geometry at rest, and what to know about it."""
+"""Part of every result: geometry of the muscle at rest, and notices about it."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ class Notice:
     """Something the user should know about a result.
 
     Attributes:
-        code: what kind, e.g. "over_force_limit", "unverified", "assumed".
+        code: kind of notice, e.g. "over_force_limit", "unverified", "assumed".
         message: in words.
-        field: the input it belongs to, e.g. "muscle.preset".
+        field: the input that it refers to, e.g. "muscle.preset".
     """
 
     code: str
@@ -36,7 +36,7 @@ class Lattice:
 
 @dataclass(frozen=True, slots=True)
 class GeometrySummary:
-    """The muscle at rest in all its forms.
+    """Geometry of the muscle at rest.
 
     Attributes:
         braid_diameter: of the braid (mid-wall) at the braid angle [m].
@@ -45,7 +45,7 @@ class GeometrySummary:
         inside_diameter: bore [m].
         wall_thickness: [m]; 0 when it is not known.
         thread_length, turns: of one thread [m], [-].
-        rhombus: the lattice, when the muscle was given by it.
+        rhombus: the lattice, if the muscle was given in this form.
     """
 
     braid_diameter: float
@@ -59,9 +59,9 @@ class GeometrySummary:
 
 
 def geometry_of(start: StartModel, muscle: Muscle | None = None) -> GeometrySummary:
-    """The geometry of a start model, or of the muscle that a fit made of it.
+    """The geometry of a start model, or of its muscle after a fit.
 
-    A fitted geometry no longer belongs to the lattice that the muscle was given by.
+    The lattice is omitted if a fit changed the geometry.
     """
     if muscle is not None and muscle != start.muscle:
         start = replace(start, muscle=muscle, rhombus=None)
@@ -79,30 +79,32 @@ def geometry_of(start: StartModel, muscle: Muscle | None = None) -> GeometrySumm
 
 
 def limit_notices(flags: Iterable[LimitFlag]) -> list[Notice]:
-    """Crossed limits, each once."""
+    """Exceeded limits, each once."""
     unique = {(str(flag.code), flag.message): flag for flag in flags}
     return [Notice(str(flag.code), flag.message, flag.field) for flag in unique.values()]
 
 
 def start_notices(start: StartModel) -> list[Notice]:
-    """What to know about the muscle itself.
+    """Notices about the muscle.
 
-    Fields that were assumed, figures that nobody verified, a length that the maker does not sell.
+    They name assumed fields, unverified values, and a length that the maker does not sell.
     """
     preset = start.preset
-    found = [Notice("assumed", assumption(start.muscle, name), f"muscle.{name}") for name in start.assumed]
+    notices = [Notice("assumed", assumption(start.muscle, name), f"muscle.{name}") for name in start.assumed]
     if preset is None:
-        return found
+        return notices
     if preset.unverified:
         why = "from general knowledge or estimated, not read in a source"
         message = f"{preset.id}: {', '.join(preset.unverified)} {why}"
-        found.append(Notice("unverified", message, "muscle.preset"))
+        notices.append(Notice("unverified", message, "muscle.preset"))
     length, bound, word = start.muscle.nominal_length, None, ""
     if preset.shortest is not None and length < preset.shortest * (1.0 - 1e-9):
         bound, word = preset.shortest, "shorter"
     if preset.longest is not None and length > preset.longest * (1.0 + 1e-9):
         bound, word = preset.longest, "longer"
     if bound is not None:
-        message = f"{length * 1e3:.4g} mm is {word} than the {bound * 1e3:.4g} mm {preset.id} is made in"
-        found.append(Notice("length_outside_range", message, "muscle.nominal_length"))
-    return found
+        message = (
+            f"{length * 1e3:.4g} mm is {word} than the {bound * 1e3:.4g} mm in which {preset.id} is available"
+        )
+        notices.append(Notice("length_outside_range", message, "muscle.nominal_length"))
+    return notices

@@ -1,4 +1,4 @@
-"""Mysteries, and a diagnosis held against what is hidden."""
+"""Mysteries: measurements with hidden effects, and the check of an answer."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class MysterySummary:
 
 @dataclass(frozen=True, slots=True)
 class HiddenTruth:
-    """A hidden effect: its name, what it does, and ids of the effects that are right answers."""
+    """A hidden effect: its name, its action, and the ids of the effects accepted as the answer."""
 
     title: str
     what: str
@@ -34,7 +34,7 @@ class HiddenTruth:
 
 @dataclass(frozen=True, slots=True)
 class Reveal:
-    """What is hidden, which of it was named, what was named besides, and the story behind it."""
+    """The hidden effects, which of them were named, wrongly named effects, and the explanation."""
 
     hidden: list[HiddenTruth]
     found: list[bool]
@@ -61,26 +61,26 @@ def _summary(preset: MysteryPreset) -> MysterySummary:
 
 
 def reveal(library: PresetLibrary, mystery_id: str, named_effects: Sequence[str]) -> Reveal:
-    """What is hidden, and which of it is among the named effects.
+    """The hidden effects, and which of them are among the named ones.
 
     Raises:
-        InputError: code ``not_found``, there is no such mystery.
+        InputError: code ``not_found``, unknown mystery.
     """
     preset = cast(MysteryPreset, library.get("mysteries", mystery_id))
     sealed = preset.answer()
-    # What the start model has was no discovery.
+    # Effects of the start model do not count as an answer.
     named = [effect for effect in dict.fromkeys(named_effects) if effect not in preset.effects]
-    taken = matched(named, [hidden.effects for hidden in sealed.hidden])
+    matches = matched(named, [hidden.effects for hidden in sealed.hidden])
     return Reveal(
         hidden=[HiddenTruth(hidden.title, hidden.what, tuple(hidden.effects)) for hidden in sealed.hidden],
-        found=[name is not None for name in taken],
-        surplus=[name for name in named if name not in taken],
+        found=[name is not None for name in matches],
+        surplus=[name for name in named if name not in matches],
         text=sealed.text,
     )
 
 
 def matched(named: Sequence[str], accepted: Sequence[Sequence[str]]) -> list[str | None]:
-    """For each hidden effect the given one that stands for it; as many as can be, each given one once."""
+    """The named effect matched to each hidden one: a maximum matching, each name at most once."""
     by_name: dict[str, int] = {}
 
     def place(hidden: int, tried: set[str]) -> bool:

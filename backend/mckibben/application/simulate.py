@@ -1,4 +1,4 @@
-"""A drive through time: columns on the grid asked for, timing from a finer one, limits, remarks."""
+"""Simulation of a drive: columns on the requested grid, timing from a finer grid, limits, notes."""
 
 from __future__ import annotations
 
@@ -40,20 +40,20 @@ from mckibben.simulation.timing.tracking import Tracking
 Array = np.ndarray
 
 POINTS = 2001
-# A field of the document for each limit.
+# Field of the document for each limit.
 _FIELDS = {FlagCode.OVER_PRESSURE: "supply.pressure", FlagCode.OVER_FORCE_LIMIT: "load"}
-_ABOVE = 1.001  # of a limit; less is the integrator's
+_ABOVE = 1.001  # value over limit up to which the excess may be an integration error
 
 
 @dataclass(frozen=True, slots=True)
 class SimulationQuestion:
-    """A drive, and which part of its run is wanted.
+    """A drive, and the part of its run to return.
 
     Attributes:
-        given: the drive with what is known of its parts.
+        given: the drive with notes on its parts.
         points: rows of the result, at least two.
-        begin, end: first and last row [s]; None: of the whole run.
-        engine: "rodas", "lsoda", or "auto": the kernel as soon as it is compiled.
+        begin, end: times of the first and last row [s]; None = the whole run.
+        engine: "rodas", "lsoda", or "auto" (rodas as soon as its kernel is compiled).
     """
 
     given: GivenDrive
@@ -65,7 +65,7 @@ class SimulationQuestion:
 
 @dataclass(frozen=True, slots=True)
 class SensorReadings:
-    """What the sensors say: gauge pressure [Pa], force [N], position of the load [m]."""
+    """Readings of the sensors: gauge pressure [Pa], force [N], position of the load [m]."""
 
     pressure: Array
     force: Array
@@ -74,10 +74,10 @@ class SensorReadings:
 
 @dataclass(frozen=True, slots=True)
 class JointMotion:
-    """The pulley of an antagonist pair, and the muscle that pulls the other way.
+    """The pulley of an antagonist pair, and its second muscle.
 
     Attributes:
-        angle: from the middle [rad]; positive as the first muscle pulls.
+        angle: from the middle [rad]; positive in the direction of the first muscle.
         torque: of both muscles [N m].
         stiffness: at constant pressures [N m/rad].
         counter_force, counter_pressure: of the second muscle [N], [Pa].
@@ -92,7 +92,7 @@ class JointMotion:
 
 @dataclass(frozen=True, slots=True)
 class DriveBounds:
-    """What the maker allows (None = not known), and the end stops as positions of the load; SI."""
+    """Limits stated by the maker (None = not known), and positions of the load at the end stops; SI."""
 
     max_pressure: float | None
     max_force: float | None
@@ -107,19 +107,22 @@ class SimulationResult:
     """Columns over time, SI; pressures gauge, positions positive = muscle shorter.
 
     Attributes:
-        time: instants of the rows; fewer than asked for when the run ended early.
-        command, opening: as given before dead times, and after all effects.
+        time: of the rows; fewer than requested if the run ended early.
+        command: before dead times.
+        opening: after all effects.
         reference: set point of the controller, None without one.
         tube_pressure, regulator_pressure: None without such a part.
         load_force: external force on the load.
         contact: whether an end stop is touched.
-        readings: None when no effect changes what the sensors say.
+        readings: None if no effect changes the readings.
         joint: of an antagonist pair.
-        choked: within the whole run, whatever rows are asked for.
+        choked: intervals of choked flow in the whole run.
         tracking: of a controlled run.
-        outcome: how the run ended; message: what to do when it did not complete.
-        wall_ms: time of the integration; engine and steps: by what, in how many.
-        notes: where -> remark, with those of timing and tracking.
+        outcome: how the run ended.
+        message: what to do if it did not complete.
+        wall_ms: computing time of the integration.
+        engine, steps: integrator and number of its steps.
+        notes: path in the document or result -> note.
         model: effects with their values.
     """
 
@@ -187,16 +190,16 @@ def prepare(question: SimulationQuestion) -> Callable[[Watch], SimulationResult]
 
 
 def simulate(question: SimulationQuestion, watch: Watch | None = None) -> SimulationResult:
-    """Run the drive and tell what happened.
+    """Simulate the drive.
 
     Raises:
-        InputError: the rows do not lie within the run, or no rest can be found to start from.
+        InputError: the rows do not lie within the run, or there is no equilibrium to start from.
     """
     return prepare(question)(watch or Watch())
 
 
 def run_drive(given: GivenDrive, grid: Grid, watch: Watch | None = None, engine: str = "auto") -> Run:
-    """The run on the fine grid; with a controller it waits for the kernel, whatever the engine."""
+    """The run on the fine grid; with a controller it waits for the compiled kernel."""
     with np.errstate(all="ignore"):  # a diverging run ends with an outcome, not with warnings
         if given.drive.controller is not None:
             return simulate_controlled(given.drive, grid=grid.time, watch=watch)
@@ -204,7 +207,7 @@ def run_drive(given: GivenDrive, grid: Grid, watch: Watch | None = None, engine:
 
 
 def result_of(given: GivenDrive, grid: Grid, run: Run) -> SimulationResult:
-    """Everything there is to say about a run."""
+    """The complete result of a run."""
     drive, out, states = run.drive, run.outputs, run.states
     rows = grid.rows[grid.rows < len(run.time)]
     lever, rest = drive.load.lever_ratio, drive.muscle.nominal_length
@@ -317,17 +320,17 @@ def _joint(run: Run, rows: Array) -> JointMotion | None:
 
 def _part_notices(given: GivenDrive) -> list[Notice]:
     why = "from general knowledge or estimated, not read in a source"
-    found = [
+    notices = [
         Notice("unverified", f"{part}: {', '.join(names)} {why}", "valve")
         for part, names in given.unverified.items()
     ]
     if (text := given.drive.tube_assumption) is not None:
-        found.append(Notice("assumed", text, "tube"))
-    return found
+        notices.append(Notice("assumed", text, "tube"))
+    return notices
 
 
 def _crossed(run: Run) -> Iterable[LimitFlag]:
-    """The limits that the run crosses anywhere; a stop that gives way by a hair is no contraction."""
+    """The limits that the run exceeds; the small penetration of an end stop does not count."""
     if not len(run.time):
         return
     drive = run.drive
@@ -337,7 +340,7 @@ def _crossed(run: Run) -> Iterable[LimitFlag]:
         drive.max_contraction,
     )
     limits = drive.model.limits
-    # The longest muscle decides about stretch, the shortest about everything else.
+    # The smallest contraction is checked for the pretension limit, the largest for all others.
     for pick, stretch in ((np.nanmax, False), (np.nanmin, True)):
         crossed = limits.flags(
             pressure=_at_most(float(np.nanmax(run.pressure)), limits.max_pressure),
@@ -350,5 +353,5 @@ def _crossed(run: Run) -> Iterable[LimitFlag]:
 
 
 def _at_most(value: float, limit: float | None) -> float:
-    """A muscle that settles at a limit is not above it: the last digits are the integrator's."""
+    """The value, or the limit if the value exceeds it only by an integration error."""
     return value if limit is None or value > limit * _ABOVE else min(value, limit)

@@ -1,4 +1,4 @@
-"""From a task to ranked drives: each proposal with its drive, and why not the others."""
+"""From a task to ranked drives: the proposals with their drives, and the rejected parts with reasons."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ _MESSAGES = {
     "ask for fewer specimens.",
     Outcome.CANCELLED: "The search was cancelled.",
 }
-_TIME_LIMIT = 30.0  # s; a search is many runs
+_TIME_LIMIT = 30.0  # s; a search consists of many runs
 
 
 @dataclass(frozen=True)
 class SizingQuestion:
-    """A task, and what may be used for it.
+    """A task, and the parts available for it.
 
     Attributes:
-        document: the task as the caller gives it.
+        document: the task as given by the caller.
         task: the same in SI.
-        catalogue: muscles, valves and tubes that may be used.
+        catalogue: available muscles, valves and tubes.
     """
 
     document: SizingTask
@@ -43,32 +43,38 @@ class SizingQuestion:
 
 @dataclass(frozen=True, slots=True)
 class ProposedDrive:
-    """A drive that does the task; SI, pressures gauge.
+    """A drive that fulfils the task; SI, gauge pressures.
 
     Attributes:
         muscle, valve, tube: ids of the presets.
         nominal_length: of each muscle.
-        parallel, muscles: side by side (on each side of a pair), and all of the drive.
+        parallel: number of parallel muscles (on each side of a pair).
+        muscles: total number of muscles.
         tube_length: 0 without a tube.
         pulley_radius: of a pair.
         pressure: of the supply at the valve.
-        time, time_down: for the stroke and the way back; None when that does not end in the time watched.
+        time, time_down: of the stroke and the return stroke; None if it does not end within the run.
         contraction: at the end of the stroke.
-        force_reserve: share by which the static force exceeds the load at least.
-        needed_pressure: that just carries the load at the end of the stroke.
+        force_reserve: least excess of the static force over the load, as a share of the load.
+        needed_pressure: pressure that carries the load at the end of the stroke.
         pressure_start, pressure_end: in the muscle when the load leaves its stop, and on arrival.
-        air_volume_anr: of all muscles in a cycle.
-        impact_energy, end_speed: of the whole load on the end stop; max_speed: on the way.
+        air_volume_anr: air of all muscles per cycle.
+        impact_energy, end_speed: of the whole load at the end stop.
+        max_speed: during the stroke.
         peak_force: largest tension of a muscle.
         stiffness, stiffness_closed: of the load at the end of the stroke, valve open and closed.
-        installed_length, diameter: with end fittings; bulged.
+        installed_length: with end fittings.
+        diameter: outside, at the end of the stroke.
         life: load cycles, an estimate.
-        probability, probability_error, specimens: that what is built does the task.
-        margins, binding: limit -> share of it that is left; the limit with the least margin.
-        reason: why it stands where it stands; front: whether no other proposal is better in everything.
-        notes: what to know when it is built.
-        unverified: figures that enter and nobody verified, by preset.
-        drive: a drive document, of one of the muscles.
+        probability, probability_error, specimens: that a real drive fulfils the task; its standard error;
+            number of simulated specimens.
+        margins: limit -> unused share of it.
+        binding: the limit with the least margin.
+        reason: reason of its rank.
+        front: whether no other proposal is better in every respect.
+        notes: notes for the builder.
+        unverified: unverified values in use, by preset.
+        drive: drive document of one of the muscles.
     """
 
     muscle: str
@@ -111,13 +117,13 @@ class ProposedDrive:
 
 @dataclass(frozen=True, slots=True)
 class RejectedParts:
-    """Parts that do not do the task; valve and tube None: whatever they are.
+    """Parts that do not fulfil the task; valve and tube None = any.
 
     Attributes:
-        why: in figures.
-        binding: the limit that must move by the least share when no other moves.
-        would_work_if: what would help, least change first.
-        combinations: how many combinations it stands for.
+        why: the reason, with values.
+        binding: the limit that would need the least relative change.
+        would_work_if: changes that would help, the smallest first.
+        combinations: number of combinations of these parts.
     """
 
     muscle: str
@@ -132,7 +138,7 @@ class RejectedParts:
 
 @dataclass(frozen=True, slots=True)
 class ExploredDrive:
-    """A simulated design that does the task; coarse figures, SI, for a picture of the choices."""
+    """A simulated design that fulfils the task; approximate values, SI, for a plot of the alternatives."""
 
     muscle: str
     nominal_length: float
@@ -149,15 +155,19 @@ class ExploredDrive:
 
 @dataclass(frozen=True, slots=True)
 class SizingResult:
-    """Proposals best first, and everything else with its reason.
+    """The proposals, the best first, and all rejected parts with reasons.
 
     Attributes:
-        proposals: empty when nothing does; that is an answer too.
-        rejected: nearest first; explored: one for each choice of parts that does the task.
-        combinations, pruned, simulated, specimens: how many were there, sorted out in closed form, run, and
-            run for probabilities.
-        outcome, message: how the search ended; what to do when it did not complete.
-        wall_ms: time of the whole search.
+        proposals: empty if no drive fulfils the task.
+        rejected: the nearest to the task first.
+        explored: one design for each choice of parts that fulfils the task.
+        combinations: number of combinations of parts.
+        pruned: number of those rejected by static calculations.
+        simulated: number of simulated designs.
+        specimens: number of simulations for probabilities.
+        outcome: how the search ended.
+        message: what to do if it did not complete.
+        wall_ms: computing time of the whole search.
     """
 
     proposals: list[ProposedDrive]
@@ -175,7 +185,7 @@ class SizingResult:
 
 @dataclass(frozen=True)
 class Searched:
-    """A question, what the search found, and the result made of it."""
+    """A question, the outcome of the search, and the result."""
 
     question: SizingQuestion
     found: Sizing
@@ -186,13 +196,13 @@ def sizing_question(document: SizingTask, studio: Studio) -> SizingQuestion:
     """The question of a task.
 
     Raises:
-        InputError: the task cannot be used; names the field.
+        InputError: invalid task; names the field.
     """
     return SizingQuestion(document, task_of(document), catalogue_of(document, studio))
 
 
 def prepare_search(question: SizingQuestion) -> Callable[[Watch], Searched]:
-    """The search, ready to start; with everything its result is made of."""
+    """The search, ready to start; it returns question, outcome and result."""
 
     def work(watch: Watch) -> Searched:
         watch.time_limit = max(watch.time_limit, _TIME_LIMIT)
@@ -210,7 +220,7 @@ def prepare(question: SizingQuestion) -> Callable[[Watch], SizingResult]:
 
 
 def size(question: SizingQuestion, watch: Watch | None = None) -> SizingResult:
-    """Search, and tell what was found."""
+    """Search for drives."""
     return prepare(question)(watch or Watch())
 
 
@@ -236,7 +246,7 @@ def _untried(found: Sizing) -> str | None:
     if not found.untried:
         return None
     return (
-        f"{found.untried} choices of parts that take more air and room were not simulated; name fewer parts."
+        f"{found.untried} choices of parts that need more air and space were not simulated; name fewer parts."
     )
 
 
@@ -291,22 +301,22 @@ def _proposal(proposal: Proposal, question: SizingQuestion) -> ProposedDrive:
 
 def _notes(proposal: Proposal, task: Task, document: SizingTask) -> list[str]:
     group = proposal.design.group
-    found: list[str] = []
+    notes: list[str] = []
     if group.parallel > 1:
-        found.append(
+        notes.append(
             f"The drive document is that of one of {group.parallel} parallel muscles: it has its share of "
             "the load and of the valve's flow. Equal muscles move alike."
         )
     if group.duty.pair:
-        found.append(
+        notes.append(
             "Both muscles are at their nominal length at the far end of the swing; the run first fills the "
             "second muscle, then swings."
         )
     if document.load.force_over_stroke is not None:
-        found.append("The run takes the straight line above the force over the stroke.")
+        notes.append("The simulation uses a straight line above the force over the stroke.")
     if proposal.trial.figures.time_down is None:
-        found.append(f"It does not come back within {task.vent_time:.3g} s.")
-    return found
+        notes.append(f"The load does not return within {task.vent_time:.3g} s.")
+    return notes
 
 
 def _rejected(item: Rejection) -> RejectedParts:
@@ -342,8 +352,8 @@ def _explored(trial: Trial, front: bool) -> ExploredDrive:
 def _notices(proposals: list[ProposedDrive], document: SizingTask) -> list[Notice]:
     parts = dict.fromkeys(text for proposal in proposals for text in proposal.unverified)
     why = "from general knowledge or estimated, not read in a source"
-    found = [Notice("unverified", f"{text} {why}", "catalogue") for text in parts]
+    notices = [Notice("unverified", f"{text} {why}", "catalogue") for text in parts]
     if document.limits.life is not None:
         text = "the life is an estimate between 100 000 and 10 million cycles; no maker's curve is known"
-        found.append(Notice("unverified", text, "limits.life"))
-    return found
+        notices.append(Notice("unverified", text, "limits.life"))
+    return notices

@@ -1,4 +1,4 @@
-"""A sizing task of a caller, made complete: quantities in SI, presets looked up."""
+"""From the document of a sizing task to a task in SI and its parts catalogue."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ from mckibben.sizing.catalogue import CataloguePart, Values
 
 Found = TypeVar("Found", bound=CataloguePart)
 
-_LEAST_TUBE = 0.05  # m
-# A muscle without any data on its length may be cut to these [m].
+_LEAST_TUBE = 0.05  # m; the formulas are not valid for shorter tubes
+# Range of lengths of a muscle whose maker states none [m].
 _SHORTEST, _LONGEST = 0.02, 10.0
-# Catalogue data without which a muscle is only taken when it is named.
+# A muscle without these catalogue data is only used if the task names it.
 _COMPLETE = ("min_temperature", "max_temperature")
 
 
@@ -37,14 +37,14 @@ def task_of(document: SizingTask) -> Task:
     """The task in SI.
 
     Raises:
-        InputError: something is missing, or two things exclude each other; names the field.
+        InputError: a missing or contradictory field; names the field.
     """
     load = document.load
     pair = None if load.pair is None else _pair(load)
     if pair is None and document.stroke is None:
         raise InputError("the task has no stroke", field="stroke", hint='e.g. "stroke": "60 mm"')
     if pair is not None and document.stroke is not None:
-        raise InputError("an antagonist pair has an angle, no stroke", field="stroke", hint="leave it out")
+        raise InputError("an antagonist pair has an angle, no stroke", field="stroke", hint="omit the stroke")
     time = document.time
     if document.speed is not None:
         if time is not None:
@@ -82,48 +82,48 @@ def _pair(load: TaskLoad) -> Pair:
     assert load.pair is not None  # noqa: S101 - asked before
     for name in load.model_fields_set - {"pair"}:
         raise InputError(
-            f"an antagonist pair takes no {name.replace('_', ' ')}",
+            f"an antagonist pair has no {name.replace('_', ' ')}",
             field=f"load.{name}",
-            hint="say its inertia and torque in load.pair",
+            hint="give its inertia and torque in load.pair",
         )
     given = load.pair
     return Pair(given.angle, given.torque, given.inertia, given.pulley_radius)
 
 
 def _profile(load: TaskLoad) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    given = load.force_over_stroke
-    if given is None:
+    profile = load.force_over_stroke
+    if profile is None:
         return (), ()
-    if len(given.strokes) != len(given.forces):
+    if len(profile.strokes) != len(profile.forces):
         raise InputError(
-            f"{len(given.strokes)} strokes and {len(given.forces)} forces", field="load.force_over_stroke"
+            f"{len(profile.strokes)} strokes and {len(profile.forces)} forces", field="load.force_over_stroke"
         )
-    if any(b <= a for a, b in zip(given.strokes, given.strokes[1:], strict=False)):
-        raise InputError("the strokes do not ascend", field="load.force_over_stroke.strokes")
-    return tuple(given.strokes), tuple(given.forces)
+    if any(b <= a for a, b in zip(profile.strokes, profile.strokes[1:], strict=False)):
+        raise InputError("the strokes must be in ascending order", field="load.force_over_stroke.strokes")
+    return tuple(profile.strokes), tuple(profile.forces)
 
 
 def catalogue_of(document: SizingTask, studio: Studio) -> PartsCatalogue:
-    """What may be used, with everything its presets say.
+    """The available parts, with the data of their presets.
 
     Raises:
-        InputError: there is no such preset (with the nearest), it cannot be used here, or a list is empty.
+        InputError: an unknown preset (with the nearest match), an unsuitable one, or an empty list.
     """
-    given = document.catalogue
-    length = given.tube_length
+    parts = document.catalogue
+    length = parts.tube_length
     if 0.0 < length < _LEAST_TUBE:
         raise InputError(
             f"a tube of {length * 1e3:.3g} mm is too short for its formulas",
             field="catalogue.tube_length",
             hint="0 for none, or at least 50 mm",
         )
-    muscles = _parts(studio, "muscles", given.muscles, lambda preset: _muscle(preset, studio), _complete)
-    if given.muscles is None:
+    muscles = _parts(studio, "muscles", parts.muscles, lambda preset: _muscle(preset, studio), _complete)
+    if parts.muscles is None:
         muscles = _different(muscles)
-    valves = _parts(studio, "valves", given.valves, lambda preset: _valve(preset, studio), _switches)
+    valves = _parts(studio, "valves", parts.valves, lambda preset: _valve(preset, studio), _switches)
     if not length:
         return PartsCatalogue(muscles, valves, (TubePart("", tube=None),))
-    tubes = _parts(studio, "tubes", given.tubes, lambda preset: _tube(preset, studio, length), lambda _: True)
+    tubes = _parts(studio, "tubes", parts.tubes, lambda preset: _tube(preset, studio, length), lambda _: True)
     return PartsCatalogue(muscles, valves, tubes)
 
 
@@ -137,8 +137,12 @@ def _parts(
     if names is None:
         return tuple(convert(preset) for preset in studio.library.list(kind) if usual(preset))
     if not names:
-        raise InputError(f"not one of the {kind} may be used", field=f"catalogue.{kind}", hint="name one")
-    found: dict[str, Found] = {}
+        raise InputError(
+            f"the list of {kind} is empty",
+            field=f"catalogue.{kind}",
+            hint="name at least one, or omit the list",
+        )
+    parts: dict[str, Found] = {}
     for index, name in enumerate(names):
         field = f"catalogue.{kind}.{index}"
         try:
@@ -146,17 +150,17 @@ def _parts(
         except InputError as error:
             code = "unknown_preset" if error.code == "not_found" else error.code
             raise error.at(field, code=code) from error
-        found[part.id] = part
-    return tuple(found.values())
+        parts[part.id] = part
+    return tuple(parts.values())
 
 
 def _different(muscles: tuple[MusclePart, ...]) -> tuple[MusclePart, ...]:
-    """The first of those that are one model under several names."""
-    found: dict[str, MusclePart] = {}
+    """The muscles without duplicates of the same model under other names."""
+    distinct: dict[str, MusclePart] = {}
     for part in muscles:
         geometry = part.muscle._replace(nominal_length=1.0)
-        found.setdefault(repr((geometry, part.values, part.limits, part.shortest, part.longest)), part)
-    return tuple(found.values())
+        distinct.setdefault(repr((geometry, part.values, part.limits, part.shortest, part.longest)), part)
+    return tuple(distinct.values())
 
 
 def _complete(preset: Preset) -> bool:
@@ -196,7 +200,7 @@ def _valve(preset: Preset, studio: Studio) -> ValvePart:
     try:
         flow = valve_of(ValveInput.model_validate({"preset": preset.id}), preset)
     except InputError as error:
-        raise InputError(error.message, hint="take another valve") from error
+        raise InputError(error.message, hint="choose another valve") from error
     most = preset.data.get("max_pressure")
     effects, values = _effects(preset, studio)
     return ValvePart(
@@ -222,6 +226,6 @@ def _tube(preset: Preset, studio: Studio, length: float) -> TubePart:
 
 
 def _effects(preset: ValvePreset | TubePreset, studio: Studio) -> tuple[tuple[Effect, ...], Values]:
-    own = preset.effect_values()
-    effects = tuple(studio.catalogue[name] for name in own)
-    return effects, {effect.id: effect.defaults | own[effect.id] for effect in effects}
+    stated = preset.effect_values()
+    effects = tuple(studio.catalogue[name] for name in stated)
+    return effects, {effect.id: effect.defaults | stated[effect.id] for effect in effects}

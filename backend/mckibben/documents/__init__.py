@@ -1,1 +1,1 @@
-"""What callers write: muscle, drive, task, signals, quantities; read with errors that name the field."""
+"""Input documents: muscle, drive, task, signals, quantities. Errors name the field."""

@@ -1,4 +1,4 @@
-"""From validated request models to the objects the answers work with."""
+"""Conversion of validated pydantic models to plain objects."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from mckibben.physics.braid import Rhombus
 
 
 def given_muscle(muscle: MuscleInput) -> GivenMuscle:
-    """The muscle of a request without pydantic."""
+    """The muscle of a request as a plain object."""
     lattice = muscle.rhombus
     return GivenMuscle(
         preset=muscle.preset,

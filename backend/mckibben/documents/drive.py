@@ -26,7 +26,7 @@ from mckibben.documents.strict import Id, Strict
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import si
 
-LONGEST = 600.0  # s
+LONGEST = 600.0  # s, of a run
 
 Mass = Annotated[float, Quantity("kg", "10 kg", at_least=0.0, at_most=1e5)]
 Conductance = Annotated[float, Quantity("m^3/(s*Pa)", "1.2 l/(s*bar)", at_least=0.0, at_most=1e-5)]
@@ -44,10 +44,10 @@ Ambient = Annotated[float, Quantity("Pa", "1013.25 hPa", at_least=1e4, at_most=1
 
 @dataclass(frozen=True, slots=True)
 class AsGiven(Quantity):
-    """A quantity that is checked but kept as given: what a plain number means is not SI."""
+    """A quantity that is checked but not converted, because a plain number is not in SI."""
 
     def __call__(self, value: object) -> Any:
-        """The value as given; InputError when it is no quantity of this unit."""
+        """The value unchanged; InputError if it is not a quantity of this unit."""
         si(value, self.unit)
         return value
 
@@ -66,27 +66,27 @@ class SupplyInput(Strict):
 
 
 class ValveInput(Strict):
-    """A valve preset, or its flow both ways by value; values given besides a preset take its place."""
+    """A valve preset, or flow values for filling and venting; values override those of the preset."""
 
     preset: Id | None = None
     sonic_conductance: Conductance | None = Field(None, description="Conductance of filling, ISO 6358.")
     exhaust_conductance: Conductance | None = Field(
-        None, description="Conductance of venting; that of filling when left out."
+        None, description="Conductance of venting. Default: that of filling."
     )
     critical_pressure_ratio: Ratio | None = Field(
-        None, description="Critical pressure ratio b of filling; 0.3 when neither preset nor value says it."
+        None, description="Critical pressure ratio b of filling. Default: that of the preset, else 0.3."
     )
     exhaust_critical_pressure_ratio: Ratio | None = Field(
-        None, description="Critical pressure ratio of venting; that of filling when left out."
+        None, description="Critical pressure ratio of venting. Default: that of filling."
     )
     nominal_flow: Flow | None = Field(
         None,
-        description="Standard nominal flow (6 to 5 bar gauge, normal litres) in place of a conductance.",
+        description="Standard nominal flow (6 to 5 bar gauge, normal litres) instead of a conductance.",
     )
 
 
 class RegulatorInput(Strict):
-    """Makes the valve a pressure regulator; a regulator preset has figures of its own."""
+    """Makes the valve a pressure regulator; a regulator preset has its own values."""
 
     range: PositivePressure | None = Field(None, description="Gauge pressure at full command.")
     time: LagTime | None = Field(None, description="Time constant of the regulated pressure.")
@@ -97,34 +97,38 @@ class TubeInput(Strict):
 
     preset: Id | None = None
     inside_diameter: Diameter | None = None
-    length: Length | None = Field(None, description="Its length; that of the preset's figures if left out.")
+    length: Length | None = Field(
+        None, description="Length of the tube. Default: that for which the preset is specified."
+    )
 
 
 class LoadInput(Strict):
-    """What the muscle pulls."""
+    """The load of the muscle."""
 
     mass: Mass = Field(0.0, description="Mass of the load.")
     force: ForceOverTime = Field(
         0.0, description="External force against the pull: a constant, or a signal of time."
     )
     inclination: Inclination | None = Field(
-        None, description="Of the way the load is pulled against the horizontal; 90 deg when left out."
+        None, description="Angle between the motion of the load and the horizontal. Default 90 deg."
     )
     arrangement: Literal["hanging", "inclined", "horizontal", "lever", "antagonist"] | None = Field(
         None,
-        description="Hanging is 90 deg, horizontal 0 deg; a lever needs its ratio; an antagonist pair on a "
-        "pulley needs its radius: a second, equal muscle with the mirrored command pulls the other way.",
+        description="Hanging is 90 deg, horizontal 0 deg. A lever needs lever_ratio. An antagonist pair "
+        "needs pulley_radius: a second, equal muscle with the mirrored command pulls in the other direction.",
     )
     spring: Stiffness = Field(0.0, description="Spring against the contraction, at the load.")
     lever_ratio: LeverRatio | None = Field(None, description="Stroke of the muscle per stroke of the load.")
-    pulley_radius: PulleyRadius | None = Field(None, description="Of an antagonist pair's pulley.")
+    pulley_radius: PulleyRadius | None = Field(
+        None, description="Radius of the pulley of an antagonist pair."
+    )
     precontraction: Contraction | None = Field(
-        None, description="Of both muscles of a pair at the middle; 10 % when left out."
+        None, description="Contraction of both muscles of a pair in the middle position. Default 10 %."
     )
 
 
 class ControllerInput(Strict):
-    """A sampled PID controller of the load's position; without a unit, gains are percent of full command
+    """A sampled PID controller of the load's position. Gains without a unit are in percent of full command
     per mm (and s).
     """
 
@@ -133,12 +137,14 @@ class ControllerInput(Strict):
     ki: IntegralGain | None = Field(None, description="Integral gain, %/(mm s).", examples=[10.0])
     kd: DerivativeGain | None = Field(None, description="Derivative gain, % s/mm.", examples=[0.01])
     feed_forward: Gain | None = Field(None, description="Command per reference, %/mm.")
-    derivative_filter: Time | None = Field(None, description="Filter of the derivative; 5 ms if left out.")
-    sample_time: Time | None = Field(None, description="1 ms if left out.")
-    output_min: Share | None = Field(None, description="Lowest command; -1 for a valve, 0 for a regulator.")
-    output_max: Share | None = Field(None, description="Highest command; 1 if left out.")
+    derivative_filter: Time | None = Field(None, description="Filter time of the derivative. Default 5 ms.")
+    sample_time: Time | None = Field(None, description="Sample time. Default 1 ms.")
+    output_min: Share | None = Field(
+        None, description="Lowest command. Default -1 for a valve, 0 for a regulator."
+    )
+    output_max: Share | None = Field(None, description="Highest command. Default 1.")
     reference: Reference = Field(
-        description="Position wanted, as a signal of time.",
+        description="Desired position, as a signal of time.",
         examples=[{"shape": "triangle", "amplitude": "20 mm", "period": "1 s"}],
     )
 
@@ -147,9 +153,11 @@ class GasInput(Strict):
     """The air and its surroundings."""
 
     polytropic_exponent: Exponent = Field(1.2, description="1 isothermal, 1.4 adiabatic.")
-    temperature: Temperature = Field(293.15, description="Of the supply and the surroundings.")
+    temperature: Temperature = Field(293.15, description="Temperature of the supply and the surroundings.")
     ambient_pressure: Ambient = Field(101_325.0, description="Absolute pressure of the surroundings.")
-    dead_volume: Volume = Field(0.0, description="Gas volume besides muscle and tube: ports, a reservoir.")
+    dead_volume: Volume = Field(
+        0.0, description="Gas volume in addition to muscle and tube: ports, a reservoir."
+    )
 
 
 class StopsInput(Strict):
@@ -157,7 +165,7 @@ class StopsInput(Strict):
 
     min_contraction: Contraction = Field(0.0, description="The load rests here without pressure.")
     max_contraction: Contraction | None = Field(
-        None, description="The limit of the muscle preset when left out, else 25 %."
+        None, description="Default: the limit of the muscle preset, else 25 %."
     )
 
 
@@ -165,7 +173,7 @@ class DriveDocument(Strict):
     """A complete drive. Pressures are gauge, strokes are positive when the muscle gets shorter."""
 
     schema_version: Literal[1] = Field(1, alias="schema", description="Version of the document.")
-    title: Annotated[str, Field(max_length=200)] = Field("", description="For people.")
+    title: Annotated[str, Field(max_length=200)] = Field("", description="Title for display.")
     muscle: MuscleInput
     effects: EffectsInput | None = None
     supply: SupplyInput
@@ -173,8 +181,8 @@ class DriveDocument(Strict):
     regulator: RegulatorInput | None = None
     tube: TubeInput | None = Field(
         None,
-        description="Left out: the valve sits on the muscle, and a diagnosis tries a typical tube (4 mm, "
-        "1 m) as an explanation. null: there is none, and none is tried.",
+        description="Default: the valve is on the muscle, but a diagnosis tries a typical tube (4 mm, "
+        "1 m) as an explanation. null: there is no tube, and a diagnosis tries none.",
     )
     fittings: list[Id] = Field(
         default_factory=list, max_length=20, description="Fitting presets; they add their port volumes."
@@ -182,12 +190,12 @@ class DriveDocument(Strict):
     load: LoadInput = Field(default_factory=lambda: LoadInput.model_validate({}))
     command: Command | None = Field(
         None,
-        description="Opening of the valve: 1 fill, 0 closed, -1 exhaust; of a regulator the share of its "
-        "range. What a shape leaves open, e.g. outside a pulse, is exhaust (0 for a regulator). To be left "
-        "out with a controller, or beside a measurement, which brings its own.",
+        description="Opening of the valve: 1 fill, 0 closed, -1 exhaust; for a regulator, the share of its "
+        "range. Where a shape has no value, e.g. outside a pulse, the valve exhausts (0 for a regulator). "
+        "Not needed with a controller or a measurement, which supply the command.",
         examples=[{"shape": "pulse", "on": "0 s", "off": "2 s"}],
     )
-    controller: ControllerInput | None = Field(None, description="Gives the command instead.")
+    controller: ControllerInput | None = Field(None, description="Controller that generates the command.")
     gas: GasInput = Field(default_factory=lambda: GasInput.model_validate({}))
     stops: StopsInput = Field(default_factory=lambda: StopsInput.model_validate({}))
     duration: Duration = Field(4.0, description="Length of the run.")
@@ -196,16 +204,16 @@ class DriveDocument(Strict):
 
 @dataclass(frozen=True, slots=True)
 class _OrPreset:
-    """Also takes the id of a preset; not a union, so that errors name the fields alone."""
+    """Also accepts the id of a preset. Not a union, whose errors would not name the field alone."""
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        """A text is an id, anything else a document."""
+        """A string is an id, everything else a document."""
         return core_schema.no_info_wrap_validator_function(_document_or_id, handler(source))
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        """Either of both."""
+        """A document or an id."""
         preset = {"type": "string", "pattern": _ID.pattern, "examples": ["paper-step"]}
         return {"anyOf": [handler(schema), preset]}
 

@@ -28,10 +28,10 @@ def read_document(document: object, subject: str) -> DriveDocument:
 
     Args:
         document: parsed JSON.
-        subject: what to call it in a message.
+        subject: name of the document in messages.
 
     Raises:
-        InputError: says what is wrong, its ``field`` the path in the document.
+        InputError: the document is not valid; ``field`` is the path in it.
     """
     from pydantic import ValidationError
 

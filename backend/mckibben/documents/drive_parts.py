@@ -1,4 +1,4 @@
-"""Valve, regulator, tube and load of a drive document, with the figures of their presets."""
+"""Valve, regulator, tube and load of a drive document, with the values of their presets."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from mckibben.simulation.drive.parts import Load, Regulator, Tube, Valve
 
 Part = ValvePreset | TubePreset | FittingPreset
 
-_DEFAULT_RATIO = 0.3
+_DEFAULT_RATIO = 0.3  # critical pressure ratio, typical of valves
 
 
-#: Figures of parts that enter a run.
+#: Values of parts that a simulation uses.
 ENTERING = frozenset(
     {"sonic_conductance", "exhaust_conductance", "critical_pressure_ratio", "inside_diameter", "port_volume"}
 )
 
 
 def unverified_of(part: Part, *, with_effects: bool) -> tuple[str, ...]:
-    """Names of the figures that enter a run and that nobody verified."""
+    """Names of the unverified values that a simulation uses."""
     return tuple(
         path.rpartition(".")[2].replace("_", " ")
         for path, quantity in quantities(part)
@@ -39,7 +39,7 @@ def unverified_of(part: Part, *, with_effects: bool) -> tuple[str, ...]:
 
 
 def _figure(preset: Part | None, name: str, unit: str) -> float | None:
-    """A figure of a preset in SI; None when there is no preset or it does not have it."""
+    """A value of a preset in SI; None without a preset or without this value."""
     if preset is None or name not in preset.data:
         return None
     return preset.data[name].si(unit)
@@ -50,11 +50,11 @@ def _first(*values: float | None) -> float | None:
 
 
 def valve_of(given: ValveInput, preset: ValvePreset | None) -> Valve:
-    """Conductances and critical ratios both ways; what is given takes the place of the preset's figures."""
+    """Conductances and critical ratios of filling and venting; stated values override those of the preset."""
     ratio = _first(
         given.critical_pressure_ratio, _figure(preset, "critical_pressure_ratio", "1"), _DEFAULT_RATIO
     )
-    assert ratio is not None  # noqa: S101 - the last one never is
+    assert ratio is not None  # noqa: S101 - the default is not None
     fill = given.sonic_conductance
     if given.nominal_flow is not None:
         if fill is not None:
@@ -69,9 +69,9 @@ def valve_of(given: ValveInput, preset: ValvePreset | None) -> Valve:
         raise InputError(
             f"the flow of {who} is not known",
             field="valve.sonic_conductance",
-            hint='e.g. "sonic_conductance": "1.2 l/(s*bar)", or a preset that has it',
+            hint='e.g. "sonic_conductance": "1.2 l/(s*bar)", or a preset with this value',
         )
-    # A flow given by value means both ways; the preset's exhaust belongs to the preset's own flow.
+    # A stated flow is that of both directions; the exhaust flow of the preset belongs to its own fill flow.
     of_preset = None if by_value else _figure(preset, "exhaust_conductance", "m^3/(s*Pa)")
     exhaust = _first(given.exhaust_conductance, of_preset, fill)
     exhaust_ratio = _first(given.exhaust_critical_pressure_ratio, ratio)
@@ -81,7 +81,7 @@ def valve_of(given: ValveInput, preset: ValvePreset | None) -> Valve:
 
 
 def regulator_of(given: RegulatorInput | None, preset: ValvePreset | None) -> Regulator | None:
-    """The regulator's range and time constant; None for a plain valve."""
+    """Range and time constant of the regulator; None for a plain valve."""
     own = None if preset is None else preset.regulator
     if given is None and own is None:
         return None
@@ -97,7 +97,7 @@ def regulator_of(given: RegulatorInput | None, preset: ValvePreset | None) -> Re
     return Regulator(**values)
 
 
-#: A tube that nobody stated, where an effect of the model acts on one: 1 m of the size most valves come with.
+#: Assumed tube where an effect needs one and none is stated: 1 m of a common size.
 TYPICAL_TUBE = Tube(inside_diameter=4e-3, length=1.0)
 
 
@@ -116,7 +116,7 @@ def tube_of(given: TubeInput | None, preset: TubePreset | None) -> Tube | None:
         raise InputError(
             f"a tube of {length * 1e3:.4g} mm length is shorter than its bore of {inside * 1e3:.4g} mm",
             field="tube.length",
-            hint="leave the tube out, or check the units",
+            hint="omit the tube, or check the units",
         )
     return Tube(inside, length)
 
@@ -127,12 +127,12 @@ def port_volume_of(fittings: Sequence[Part | None]) -> float:
 
 
 def load_of(given: LoadInput) -> Load:
-    """The load; its arrangement says the inclination, or asks for a lever."""
+    """The load; its arrangement sets the inclination or requires a lever."""
     fixed = {"hanging": radians(90.0), "horizontal": 0.0}
     if given.arrangement == "antagonist":
         if given.pulley_radius is None:
             raise InputError("load.pulley_radius is missing", field="load.pulley_radius", hint="e.g. '20 mm'")
-        # A pulley turns about its own centre: without an inclination no weight pulls either way.
+        # A pulley turns about its centre: without an inclination there is no torque by weight.
         given = given.model_copy(update={"inclination": given.inclination or 0.0})
     elif given.pulley_radius is not None or given.precontraction is not None:
         name = "pulley_radius" if given.pulley_radius is not None else "precontraction"
@@ -148,7 +148,7 @@ def load_of(given: LoadInput) -> Load:
                 f"a {arrangement} load has an inclination of {fixed[arrangement] * 180 / pi:.0f}°, "
                 f"not {inclination * 180 / pi:.4g}°",
                 field="load.inclination",
-                hint='leave one of both out, or say "arrangement": "inclined"',
+                hint='omit one of them, or give "arrangement": "inclined"',
             )
         inclination = fixed[arrangement]
     elif arrangement == "inclined" and inclination is None:

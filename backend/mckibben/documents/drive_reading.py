@@ -1,7 +1,6 @@
-"""What a caller says about a drive, made complete: presets looked up, everything in SI, limits checked.
+"""From a drive document to a drive: presets looked up, values converted to SI, limits checked.
 
-The one place where the command line and the HTTP interface turn a drive document into
-`mckibben.simulation.drive.parts.Drive`.
+Command line and HTTP interface both use it to make a `mckibben.simulation.drive.parts.Drive`.
 """
 
 from __future__ import annotations
@@ -33,18 +32,18 @@ from mckibben.simulation.drive.parts import Drive, Valve
 from mckibben.simulation.statics.model import StaticModel
 
 _DEFAULT_MAX_CONTRACTION = 0.25
-_SHORTEST = 0.1  # a muscle does not get shorter than this share of its length
+_SHORTEST = 0.1  # shortest possible muscle, share of its nominal length
 
 
 @dataclass(frozen=True)
 class GivenDrive:
-    """A drive ready to run, and what to know about it.
+    """A drive ready to run, with notes for the user.
 
     Attributes:
         drive: in SI.
         start: its muscle with all effects.
-        unverified: preset id -> names of its figures that enter and nobody verified; muscles left out.
-        notes: where in the document -> remark.
+        unverified: preset id -> names of its unverified values in use; without the muscle.
+        notes: path in the document -> note.
     """
 
     drive: Drive
@@ -54,15 +53,15 @@ class GivenDrive:
 
 
 def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False) -> GivenDrive:
-    """The drive that a document means.
+    """The drive described by a document.
 
     Args:
-        document: what the caller says.
-        studio: where presets and effects are looked up.
-        measured: it stands beside a measurement, which has its own command: the document may leave it out.
+        document: the drive document.
+        studio: presets and effects.
+        measured: the drive belongs to a measurement with its own command, so the document needs none.
 
     Raises:
-        InputError: an unknown preset, effect or shape (with the nearest match), or numbers that cannot be;
+        InputError: an unknown preset, effect or shape (with the nearest match), or impossible values;
             ``field`` is the path in the document.
     """
     valve_preset = _preset(studio, "valves", document.valve.preset, "valve.preset")
@@ -76,12 +75,12 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
 
     start = studio.start_model(given_muscle(document.muscle), document.effects)
     if document.effects is None:
-        own = {
+        preset_effects = {
             name: studio.catalogue[name].defaults | values
             for part in parts
             for name, values in part.effect_values().items()
         }
-        start = replace(start, effects={**start.effects, **own})
+        start = replace(start, effects={**start.effects, **preset_effects})
     model = studio.static_model(start)
     regulator = regulator_of(document.regulator, valve_preset)
     valve = valve_of(document.valve, valve_preset)
@@ -121,11 +120,11 @@ def _preset(studio: Studio, kind: str, preset_id: str | None, field: str) -> Par
     if preset_id is None:
         return None
     try:
-        found = studio.library.get(kind, preset_id)
+        preset = studio.library.get(kind, preset_id)
     except InputError as error:
         raise error.at(field, code="unknown_preset") from error
-    assert isinstance(found, (ValvePreset, TubePreset, FittingPreset))  # noqa: S101 - of its folder
-    return found
+    assert isinstance(preset, (ValvePreset, TubePreset, FittingPreset))  # noqa: S101 - of its folder
+    return preset
 
 
 def _command(
@@ -138,7 +137,7 @@ def _command(
     if document.controller is not None:
         controller, reference = _controller(document.controller, rest)
         if document.command is not None:
-            notes["command"] = "not used: the controller gives the command"
+            notes["command"] = "not used: the controller generates the command"
         return closed, controller, reference, notes
     if document.command is None:
         if measured:
@@ -167,16 +166,16 @@ def _check_flow(valve: Valve, command: Signal, controller: PidController | None)
     ):
         if needed and not conductance > 0.0:
             raise InputError(
-                f"valve.{name} is 0, but the command asks for this way", field=f"valve.{name}",
+                f"valve.{name} is 0, but the command needs this flow", field=f"valve.{name}",
                 hint="e.g. '1.2 l/(s*bar)'",
             )  # fmt: skip
 
 
-_PRECONTRACTION = 0.1
+_PRECONTRACTION = 0.1  # default of both muscles of a pair
 
 
 def _pair(document: DriveDocument, lowest: float, highest: float) -> dict[str, Any]:
-    """What makes an antagonist pair of a drive."""
+    """Arguments of a drive with an antagonist pair; empty for others."""
     load = document.load
     if load.arrangement != "antagonist":
         return {}
@@ -192,7 +191,7 @@ def _pair(document: DriveDocument, lowest: float, highest: float) -> dict[str, A
 
 
 def _stops(document: DriveDocument, model: StaticModel) -> tuple[float, float]:
-    """End stops as contractions, within what the muscle can be."""
+    """End stops as contractions, within the possible range of the muscle."""
     given = document.stops
     lowest, highest = given.min_contraction, given.max_contraction
     rest, longest = model.muscle.nominal_length, model.longest

@@ -1,4 +1,4 @@
-"""A muscle in a request: a preset, or one of three forms of geometry, or a preset with some of it changed."""
+"""A muscle in a request: a preset, possibly with changes, or one of three forms of geometry."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from mckibben.documents.strict import Id, Name, Strict
 
 
 class RhombusInput(Strict):
-    """The lattice of the braid: rhombi of one side, so many along the muscle and around it."""
+    """The lattice of the braid: side of the rhombi, and their numbers along and around the muscle."""
 
     side: Length = Field(description="Side of one rhombus.")
     along: Turns = Field(description="Rhombi along the muscle.", examples=[60])
@@ -21,14 +21,14 @@ class RhombusInput(Strict):
 class MuscleInput(Strict):
     """A preset id, or a length with exactly one of: diameter and angle, thread length and turns, rhombus.
 
-    With a preset the given fields take the place of the preset's own.
+    With a preset, the fields given override its values.
     """
 
     preset: Id | None = None
     nominal_length: Length | None = Field(None, description="Length between the fittings at rest.")
     inside_diameter: Diameter | None = Field(None, description="Bore at rest.")
     braid_diameter: Diameter | None = Field(
-        None, description="Diameter of the braid at the braid angle; without it the inside diameter is taken."
+        None, description="Diameter of the braid at the braid angle. Default: the inside diameter."
     )
     braid_angle: Angle | None = Field(None, description="Angle between thread and muscle axis at rest.")
     wall_thickness: Thickness | None = Field(None, description="Wall of the bladder at rest.")
@@ -48,8 +48,8 @@ EffectsInput = Annotated[
     dict[Name, dict[Name, ParameterValue]],
     Field(
         max_length=64,
-        description="Effect id -> its parameters; parameters left out take their defaults. {} is the ideal "
-        "model; null takes the preset's own effects (and the ideal model for a muscle given by geometry).",
+        description="Effect id -> its parameters; missing parameters take their defaults. {} is the ideal "
+        "model; null means the effects of the preset (the ideal model for a muscle given by geometry).",
         examples=[{}],
     ),
 ]

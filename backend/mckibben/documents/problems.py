@@ -1,4 +1,4 @@
-"""Validation errors of pydantic as sentences for people: which field, what is wrong, what would be right."""
+"""Validation errors of pydantic as sentences: the field, what is wrong, and what would be right."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pydantic import BaseModel
 
 from mckibben.physics.errors import InputError, did_you_mean
 
-# What a value must be, by pydantic's error type; {…} are the error's own figures.
+# Requirement by pydantic's error type; {…} are filled with the values of the error.
 _MUST_BE = {
     "greater_than": "must be greater than {gt}",
     "greater_than_equal": "must be at least {ge}",
@@ -33,7 +33,7 @@ _MUST_BE = {
     "int_type": "must be a whole number",
     "int_parsing": "must be a whole number",
     "int_from_float": "must be a whole number",
-    "int_parsing_size": "must be a whole number of usual size",
+    "int_parsing_size": "must be a smaller whole number",
     "float_type": "must be a number",
     "float_parsing": "must be a number",
     "list_type": "must be a list",
@@ -46,7 +46,7 @@ _PLACES = ("body", "query", "path", "header", "cookie")
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """One thing that is wrong with a request or file."""
+    """One error in a request or file."""
 
     message: str
     field: str | None = None
@@ -56,7 +56,7 @@ class Problem:
 
 
 def _annotations(annotation: Any) -> list[Any]:
-    """The models and containers an annotation may stand for, without Annotated, Optional and unions."""
+    """The models and containers in an annotation, without Annotated, Optional and unions."""
     origin = get_origin(annotation)
     if origin is Annotated:
         return _annotations(get_args(annotation)[0])
@@ -66,7 +66,7 @@ def _annotations(annotation: Any) -> list[Any]:
 
 
 def _known_fields(annotations: list[Any], location: Sequence[int | str]) -> list[str]:
-    """The field names that the model at this location of the request has."""
+    """The field names of the model at this location of the request."""
     for step in location:
         inner: list[Any] = []
         for annotation in annotations:
@@ -92,7 +92,7 @@ def _tags(model: type[BaseModel]) -> list[Any]:
 
 
 def _path(location: Sequence[int | str], value: object) -> str | None:
-    """The location as ``muscle.braid_angle``, without the union tags that the sender never wrote."""
+    """The location as ``muscle.braid_angle``, without the union tags that pydantic adds."""
     steps: list[str] = []
     for step in location:
         if steps and not isinstance(value, Mapping | list):
@@ -165,10 +165,10 @@ def first_problem(
 
     Args:
         errors: ``ValidationError.errors()``.
-        model: the model that was validated, from which near field names are suggested.
-        body: what was sent, so that the field path holds only keys the sender wrote.
-        subject: what to call the whole.
+        model: the validated model, for suggestions of field names.
+        body: the request, so that the field path contains only its keys.
+        subject: name of the request or file in messages.
     """
-    # A misspelt field explains the missing one, so it is the one to tell first.
+    # A misspelt field explains a missing one, so it is reported first.
     ordered = sorted(errors, key=lambda error: error["type"] != "extra_forbidden")
     return _problem(ordered[0], model, body, subject)

@@ -1,4 +1,4 @@
-"""Physical values of requests: a number in SI units, or a text with a unit ("300 mm")."""
+"""Quantities in requests: a number in SI units, or a text with a unit ("300 mm")."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from mckibben.physics.units import MAX_TEXT_LENGTH, si
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """Turns what a request gives into SI, and describes it in OpenAPI.
+    """Converts a value of a request to SI, and describes it in OpenAPI.
 
     Attributes:
-        unit: SI unit of the value inside; a text must have a compatible one.
-        example: a text that would be right.
+        unit: SI unit of the result; a text must have a compatible unit.
+        example: a valid text.
         above, at_least, at_most, below: bounds of the SI value.
     """
 
@@ -53,7 +53,7 @@ class Quantity:
         return f"e.g. '{self.example}'"
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        """Validation by `__call__`; nothing of the annotated float's own."""
+        """Validation by `__call__` instead of that of float."""
         return core_schema.no_info_plain_validator_function(self)
 
     def __get_pydantic_json_schema__(
@@ -74,11 +74,11 @@ class Quantity:
         }
 
 
-# Bounds far outside of anything built: they keep nonsense out of the arithmetic, not designs.
+# Bounds far beyond any real design; they only protect the arithmetic from absurd values.
 Length = Annotated[float, Quantity("m", "300 mm", above=0.0, at_most=1e3)]
 Diameter = Annotated[float, Quantity("m", "20 mm", above=0.0, at_most=10.0)]
 Thickness = Annotated[float, Quantity("m", "1.8 mm", at_least=0.0, at_most=1.0)]
-# Judged by the physics in its own words ("… the muscle would lengthen instead of contract").
+# Without bounds: the physics checks it with a better message ("… the muscle would lengthen …").
 Angle = Annotated[float, Quantity("rad", "25 deg")]
 Turns = Annotated[float, Quantity("1", "1.48", above=0.0, at_most=1e6)]
 Pressure = Annotated[float, Quantity("Pa", "6 bar", at_least=0.0, at_most=1e8)]

@@ -15,17 +15,17 @@ from mckibben.physics.units import MAX_TEXT_LENGTH, si
 from mckibben.simulation.command.signals import MAX_SEGMENTS, SHAPES, SYNONYMS
 
 _UNITS = {"time": "s", "share": "1", "frequency": "Hz", "angle": "rad"}
-_STANDS_FOR = {"amplitude": "level", "period": "frequency"}  # a key that another one may replace
+_REPLACES = {"amplitude": "level", "period": "frequency"}  # a key -> the key that it may replace
 _EXAMPLES = {"s": "0.5 s", "1": "50 %", "Hz": "2 Hz", "rad": "90 deg", "m": "20 mm", "N": "120 N"}
 
 
 @dataclass(frozen=True, slots=True)
 class SignalInput:
-    """A signal kept as the document gives it: its meaning depends on the rest of the document.
+    """A signal that is not converted here, because its meaning depends on the rest of the document.
 
     Attributes:
         unit: SI unit of the levels.
-        plain: whether a constant quantity will do, too; it becomes a number in SI.
+        plain: whether a constant quantity is allowed too; it is converted to SI.
     """
 
     unit: str
@@ -35,7 +35,7 @@ class SignalInput:
         """The object with the shape, or the constant in SI.
 
         Raises:
-            InputError: it is neither.
+            InputError: the value is neither.
         """
         if self.plain and not isinstance(value, Mapping):
             return si(value, self.unit)
@@ -50,7 +50,7 @@ class SignalInput:
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        """One object per shape, from the fields of the shapes themselves."""
+        """One object schema per shape, made from the fields of its class."""
         shapes = [_shape_schema(name, self.unit) for name in SHAPES]
         return {
             "anyOf": [*_quantity(self.unit)["anyOf"], *shapes] if self.plain else shapes,
@@ -73,7 +73,7 @@ def _shape_schema(name: str, unit: str) -> JsonSchemaValue:
         label, default = item.metadata["name"] or item.name, item.metadata["default"]
         properties[label] = _key_schema(item.name, item.metadata["kind"], unit)
         needed = default is MISSING or (default == "full" and unit != "1")
-        if needed and not any(_STANDS_FOR[synonym] == label for synonym in SYNONYMS.get(kind, ())):
+        if needed and not any(_REPLACES[synonym] == label for synonym in SYNONYMS.get(kind, ())):
             required.append(label)
     for label in SYNONYMS.get(kind, ()):
         properties[label] = _quantity("s" if label == "period" else unit)
@@ -94,8 +94,8 @@ def _key_schema(name: str, kind: str, unit: str) -> JsonSchemaValue:
     if kind == "word":
         return {"type": "string", "enum": ["linear", "hold"]}
     if kind == "column":
-        own = "s" if name == "times" else unit
-        entries = {"type": "array", "items": _quantity(own), "maxItems": MAX_SEGMENTS}
+        column_unit = "s" if name == "times" else unit
+        entries = {"type": "array", "items": _quantity(column_unit), "maxItems": MAX_SEGMENTS}
         table = {
             "type": "object",
             "properties": {
@@ -104,7 +104,7 @@ def _key_schema(name: str, kind: str, unit: str) -> JsonSchemaValue:
             },
             "required": ["unit", "values"],
         }
-        return {"anyOf": [entries, table], "unit": own}
+        return {"anyOf": [entries, table], "unit": column_unit}
     return _quantity(_UNITS.get(kind, unit))
 
 

@@ -1,7 +1,6 @@
-"""What a caller says about a muscle, made complete: preset, overrides, three forms of geometry, effects.
+"""From a muscle in a document to a start model: preset, overrides, three forms of geometry, effects.
 
-The one place where the command line and the HTTP interface turn a muscle of `interfaces` form into the
-physics' own `Muscle` and a choice of effects.
+Command line and HTTP interface both use it to make a `Muscle` and a choice of effects.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ from mckibben.simulation.statics.limits import MuscleLimits
 
 EffectValues = dict[str, dict[str, float]]
 
-# Where a preset holds figures that enter the curves or their limits.
+# Paths of a preset's values that affect the curves or their limits.
 _MODEL_PARTS = (
     "geometry.",
     "effects.",
@@ -31,7 +30,7 @@ _MODEL_PARTS = (
     "limits.max_contraction",
     "limits.max_pretension",
 )
-# What tells the three forms of geometry apart; a bore or a wall goes with any of them.
+# Fields that identify the three forms of geometry; a bore or a wall may be given with any of them.
 _MARKS = {
     "diameter and angle": ("braid_angle", "braid_diameter"),
     "thread": ("thread_length", "turns"),
@@ -41,7 +40,7 @@ _MARKS = {
 
 @dataclass(frozen=True, slots=True)
 class GivenMuscle:
-    """A muscle as the caller gives it; numbers in SI, None where not given."""
+    """A muscle as given by the caller; values in SI, None where not given."""
 
     preset: str | None = None
     nominal_length: float | None = None
@@ -56,16 +55,16 @@ class GivenMuscle:
 
 @dataclass(frozen=True, slots=True)
 class PresetFacts:
-    """What the physics takes from a muscle preset, in SI.
+    """Values of a muscle preset, in SI.
 
     Attributes:
         id: id of the preset.
         muscle: geometry at rest.
         effects: the preset's own effects with all their parameters.
-        limits: what the maker allows.
-        tolerance: geometry field -> how far a fit may free it.
-        shortest, longest: nominal lengths the muscle is made in, None where not known [m].
-        unverified: names of the figures that enter the model and nobody verified.
+        limits: limits stated by the maker.
+        tolerance: geometry field -> largest change by a fit, in either direction.
+        shortest, longest: range of nominal lengths that the maker sells, None where not known [m].
+        unverified: names of the unverified values that the model uses.
     """
 
     id: str
@@ -80,17 +79,16 @@ class PresetFacts:
 
 @dataclass(frozen=True, slots=True)
 class StartModel:
-    """A complete muscle with the effects its model has.
+    """A complete muscle with the effects of its model.
 
     Attributes:
         muscle: geometry at rest.
         effects: effect id -> every parameter of it, SI.
         preset: facts of the preset it is based on.
-        rhombus: the lattice, when the caller gave the geometry by it.
-        catalogue: where its effects are found: the known ones, and the typed term where there is one.
-        term: the typed term, as it was typed.
-        assumed: fields of the muscle that nobody stated and that an effect multiplies; they hold a typical
-            value.
+        rhombus: the lattice, if the caller gave the geometry in this form.
+        catalogue: the known effects, and the custom effect of the model if it has one.
+        term: text of the custom term.
+        assumed: fields of the muscle that an effect needs and that are not stated; they hold a typical value.
     """
 
     muscle: Muscle
@@ -103,7 +101,7 @@ class StartModel:
 
     @property
     def limits(self) -> MuscleLimits:
-        """What the maker allows; nothing is known of a muscle given by geometry."""
+        """Limits stated by the maker; none for a muscle given by geometry."""
         return MuscleLimits() if self.preset is None else self.preset.limits
 
 
@@ -153,18 +151,18 @@ def start_model(
     preset: PresetFacts | None,
     catalogue: EffectCatalogue,
 ) -> StartModel:
-    """The muscle and effects a request means.
+    """The muscle and effects described by a request.
 
     Args:
-        given: the muscle; fields besides a preset take the place of the preset's own.
+        given: the muscle; fields given with a preset override its values.
         effects: effect id -> parameters (SI numbers or texts with units); {} is the ideal model, None the
             preset's own effects, or the ideal model without a preset.
         preset: facts of the preset that ``given`` names.
         catalogue: the known effects.
 
     Raises:
-        InputError: no or more than one form of geometry, something of it missing, an unknown effect or
-            parameter, a value with a wrong unit. Bounds are the model's to check.
+        InputError: no geometry, an incomplete one or more than one form, an unknown effect or parameter, or a
+            value with a wrong unit. Bounds are checked by the model.
     """
     muscle = _muscle(given, None if preset is None else preset.muscle)
     if effects is None:
@@ -181,9 +179,9 @@ def start_model(
 
 
 def _complete_model(start: StartModel, given: GivenMuscle) -> StartModel:
-    """The model with a typical value in the fields that its effects need and nobody stated.
+    """The model with typical values in the fields that its effects need and that are not stated.
 
-    A stated 0 stays: the model refuses it.
+    A stated 0 is kept, and the model rejects it.
     """
     needed = dict.fromkeys(field for name in start.effects for field in start.catalogue[name].needs)
     assumed = tuple(name for name in needed if getattr(start.muscle, name) == 0.0 and not _has(given, name))
@@ -220,7 +218,7 @@ def _has(given: GivenMuscle, name: str) -> bool:
 
 
 def _by_diameter(given: GivenMuscle, base: Muscle | None, length: float) -> Muscle:
-    """D0 is the braid diameter at the braid angle; without it the bore is taken."""
+    """The muscle from the braid diameter at the braid angle; without it from the bore."""
     if base is None:
         wall = given.wall_thickness or 0.0
         bore = given.inside_diameter
@@ -240,7 +238,7 @@ def _by_diameter(given: GivenMuscle, base: Muscle | None, length: float) -> Musc
         return Muscle(length, braid, given.braid_angle, wall, bore if bore is not None else braid - wall)
     wall = base.wall_thickness if given.wall_thickness is None else given.wall_thickness
     bore = base.inside_diameter if given.inside_diameter is None else given.inside_diameter
-    # A wider bore or a thicker wall carries the braid outwards with it.
+    # A wider bore or a thicker wall increases the braid diameter.
     follows = base.braid_diameter + (bore - base.inside_diameter) + (wall - base.wall_thickness)
     braid = follows if given.braid_diameter is None else given.braid_diameter
     angle = base.braid_angle if given.braid_angle is None else given.braid_angle

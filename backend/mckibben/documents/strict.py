@@ -1,4 +1,4 @@
-"""What all documents share: no unknown fields, ids, fields with units."""
+"""Common parts of all documents: no unknown fields, ids, fields with units."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field, StringConstraints
 
 
 class Strict(BaseModel):
-    """A request or answer in which every field is known."""
+    """A request or answer without unknown fields."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False, strict=True)
 

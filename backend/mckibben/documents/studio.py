@@ -1,4 +1,4 @@
-"""What every interface of the program works with: the presets and the effects, opened once."""
+"""Presets and effects, loaded once and shared by all interfaces of the program."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class Studio:
 
     Args:
         presets: folder of the built-in presets.
-        user_presets: folder of the user's own, where new ones are saved; None = saving is refused.
+        user_presets: folder for presets of the user; None = presets cannot be saved.
         effects: folders with further effect files (their Python code is executed).
 
     Raises:
@@ -29,7 +29,7 @@ class Studio:
         self, *, presets: Path, user_presets: Path | None = None, effects: Sequence[Path] = ()
     ) -> None:
         self.catalogue = EffectCatalogue(effects) if effects else default_catalogue()
-        #: Effect id -> parameter name -> parameter; what presets are checked against.
+        #: Effect id -> parameter name -> parameter; presets are checked against it.
         self.effect_table = {
             name: {p.name: p for p in effect.parameters} for name, effect in self.catalogue.items()
         }
@@ -39,7 +39,7 @@ class Studio:
     def start_model(
         self, muscle: GivenMuscle, effects: Mapping[str, Mapping[str, float | str]] | None
     ) -> StartModel:
-        """The complete muscle and effects a caller means; see `mckibben.documents.start_model.start_model`.
+        """The complete muscle and effects of a request; see `mckibben.documents.start_model.start_model`.
 
         Raises:
             InputError: as there, or there is no such preset.
@@ -48,12 +48,12 @@ class Studio:
         return start_model(muscle, effects, preset=preset, catalogue=self.catalogue)
 
     def is_built_in(self, preset_id: str | None, effects: Iterable[str]) -> bool:
-        """Whether a muscle and effects come with the program: no file and no code of the user is needed."""
+        """Whether a muscle and effects are part of the program, without files or code of the user."""
         known = preset_id is None or self.library.is_built_in("muscles", preset_id)
         return known and set(effects) <= set(default_catalogue())
 
     def facts(self, preset_id: str) -> PresetFacts:
-        """A muscle preset in SI; converted once, and again when its file has changed.
+        """A muscle preset in SI, cached until its file changes.
 
         Raises:
             InputError: there is no such preset; names the nearest.

@@ -1,4 +1,4 @@
-"""The task of ``/api/sizings`` and ``mckibben size``; each default has its reason in its description."""
+"""The task of ``/api/sizings`` and ``mckibben size``; the descriptions give the reason of each default."""
 
 from __future__ import annotations
 
@@ -26,135 +26,133 @@ TubeLength = Annotated[float, Quantity("m", "1 m", at_least=0.0, at_most=100.0)]
 
 
 class ForceOverStroke(Strict):
-    """A force that depends on where the load is, linear between the points."""
+    """A force that depends on the position of the load, linear between the points."""
 
     strokes: list[Place] = Field(min_length=1, max_length=50, description="Strokes of the load, ascending.")
-    forces: list[Force] = Field(min_length=1, max_length=50, description="Force against the pull there.")
+    forces: list[Force] = Field(
+        min_length=1, max_length=50, description="Force against the pull at these strokes."
+    )
 
 
 class PairInput(Strict):
-    """Two equal muscles that pull a pulley against each other."""
+    """Two equal muscles that pull a pulley in opposite directions."""
 
-    angle: Swing = Field(description="Whole swing, from one end to the other.")
+    angle: Swing = Field(description="Total angle, from one end to the other.")
     torque: Torque = Field(
-        0.0, description="Against the first muscle, over the whole swing. 0: a pulley turns about its centre."
+        0.0, description="Torque against the first muscle, over the whole angle. 0 = no torque."
     )
-    inertia: Inertia = Field(
-        0.0, description="Of everything that turns. 0: then the muscles' own air decides the time."
-    )
+    inertia: Inertia = Field(0.0, description="Moment of inertia of all rotating parts. 0 = no inertia.")
     pulley_radius: PulleyRadius | None = Field(
-        None, description="Left out, eight radii from 10 to 120 mm are tried: a free choice of the designer."
+        None, description="Radius of the pulley. Default: eight radii from 10 to 120 mm are tried."
     )
 
 
 class TaskLoad(Strict):
-    """What is moved. Everything is counted at the load; forces are positive against the pull."""
+    """The load. All values are those at the load; forces are positive against the pull."""
 
-    mass: Mass = Field(0.0, description="Moved mass. 0: only what is stated is moved.")
+    mass: Mass = Field(0.0, description="Mass moved by the muscle. 0 = no mass.")
     inclination: Inclination = Field(
         1.5707963267948966,
-        description="Of the way against the horizontal. 90 deg: a muscle can only pull, so most loads hang.",
+        description="Angle between the motion and the horizontal. Default 90 deg: most loads hang.",
     )
-    force: Force = Field(
-        0.0, description="Constant force besides the weight. 0: only what is stated pulls back."
-    )
+    force: Force = Field(0.0, description="Constant force in addition to the weight. 0 = no force.")
     force_over_stroke: ForceOverStroke | None = Field(
         None,
-        description="Further force, by the stroke. The closed form takes it as it is; a run takes the lowest "
-        "straight line that is nowhere below it and does not fall.",
+        description="Additional force that depends on the stroke. Static calculations use it as it is; a "
+        "simulation uses the lowest straight line that is nowhere below it and does not fall.",
     )
     spring: Stiffness = Field(
-        0.0, description="Against the contraction, slack at the begin. 0: a weight pulls a muscle long again."
+        0.0, description="Spring against the contraction, relaxed at the start of the stroke. 0 = no spring."
     )
     counterweight: Mass = Field(
-        0.0, description="Hangs on the other side of a pulley and pulls with the muscle. 0: none is usual."
+        0.0, description="Mass on the other side of a pulley that pulls with the muscle. 0 = none."
     )
     lever_ratio: LeverRatio = Field(
-        1.0, description="Stroke of the muscle per stroke of the load. 1: the muscle pulls directly."
+        1.0, description="Stroke of the muscle per stroke of the load. 1 = the muscle pulls directly."
     )
     pair: PairInput | None = Field(
-        None, description="An antagonist pair on a pulley instead: it takes no other field of the load."
+        None, description="An antagonist pair on a pulley. No other field of the load may be given with it."
     )
 
 
 class TaskLimits(Strict):
-    """What a drive must keep to."""
+    """Limits of a drive."""
 
     max_contraction: Reach = Field(
         0.2,
-        description="At the end of the stroke. 20 %: makers allow 25 %, but the last of it hardly pulls; the "
-        "maker's own limit holds where it is lower.",
+        description="Contraction at the end of the stroke. Default 20 %: makers allow 25 %, but there the "
+        "force is small. A lower limit of the maker takes precedence.",
     )
     force_reserve: Reserve = Field(
         0.1,
-        description="Share by which the static force exceeds the load everywhere on the stroke. 10 %: so "
-        "much do specimens differ.",
+        description="Least excess of the static force over the load on the whole stroke, as a share of the "
+        "load. Default 10 %: specimens differ by this much.",
     )
     pressure_reserve: Share = Field(
         0.0,
-        description="Share of the supply that is not counted on. 0: the supply tolerance has its own field.",
+        description="Unused share of the supply pressure. Default 0: its tolerance has a field of its own.",
     )
     max_length: Room = Field(
         1.0,
-        description="Installed, without pressure. 1 m: longer muscles are made, machines seldom have room.",
+        description="Installed length without pressure. Default 1 m. Longer muscles exist.",
     )
     end_fittings: Room = Field(
-        0.0, description="What both end fittings take of it. 0: no verified figure is known; add yours."
+        0.0, description="Length of both end fittings together. Default 0: no verified value is known."
     )
     max_diameter: Diameter | None = Field(
-        None, description="Outside, bulged at the end of the stroke. None: the figure is told instead."
+        None, description="Outside diameter at the end of the stroke. Leave empty for no limit."
     )
     max_parallel: Annotated[int, Field(ge=1, le=6)] = Field(
-        2, description="Muscles side by side. 2: more seldom share a load evenly."
+        2, description="Most parallel muscles. Default 2: more muscles rarely share a load evenly."
     )
     life: Cycles | None = Field(
         None,
-        description="Load cycles. None: makers publish no curve; what is told is an estimate (100 000 cycles "
-        "at full force or contraction, 10 million without load, unverified).",
+        description="Load cycles. Leave empty for no limit. Makers publish no curve; the program uses an "
+        "unverified estimate (100 000 cycles at full force or contraction, 10 million without load).",
     )
 
 
 class TaskCatalogue(Strict):
-    """What may be used."""
+    """Parts that may be used."""
 
     muscles: list[Id] | None = Field(
         None,
         max_length=40,
-        description="Muscle presets. Left out: all with complete catalogue data, because then every limit is "
+        description="Muscle presets. Default: all with complete catalogue data, because then every limit is "
         "known.",
         examples=[["DMSP-10", "DMSP-20", "DMSP-40"]],
     )
     valves: list[Id] | None = Field(
         None,
         max_length=40,
-        description="Valve presets. Left out: all whose flow is known; regulators switch too slowly.",
+        description="Valve presets. Default: all switching and proportional valves with known flow.",
         examples=[["MPYE-5-1/8-HF"]],
     )
     tubes: list[Id] | None = Field(
-        None, max_length=20, description="Tube presets. Left out: all.", examples=[["PUN-H-6x1"]]
+        None, max_length=20, description="Tube presets. Default: all.", examples=[["PUN-H-6x1"]]
     )
     tube_length: TubeLength = Field(
-        1.0, description="From the valve to each muscle; 0 for none. 1 m: valves seldom sit on the muscle."
+        1.0, description="Tube length from the valve to each muscle; 0 for no tube. Default 1 m."
     )
 
 
 class TaskUncertainty(Strict):
-    """How far what is built may differ from what was computed."""
+    """Expected deviations of real drives from the calculation."""
 
     blocked_force: Share = Field(
         0.1,
-        description="Two standard deviations between specimens. 10 % of the blocked force: published curves "
-        "of the same size differ by so much.",
+        description="Two standard deviations of the blocked force between specimens. Default 10 %: published "
+        "curves of the same size differ by this much.",
     )
     hysteresis: Share | None = Field(
         None,
-        description="Largest width of the loop, share of the nominal length. Left out: the catalogue's.",
+        description="Largest width of the loop, share of the nominal length. Default: that of the catalogue.",
     )
     supply_pressure: Share = Field(
-        0.03, description="Largest deviation of the supply. 3 %: a usual service regulator."
+        0.03, description="Largest deviation of the supply pressure. Default 3 %: a common service regulator."
     )
     specimens: Annotated[int, Field(ge=0, le=5000)] = Field(
-        100, description="Simulated for each proposal; 0 for none. 100: within 5 % of the probability."
+        100, description="Simulated specimens of each proposal. 100 give the probability within 5 %."
     )
 
 
@@ -199,34 +197,32 @@ class SizingTask(Strict):
     model_config = ConfigDict(json_schema_extra={"examples": _EXAMPLES})
 
     schema_version: Literal[1] = Field(1, alias="schema", description="Version of the document.")
-    title: Annotated[str, Field(max_length=200)] = Field("", description="For people.")
+    title: Annotated[str, Field(max_length=200)] = Field("", description="Title for display.")
     load: TaskLoad
-    stroke: Stroke | None = Field(None, description="Of the load; a pair has an angle instead.")
-    time: TaskTime | None = Field(
-        None, description="For the stroke. None: the drives are compared by what they take."
+    stroke: Stroke | None = Field(None, description="Stroke of the load; a pair has an angle instead.")
+    time: TaskTime | None = Field(None, description="Time for the stroke. Leave empty for no limit.")
+    time_down: TaskTime | None = Field(
+        None, description="Time for the return stroke. Leave empty for no limit."
     )
-    time_down: TaskTime | None = Field(None, description="For the way back. None: it may take its time.")
-    cycle_time: TaskTime | None = Field(None, description="Up and down together. None: see the times.")
-    speed: Speed | None = Field(
-        None, description="Average speed in place of the time. None: the time says it."
+    cycle_time: TaskTime | None = Field(
+        None, description="Time for both strokes together. Leave empty for no limit."
     )
+    speed: Speed | None = Field(None, description="Average speed of the stroke, instead of the time.")
     stiffness: Stiffness | None = Field(
         None,
-        description="Wanted against the load at the end of the stroke, valve open (a closed valve holds "
-        "stiffer). None: it is told instead.",
+        description="Least stiffness at the load at the end of the stroke with an open valve (with a closed "
+        "valve it is higher). Leave empty for no limit.",
     )
     supply_pressure: PositivePressure = Field(
-        6e5, description="Gauge. 6 bar: the usual net, and the limit of most muscles."
+        6e5, description="Gauge pressure of the supply. Default 6 bar, the limit of most muscles."
     )
-    ambient_temperature: Temperature = Field(293.15, description="20 °C: a workshop.")
+    ambient_temperature: Temperature = Field(293.15, description="Ambient temperature. Default 20 °C.")
     limits: TaskLimits = Field(default_factory=lambda: TaskLimits.model_validate({}))
     catalogue: TaskCatalogue = Field(default_factory=lambda: TaskCatalogue.model_validate({}))
     uncertainty: TaskUncertainty = Field(default_factory=lambda: TaskUncertainty.model_validate({}))
     rank_by: Literal["balanced", "air", "time", "length", "reserve", "probability"] = Field(
         "balanced",
-        description="Balanced: air times the root of installed length and number of muscles, because air "
-        "costs every day and room once. Drives that probably fail come last in any order.",
+        description="Order of the proposals. Balanced: by air consumption times the square root of installed "
+        "length and number of muscles. Drives that probably fail come last in any order.",
     )
-    max_proposals: Annotated[int, Field(ge=1, le=30)] = Field(
-        10, description="Proposals wanted. 10: more nobody compares."
-    )
+    max_proposals: Annotated[int, Field(ge=1, le=30)] = Field(10, description="Most proposals. Default 10.")

@@ -1,1 +1,1 @@
-"""Measurements: read from files, their kind, sweeps, faults and motion, reduced and kept. No model needed."""
+"""Measurements: reading, kind, sweeps, sensor faults, motion, reduction and storage. No model is needed."""

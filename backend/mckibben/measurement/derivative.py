@@ -1,4 +1,4 @@
-"""Rates of noisy samples, with the standard uncertainty they have: local quadratic fits of adapted width.
+"""Derivatives of noisy samples with their standard uncertainty: local quadratic fits of adaptive width.
 
 On uniform samples a local quadratic fit is the Savitzky-Golay filter (A. Savitzky, M. J. E. Golay, Analytical
 Chemistry 36 (1964) 1627, doi 10.1021/ac60214a047); the fit itself allows any sampling. Its width is chosen
@@ -19,14 +19,14 @@ Array = NDArray[np.float64]
 
 #: Half widths tried [rows]; each about 1.5 times the one before.
 LADDER = (1, 2, 3, 4, 6, 9, 13, 19, 28, 42, 63, 94)
-_AGREES = 4.0  # standard uncertainties on either side: noise alone hardly ever disagrees
-_DOUBTFUL = 3.0  # times the usual uncertainty: there one side alone may know better
-_SURER = 0.5  # of the uncertainty from both sides
-_BACK = 2  # steps of the ladder below the widest that agrees: there the bias is small beside the noise
-_CHUNK = 32_768  # rows whose sums stay in the processor's cache
-_TRIMMED = 0.9  # share of squared residuals that counts: edges are no noise
+_AGREES = 4.0  # half width of the confidence intervals, standard uncertainties: noise rarely exceeds it
+_DOUBTFUL = 3.0  # times the median uncertainty: above, one-sided windows are tried
+_SURER = 0.5  # uncertainty of a one-sided window over that of both sides, below which it is used
+_BACK = 2  # windows below the widest consistent one: there the bias is small compared with the noise
+_CHUNK = 32_768  # rows whose sums fit into the cache of the processor
+_TRIMMED = 0.9  # share of the squared residuals that counts; the largest ones are at edges of the signal
 _TRIMMED_MEAN = 0.6229962  # mean of z^2 over the smallest 90 % of a standard normal z
-_SURE = 8.0  # standard deviations of the noise: a smaller swing may be noise
+_SURE = 8.0  # standard deviations of the noise; smaller swings may be noise
 _THIRD = 20.0  # variance of the third difference of white noise of variance 1
 
 
@@ -39,7 +39,7 @@ class Rate(NamedTuple):
 
 
 class _Fit(NamedTuple):
-    """A local quadratic fit of one half width: level and slope relative to the row, variances per noise."""
+    """A local quadratic fit of one half width: level and slope at the row, variances for unit noise."""
 
     level: Array
     slope: Array
@@ -50,8 +50,8 @@ class _Fit(NamedTuple):
 def noise_of(values: Array) -> float:
     r"""Standard deviation of white noise on a smooth signal of evenly spaced rows.
 
-    From third differences, whose variance is :math:`20\sigma^2`; the largest tenth, where the signal jumps,
-    does not count. At least the rounding noise q/√12 of a signal that moves in steps q.
+    It comes from third differences, whose variance is :math:`20\sigma^2`, without the largest tenth, where
+    the signal jumps. It is at least the rounding noise q/√12 of a signal with the resolution q.
     """
     if len(values) < 8:
         return 0.0
@@ -59,7 +59,7 @@ def noise_of(values: Array) -> float:
 
 
 def rounding_step(values: Array) -> float:
-    """The step of a rounded signal, of which many neighbours are equal; 0 for one without visible steps."""
+    """The resolution of a rounded signal, in which many neighbours are equal; 0 without visible steps."""
     steps = np.abs(np.diff(values))
     moving = steps[steps > 1e-12 * np.max(np.abs(values), initial=0.0)]
     if not len(moving) or len(moving) > 0.7 * len(steps):
@@ -70,10 +70,10 @@ def rounding_step(values: Array) -> float:
 
 
 def smoothed(values: Array, *, noise: float, swing: float) -> tuple[Array, float]:
-    """The signal with so little noise that swings of this size are seen, and the swing that is none of noise.
+    """The signal, smoothed so that swings of this size exceed the noise, and the smallest significant swing.
 
-    A running mean, only as wide as is needed, and none at all where it would take the signal away: what
-    looks like noise is then a signal of few rows per swing.
+    The running mean is only as wide as needed. It is not used if it would remove the signal: the apparent
+    noise is then a signal with few rows per swing.
     """
     ratio = _SURE * noise / swing if swing > 0.0 else 0.0
     width = min(int(ratio**2) // 2 * 2 + 1, len(values) // 20) if ratio < 1e6 else 0
@@ -88,7 +88,7 @@ def smoothed(values: Array, *, noise: float, swing: float) -> tuple[Array, float
 
 
 def running_mean(values: Array, width: int) -> Array:
-    """Mean over so many rows around each; beyond the ends the first and the last value go on."""
+    """Mean over a window around each row; beyond the ends the first and the last value continue."""
     if width <= 1:
         return values
     before = width // 2
@@ -105,19 +105,19 @@ def rates(time: Array, values: Array, *, starts: tuple[int, ...] = (0,), noise: 
 
     .. math:: u^2 = \sigma^2 \left[(X^T X)^{-1}\right]_{11}
 
-    for noise :math:`\sigma` (white; a sensor's own low-pass filter makes it look smaller than it is), and the
-    bias that the next wider windows show. Where windows around a row do not agree, those that end or begin at
-    the row are tried: beside a corner the rate is that of the row's own side. At a corner itself it is the
-    mean of both sides, with half their difference as uncertainty.
+    for white noise :math:`\sigma` (a low-pass filter of the sensor makes it appear smaller). The bias is
+    estimated from the next wider windows and added. Where the uncertainty is large, windows that end or begin
+    at the row are tried: next to a corner the rate is that of the row's own side. At a corner it is the mean
+    of both sides, with half their difference as uncertainty.
 
     Args:
         time: shape (rows,), ascending within a part; uneven spacing is allowed [s].
         values: shape (rows,).
-        starts: first row of each part; no fit reaches across, nor across a step back in time.
-        noise: standard deviation of the values; None = from the residuals of the narrowest fits.
+        starts: first row of each part; no window crosses it, nor a step back in time.
+        noise: standard deviation of the values; None = from the residuals of the narrowest windows.
 
     Returns:
-        zero with infinite uncertainty where fewer than three different times are in reach.
+        zero with infinite uncertainty where a window has fewer than three different times.
     """
     back = np.flatnonzero(np.diff(time) < 0.0) + 1
     edges = np.unique([0, *starts, *back.tolist(), len(time)])
@@ -134,7 +134,7 @@ def _part(time: Array, values: Array, noise: float | None) -> Rate:
         if step <= 0.0:
             return Rate(np.zeros(rows), np.full(rows, np.inf), np.zeros(rows, np.intp))
     ladder = [half for half in LADDER if half <= max(2, rows // 4)]
-    # Relative to their own size: no square of a large or tiny value leaves the range of numbers.
+    # Scaled values: squares of very large or tiny values would overflow or underflow.
     scale = float(np.max(np.abs(values - values[0]))) or 1.0
     scaled, clock = (values - values[0]) / scale, (time - time[0]) / step
     sigma = _residual_noise(clock, scaled) if noise is None else noise / scale
@@ -158,14 +158,14 @@ def _residual_noise(clock: Array, values: Array) -> float:
     squares = []
     for begin in range(0, rows, _CHUNK):
         fit = next(_fits(clock, values, slice(begin, min(begin + _CHUNK, rows)), [3]))
-        left = 1.0 - fit.level_variance
-        good = left > 0.1
-        squares.append(fit.level[good] ** 2 / left[good])
+        remaining_variance = 1.0 - fit.level_variance
+        good = remaining_variance > 0.1
+        squares.append(fit.level[good] ** 2 / remaining_variance[good])
     return max(_spread(np.concatenate(squares)), rounding_step(values) / np.sqrt(12.0))
 
 
 def _spread(squares: Array) -> float:
-    """Standard deviation from squares of which the largest may be no noise."""
+    """Standard deviation from squares, without the largest tenth."""
     if not len(squares):
         return 0.0
     count = max(1, int(_TRIMMED * len(squares)))
@@ -182,17 +182,19 @@ def _beside(
     value: Array,
     spread: Array,
 ) -> tuple[Array, Array]:
-    """Rate and uncertainty of some rows from one side alone, where that is surer than from both."""
+    """Rate and uncertainty of some rows from one-sided windows, where these are more certain."""
     (left, left_spread, _), (right, right_spread, _) = (
         _adapted(clock, values, rows, ladder, sigma, sides=(side,)) for side in (-1, 1)
     )
     sure_left, sure_right = left_spread < _SURER * spread, right_spread < _SURER * spread
     nearer = np.where(left_spread < right_spread, left, right)
-    own = np.where(sure_left | sure_right, nearer, value)
-    own_spread = np.where(sure_left | sure_right, np.minimum(left_spread, right_spread), spread)
-    apart = np.abs(left - right)
-    corner = sure_left & sure_right & (apart > _AGREES * np.hypot(left_spread, right_spread))
-    return np.where(corner, 0.5 * (left + right), own), np.where(corner, 0.5 * apart, own_spread)
+    one_sided = np.where(sure_left | sure_right, nearer, value)
+    one_sided_spread = np.where(sure_left | sure_right, np.minimum(left_spread, right_spread), spread)
+    difference = np.abs(left - right)
+    corner = sure_left & sure_right & (difference > _AGREES * np.hypot(left_spread, right_spread))
+    return np.where(corner, 0.5 * (left + right), one_sided), np.where(
+        corner, 0.5 * difference, one_sided_spread
+    )
 
 
 def _adapted(
@@ -212,28 +214,28 @@ def _adapted(
     low, high = np.full(rows, -np.inf), np.full(rows, np.inf)
     agreeing, unknown = np.ones(rows, bool), np.zeros(rows, np.intp)
     widest = np.zeros(rows, np.intp)
-    for number, (slope, own) in enumerate(fits):
-        known = np.isfinite(own)
+    for number, (slope, uncertainty) in enumerate(fits):
+        known = np.isfinite(uncertainty)
         unknown += ~known  # too few different times in the narrowest windows
-        low = np.where(known, np.maximum(low, slope - _AGREES * own), low)
-        high = np.where(known, np.minimum(high, slope + _AGREES * own), high)
+        low = np.where(known, np.maximum(low, slope - _AGREES * uncertainty), low)
+        high = np.where(known, np.minimum(high, slope + _AGREES * uncertainty), high)
         agreeing &= low <= high
         widest[agreeing] = number
-    taken = np.minimum(np.maximum(widest - _BACK, unknown), len(ladder) - 1)
+    chosen = np.minimum(np.maximum(widest - _BACK, unknown), len(ladder) - 1)
     row, halves = np.arange(rows), np.array(ladder)
     slopes, spreads = (np.array(each) for each in zip(*fits, strict=True))
-    value, spread = slopes[taken, row], spreads[taken, row]
-    # The bias of a quadratic fit grows with the width squared: the next wider windows show how large it is.
-    wider = np.minimum(taken + _BACK, len(ladder) - 1)
-    growth = np.maximum((halves[wider] / halves[taken]) ** 2 - 1.0, 1.0)
+    value, spread = slopes[chosen, row], spreads[chosen, row]
+    # The bias of a quadratic fit grows with the square of the width, so wider windows give its size.
+    wider = np.minimum(chosen + _BACK, len(ladder) - 1)
+    growth = np.maximum((halves[wider] / halves[chosen]) ** 2 - 1.0, 1.0)
     spread = np.hypot(spread, (slopes[wider, row] - value) / growth)
-    return np.where(np.isfinite(spread), value, 0.0), spread, halves[taken]
+    return np.where(np.isfinite(spread), value, 0.0), spread, halves[chosen]
 
 
 def _neighbours(
     chunk: slice | NDArray[np.intp], offset: int, rows: int
 ) -> tuple[slice | NDArray[np.intp], slice | NDArray[np.intp], slice | NDArray[np.intp]]:
-    """Which of some rows have a row so far away: their place among them, the rows, and the rows there."""
+    """The rows that have a neighbour at an offset: their places in the chunk, the rows, the neighbours."""
     if isinstance(chunk, slice):
         begin = max(chunk.start, -offset)
         end = max(begin, min(chunk.stop, rows - offset))
@@ -250,10 +252,10 @@ def _fits(
     ladder: list[int],
     sides: tuple[int, ...] = (1, -1),
 ) -> Iterator[_Fit]:
-    """The quadratic fits of some rows for ascending half widths, one sum for all of them."""
+    """The quadratic fits of some rows for ascending half widths; their sums are accumulated."""
     count = chunk.stop - chunk.start if isinstance(chunk, slice) else len(chunk)
     s0, s1, s2, s3, s4, y0, y1, y2 = (np.zeros(count) for _ in range(8))
-    s0 += 1.0  # the row itself, relative to which all others are counted
+    s0 += 1.0  # the row itself; others are relative to it
     reached = 0
     for half in ladder:
         for offset in (side * n for n in range(reached + 1, half + 1) for side in sides):

@@ -1,4 +1,4 @@
-"""What kind of measurement a table is, and which of its rows belong together, from the numbers alone."""
+"""Kind of a measurement and groups of its rows, detected from the values."""
 
 from __future__ import annotations
 
@@ -14,42 +14,42 @@ Array = NDArray[np.float64]
 
 KINDS = ("isobaric", "isometric", "isotonic", "diameter", "transient", "static")
 FORCE_KINDS = ("isobaric", "isometric", "static")
-#: The channels that say how short the muscle is, most direct first.
+#: The channels from which the length of the muscle follows, the most direct first.
 STROKES = ("length", "contraction", "displacement")
 
-_GRAIN = 0.01  # of the range: two readings nearer than this are the same level
+_GRAIN = 0.01  # share of the range; readings within it are the same level
 _MANY = 25  # levels from which the finer axis of a grid is a sweep rather than a map
-_JUMP = 0.02  # of the range: where one load gives way to the next
-_FEWEST_IN_RUN = 5  # rows with one load
-_MANY_EXTREMES = 200_000  # walked one by one
+_JUMP = 0.02  # change of the load to the next level, share of the range
+_FEWEST_IN_RUN = 5  # rows with the same load
+_MANY_EXTREMES = 200_000  # limit of the loop over extremes; longer signals are reduced to blocks
 
 
 def detect_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float | str]) -> str:
-    """The kind of a measurement that does not say it; see :func:`explain_kind`.
+    """The kind of a measurement that does not state it; see :func:`explain_kind`.
 
     Raises:
-        InputError: no kind can be made of the columns.
+        InputError: no kind fits the columns.
     """
     return explain_kind(columns, conditions)[0]
 
 
 def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float | str]) -> tuple[str, str]:
-    """(kind, why) of a measurement that does not say it.
+    """(kind, reason) of a measurement that does not state it.
 
-    In this order, "stroke" being length, contraction or displacement:
+    The rules in this order; "stroke" is length, contraction or displacement:
 
     1. time with a valve command: ``transient``.
     2. force, pressure and stroke: ``transient`` with time and a stated load mass; ``isotonic`` when the force
        is held, or held run by run, and both others vary; ``isobaric``/``isometric`` when pressure/stroke is
        held throughout. Otherwise the occupied 1 % steps of both ranges are counted: a filled grid without
        time and direction is ``static`` (unless one axis is fine, >= 25 levels and 4 times the other); an axis
-       with at most half the steps of the other is the held one; neither: ``static``.
+       with at most half the steps of the other is the held one; without such an axis ``static``.
     3. diameter with pressure or stroke: ``diameter``.
     4. pressure and stroke: ``transient`` with time, else ``isotonic``.
     5. time with pressure or stroke: ``transient``.
 
     Raises:
-        InputError: none of these.
+        InputError: no rule applies.
     """
     stroke = next((columns[c] for c in STROKES if c in columns), None)
     pressure, force = columns.get("pressure"), columns.get("force")
@@ -69,7 +69,7 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
     if timed and (pressure is not None or stroke is not None):
         return "transient", f"{'pressure' if stroke is None else 'stroke'} over time"
     raise InputError(
-        f"no kind of measurement can be made of the columns {', '.join(columns)}",
+        f"no kind of measurement fits the columns {', '.join(columns)}",
         field="columns",
         hint="force measurements need pressure, length and force; strokes need pressure and length, or time",
     )
@@ -100,12 +100,12 @@ def _force_kind(pressure: Array, stroke: Array, force: Array, *, swept: bool) ->
 
 
 def _held(values: Array) -> bool:
-    """Whether a pressure or force stays the same: within 2 % of its magnitude."""
+    """Whether a pressure or force is constant within 2 % of its magnitude."""
     return bool(np.ptp(values) <= 0.02 * np.max(np.abs(values)))
 
 
 def _held_runs(force: Array, pressure: Array, stroke: Array) -> int:
-    """Number of runs of rows with a load each, while pressure and stroke vary; 0 where one is no such run."""
+    """Number of runs with a constant load and varying pressure and stroke; 0 if one run is not like that."""
     jumps = np.flatnonzero(np.abs(np.diff(force)) > _JUMP * np.ptp(force)) + 1
     runs = np.split(np.arange(len(force)), jumps)
     largest = np.max(np.abs(force))
@@ -118,12 +118,12 @@ def _held_runs(force: Array, pressure: Array, stroke: Array) -> int:
 
 
 def _held_stroke(values: Array) -> bool:
-    """Whether the muscle stays as long as it is: 0.5 % of a length, 0.5 mm, 0.0005 of contraction."""
+    """Whether the stroke is constant: within 0.5 % of a length, 0.5 mm, or 0.0005 of contraction."""
     return bool(np.ptp(values) <= max(0.005 * np.median(values), 0.0005))
 
 
 def _steps(values: Array) -> tuple[int, int]:
-    """Occupied 1 % steps of the range: all of them, and those that hold 95 % of the rows."""
+    """Number of occupied 1 % steps of the range, and of those that contain 95 % of the rows."""
     span = np.ptp(values)
     if span == 0.0:
         return 1, 1
@@ -135,11 +135,12 @@ def _steps(values: Array) -> tuple[int, int]:
 def group_rows(columns: Mapping[str, NDArray], kind: str) -> tuple[NDArray[np.int64], str]:
     """Group label of each row, shape (rows,), and the rule in words.
 
-    A group column of the file decides. Else ``static``, ``isobaric`` are grouped by pressure, ``isometric``
-    by stroke: sorted readings are one level until a gap of more than 1 % of the range; labels ascend with the
-    level. Else, and where that leaves one level or more levels than half the rows, every sweep is a group: a
-    change of the direction channel, or a turn by more than 10 % of its range of the quantity that is swept
-    (stroke of ``static``/``isobaric``; else pressure, stroke or command, the first there is).
+    A group column of the file takes precedence. Otherwise ``static`` and ``isobaric`` are grouped by
+    pressure and ``isometric`` by stroke. Levels are separated by gaps of more than 1 % of the range, and
+    labels ascend with the level. In all other cases, and if there is one level or more levels than half the
+    rows, every sweep is a group. A sweep ends where the direction channel changes, or where the swept
+    quantity turns by more than 10 % of its range (stroke of ``static``/``isobaric``; else the first of
+    pressure, stroke and command).
     """
     if "group" in columns:
         return np.array(columns["group"], dtype=np.int64), "by the group column"
@@ -167,9 +168,9 @@ def _levels(values: Array) -> NDArray[np.int64]:
 
 
 def _turns(values: Array) -> NDArray[np.bool_]:
-    """Whether a new sweep begins after each row but the last: at an extreme left by 10 % of the range.
+    """Whether the signal turns after each row but the last, by at least 10 % of its range.
 
-    A signal so noisy that noise alone could do that is smoothed first.
+    A signal whose noise could cause such turns is smoothed first.
     """
     calm, threshold = smoothed(values, noise=noise_of(values), swing=0.1 * float(np.ptp(values)))
     return turning_points(calm, threshold=threshold)
@@ -178,9 +179,9 @@ def _turns(values: Array) -> NDArray[np.bool_]:
 def turning_points(values: Array, *, threshold: float) -> NDArray[np.bool_]:
     """Whether the signal turns after each row but the last: at an extreme that it leaves by the threshold.
 
-    A hysteresis filter: swings smaller than the threshold are no turns, whatever their number. Only local
-    extremes are walked; of a long signal only the lowest and highest rows of short blocks, which lets a
-    swing shorter than a block escape.
+    A hysteresis filter: swings smaller than the threshold are not turns. Only local extremes are examined; in
+    a long signal only the lowest and highest rows of short blocks, so that swings shorter than a block are
+    missed.
     """
     turns = np.zeros(len(values) - 1, bool)
     extremes = np.flatnonzero(np.diff(np.sign(np.diff(values)))) + 1

@@ -1,6 +1,6 @@
-"""A measurement: channels in SI, its kind, its groups and the rows that hold no pulling force.
+"""A measurement: channels in SI, its kind, its groups and the rows in which the muscle is slack.
 
-Every reader ends in :func:`build`, so a file, a preset and a test give the same object.
+Every reader uses :func:`build`, so a file, a preset and a test give the same object.
 """
 
 from __future__ import annotations
@@ -40,11 +40,11 @@ CHANNEL_UNITS: Mapping[str, str] = MappingProxyType({
     "diameter": "m", "velocity": "m/s", "command": "1", "temperature": "K", "direction": "1", "group": "1",
 })  # fmt: skip
 
-_HARDLY_A_PRESSURE = 2e3  # Pa: a muscle does not notice it
+_HARDLY_A_PRESSURE = 2e3  # Pa; too low to have an effect on a muscle
 
 
 class MeasuredChannel(NamedTuple):
-    """Where a channel came from; ``unit``, ``minimum`` and ``maximum`` are SI, ``source_unit`` the file's."""
+    """Origin and range of a channel in SI; ``source_unit`` is the unit in the file."""
 
     name: str
     column: str
@@ -62,20 +62,21 @@ class Measurement:
         name: file name.
         id: sha256 of the file's bytes, hexadecimal.
         kind: one of :data:`KINDS`.
-        kind_detected: True when the file did not say its kind.
+        kind_detected: True when the file did not state its kind.
         columns: channel name -> read-only array, shape (rows,), keys of :data:`CHANNEL_UNITS`; ``group`` int.
         channels: origin and range of each column.
         ignored: column headers that are not used.
         conditions: ``load_mass`` [kg], ``load_force`` [N], ``supply_pressure`` [Pa, gauge] and the like as
             numbers, ``muscle``, ``sample`` and everything else as text.
-        slack: bool array, shape (rows,): rows of "no pulling force"; their force is not a measured 0 N.
-        messages: what was assumed while reading.
-        excluded_rows: reason -> bool array, shape (rows,), of rows whose values are not what was to be
-            measured (a saturated or stuck sensor); slack is not among them.
+        slack: bool array, shape (rows,): rows in which the muscle is slack; their force is not a measured 0
+            N.
+        messages: assumptions made while reading.
+        excluded_rows: reason -> bool array, shape (rows,), of rows with a faulty reading (a saturated or
+            stuck sensor); slack is not among them.
         skipped: reason -> rows of the file that could not be read and are not among ``rows``.
-        starts: first row of each file of a joined measurement; nothing is continuous across it.
-        kind_reason: why this kind was detected, empty when the file said it.
-        segmented: segments known from the rows these were made of.
+        starts: first row of each file of a joined measurement; signals are not continuous across it.
+        kind_reason: why this kind was detected; empty when the file states it.
+        segmented: segments known from the original rows of a reduced measurement.
     """
 
     name: str
@@ -96,7 +97,7 @@ class Measurement:
 
     @cached_property
     def usable(self) -> NDArray[np.bool_]:
-        """Rows that hold what was to be measured, shape (rows,): neither slack nor excluded."""
+        """Mask of the rows that are neither slack nor excluded, shape (rows,)."""
         result = ~self.slack
         for rows in self.excluded_rows.values():
             result &= ~rows
@@ -105,7 +106,7 @@ class Measurement:
 
     @cached_property
     def exclusions(self) -> Mapping[str, int]:
-        """Reason -> how many rows are not usable; a row counts once, under the first reason that holds."""
+        """Reason -> number of unusable rows; a row counts once, under its first reason."""
         counts, seen = {}, np.zeros(self.rows, bool)
         for reason, rows in {"slack": self.slack, **self.excluded_rows}.items():
             if count := int(np.count_nonzero(rows & ~seen)):
@@ -115,7 +116,7 @@ class Measurement:
 
     @cached_property
     def segments(self) -> Sweeps:
-        """Sweeps, cycles, directions and speeds, found when first asked for."""
+        """Sweeps, cycles, directions and speeds, determined at the first access."""
         return self.segmented or sweeps_of(self.columns, self.kind, starts=self.starts)
 
     @property
@@ -150,18 +151,18 @@ def build(
         columns: channel name -> finite SI values.
         name: file name.
         id: sha256 of the source.
-        kind: as the source says; None = detect.
+        kind: as stated by the source; None = detect.
         origins: channel -> (source column header, source unit).
         ignored: headers that were not used.
         conditions: see :class:`Measurement`.
         marked_slack: rows the source marks as "no pulling force".
-        messages: what the reader assumed.
-        excluded_rows: rows known not to hold what was to be measured; None = find them.
+        messages: assumptions of the reader.
+        excluded_rows: rows with a faulty reading; None = find them.
         skipped: rows of the source that could not be read.
         starts: see :class:`Measurement`.
 
     Raises:
-        InputError: unknown kind, a kind whose channels are missing, channels no kind can be made of.
+        InputError: unknown kind, a kind whose channels are missing, or channels that fit no kind.
     """
     conditions = dict(conditions or {})
     notes = list(messages)
@@ -209,7 +210,7 @@ def build(
     labels, rule = group_rows(table, kind)
     table["group"] = labels
     notes.append(f"grouped {rule}")
-    table = {channel: values.view() for channel, values in table.items()}  # the caller's stay writable
+    table = {channel: values.view() for channel, values in table.items()}  # the caller's arrays stay writable
     for values in (*table.values(), slack, *excluded_rows.values()):
         values.flags.writeable = False  # a cached measurement is shared between requests
     return Measurement(
@@ -233,8 +234,8 @@ def build(
 def lengths(measurement: Measurement, nominal_length: float) -> Array:
     """Muscle length [m] of each row, shape (rows,).
 
-    From ``length`` as measured, else ``contraction`` κ: L = L0 (1 - κ), else ``displacement`` s (contraction
-    stroke, positive = shorter): L = L0 - s.
+    Taken from ``length``, else from ``contraction`` κ: L = L0 (1 - κ), else from ``displacement`` s (positive
+    = shorter): L = L0 - s.
 
     Raises:
         InputError: none of the three was measured, or ``nominal_length`` is shorter than the stroke.
@@ -259,7 +260,7 @@ def lengths(measurement: Measurement, nominal_length: float) -> Array:
 
 
 def _check_channels(columns: Mapping[str, NDArray], kind: str, name: str) -> None:
-    """Refuse a stated kind whose channels are missing."""
+    """Reject a stated kind whose channels are missing."""
     any_stroke, any_state = "/".join(STROKES), "/".join(("pressure", *STROKES))
     needed = {
         "isotonic": ("pressure", any_stroke),

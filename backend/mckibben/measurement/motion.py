@@ -1,4 +1,4 @@
-"""How fast a muscle moves and its pressure changes, with the uncertainty of both."""
+"""Velocity of a muscle and rate of its pressure, with their uncertainties."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from mckibben.measurement.derivative import Array, Rate, noise_of, rates
 from mckibben.measurement.measurement import STROKES, Measurement, lengths
 from mckibben.physics.errors import InputError
 
-_MOVES = 2.0  # standard uncertainties: faster is motion
-_STAYS = 1.0  # the same, once it moves
-_OPPOSED = -0.5  # correlation below which a measured velocity counts the other way round
+_MOVES = 2.0  # standard uncertainties; faster is motion
+_STAYS = 1.0  # the same for rows next to a motion
+_OPPOSED = -0.5  # correlation below which a measured velocity has the opposite sign convention
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,9 +25,9 @@ class RecordedMotion:
         velocity_sigma: its standard uncertainty [m/s].
         pressure_rate, pressure_rate_sigma: dp/dt and its standard uncertainty [Pa/s]; zero and infinite
             without pressure.
-        direction: -1 shortening, +1 lengthening, 0 not told from rest.
+        direction: -1 shortening, +1 lengthening, 0 not distinguishable from rest.
         measured: the velocity was measured, not derived.
-        messages: what was assumed.
+        messages: the assumptions.
     """
 
     velocity: Array
@@ -42,10 +42,10 @@ class RecordedMotion:
 def motion_of(measurement: Measurement, nominal_length: float) -> RecordedMotion:
     """Velocity and pressure rate of a measurement in time.
 
-    A measured velocity is taken as it is (its sign as dL/dt, unless the measured stroke shows that it counts
-    shortening as positive); else the length is differentiated by local fits, see
-    :func:`mckibben.measurement.derivative.rates`. The direction is the sign of the velocity where it is
-    beyond twice its uncertainty, and around that as long as it stays beyond once.
+    A measured velocity is used as it is, with the sign of dL/dt unless the measured stroke shows that
+    shortening is positive. Otherwise the length is differentiated by local fits, see
+    :func:`mckibben.measurement.derivative.rates`. The direction is the sign of the velocity where it exceeds
+    twice its uncertainty, and next to such rows where it exceeds its uncertainty.
 
     Args:
         measurement: with time and a stroke or a velocity.
@@ -65,7 +65,9 @@ def motion_of(measurement: Measurement, nominal_length: float) -> RecordedMotion
         value = columns["velocity"].astype(float)
         if derived is not None and _correlation(value, derived) < _OPPOSED:
             value = -value
-            messages.append("the velocity counts shortening as positive: its sign is turned to dL/dt")
+            messages.append(
+                "the velocity counts shortening as positive: its sign is reversed to that of dL/dt"
+            )
         sigma = np.full(len(value), noise_of(value))
     elif derived is not None:
         value, sigma = derived.value, derived.sigma
@@ -89,7 +91,7 @@ def motion_of(measurement: Measurement, nominal_length: float) -> RecordedMotion
 
 
 def directions(velocity: Array, sigma: Array, *, starts: tuple[int, ...] = (0,)) -> NDArray[np.int8]:
-    """Sign of a velocity where it is significant: runs beyond one ``sigma`` that somewhere pass two."""
+    """Sign of a velocity where it is significant: runs above one ``sigma`` that exceed two somewhere."""
     sign = np.where(np.abs(velocity) > _STAYS * sigma, np.sign(velocity), 0.0).astype(np.int8)
     sure = np.abs(velocity) > _MOVES * sigma
     begins = np.concatenate([[True], np.diff(sign) != 0])

@@ -16,9 +16,9 @@ _TRIMMED = 0.9  # share of the smallest squares that is averaged where the media
 def noise_floor(values: np.ndarray, sweeps: Sequence[np.ndarray]) -> float | None:
     r"""Standard deviation of the noise, from third differences inside each sweep.
 
-    The third difference of white noise has variance :math:`20\sigma^2`, that of a smooth signal is small; the
-    median of its square is robust against the few steps that are not smooth. Where more than half of the
-    differences are exactly zero (a coarse converter), the mean of the smaller nine tenths is taken.
+    The third difference of white noise has the variance :math:`20\sigma^2`; that of a smooth signal is small.
+    The median of its square is robust against a few steps of the signal. If more than half of the differences
+    are exactly zero (coarse resolution), the mean of the smaller nine tenths is used.
 
     Args:
         values: a residual or a smooth signal.

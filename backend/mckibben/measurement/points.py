@@ -20,14 +20,14 @@ _KINDS = ("measurements", "curves", "mysteries")
 
 @dataclass(frozen=True, slots=True)
 class Points:
-    """A measurement, and the rows of its source that were left out before.
+    """A measurement, with the number of rows of its source that were left out.
 
     Attributes:
         measurement: the rows that may be compared.
-        left_out: why rows were left out -> how many.
-        nominal_length: of the sample that was measured, when the source says it [m].
-        source: who measured it, of a preset.
-        parts: the measurements that were joined to this one; empty for a single one.
+        left_out: reason -> number of rows left out.
+        nominal_length: of the measured sample, if the source states it [m].
+        source: source of a preset.
+        parts: the joined measurements; empty for a single one.
     """
 
     measurement: Measurement
@@ -62,7 +62,7 @@ def find_points(identity: str, *, library: PresetLibrary, store: MeasurementStor
 
 
 def find_preset(identity: str, library: PresetLibrary) -> Points | None:
-    """The points of a measurement, curve or mystery preset, None when there is none of this id."""
+    """The points of a measurement, curve or mystery preset; None without a preset of this id."""
     for kind in _KINDS:
         for preset in library.list(kind):
             if preset.id.lower() != identity.lower():
@@ -75,9 +75,9 @@ def find_preset(identity: str, library: PresetLibrary) -> Points | None:
 
 
 def preset_points(preset: MeasurementPreset | CurvePreset) -> Points:
-    """The points of a preset that are not excluded there.
+    """The points of a preset, without those that it excludes.
 
-    Where a maker's curve goes to zero or below, the muscle is slack: it cannot push.
+    Where a maker's curve is zero or below, the muscle is slack: it cannot push.
     """
     used = preset.used
     columns = {name: values[used] for name, values in preset.si_columns().items()}
@@ -143,11 +143,11 @@ def joined(all_points: Sequence[Points]) -> Points:
     columns = {name: np.concatenate([part.columns[name] for part in parts]) for name in shared}
     offset, labels = 0, []
     for part in parts:
-        own = np.unique(part.columns["group"], return_inverse=True)[1]
-        labels.append(own + offset)
-        offset += int(own.max()) + 1
+        group = np.unique(part.columns["group"], return_inverse=True)[1]
+        labels.append(group + offset)
+        offset += int(group.max()) + 1
     columns["group"] = np.concatenate(labels)
-    together = build(
+    combined = build(
         columns,
         name=", ".join(part.name for part in parts),
         id=hashlib.sha256("".join(part.id for part in parts).encode()).hexdigest(),
@@ -164,13 +164,13 @@ def joined(all_points: Sequence[Points]) -> Points:
             left_out[reason] = left_out.get(reason, 0) + count
     rest = {points.nominal_length for points in all_points}
     return Points(
-        replace(together, messages=tuple(messages)), left_out, rest.pop() if len(rest) == 1 else None,
+        replace(combined, messages=tuple(messages)), left_out, rest.pop() if len(rest) == 1 else None,
         parts=tuple(all_points),
     )  # fmt: skip
 
 
 def _excluded(parts: Sequence[Measurement]) -> dict[str, NDArray[np.bool_]]:
-    """The excluded rows of all parts, one below the other."""
+    """The excluded rows of all parts, concatenated."""
     reasons = dict.fromkeys(reason for part in parts for reason in part.excluded_rows)
     return {
         reason: np.concatenate([part.excluded_rows.get(reason, np.zeros(part.rows, bool)) for part in parts])

@@ -1,8 +1,8 @@
-r"""Fewer rows with the same information: block means with weights, for fits of long measurements.
+r"""Reduction of long measurements to weighted block means, for fits.
 
-Consecutive samples of one sweep hardly differ but for noise. Their mean keeps the signal and has the noise
-:math:`\sigma/\sqrt{n}`, so a fit to the means, each weighted by its :math:`n`, gives the parameters and
-standard errors of the fit to all rows, as long as the model is nearly straight within a block.
+Consecutive samples of a sweep differ mainly by noise. Their mean keeps the signal and has the noise
+:math:`\sigma/\sqrt{n}`. So a fit to the means, weighted by :math:`n`, gives the parameters and standard
+errors of a fit to all rows, provided that the model is nearly linear within a block.
 """
 
 from __future__ import annotations
@@ -18,15 +18,15 @@ from numpy.typing import NDArray
 from mckibben.measurement.derivative import Array, running_mean
 from mckibben.measurement.measurement import STROKES, MeasuredChannel, Measurement
 
-ROWS = 4000
+ROWS = 4000  # default number of block means
 _SIGNALS = ("pressure", *STROKES, "force", "diameter", "command", "velocity")
-_JUMP = 0.05  # of the range from one row to the next: an edge of the command, which no block crosses
-_GROWTH = 0.1  # of the rows since the last edge: the longest block of a transient
-_BY_TIME = 0.5  # share of the blocks that follow the rows, the others follow the change of the signals
+_JUMP = 0.05  # change of the command from row to row that no block crosses, share of its range
+_GROWTH = 0.1  # longest block of a transient, share of the rows since the last edge
+_BY_TIME = 0.5  # share of the blocks spread evenly over the rows; the others follow the signals
 
 
 class Reduced(NamedTuple):
-    """A measurement of block means, rows averaged per row as weights of its squares, and what was done."""
+    """A measurement of block means, the number of rows of each mean as weight, and a note for the user."""
 
     measurement: Measurement
     weights: Array
@@ -34,18 +34,18 @@ class Reduced(NamedTuple):
 
 
 def reduced(measurement: Measurement, rows: int = ROWS) -> Reduced:
-    """A measurement of about so many rows that holds the information of all usable ones.
+    """A measurement of about this many rows with the information of all usable rows.
 
-    Blocks of consecutive rows are averaged, never across files, groups, sweeps, directions, a jump of the
-    command or an unusable row; in the order of time. Half of the blocks are spread evenly over the rows, half
-    over the change of the signals, each relative to its range: where a signal moves quickly blocks are short
-    (in an edge of a transient down to single rows), where it rests they are long. In a transient no block is
-    longer than a tenth of the time since the last edge, in which everything settles. What no block may cross
-    can leave more rows than asked for.
+    Blocks of consecutive rows are averaged in the order of time. No block crosses a file, group, sweep,
+    direction, jump of the command or unusable row. Half of the blocks are spread evenly over the rows, half
+    over the change of the signals relative to their range: where a signal changes quickly, blocks are short
+    (at an edge of a transient down to single rows). In a transient no block is longer than a tenth of the
+    rows since the last edge, because the response settles in this time. There may be more rows than requested
+    if there are many such limits.
 
     Args:
         measurement: any kind; one that is not larger than ``rows`` is returned as it is, with weights 1.
-        rows: about how many to leave.
+        rows: approximate number of rows of the result.
     """
     usable = measurement.usable
     count = int(np.count_nonzero(usable))
@@ -66,7 +66,7 @@ def reduced(measurement: Measurement, rows: int = ROWS) -> Reduced:
     starts = np.unique(np.searchsorted(first, measurement.starts)).tolist()
     message = (
         f"fitted to {len(first)} means of up to {int(weights.max())} consecutive rows each, weighted by "
-        f"their number, in place of {count} rows; no mean crosses a sweep, a direction or an edge"
+        f"their number, instead of {count} rows; no mean crosses a sweep, a direction or an edge"
     )
     slack = np.zeros(len(first), bool)
     slack.flags.writeable = False
@@ -85,7 +85,7 @@ def reduced(measurement: Measurement, rows: int = ROWS) -> Reduced:
 
 
 def _blocks(measurement: Measurement, kept: NDArray[np.intp], rows: int) -> NDArray[np.intp]:
-    """Number of the block of each usable row, ascending."""
+    """Index of the block of each usable row, ascending."""
     columns, segments = measurement.columns, measurement.segments
     part = np.zeros(measurement.rows, np.int64)
     part[list(measurement.starts)] = 1
@@ -101,32 +101,32 @@ def _blocks(measurement: Measurement, kept: NDArray[np.intp], rows: int) -> NDAr
     step = np.concatenate([[0.0], np.where(breaks, 0.0, _change(measurement, kept))])
     begin = np.concatenate([[0], np.flatnonzero(breaks) + 1])
     after = np.arange(len(kept)) - begin[run]
-    # After an edge everything settles: blocks grow with the time since, so that none is longer than it takes.
+    # The response settles after an edge: blocks grow with the rows since the edge.
     settling = np.zeros(len(kept))
     if measurement.kind == "transient":
         settling = np.minimum(1.0, 1.0 / (_GROWTH * (after + 1.0)))
-    left = max(rows - settling.sum(), 0.5 * rows)
-    moved = step / step.sum() if step.sum() > 0.0 else np.full(len(kept), 1.0 / len(kept))
-    share = left * (_BY_TIME / len(kept) + (1.0 - _BY_TIME) * moved) + settling
-    # Where the sum of the shares passes a whole number a block ends; each run starts afresh.
-    passed = np.cumsum(share)
-    own = passed - (passed[begin] - 1e-9)[run]
-    number = np.floor(own).astype(np.int64)
+    others = max(rows - settling.sum(), 0.5 * rows)
+    change_share = step / step.sum() if step.sum() > 0.0 else np.full(len(kept), 1.0 / len(kept))
+    share = others * (_BY_TIME / len(kept) + (1.0 - _BY_TIME) * change_share) + settling
+    # A block ends where the cumulated share passes an integer; the sum restarts with each run.
+    cumulated = np.cumsum(share)
+    in_run = cumulated - (cumulated[begin] - 1e-9)[run]
+    number = np.floor(in_run).astype(np.int64)
     new = np.concatenate([[True], breaks | (np.diff(number) != 0)])
     return np.cumsum(new) - 1
 
 
 def _change(measurement: Measurement, kept: NDArray[np.intp]) -> Array:
-    """How far the signals go from each usable row to the next, the largest relative to its range."""
+    """Largest change of a signal from each usable row to the next, relative to its range."""
     largest = np.zeros(len(kept) - 1)
     for name in _SIGNALS:
         values = measurement.columns.get(name)
         if values is None or not np.ptp(values) > 0.0:
             continue
-        # Noise is no change: differences of a running mean over as many rows as are averaged anyway.
+        # Noise must not count as change: a running mean over about one block removes it.
         width = max(1, len(kept) // ROWS)
-        calm = running_mean(values[kept].astype(float), width)
-        np.maximum(largest, np.abs(np.diff(calm)) / np.ptp(values), out=largest)
+        smooth = running_mean(values[kept].astype(float), width)
+        np.maximum(largest, np.abs(np.diff(smooth)) / np.ptp(values), out=largest)
     return largest
 
 

@@ -1,6 +1,7 @@
-"""Readings that leap away and back: a bad contact, a lost bit, a knock against the rig.
+"""Detection of spikes: a bad contact, a lost bit, a knock against the rig.
 
-Least squares would follow them: one row a hundred times the noise away weighs as much as ten thousand others.
+They would distort a least-squares fit: a row with an error of a hundred times the noise weighs as much as ten
+thousand others.
 """
 
 from __future__ import annotations
@@ -14,29 +15,29 @@ from mckibben.measurement.derivative import noise_of
 from mckibben.measurement.kind import STROKES
 
 _SENSORS = ("pressure", "force", *STROKES, "diameter")
-_LONGEST = 2  # rows
-_NOISE = 12.0  # times the noise
-_STEPS = 6.0  # times nearly the largest step from row to row
-_USUAL = 0.95  # quantile of the steps
-_BACK = 0.3  # of the leap: how near to where it left from it has to come back
-_MOST = 0.01  # share of the rows: what leaps more often is no exception
-_FEWEST = 20  # rows
-_AT_ONCE = 1_000_000  # rows; of more a table of many millions would take much memory
+_LONGEST = 2  # rows of a spike
+_NOISE = 12.0  # least height over the noise
+_STEPS = 6.0  # least height over the usual step from row to row
+_USUAL = 0.95  # quantile of the steps that counts as the usual step
+_BACK = 0.3  # largest difference of both neighbours over the height
+_MOST = 0.01  # largest share of rows with spikes; more frequent jumps belong to the signal
+_FEWEST = 20  # rows of a signal that is checked
+_AT_ONCE = 1_000_000  # rows processed together, which bounds the memory
 
 
 def spiked_rows(columns: Mapping[str, NDArray]) -> dict[str, NDArray[np.bool_]]:
-    """Reason -> bool array, shape (rows,), for channels whose rows follow each other; empty without spikes.
+    """Reason -> bool array, shape (rows,), of the rows with spikes; rows must be in the order of measurement.
 
-    A spike is one row or two, away from both neighbours to the same side by far more than noise and than the
-    signal ever moves between two rows, with the neighbours at nearly the same value.
+    A spike is one row or two that differ from both neighbours to the same side by far more than the noise and
+    the usual step between rows, while both neighbours have nearly the same value.
     """
-    found = {}
+    spikes = {}
     for name in _SENSORS:
         if name in columns and len(columns[name]) >= _FEWEST:
             spiked = _spikes(np.asarray(columns[name], dtype=float))
             if 0 < np.count_nonzero(spiked) <= max(3, _MOST * len(spiked)):
-                found[f"spikes of the {name}"] = spiked
-    return found
+                spikes[f"spikes of the {name}"] = spiked
+    return spikes
 
 
 def _spikes(values: NDArray[np.float64]) -> NDArray[np.bool_]:

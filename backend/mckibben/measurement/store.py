@@ -1,8 +1,8 @@
-"""Uploaded measurements on disk, by content: sending a file twice keeps one.
+"""Uploaded measurements on disk, addressed by content: a file uploaded twice is stored once.
 
-``<sha256>.data`` holds the bytes of a file, ``<id>.json`` the name it was sent under. A file that was sent
-with a mapping of its columns has an id of its own; its ``.json`` names the content and the mapping. Every
-file appears whole or not at all, whatever ends the process meanwhile.
+``<sha256>.data`` holds the bytes of a file, ``<id>.json`` its name. A file uploaded with a mapping of its
+columns has a different id; its ``.json`` states the content and the mapping. Files are written atomically, so
+that a crash never leaves an incomplete one.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ from mckibben.physics.errors import InputError
 
 _ID = re.compile(r"[0-9a-f]{64}")
 _KEPT_IN_MEMORY = 8
-_STALE = 3600.0  # s; an older unfinished file belongs to a process that is gone
+_STALE = 3600.0  # s; the process of an older temporary file has ended
 MAX_NAME = 200
 
 
 def clean_name(name: str) -> str:
-    """A file name for people: the last part of a path, printable, not too long. It never becomes a path."""
+    """A file name for display only: the last part of a path, printable, limited in length."""
     last = name.replace("\\", "/").rpartition("/")[2]
     printable = "".join(character for character in last if character.isprintable()).strip()
     return printable[:MAX_NAME] or "measurement.csv"
@@ -41,7 +41,7 @@ class MeasurementStore:
     """Measurements by content.
 
     Args:
-        folder: where they are kept; made on the first upload.
+        folder: where they are stored; created on the first upload.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -50,10 +50,10 @@ class MeasurementStore:
         self._lock = threading.Lock()
 
     def put(self, content: bytes, name: str, correction: Correction | None = None) -> Measurement:
-        """Read and keep a file; the same content (and mapping) again only changes the name.
+        """Read and store a file; storing the same content (and mapping) again only changes the name.
 
         Raises:
-            InputError: it is not a measurement (nothing is kept), or the folder cannot be written.
+            InputError: it is not a measurement (nothing is stored), or the folder cannot be written.
         """
         name, correction = clean_name(name), correction or Correction()
         measurement = read_measurement(content, name, correction)
@@ -63,15 +63,15 @@ class MeasurementStore:
             about |= {"content": digest, "mapping": correction.canonical()}
         try:
             self._folder.mkdir(parents=True, exist_ok=True)
-            _sweep(self._folder)
+            _remove_stale(self._folder)
             data = self._folder / f"{digest}.data"
             if not data.exists() or data.stat().st_size != len(content):
                 _write(data, content)
             _write(self._folder / f"{measurement.id}.json", json.dumps(about).encode())
         except OSError as error:
             raise InputError(
-                f"the measurement cannot be kept: {error.strerror or error}",
-                hint="start the server with --data and a folder that can be written",
+                f"the measurement cannot be stored: {error.strerror or error}",
+                hint="start the server with --data and a writable folder",
                 code="conflict",
             ) from error
         self._remember(measurement.id, measurement)
@@ -81,7 +81,7 @@ class MeasurementStore:
         """A measurement by its id.
 
         Raises:
-            InputError: code ``not_found``, no file of this content was sent.
+            InputError: code ``not_found``, no file of this content was uploaded.
         """
         with self._lock:
             if identity in self._recent:
@@ -93,14 +93,14 @@ class MeasurementStore:
             raise InputError(
                 f"there is no measurement {identity[:12]}…",
                 field="measurement",
-                hint="send the file again with PUT /api/measurements",
+                hint="upload the file again with PUT /api/measurements",
                 code="not_found",
             )
         self._remember(identity, measurement)
         return measurement
 
     def _read(self, identity: str) -> Measurement | None:
-        """The measurement as it was kept; None when there is none, or no longer the same."""
+        """The stored measurement; None if it does not exist or has changed."""
         about = _about(self._folder / f"{identity}.json")
         content, mapping = str(about.get("content", identity)), about.get("mapping")
         if not _ID.fullmatch(content):
@@ -113,7 +113,7 @@ class MeasurementStore:
             correction = read_correction(mapping) if isinstance(mapping, str) else Correction()
             measurement = read_measurement(data.read_bytes(), name, correction)
         except InputError:
-            return None  # content that was only sent with a mapping
+            return None  # content that is only readable with a mapping
         return measurement if measurement.id == identity else None
 
     def _remember(self, identity: str, measurement: Measurement) -> None:
@@ -125,16 +125,16 @@ class MeasurementStore:
 
 
 def _about(path: Path) -> dict[str, Any]:
-    """What is kept beside the content; the file can be read without it."""
+    """Name and mapping stored with the content; empty if they cannot be read."""
     try:
-        found = json.loads(path.read_text("utf-8"))
+        data = json.loads(path.read_text("utf-8"))
     except (OSError, ValueError):
         return {}
-    return found if isinstance(found, dict) else {}
+    return data if isinstance(data, dict) else {}
 
 
-def _sweep(folder: Path) -> None:
-    """Remove what a process that was killed left unfinished."""
+def _remove_stale(folder: Path) -> None:
+    """Remove old temporary files of processes that were killed."""
     for path in folder.glob(".*.tmp"):
         with contextlib.suppress(OSError):
             if time.time() - path.stat().st_mtime > _STALE:
@@ -142,7 +142,7 @@ def _sweep(folder: Path) -> None:
 
 
 def _write(path: Path, content: bytes) -> None:
-    """Write in one step: a reader sees the whole file or none, and it stays."""
+    """Write atomically and durably: a reader sees the whole file or none."""
     handle, temporary = _temporary(path.parent)
     try:
         with os.fdopen(handle, "wb") as stream:
@@ -151,7 +151,9 @@ def _write(path: Path, content: bytes) -> None:
             os.fsync(stream.fileno())
             if temporary is None:
                 temporary = path.parent / f".{path.name}.{os.getpid()}.{threading.get_ident()}.tmp"
-                with _opened(path.parent) as folder:  # without it the link itself would be linked
+                with _opened(
+                    path.parent
+                ) as folder:  # by descriptor; otherwise os.link would link the symlink itself
                     source = f"/proc/self/fd/{stream.fileno()}"
                     os.link(source, temporary.name, dst_dir_fd=folder, follow_symlinks=True)
         temporary.replace(path)
@@ -159,7 +161,7 @@ def _write(path: Path, content: bytes) -> None:
         if temporary is not None:
             temporary.unlink(missing_ok=True)
         raise
-    if hasattr(os, "O_DIRECTORY"):  # the name is kept as well as the content
+    if hasattr(os, "O_DIRECTORY"):  # make the directory entry durable as well
         with _opened(path.parent) as folder:
             os.fsync(folder)
 
@@ -175,7 +177,7 @@ def _opened(folder: Path) -> Iterator[int]:
 
 
 def _temporary(folder: Path) -> tuple[int, Path | None]:
-    """An open file in a folder, and its name; where the system can, without one: it vanishes with us."""
+    """An open temporary file and its path; None for a nameless one, which disappears with the process."""
     if hasattr(os, "O_TMPFILE") and Path("/proc/self/fd").is_dir():
         with contextlib.suppress(OSError):
             return os.open(folder, os.O_TMPFILE | os.O_WRONLY, 0o600), None

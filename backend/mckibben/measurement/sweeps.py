@@ -1,4 +1,4 @@
-"""Sweeps, cycles, directions and speeds of a measurement, from time, stroke and pressure alone."""
+"""Sweeps, cycles, directions and speeds of a measurement, from time, stroke and pressure."""
 
 from __future__ import annotations
 
@@ -12,27 +12,27 @@ from numpy.typing import NDArray
 from mckibben.measurement.derivative import noise_of, running_mean, smoothed
 from mckibben.measurement.kind import STROKES, Array, turning_points
 
-_TURN = 0.03  # of the range: a smaller swing is no sweep
-_SLOW = 0.1  # of a sweep's mean speed: slower is held
-_HOLD_AT_TURN = 0.08  # of a sweep's rows: a shorter rest is the turn itself
-_HOLD = 0.015  # the same for a rest within a sweep
-_HOLD_ROWS = 5  # a shorter rest is none
-_SAME_SPEED = 1.3  # ratio of neighbouring mean speeds from which they are two levels
-_MANY_PARTS = 5000
+_TURN = 0.03  # smallest swing of a sweep, share of the range
+_SLOW = 0.1  # share of the mean speed of a sweep below which a row is held
+_HOLD_AT_TURN = 0.08  # shortest hold at a turn, share of the rows of a sweep; less is the turn itself
+_HOLD = 0.015  # the same within a sweep
+_HOLD_ROWS = 5  # shortest hold
+_SAME_SPEED = 1.3  # ratio of neighbouring mean speeds above which they are two levels
+_MANY_PARTS = 5000  # more breaks mean that the rows have no order
 
 
 @dataclass(frozen=True, eq=False)
 class Sweeps:
-    """Where each row belongs; arrays have shape (rows,).
+    """Segments of a measurement; arrays have shape (rows,).
 
     Attributes:
         sweep: number of the sweep, ascending from 0 with the rows; a sweep ends where the signal turns.
         cycle: number of the cycle, ascending from 0; a cycle begins with each sweep of the first direction.
-        direction: -1 shortening, +1 lengthening, 0 held (rest, creep). Where the stroke is held the pressure
-            decides: rising counts as shortening.
+        direction: -1 shortening, +1 lengthening, 0 held (rest, creep). If the signal is the pressure, rising
+            counts as shortening.
         speed_level: 0 held, else 1 for the slowest level of ``speeds`` and so on.
         speeds: mean |rate| of the sweeps of each level [unit of the signal per s], empty without time.
-        signal: the channel that was looked at.
+        signal: the evaluated channel.
         noise: standard deviation of its noise [unit of the signal].
     """
 
@@ -45,7 +45,7 @@ class Sweeps:
     noise: float
 
     def only(self, rows: NDArray[np.intp]) -> Sweeps:
-        """The segments of some of the rows, their numbers as before."""
+        """The segments of some of the rows, with unchanged numbers."""
         return Sweeps(
             self.sweep[rows], self.cycle[rows], self.direction[rows], self.speed_level[rows],
             self.speeds, self.signal, self.noise,
@@ -63,17 +63,17 @@ class Sweeps:
 
     @property
     def held_rows(self) -> int:
-        """Rows in which nothing moves."""
+        """Number of rows without motion."""
         return int(np.count_nonzero(self.direction == 0))
 
 
 def sweeps_of(columns: Mapping[str, NDArray], kind: str, *, starts: tuple[int, ...] = (0,)) -> Sweeps:
     """The segments of a measurement.
 
-    The signal is the stroke (the pressure of an isometric test, or where no stroke was measured). It turns
-    where it leaves an extreme by 3 % of its range and by 8 times its noise, after a running mean if the noise
-    is larger than that. A row is held where the signal moves at less than a tenth of its sweep's mean speed
-    for five rows and longer than it takes to turn. A direction column of the file decides over all this.
+    The signal is the stroke (the pressure of an isometric test, or if no stroke was measured). It turns where
+    it leaves an extreme by 3 % of its range and by 8 times its noise; a noisier signal is smoothed first. A
+    row is held where the signal moves at less than a tenth of the mean speed of its sweep, for at least five
+    rows and longer than a turn takes. A direction column of the file takes precedence.
 
     Args:
         columns: channels in SI, with ``group``.
@@ -85,14 +85,14 @@ def sweeps_of(columns: Mapping[str, NDArray], kind: str, *, starts: tuple[int, .
     noise = noise_of(signal)
     span = float(np.ptp(signal))
     bounds = _parts(columns, signal, noise, starts)
-    given = columns.get("direction")
-    if given is not None and np.any(given):
-        turns = np.diff(np.sign(given)) != 0.0
-        direction = np.sign(given).astype(np.int8)
+    stated = columns.get("direction")
+    if stated is not None and np.any(stated):
+        turns = np.diff(np.sign(stated)) != 0.0
+        direction = np.sign(stated).astype(np.int8)
         begins = np.concatenate([[True], turns])
         begins[bounds[:-1]] = True
     else:
-        begins, direction = _found(signal, time, bounds, noise, span)
+        begins, direction = _detected(signal, time, bounds, noise, span)
     sweep = np.cumsum(begins) - 1
     return Sweeps(
         sweep, _cycles(begins, sweep, direction, bounds), direction,
@@ -101,7 +101,7 @@ def sweeps_of(columns: Mapping[str, NDArray], kind: str, *, starts: tuple[int, .
 
 
 def _signal(columns: Mapping[str, NDArray], kind: str) -> tuple[str, Array]:
-    """(channel, its values so that ascending means lengthening)."""
+    """(channel, its values with the sign that ascends with lengthening)."""
     signs = {"length": 1.0, "contraction": -1.0, "displacement": -1.0, "pressure": -1.0}
     order = ("pressure", *STROKES) if kind == "isometric" else (*STROKES, "pressure")
     present = [name for name in order if name in columns]
@@ -111,17 +111,17 @@ def _signal(columns: Mapping[str, NDArray], kind: str) -> tuple[str, Array]:
 
 
 def _parts(columns: Mapping[str, NDArray], signal: Array, noise: float, starts: tuple[int, ...]) -> list[int]:
-    """First row of each part that is continuous in itself, and the number of rows.
+    """First row of each continuous part, and the number of rows as the last item.
 
-    A part ends with a file, where time runs back, and where another group follows and stroke or pressure
-    jumps with it.
+    A part ends at the end of a file, where time decreases, and where the group changes together with a jump
+    of stroke or pressure.
     """
     rows = len(signal)
     breaks = [np.array(starts, dtype=np.intp)]
     if "time" in columns:
         breaks.append(np.flatnonzero(np.diff(columns["time"]) < 0.0) + 1)
     other = np.flatnonzero(np.diff(columns["group"])) + 1
-    if len(other) < rows // _HOLD_ROWS:  # else the rows of a map, whose order says nothing
+    if len(other) < rows // _HOLD_ROWS:  # else the rows of a map, whose order has no meaning
         jumps = _jumps(signal, noise)
         for name in ("pressure", *STROKES):
             if name in columns:
@@ -136,10 +136,10 @@ def _jumps(values: Array, noise: float) -> NDArray[np.bool_]:
     return np.abs(np.diff(values)) > max(2.0 * _TURN * float(np.ptp(values)), 6.0 * noise)
 
 
-def _found(
+def _detected(
     signal: Array, time: Array | None, bounds: list[int], noise: float, span: float
 ) -> tuple[NDArray[np.bool_], NDArray[np.int8]]:
-    """(whether a sweep begins at each row, direction of each row)."""
+    """(mask of the rows at which a sweep begins, direction of each row)."""
     begins = np.zeros(len(signal), bool)
     direction = np.zeros(len(signal), np.int8)
     for begin, end in pairwise(bounds):
@@ -158,7 +158,7 @@ def _found(
 def _directions(
     smooth: Array, clock: Array, edges: list[int], noise: float, threshold: float
 ) -> NDArray[np.int8]:
-    """Direction of each row of a part: that of its sweep, 0 where the sweep rests."""
+    """Direction of each row of a part: that of its sweep, 0 where the signal is held."""
     rows = len(smooth)
     begin, end = np.array(edges[:-1]), np.array(edges[1:])
     lengths = end - begin
@@ -171,7 +171,7 @@ def _directions(
         return result
     usual = float(np.median(lengths[moving]))
     per_row = float(np.median(np.abs(change[moving]) / lengths[moving]))
-    # As narrow as the noise of the slope allows.
+    # The narrowest window that the noise of the slope allows.
     needed = (np.sqrt(2.0) * noise / (0.5 * _SLOW * per_row)) ** (2.0 / 3.0) if per_row > 0.0 else 1.0
     width = int(min(max(1.0, 0.005 * usual, needed), max(1.0, 0.1 * usual)))
     mean = running_mean(smooth, width)
@@ -179,8 +179,8 @@ def _directions(
     elapsed = clock[ahead] - clock[behind]
     with np.errstate(divide="ignore", invalid="ignore"):
         speed = np.abs(mean[ahead] - mean[behind]) / elapsed
-        own = np.repeat(np.abs(change) / lasted, lengths)
-    resting = (speed < _SLOW * own) | ~moving.repeat(lengths)
+        sweep_speed = np.repeat(np.abs(change) / lasted, lengths)
+    resting = (speed < _SLOW * sweep_speed) | ~moving.repeat(lengths)
     at_turn = np.zeros(rows, bool)
     at_turn[begin[1:]] = True
     result[_rests(resting, at_turn, usual)] = 0
@@ -188,7 +188,7 @@ def _directions(
 
 
 def _rests(flags: NDArray[np.bool_], at_turn: NDArray[np.bool_], usual: float) -> NDArray[np.bool_]:
-    """The flags without runs that are too short to be a rest; ``usual``: rows of a usual sweep."""
+    """The flags without runs that are too short to be a hold; ``usual``: rows of a typical sweep."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(np.int8)))
     begin, end = edges[::2], edges[1::2]
     turns = np.concatenate([[0], np.cumsum(at_turn)])
@@ -230,7 +230,7 @@ def _speed_levels(
     step = np.diff(time, prepend=time[0])
     inside = moving & np.concatenate([[False], (sweep[1:] == sweep[:-1]) & moving[:-1]])
     count = int(sweep[-1]) + 1
-    # The sum of signed steps: noise does not add to the way.
+    # Sum of signed steps, so that noise does not add to the travel.
     signed = np.where(inside, np.diff(signal, prepend=signal[0]) * direction, 0.0)
     elapsed = np.bincount(sweep, np.where(inside, step, 0.0), count)
     travelled = np.bincount(sweep, signed, count)

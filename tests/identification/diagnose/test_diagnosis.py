@@ -261,7 +261,7 @@ def test_an_error_is_not_called_noise_where_the_noise_is_not_known():
     found = diagnosis(csv(rows, "pressure_Pa,length_mm,force_N", "kind: static"))
     assert found.noise is None
     assert found.status == "unknown_effect"
-    assert "do not tell their noise" in sentence_of(found, {})
+    assert "noise cannot be estimated" in sentence_of(found, {})
 
 
 # --- what nobody knows

@@ -58,7 +58,7 @@ def test_a_sentence_names_what_agrees_and_what_does_not():
     assert "changes sign with the direction of motion" in text
     assert "grows about in proportion to pressure" in text
     assert "speaks against" not in text
-    assert text.endswith("It takes away 42 % of the error.")
+    assert text.endswith("It lowers the error by 42 %.")
     text = why(CATALOGUE["prestress"], odd, gain=0.001)
     assert text.count("speaks against it") == 1
     assert text.endswith("It does not lower the error.")

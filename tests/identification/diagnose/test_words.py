@@ -36,21 +36,23 @@ SENTENCES = {
     "Nothing is missing: the error of 1 times the noise is noise.": result(
         "adequate", 1.0, 1.0, unit="1", noise=1.0
     ),
-    "No catalogued effect lowers the error of 5 N. These data do not tell their noise: state it to know "
-    "whether the error is more than that.": result("adequate", 5.0, 5.0, noise=None),
+    "No catalogued effect lowers the error of 5 N. The noise cannot be estimated from these data: "
+    "state it to know whether the error exceeds it.": result("adequate", 5.0, 5.0, noise=None),
     "Missing: Creep. With it the error falls from 40 to 2.1 N, the noise of the data (2 N).": result(
         "missing_effects", 40.0, 2.1, "creep"
     ),
     "Missing: Creep and Leak. With them the error falls from 4 to 1.02 times the noise.": result(
         "missing_effects", 4.0, 1.02, "creep", "leak", unit="1", noise=1.0
     ),
-    "Missing: Creep. With it the error falls from 40 to 3 mm; the noise is 2 mm. Of the rest, 40 % follows "
-    "pressure and time.": result("missing_effects", 0.040, 0.003, "creep", unit="m", noise=2e-3, share=0.4),
+    "Missing: Creep. With it the error falls from 40 to 3 mm; the noise is 2 mm. Of the rest, 40 % depends "
+    "on pressure and time.": result(
+        "missing_effects", 0.040, 0.003, "creep", unit="m", noise=2e-3, share=0.4
+    ),
     "Missing: Creep. With it the error falls from 40 to 9 N; the noise is 2 N. No catalogued effect explains "
-    "the rest: it follows nothing that was measured; repeat the run to see whether it comes again.": result(
+    "the rest: it depends on no measured variable; repeat the run to see whether it recurs.": result(
         "unknown_effect", 40.0, 9.0, "creep"
     ),
-    "No catalogued effect explains the error of 40 N: 90 % of it follows pressure and time.": result(
+    "No catalogued effect explains the error of 40 N: 90 % of it depends on pressure and time.": result(
         "unknown_effect", 40.0, 40.0, share=0.9
     ),
     "Missing: Creep. With it the error falls from 40 to 2.1 N, the noise of the data (2 N). These data "

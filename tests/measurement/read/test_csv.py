@@ -457,7 +457,7 @@ ERRORS = {
     ),
     "no kind": (
         "time_s,force_N\n1,2\n",
-        "a.csv: no kind of measurement can be made of the columns time, force",
+        "a.csv: no kind of measurement fits the columns time, force",
     ),
     "condition": (
         "# load_mass: 12 mm\n" + BASE,

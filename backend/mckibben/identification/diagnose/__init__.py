@@ -1,1 +1,1 @@
-"""Which effect is missing: search, twins, verdict, and the experiment that would decide."""
+"""Find missing effects: search, indistinguishable effects, verdict, and the next experiment."""

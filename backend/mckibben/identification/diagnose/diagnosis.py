@@ -1,4 +1,4 @@
-"""Which physical effect is missing: candidates, the best model, its twins, and an honest verdict."""
+"""Diagnosis of a model: candidate effects, the best model, its alternatives, and the verdict."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ from mckibben.identification.residual.structure import ResidualStructure, Term, 
 from mckibben.physics.effect import Effect
 from mckibben.simulation.outcome import Outcome, Watch
 
-#: Values that a diagnosis needs at least: fewer than these many effects fit by themselves.
+#: Fewest values for a diagnosis: with fewer, many single effects fit them exactly.
 FEWEST_VALUES = 6
-_DIGITS = 1e-9  # of the largest value
+_DIGITS = 1e-9  # numerical resolution of noise-free data, share of the largest value
 
 
 @dataclass(frozen=True)
@@ -44,12 +44,12 @@ class SingleAddition:
     """The start model with one more effect, everything refitted.
 
     Attributes:
-        effect: what was added.
+        effect: the added effect.
         fitted_model: the fitted model.
-        gain: share of the rms error that it took away.
+        gain: relative reduction of the rms error.
         score: change of the score of `mckibben.identification.diagnose.score`; negative is better.
         twins: candidates whose fitted predictions are the same on these data.
-        why: one sentence.
+        why: the reason for or against it, one sentence.
     """
 
     effect: Effect
@@ -62,7 +62,7 @@ class SingleAddition:
 
 @dataclass(frozen=True)
 class PathStep:
-    """One step of the path: what was added, and the errors after it."""
+    """One step of the path: the added effect, and the model fitted with it."""
 
     added: str | None
     fitted_model: FittedModel
@@ -70,7 +70,7 @@ class PathStep:
 
 @dataclass(frozen=True)
 class NotTried:
-    """An effect that was no candidate, and why."""
+    """An effect that was not a candidate, and why."""
 
     effect: str
     why: str
@@ -78,24 +78,28 @@ class NotTried:
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """The answer.
+    """Result of a diagnosis.
 
     Attributes:
         predictor: the data.
-        start: the start model as given, its residual over its scale.
+        start: the start model as given, not refitted.
         root: the start model refitted.
-        noise: of the residual over its scale; None when it cannot be told. ``noise_how``: from what.
+        noise: of the scaled residual; None when it cannot be estimated.
+        noise_how: how it was obtained.
         where: the start model's residual over each variable.
+        seen: features of the root's residual.
         candidates: single additions, the best first.
-        path: the best model, in the order of adding that lowers the error fastest.
-        best: the best model; fit: its numbers with errors.
+        path: steps to the best model; each adds the effect that lowers the error most.
+        best: the best model.
+        fit: its parameters with standard errors.
         status: adequate, missing_effects, ambiguous or unknown_effect.
-        added: effects that the best model has and the start model has not.
-        alternatives: effects that could stand in for one of these.
-        structure: what a regression still predicts of the last residual; term: a formula for it.
-        proposals: experiments that would separate what is alike.
-        messages: what has to be said.
-        not_tried: effects of the catalogue that were no candidates, with the reason.
+        added: effects of the best model that the start model does not have.
+        alternatives: effects that could replace one of these.
+        structure: the part of the last residual that a regression still predicts.
+        term: a formula for it.
+        proposals: experiments that would separate the alternatives.
+        messages: notes for the user.
+        not_tried: effects of the catalogue that were not candidates, with the reason.
     """
 
     predictor: Predictor
@@ -131,25 +135,25 @@ def diagnose(
     watch: Watch | None = None,
     found: Callable[[SingleAddition], None] = lambda _: None,
 ) -> Diagnosis:
-    """Find what a model of a measurement is missing.
+    """Find the effects that a model of a measurement lacks.
 
     Args:
         predictor: the data.
         fit_model: the start model.
         catalogue: effects to choose from.
-        geometry: geometry that fits may change.
+        geometry: geometry fields that fits may change.
         freed: further constants of the start model that fits may change, as "effect.parameter".
         noise: standard deviation of the predicted channel [SI], when it is known.
-        effort: how much work the search may do; by default what the cost of a prediction allows.
-        watch: may cancel, and is told the share that is done.
-        found: told each candidate as it is tried.
+        effort: limits of the search; by default they depend on the cost of a prediction.
+        watch: receives the progress and may cancel.
+        found: receives each candidate as soon as it is fitted.
 
     Raises:
-        CancelledError: the watch said so.
+        CancelledError: the watch cancelled.
     """
     from threadpoolctl import threadpool_limits
 
-    # Many small decompositions: threads of the linear algebra only wait for each other.
+    # The matrices are small: several linear-algebra threads would be slower than one.
     with threadpool_limits(1):
         return _diagnose(
             predictor,
@@ -176,8 +180,8 @@ def _diagnose(
     watch: Watch,
     found: Callable[[SingleAddition], None],
 ) -> Diagnosis:
-    inside = set(fit_model.ids)
-    absent = [effect for effect in catalogue.values() if effect.id not in inside]
+    start_ids = set(fit_model.ids)
+    absent = [effect for effect in catalogue.values() if effect.id not in start_ids]
     candidates = tuple(effect for effect in absent if predictor.reveals(effect))
     not_tried = [NotTried(effect.id, why) for effect in absent if (why := predictor.why_hidden(effect))]
     progress = _Progress(watch)
@@ -197,16 +201,16 @@ def _diagnose(
         np.empty((len(predictor.measured), 0)), predictor.folds,
     )  # fmt: skip
     readings = predictor.inputs.get("pressure")
-    vent = None if readings is None else vented(readings, candidates)
+    gauge_zero = None if readings is None else vented(readings, candidates)
     first = fit_model
-    if vent is not None:
-        fitter.held = frozenset({f"{vent.effect.id}.{vent.parameter}"})
-        first = fit_model.adding(vent.effect, {vent.parameter: vent.value})
-        candidates = tuple(effect for effect in candidates if effect is not vent.effect)
+    if gauge_zero is not None:
+        fitter.held = frozenset({f"{gauge_zero.effect.id}.{gauge_zero.parameter}"})
+        first = fit_model.adding(gauge_zero.effect, {gauge_zero.parameter: gauge_zero.value})
+        candidates = tuple(effect for effect in candidates if effect is not gauge_zero.effect)
         fitter.candidates = candidates
     root = fitter.fit(first, freed)
     if fitter.load is not None and root.implausible:
-        # The start model has a constant tension of its own, which takes the place of the load.
+        # The start model already has a constant tension, which the data cannot separate from the load.
         fitter.load = None
         fitter.known.clear()
         root = fitter.fit(first, freed)
@@ -215,39 +219,41 @@ def _diagnose(
     before = seen(root.residual, variables)
     where = profiles(start.residual, variables, predictor.folds[0])
     fitted = {effect.id for effect in fitter.promising(root, candidates)[: effort.tried]}
-    singles, guesses = [], []
+    fitted_singles, guesses = [], []
     for number, effect in enumerate(sorted(candidates, key=lambda effect: effect.id not in fitted)):
         progress.share = 0.45 * number / max(len(candidates), 1)
         if effect.id in fitted:
-            singles.append((effect, fitter.adding(root, effect)))
-            found(_candidate(fitter, root, effect, singles[-1][1], before, ()))
+            fitted_singles.append((effect, fitter.adding(root, effect)))
+            found(_candidate(fitter, root, effect, fitted_singles[-1][1], before, ()))
         else:
             guesses.append((effect, fitter.guessed(root, effect)))
     progress.share, progress.end = 0.45, 0.85
-    best = search(fitter, root, singles=[fitted_model for _, fitted_model in singles])
+    best = search(fitter, root, singles=[fitted_model for _, fitted_model in fitted_singles])
     fitter.noise, how = noise_of(predictor, best.residual, noise)
-    # Made-up data have no noise: what differs by less than their digits is the same.
+    # Simulated data have no noise: differences below their numerical resolution do not count.
     full_scale = float(np.max(np.abs(predictor.measured / predictor.scale)))
     level = max(fitter.noise or best.rmse, _DIGITS * full_scale)
     progress.share, progress.end = 0.85, 0.95
-    path = _path(fitter, start, root, best, vent)
+    path = _path(fitter, start, root, best, gauge_zero)
     added = tuple(step.added for step in path if step.added)
-    proven = () if vent is None else (vent.effect.id,)
-    others = tuple(alternatives(fitter, best, [name for name in added if name not in proven], level))
+    proven = () if gauge_zero is None else (gauge_zero.effect.id,)
+    exchangeable = tuple(alternatives(fitter, best, [name for name in added if name not in proven], level))
     fit = _final_fit(predictor, best)
     changing = [
-        (effect.id, fitted_model) for effect, fitted_model in singles if not same(fitted_model, root, level)
+        (effect.id, fitted_model)
+        for effect, fitted_model in fitted_singles
+        if not same(fitted_model, root, level)
     ]
     alike = same_predictions(changing, level)
     ranked = sorted(
         (
             _candidate(fitter, root, effect, fitted_model, before, alike.get(effect.id, ()))
-            for effect, fitted_model in (*singles, *guesses)
+            for effect, fitted_model in (*fitted_singles, *guesses)
         ),
         key=lambda candidate: candidate.score,
     )
-    rest = left_structure(predictor, best.residual, variables)
-    status = status_of(start, best, fitter.noise, added, others, rest, full_scale)
+    remaining = left_structure(predictor, best.residual, variables)
+    status = status_of(start, best, fitter.noise, added, exchangeable, remaining, full_scale)
     term = None
     if status == "unknown_effect" and is_force(predictor):
         term = proposed_term(best.residual, variables, best.jacobian[:, best.inner])
@@ -266,24 +272,24 @@ def _diagnose(
         fit=fit,
         status=status,
         added=added,
-        alternatives=others,
-        structure=rest,
+        alternatives=exchangeable,
+        structure=remaining,
         term=term,
-        proposals=tuple(proposals(best, others, catalogue, level, predictor)),
-        messages=(*([] if vent is None else [vent.message]), *messages(fitter, first, best, fit)),
+        proposals=tuple(proposals(best, exchangeable, catalogue, level, predictor)),
+        messages=(*([] if gauge_zero is None else [gauge_zero.message]), *messages(fitter, first, best, fit)),
         not_tried=tuple(not_tried),
     )
 
 
 class _Progress:
-    """Shares of the work, told to a watch."""
+    """Reports the progress of a diagnosis to a watch."""
 
     def __init__(self, watch: Watch) -> None:
         self._watch = watch
         self.share, self.end = 0.0, 0.45
 
     def tell(self, _: str) -> None:
-        """One more model is fitted."""
+        """Count one more fitted model; cancel when the watch asks for it."""
         self.share += 0.02 * (self.end - self.share)
         if self._watch.ended(self.share) in (Outcome.CANCELLED, Outcome.TIMED_OUT):
             raise CancelledError
@@ -309,14 +315,14 @@ def _path(
     steps = [PathStep(None, start)]
     if vent is not None:
         steps.append(PathStep(vent.effect.id, root))
-    fitted_model, left = root, [e for e in best.fit_model.effects if e.id not in set(root.fit_model.ids)]
-    while len(left) > 1:
-        nexts = [(effect, fitter.adding(fitted_model, effect)) for effect in left]
-        effect, fitted_model = min(nexts, key=lambda pair: pair[1].rmse)
+    fitted_model, remaining = root, [e for e in best.fit_model.effects if e.id not in set(root.fit_model.ids)]
+    while len(remaining) > 1:
+        trials = [(effect, fitter.adding(fitted_model, effect)) for effect in remaining]
+        effect, fitted_model = min(trials, key=lambda pair: pair[1].rmse)
         steps.append(PathStep(effect.id, fitted_model))
-        left.remove(effect)
-    if left:
-        steps.append(PathStep(left[0].id, best))
+        remaining.remove(effect)
+    if remaining:
+        steps.append(PathStep(remaining[0].id, best))
     elif best.rmse < 0.98 * start.rmse:
         steps.append(PathStep(None, best))
     return tuple(steps)
@@ -325,9 +331,9 @@ def _path(
 def _final_fit(predictor: Predictor, best: FittedModel) -> FitResult | None:
     if not best.free:
         return None
-    freedom = [p.start for p in best.free]
+    start_values = [p.start for p in best.free]
     return least_squares_fit(
-        lambda numbers: best.jacobian @ (np.asarray(numbers) - freedom) - best.residual,
+        lambda numbers: best.jacobian @ (np.asarray(numbers) - start_values) - best.residual,
         lambda _: best.jacobian,
         best.free,
         starts=1,

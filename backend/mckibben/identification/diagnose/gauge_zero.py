@@ -1,8 +1,8 @@
-"""What a gauge says when the muscle is vented: a reading below zero is the sensor's, not the muscle's.
+"""Zero error of the pressure sensor, from readings below zero while the muscle is vented.
 
 Without a vacuum the gauge pressure of a muscle is never below zero. Where the lowest readings form a plateau
-clearly below it, the muscle was vented there and the plateau is the zero error of the sensor, whatever the
-force or stroke could say of it.
+clearly below zero, the muscle was vented and the plateau is the zero error of the sensor. It need not be
+fitted to force or stroke.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ import numpy as np
 
 from mckibben.physics.effect import Effect
 
-_LEAST = 5e3  # Pa below zero; less is noise or weather
-_PLATEAU = 3e3  # Pa; readings this near the lowest belong to it
-_ROWS = 4  # of the plateau, at least
+_LEAST = 5e3  # Pa below zero; less may be noise or a change of the barometric pressure
+_PLATEAU = 3e3  # Pa; readings within this distance of the lowest form the plateau
+_ROWS = 4  # fewest rows of a plateau
 
 
 class GaugeZero(NamedTuple):
-    """The sensor effect that the vented rows call for, its parameter and the value they give [Pa]."""
+    """The sensor effect that explains the vented rows, its parameter and value [Pa]."""
 
     effect: Effect
     parameter: str
@@ -29,15 +29,15 @@ class GaugeZero(NamedTuple):
 
     @property
     def message(self) -> str:
-        """What was seen, in words."""
+        """Note for the user."""
         return (
             f"the gauge reads {self.value / 1e5:.2f} bar in {self.rows} vented rows: a muscle without vacuum "
-            "is never below zero, so this is the sensor's zero error; it is taken from there, not fitted"
+            "is never below zero, so this is the sensor's zero error; it is read from these rows, not fitted"
         )
 
 
 def vented(pressure: np.ndarray, candidates: Iterable[Effect]) -> GaugeZero | None:
-    """The zero error of the pressure sensor that readings below zero prove; None when there are none.
+    """The zero error of the pressure sensor; None without a plateau below zero.
 
     Args:
         pressure: gauge readings [Pa].

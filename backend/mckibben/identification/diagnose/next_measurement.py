@@ -1,8 +1,8 @@
-"""Which experiment would separate effects that look alike in the data there are.
+"""Experiments that would separate effects that the present data cannot distinguish.
 
-What the catalogue declares about a pair comes first. Beside it, candidate protocols are simulated with one
-model as the truth; the other is refitted to each, and the protocol where it still misses most is named with
-the expected separation in standard deviations of one reading.
+What the catalogue declares about a pair comes first. In addition, candidate protocols are simulated with one
+model as the truth, and the other model is refitted to each. The proposal is the protocol with the largest
+remaining difference, stated in standard deviations of one reading.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.simulation.statics.inverse import contraction_at
 from mckibben.simulation.statics.model import StaticModel
 
-_FEWEST = 8  # rows in which the muscle pulls; a protocol with fewer is none
+_FEWEST = 8  # rows with tension that a protocol needs
 
 
 @dataclass(frozen=True)
 class Protocol:
-    """An experiment that could be made: its name in words and its rows."""
+    """A possible experiment: its description and its rows."""
 
     words: str
     task: ComparableRows
@@ -39,9 +39,9 @@ class SeparatingExperiment:
 
     Attributes:
         first, second: ids of the effects.
-        declared: what the catalogue says separates them; empty when it does not say.
+        declared: what separates them according to the catalogue; empty when it has no entry.
         protocol: the simulated experiment where they differ most; empty when none can be simulated.
-        separation: by how many standard deviations of a reading, rms.
+        separation: rms difference in standard deviations of a reading.
     """
 
     first: str
@@ -57,7 +57,7 @@ class SeparatingExperiment:
         if self.protocol and self.separation >= 1.0:
             parts.append(f"simulated best: {self.protocol} ({self.separation:.1f} sigma apart)")
         elif self.protocol and self.declared:
-            parts.append("a force measurement alone does not: no simulated one separates them")
+            parts.append("a force measurement alone is not enough: no simulated one separates them")
         elif self.protocol:
             parts.append("no simulated force measurement separates them, and no other experiment is known")
         return "; ".join(part.rstrip(":") for part in parts)
@@ -80,11 +80,11 @@ def separation(
     noise: float,
     geometry: tuple[Free, ...] = (),
 ) -> tuple[str, float]:
-    """The protocol where a refitted model misses another most, in words, and by how many sigma.
+    """The protocol in which the refitted model differs most from the truth, and by how many sigma.
 
     Rows where the muscle would be slack are not readings of its force and do not count.
     """
-    best, most = "", 0.0
+    best, largest = "", 0.0
     for protocol in protocols:
         bare = QuasistaticPredictor(protocol.task)
         force = bare.predict(truth, clipped=False)
@@ -93,15 +93,15 @@ def separation(
             continue
         predictor = QuasistaticPredictor(replace(protocol.task, measured=force, turning=slack))
         fitted_model = refitted(predictor, other, free_numbers(other, geometry))
-        left = predictor.measured - predictor.predict(fitted_model.fit_model, clipped=False)
-        apart = float(np.sqrt(np.mean(left**2))) / noise
-        if apart > most:
-            best, most = protocol.words, apart
-    return best, most
+        residual = predictor.measured - predictor.predict(fitted_model.fit_model, clipped=False)
+        difference = float(np.sqrt(np.mean(residual**2))) / noise
+        if difference > largest:
+            best, largest = protocol.words, difference
+    return best, largest
 
 
 def protocols(fit_model: FitModel, *, largest_pressure: float) -> list[Protocol]:
-    """Experiments on a force rig, within the pressure that was measured and the muscle's range."""
+    """Experiments on a force rig, up to the measured pressure and within the muscle's stroke."""
     muscle = fit_model.muscle
     model = StaticModel(muscle)
     ideal = float(contraction_at(model, load=0.0, pressures=np.array([largest_pressure]))[0])
@@ -130,10 +130,10 @@ def _sweep(
         if nested:
             middle = 0.5 * (low + high)
             turns = [low, high, middle, high, 0.25 * high, 0.75 * high, 0.25 * high, low]
-        corner = np.array(turns)
-        way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(corner)))]) * rest
-        time = np.linspace(0.0, way[-1] / speed, 60 * (len(turns) - 1))
-        contraction = np.interp(time * speed, way, corner)
+        turning_points = np.array(turns)
+        path = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(turning_points)))]) * rest
+        time = np.linspace(0.0, path[-1] / speed, 60 * (len(turns) - 1))
+        contraction = np.interp(time * speed, path, turning_points)
         parts.append((time, np.full(len(time), pressure), rest * (1.0 - contraction), number))
     return Protocol(words, _task(parts))
 

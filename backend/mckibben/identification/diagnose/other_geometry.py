@@ -1,4 +1,4 @@
-"""Whether the muscle has other dimensions than the model: they may do what effects were added for."""
+"""Checks whether a wrong dimension of the muscle explains the data as well as the added effects."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from mckibben.identification.predict.fit_model import FitModel, free_geometry, f
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
 
+# Dimensions that are measured by hand, so most likely wrong.
 _BY_HAND = ("braid_angle", "braid_diameter", "nominal_length")
-_AS_GOOD = 1.05  # of the error that the effects leave
-_PLAUSIBLE = 0.6  # of what a fit of geometry may change
+_AS_GOOD = 1.05  # largest error, relative to the error with the added effects
+_PLAUSIBLE = 0.6  # largest change, share of the tolerance of the dimension
 
 
 def geometry_instead(
@@ -24,29 +25,33 @@ def geometry_instead(
     held: Collection[str] = (),
     load: Free | None = None,
 ) -> list[str]:
-    """The dimension that explains the data as well as the added effects, in a sentence; empty without one.
+    """A sentence on the dimensions that explain the data as well as the added effects; empty without any.
 
     Args:
         predictor: the data.
         first: the start model.
         best: the best model, with effects added to it.
-        held: numbers of the start model that no fit changes.
-        load: bounds of the load where every fit has to find it.
+        held: parameters of the start model that no fit changes.
+        load: bounds of the load, when it is unknown and fitted.
     """
-    found = []
+    explanations = []
     for name in _BY_HAND:
         (dimension,) = free_geometry(first.muscle, [name], {})
-        numbers = free_numbers(first, [dimension], load=load)
-        free = [parameter for parameter in numbers if parameter.name not in held]
+        choice = free_numbers(first, [dimension], load=load)
+        free = [parameter for parameter in choice if parameter.name not in held]
         fitted_model = refitted(predictor, first, free)
         value = fitted_model.fit_model.number(name)
-        moved = abs(value - dimension.start) / (dimension.upper - dimension.start)
-        if moved < _PLAUSIBLE and fitted_model.rmse <= _AS_GOOD * best.rmse:
-            given = _shown(dimension.start, dimension.unit)
-            found.append(f"a {name.replace('_', ' ')} of {_shown(value, dimension.unit)} instead of {given}")
-    if not found:
+        change = abs(value - dimension.start) / (dimension.upper - dimension.start)
+        if change < _PLAUSIBLE and fitted_model.rmse <= _AS_GOOD * best.rmse:
+            stated = _shown(dimension.start, dimension.unit)
+            explanations.append(
+                f"a {name.replace('_', ' ')} of {_shown(value, dimension.unit)} instead of {stated}"
+            )
+    if not explanations:
         return []
-    return [f"{' or '.join(found)} would explain these data as well as the added effects: measure it first"]
+    return [
+        f"{' or '.join(explanations)} would explain these data as well as the added effects: measure it first"
+    ]
 
 
 def _shown(value: float, unit: str) -> str:

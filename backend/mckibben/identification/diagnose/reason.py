@@ -1,4 +1,4 @@
-"""One sentence for a candidate: what it does by its declaration, beside what was seen in the residual."""
+"""The reason for or against a candidate: its declared signature compared with the residual."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ import numpy as np
 
 from mckibben.physics.effect import Effect
 
-_CLEAR = 0.15  # share of the residual from which something is said to be seen
+_CLEAR = 0.15  # share of the mean square from which the residual counts as odd in the direction
 
 
 @dataclass(frozen=True)
 class ResidualTraits:
-    """What a residual looks like.
+    """Features of a residual.
 
     Attributes:
         odd: share of its mean square that changes sign with the direction of motion; None when unknown.
-        pressure_power: n of the best fit of its size over pressure P^n; None without a range of pressures.
-        constant: share of its mean square that is its mean.
+        pressure_power: exponent n of a fit of its size to P^n; None without a range of pressures.
+        constant: share of the mean in its mean square.
     """
 
     odd: float | None
@@ -35,16 +35,16 @@ def seen(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> ResidualT
     odd = None
     direction = variables.get("direction")
     if direction is not None and np.any(direction > 0) and np.any(direction < 0):
-        ups, downs = residual[direction > 0], residual[direction < 0]
-        odd = float((0.5 * (np.mean(ups) - np.mean(downs))) ** 2 / whole)
+        forward, backward = residual[direction > 0], residual[direction < 0]
+        odd = float((0.5 * (np.mean(forward) - np.mean(backward))) ** 2 / whole)
     power = None
     pressure = variables.get("pressure")
     if pressure is not None and np.max(pressure) > 2.0 * max(float(np.min(pressure)), 1e3):
         edges = np.unique(np.quantile(pressure, np.linspace(0.0, 1.0, 7)))
-        place = np.clip(np.searchsorted(edges, pressure, side="right") - 1, 0, len(edges) - 2)
+        bins = np.clip(np.searchsorted(edges, pressure, side="right") - 1, 0, len(edges) - 2)
         centres, sizes = [], []
         for number in range(len(edges) - 1):
-            rows = place == number
+            rows = bins == number
             if np.count_nonzero(rows) >= 3 and np.mean(pressure[rows]) > 0.0:
                 centres.append(np.log(np.mean(pressure[rows])))
                 sizes.append(0.5 * np.log(np.mean(residual[rows] ** 2) + 1e-30))
@@ -54,12 +54,12 @@ def seen(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> ResidualT
 
 
 def why(effect: Effect, found: ResidualTraits, *, gain: float) -> str:
-    """The sentence of a candidate.
+    """The reason for or against a candidate, in words.
 
     Args:
         effect: the candidate.
-        found: what its residual looks like before it is added.
-        gain: share of the rms error that it takes away.
+        found: features of the residual before the candidate is added.
+        gain: relative reduction of the rms error.
     """
     signature = effect.signature
     agreeing, against = [], []
@@ -85,5 +85,5 @@ def why(effect: Effect, found: ResidualTraits, *, gain: float) -> str:
     if against:
         text += f"; {'but' if agreeing else 'the residual'} {' and '.join(against)}, which speaks against it"
     if gain > 0.005:
-        return f"{text}. It takes away {100.0 * gain:.0f} % of the error."
+        return f"{text}. It lowers the error by {100.0 * gain:.0f} %."
     return f"{text}. It does not lower the error."

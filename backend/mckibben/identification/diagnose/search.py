@@ -1,9 +1,10 @@
-"""Which effects are missing: models are built up in a beam, then every effect has to defend its place.
+"""Search for the missing effects: a beam search, then backward elimination and exchange.
 
-One effect at a time hides pairs that only help together, and near-twins share their credit, so several models
-go on at once, ranked by `mckibben.identification.diagnose.score`. From each, every candidate is added and all
-numbers are refitted jointly; further constants of an effect are freed before another effect is believed. At
-the end each effect is dropped and exchanged, and what is not needed goes.
+A greedy search misses pairs of effects that only help together, and may pick the wrong one of two similar
+effects. So the search keeps several models, ranked by `mckibben.identification.diagnose.score`. It adds each
+candidate to each model and refits all parameters jointly. Further constants of an effect are freed before
+another effect is added. At the end each effect is tentatively dropped or exchanged; effects that are not
+needed are removed.
 """
 
 from __future__ import annotations
@@ -17,22 +18,22 @@ from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
 from mckibben.physics.effect import Effect
 
-_BEAM = 4
-_TRIED = 8  # candidates fitted per model, by what they promise to first order
-_PATIENCE = 2  # rounds without a better model
-_ALIKE = 0.02  # of the mean square: models whose residuals differ by less go on as one
-_DEEPEST = 7  # effects added
-_NOTHING_LEFT = 1.05  # of the noise: below, a search can learn nothing more
-_WITHIN = 1.15  # of the best error, near the floor
+_BEAM = 4  # models kept in each round
+_TRIED = 8  # candidates fitted per model: those with the largest first-order gain
+_PATIENCE = 2  # rounds without a better model after which the search stops
+_ALIKE = 0.02  # share of the mean square; models whose residuals differ by less are merged
+_DEEPEST = 7  # most effects added
+_NOTHING_LEFT = 1.05  # error over noise below which the search stops
+_WITHIN = 1.15  # error over the best error above which a model is dropped near the noise
 
 
 def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel]) -> FittedModel:
-    """The best model that effects can make of a fitted start model.
+    """The best extension of a fitted start model by effects of the catalogue.
 
     Args:
-        fitter: fits.
+        fitter: fits the models.
         root: the start model.
-        singles: the start model with each single candidate.
+        singles: the start model plus each single candidate, fitted.
     """
     best, idle = root, 0
     if _at_floor(fitter, root):
@@ -66,7 +67,7 @@ def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel])
             best, idle = leader, 0
         if idle >= _PATIENCE or _at_floor(fitter, best):
             break
-        if fitter.near_floor(best):  # what is far from it now will not come first
+        if fitter.near_floor(best):  # a model far above the noise cannot become the best any more
             beam = [fitted_model for fitted_model in beam if fitted_model.rmse < _WITHIN * best.rmse]
         children = []
         for fitted_model in beam:
@@ -80,7 +81,7 @@ def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel])
 
 
 def _examined(fitter: Fitter, fitted_model: FittedModel, root: FittedModel) -> list[Effect]:
-    """Effects whose further constants are tried in every model: all; where runs are dear what was added."""
+    """Effects whose further constants are tried: all, or only the added ones when predictions are costly."""
     start = () if fitter.effort.thorough else root.fit_model.ids
     return [effect for effect in fitted_model.fit_model.effects if effect.id not in start]
 
@@ -88,7 +89,7 @@ def _examined(fitter: Fitter, fitted_model: FittedModel, root: FittedModel) -> l
 def with_further_constants(
     fitter: Fitter, fitted_model: FittedModel, effects: Sequence[Effect] | None = None
 ) -> FittedModel:
-    """The node with further constants freed where that earns its price: of some effects, or of all."""
+    """The model with further constants of some effects (default: all) freed where the score improves."""
     if _at_floor(fitter, fitted_model):
         return fitted_model
     for effect in fitted_model.fit_model.effects if effects is None else effects:
@@ -104,27 +105,29 @@ def with_further_constants(
 
 
 def exchanged(fitter: Fitter, less: FittedModel, effect: Effect) -> FittedModel:
-    """A model with another effect in the place of one that was dropped."""
+    """The model with an effect in place of a dropped one."""
     return with_further_constants(fitter, fitter.adding(less, effect), [effect])
 
 
 def lean(fitter: Fitter, fitted_model: FittedModel, root: FittedModel) -> FittedModel:
-    """The node without freed constants that do not earn their price, which they may have done earlier."""
+    """The model without freed constants that no longer improve the score."""
     while True:
         rows = _rows(fitter, fitted_model)
-        less = [
-            fitter.holding(fitted_model, name, _held(name, fitted_model, root))
+        reduced = [
+            fitter.holding(fitted_model, name, _fixed_value(name, fitted_model, root))
             for name in sorted(fitted_model.freed - root.freed)
         ]
-        less = [other for other in less if other.free and other.implausible <= fitted_model.implausible]
-        found = min(less, key=lambda n: score(n, rows=rows, noise=fitter.noise), default=fitted_model)
-        if score(found, rows=rows, noise=fitter.noise) >= score(fitted_model, rows=rows, noise=fitter.noise):
+        reduced = [other for other in reduced if other.free and other.implausible <= fitted_model.implausible]
+        candidate = min(reduced, key=lambda n: score(n, rows=rows, noise=fitter.noise), default=fitted_model)
+        if score(candidate, rows=rows, noise=fitter.noise) >= score(
+            fitted_model, rows=rows, noise=fitter.noise
+        ):
             return fitted_model
-        fitted_model = found
+        fitted_model = candidate
 
 
-def _held(name: str, fitted_model: FittedModel, root: FittedModel) -> float:
-    """A further constant where no fit changes it: as the start model says, or the effect's default."""
+def _fixed_value(name: str, fitted_model: FittedModel, root: FittedModel) -> float:
+    """Value of a further constant that is fixed again: of the start model, or the effect's default."""
     effect_id, _, parameter = name.partition(".")
     if effect_id in root.fit_model.ids:
         return root.fit_model.number(name)
@@ -133,7 +136,7 @@ def _held(name: str, fitted_model: FittedModel, root: FittedModel) -> float:
 
 
 def _polished(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedModel:
-    """Drop what is not needed, exchange what another effect does better, until nothing changes."""
+    """Drop effects that are not needed and exchange effects for better ones, until nothing changes."""
     start = set(root.fit_model.ids)
     best = lean(fitter, best, root)
     for _ in range(_DEEPEST):
@@ -158,13 +161,13 @@ def _polished(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedMod
             ]
             swaps = [fitted_model for fitted_model in swaps if fitted_model.implausible <= best.implausible]
             here = score(best, rows=rows, noise=fitter.noise)
-            found = min(
+            candidate = min(
                 swaps,
                 key=lambda fitted_model: score(fitted_model, rows=rows, noise=fitter.noise),
                 default=best,
             )
-            if score(found, rows=rows, noise=fitter.noise) < here - LEAST_SCORE:
-                best = found
+            if score(candidate, rows=rows, noise=fitter.noise) < here - LEAST_SCORE:
+                best = candidate
                 break
         if best is before:
             return best
@@ -176,7 +179,7 @@ def _as_good(fitted_model: FittedModel, best: FittedModel) -> bool:
 
 
 def _different(fitted_models: Sequence[FittedModel]) -> list[FittedModel]:
-    """The nodes without those whose prediction an earlier one makes as well."""
+    """The models without those that predict the same as an earlier one."""
     kept: list[FittedModel] = []
     for fitted_model in fitted_models:
         if all(

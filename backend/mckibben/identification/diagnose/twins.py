@@ -1,4 +1,4 @@
-"""Effects that these data cannot tell apart."""
+"""Effects that the data cannot distinguish."""
 
 from __future__ import annotations
 
@@ -11,23 +11,23 @@ from mckibben.identification.diagnose.search import exchanged
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
 
-#: Fitted predictions that differ by less than this share of the noise are the same prediction: data of
-#: another functional form than ours differ from the best fit by as much.
+#: Fitted predictions that differ by less than this share of the noise count as the same. An inexact
+#: functional form of a correct effect causes differences of this size.
 SAME = 0.5
-_COSINE = 0.99
-_AS_GOOD = 1.05  # rmse of an exchange whose sensitivity is parallel
-_TRIED = 8
+_COSINE = 0.99  # between sensitivities, above which they count as parallel
+_AS_GOOD = 1.05  # largest rmse of an exchange with parallel sensitivity, over that of the best model
+_TRIED = 8  # exchanges fitted per effect
 
 
 @dataclass(frozen=True)
 class Alternative:
-    """An effect that could stand in for one of the model.
+    """An effect that could replace one of the model.
 
     Attributes:
         of: the effect of the model.
-        effect: the one that could be there instead.
+        effect: the possible replacement.
         difference: rms difference of the fitted predictions over the noise.
-        cosine: of the angle between both sensitivities.
+        cosine: of the angle between the sensitivities of both effects.
         fitted_model: the model with the exchange.
     """
 
@@ -39,37 +39,37 @@ class Alternative:
 
 
 def alternatives(fitter: Fitter, best: FittedModel, added: Sequence[str], noise: float) -> list[Alternative]:
-    """For each added effect those that, exchanged for it and refitted, predict the same."""
-    found = []
+    """The effects that predict the same when they replace an added effect and everything is refitted."""
+    equivalent = []
     for effect_id in added:
         less = fitter.dropping(best, effect_id)
         inside = set(best.fit_model.ids)
         others = [effect for effect in fitter.candidates if effect.id not in inside]
-        own = next(effect for effect in best.fit_model.effects if effect.id == effect_id)
-        mine = fitter.changes(less, own)
+        replaced = next(effect for effect in best.fit_model.effects if effect.id == effect_id)
+        sensitivity = fitter.changes(less, replaced)
         for effect in fitter.promising(less, others)[:_TRIED]:
             fitted_model = exchanged(fitter, less, effect)
             difference = float(np.sqrt(np.mean((fitted_model.residual - best.residual) ** 2))) / noise
-            cosine = _cosine(mine, fitter.changes(less, effect))
+            cosine = _cosine(sensitivity, fitter.changes(less, effect))
             parallel = abs(cosine) > _COSINE and fitted_model.rmse <= _AS_GOOD * best.rmse
             if difference < SAME or parallel:
-                found.append(Alternative(effect_id, effect.id, difference, cosine, fitted_model))
-    return found
+                equivalent.append(Alternative(effect_id, effect.id, difference, cosine, fitted_model))
+    return equivalent
 
 
 def same_predictions(fitted_models: Sequence[tuple[str, FittedModel]], noise: float) -> dict[str, list[str]]:
     """Effect -> the others whose fitted model predicts the same."""
-    found: dict[str, list[str]] = {name: [] for name, _ in fitted_models}
+    twins: dict[str, list[str]] = {name: [] for name, _ in fitted_models}
     for number, (first, one) in enumerate(fitted_models):
         for second, two in fitted_models[number + 1 :]:
             if same(one, two, noise):
-                found[first].append(second)
-                found[second].append(first)
-    return found
+                twins[first].append(second)
+                twins[second].append(first)
+    return twins
 
 
 def same(one: FittedModel, two: FittedModel, noise: float) -> bool:
-    """Whether two fitted models predict the same as far as the noise lets see."""
+    """Whether the predictions of two fitted models are the same within the noise."""
     return bool(np.mean((one.residual - two.residual) ** 2) < (SAME * noise) ** 2)
 
 

@@ -1,4 +1,4 @@
-"""What a search amounts to: its status, what is left, what would separate twins, what has to be said."""
+"""Verdict of a diagnosis: status, remaining structure, proposed experiments and notes for the user."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ from mckibben.identification.residual.structure import ResidualStructure, struct
 from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import assumption
 
-_FAR = 2.0  # of the noise: something is left that is not known, whatever was explained before
-_STRUCTURED = 0.3  # share of the residual a regression predicts, from which it is structure
-_EXPLAINED = 0.98  # of the excess over the noise
-_SMALL = 0.03  # of full scale: an error of data that do not tell their noise, up to which nothing is missed
+_FAR = 2.0  # error over noise above which an unknown effect remains, however much was explained
+_STRUCTURED = 0.3  # share of the residual predicted by a regression, above which it is not noise
+_EXPLAINED = 0.98  # explained share of the excess over the noise, above which the rest does not matter
+_SMALL = 0.03  # error over full scale up to which a model is adequate when the noise is unknown
 
 
 #: What a diagnosis ends with; `mckibben.identification.diagnose.words` says what each means.
@@ -38,12 +38,12 @@ Status = Literal["adequate", "missing_effects", "ambiguous", "unknown_effect"]
 def left_structure(
     predictor: Predictor, residual: np.ndarray, variables: Mapping[str, np.ndarray]
 ) -> ResidualStructure:
-    """Structure left in the residual: of each channel, together by their mean squares."""
+    """Structure left in the residual; channels are weighted by their mean squares."""
     parts = []
     for channel in predictor.channels:
-        own = {name: values[channel.rows] for name, values in variables.items()}
+        channel_variables = {name: values[channel.rows] for name, values in variables.items()}
         left = residual[channel.rows]
-        parts.append((float(np.mean(left**2)), structure(left, own)))
+        parts.append((float(np.mean(left**2)), structure(left, channel_variables)))
     whole = sum(size for size, _ in parts) or 1.0
     lost: dict[str, float] = {}
     for size, part in parts:
@@ -65,12 +65,12 @@ def status_of(
     """What the diagnosis ends with.
 
     Args:
-        start, best: the model as given, and as far as it got.
-        noise: None when the data do not tell it.
-        added: effects that are missing.
-        others: what could stand in for them.
-        rest: structure that is left.
-        full_scale: largest value that was measured, over the scale of the residual.
+        start, best: the model as given, and the best one.
+        noise: None when it cannot be estimated.
+        added: the missing effects.
+        others: effects that could replace them.
+        rest: structure left in the residual.
+        full_scale: largest measured magnitude over the scale of the residual.
     """
     if noise is None and not added:
         return "adequate" if best.rmse <= _SMALL * full_scale else "unknown_effect"
@@ -88,7 +88,7 @@ def status_of(
 
 
 def is_force(predictor: Predictor) -> bool:
-    """Whether a force is predicted, to which a term can be added."""
+    """Whether the force is the only predicted channel, so that a term can be added to it."""
     return [channel.name for channel in predictor.channels] == ["force"]
 
 
@@ -99,23 +99,23 @@ def proposals(
     noise: float,
     predictor: Predictor,
 ) -> list[SeparatingExperiment]:
-    """Experiments that would separate each added effect from what could stand in for it."""
-    found = []
+    """Experiments that would separate each added effect from its alternatives."""
+    experiments = []
     pressure = predictor.inputs.get("pressure")
     high = float(np.max(pressure)) if pressure is not None else 6e5
     for other in others:
-        words, apart = "", 0.0
+        words, difference = "", 0.0
         if is_force(predictor) and high > 0.0:
             tests = protocols(best.fit_model, largest_pressure=high)
-            words, apart = separation(best.fit_model, other.fitted_model.fit_model, tests, noise=noise)
+            words, difference = separation(best.fit_model, other.fitted_model.fit_model, tests, noise=noise)
         text = declared(catalogue[other.of], catalogue[other.effect])
-        found.append(SeparatingExperiment(other.of, other.effect, text, words, apart))
-    return found
+        experiments.append(SeparatingExperiment(other.of, other.effect, text, words, difference))
+    return experiments
 
 
 def _assumptions(best: FittedModel) -> list[str]:
-    """Fields of the muscle that were assumed, and the products that the data determine instead."""
-    found = []
+    """Notes on assumed fields of the muscle, and on the products that the data determine."""
+    notes = []
     for name in sorted(best.fit_model.assumed):
         value = best.fit_model.number(name)
         products = [
@@ -126,29 +126,32 @@ def _assumptions(best: FittedModel) -> list[str]:
             for p in effect.parameters
             if p.unit == "Pa" and best.fit_model.values[effect.id][p.name] != 0.0
         ]
-        found.append(
-            f"{assumption(best.fit_model.muscle, name)}. What these data determine is {', '.join(products)}; "
+        notes.append(
+            f"{assumption(best.fit_model.muscle, name)}. These data determine only {', '.join(products)}; "
             f"state {name} to know the modulus itself"
         )
-    return found
+    return notes
 
 
 def messages(fitter: Fitter, first: FitModel, best: FittedModel, fit: FitResult | None) -> list[str]:
-    """What has to be said of the noise, of geometry that took up an effect or could, and of the fit.
+    """Notes for the user on assumptions, the noise, the geometry and the fit.
 
     Args:
         fitter: the fits of the search.
         first: the start model.
-        best: the best model; fit: its numbers with errors.
+        best: the best model.
+        fit: its parameters with standard errors.
     """
-    found = _assumptions(best)
-    # Transients hardly tell the geometry, and each fit takes long: their effort leaves the dimensions out.
+    notes = _assumptions(best)
+    # Transients hardly determine the geometry, and each fit is slow: their effort skips the dimensions.
     if fitter.effort.dimensions and len(best.fit_model.ids) > len(first.ids) and not fitter.geometry:
-        found += geometry_instead(fitter.predictor, first, best, held=fitter.held, load=fitter.load)
+        notes += geometry_instead(fitter.predictor, first, best, held=fitter.held, load=fitter.load)
     if fitter.noise is None:
-        found.append("the sweeps are too short to estimate the noise: state it to know when to stop")
+        notes.append(
+            "the sweeps are too short to estimate the noise: state it, so that the search can stop there"
+        )
     for p in fitter.geometry:
-        moved = 100.0 * (best.fit_model.number(p.name) / p.start - 1.0)
-        if abs(moved) > 0.5:
-            found.append(f"the fit moved {p.name.replace('_', ' ')} by {moved:+.1f} %")
-    return [*found, *(fit.messages if fit else ())]
+        change = 100.0 * (best.fit_model.number(p.name) / p.start - 1.0)
+        if abs(change) > 0.5:
+            notes.append(f"the fit moved {p.name.replace('_', ' ')} by {change:+.1f} %")
+    return [*notes, *(fit.messages if fit else ())]

@@ -1,4 +1,4 @@
-"""What a verdict means, in words: the one place for page, report and command line."""
+"""The verdict in words, for page, report and command line."""
 
 from __future__ import annotations
 
@@ -8,9 +8,11 @@ from mckibben.identification.diagnose.diagnosis import Diagnosis
 from mckibben.identification.diagnose.score import AT_FLOOR
 from mckibben.identification.diagnose.verdict import Status
 
-_REFITTED = 0.98  # of the error before: the fit of the start model is worth telling
-_WORTH_TELLING = 0.15  # share of the residual that follows something
-_UNKNOWN_NOISE = "These data do not tell their noise: state it to know whether the error is more than that."
+_REFITTED = 0.98  # error over the error before, below which the refit of the start model is mentioned
+_WORTH_TELLING = 0.15  # share of the residual that depends on variables, above which it is mentioned
+_UNKNOWN_NOISE = (
+    "The noise cannot be estimated from these data: state it to know whether the error exceeds it."
+)
 
 
 _TITLES: dict[Status, str] = {
@@ -25,13 +27,13 @@ _PARTLY = "Effects are missing, and the rest is unknown"
 
 
 def title_of(status: Status, *, added: bool) -> str:
-    """A status in words; ``added``: whether effects were found to be missing."""
+    """The status as a title; ``added``: whether effects were found to be missing."""
     return _PARTLY if added and status == "unknown_effect" else _TITLES[status]
 
 
 def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
-    """What the verdict means, in one to three sentences."""
-    # A length is told in millimetres.
+    """The verdict in one to three sentences."""
+    # Lengths are shown in millimetres.
     scaled = result.predictor.unit == "1"
     unit, scale = {"1": ("times the noise", 1.0), "m": ("mm", 1e3)}.get(
         result.predictor.unit, (result.predictor.unit, 1.0)
@@ -53,7 +55,7 @@ def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
         of_noise = f"is of the size of the noise ({level})" if level else "is noise"
         return f"Nothing is missing: {error} {of_noise}."
     at_floor = noise is not None and after <= AT_FLOOR * noise
-    # Over the noise of each channel the error says it by itself.
+    # A scaled error is a multiple of the noise already.
     floor = (
         "" if not level else f", the noise of the data ({level})" if at_floor else f"; the noise is {level}"
     )
@@ -75,15 +77,15 @@ def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
 
 
 def _rest(result: Diagnosis) -> str:
-    """What the last residual follows."""
+    """The variables that the last residual depends on."""
     if result.structure.share < _WORTH_TELLING:
-        return "it follows nothing that was measured; repeat the run to see whether it comes again"
+        return "it depends on no measured variable; repeat the run to see whether it recurs"
     return _structured(result, " of it")
 
 
 def _structured(result: Diagnosis, of: str = "") -> str:
     variables = [name for name, _ in result.structure.variables[:2]]
-    return f"{100.0 * result.structure.share:.0f} %{of} follows {_joined(variables) or 'a pattern'}"
+    return f"{100.0 * result.structure.share:.0f} %{of} depends on {_joined(variables) or 'a pattern'}"
 
 
 def _joined(names: list[str], word: str = "and") -> str:

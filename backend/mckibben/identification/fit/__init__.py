@@ -1,1 +1,1 @@
-"""Fits: bounded least squares, derivatives, standard errors, error on what was left out."""
+"""Fits: bounded least squares, derivatives, standard errors, hold-out error."""

@@ -1,4 +1,4 @@
-"""A measurement beside the model: the error in numbers, with or without fitting the model's parameters."""
+"""Comparison of a measurement with a model, with or without fitting the model's parameters."""
 
 from __future__ import annotations
 
@@ -26,20 +26,21 @@ from mckibben.simulation.statics.model import EffectValues, checked_values
 
 @dataclass(frozen=True)
 class Comparison:
-    """A model beside a measurement, SI; arrays are stacked over the predicted channels of ``predictor``.
+    """Comparison of a model with a measurement, SI; arrays are stacked over the channels of ``predictor``.
 
     Attributes:
         predictor: the rows used.
-        fit_model: the model compared, fitted numbers in place.
+        fit_model: the model; after a fit with the fitted values.
         predicted: the model's values.
-        rmse: root mean square of the residual; over the noise of each channel when there are several.
+        rmse: root mean square of the residual; over the noise of each channel if there are several.
         holdout_rmse: the same over groups that the fit did not see; equals rmse without a fit, None when
             there is only one group.
-        noise: standard deviation of the noise, None when it cannot be told; noise_how: from what.
-        fit: the fit, None when nothing was fitted.
-        rows: of the measurement.
-        excluded: why rows were left out -> how many.
-        messages: what has to be said.
+        noise: standard deviation of the noise; None when it cannot be estimated.
+        noise_how: how the noise was obtained.
+        fit: the fit; None when nothing was fitted.
+        rows: number of rows of the measurement.
+        excluded: reason -> number of excluded rows.
+        messages: notes for the user.
     """
 
     predictor: Predictor
@@ -76,7 +77,7 @@ class Comparison:
 
     @property
     def parameters(self) -> ParameterTable:
-        """Every parameter as used or fitted."""
+        """All parameters, as used or fitted."""
         return parameter_table(self.fit_model, self.fit)
 
     @property
@@ -104,7 +105,7 @@ class ParameterValue:
     fitted: bool
 
 
-#: Effect id, or "geometry" for what is no parameter of an effect -> name -> value.
+#: Effect id -> name -> value; "geometry" holds what belongs to no effect.
 ParameterTable = dict[str, dict[str, ParameterValue]]
 
 
@@ -153,18 +154,18 @@ def channel_misfits(predictor: Predictor, residual: np.ndarray) -> dict[str, Cha
 
 
 def parameter_table(fit_model: FitModel, fit: FitResult | None) -> ParameterTable:
-    """Every parameter of a model as used or fitted."""
+    """All parameters of a model, as used or fitted."""
     fitted = {parameter.name: parameter for parameter in fit.parameters} if fit else {}
     table: ParameterTable = {}
     for effect in fit_model.effects:
         for p in effect.parameters:
-            own = fitted.get(f"{effect.id}.{p.name}")
+            estimate = fitted.get(f"{effect.id}.{p.name}")
             table.setdefault(effect.id, {})[p.name] = ParameterValue(
                 value=fit_model.values[effect.id][p.name],
-                stderr=own.stderr if own else None,
+                stderr=estimate.stderr if estimate else None,
                 unit=p.unit,
-                at_bound=own.at_bound if own else False,
-                fitted=own is not None,
+                at_bound=estimate.at_bound if estimate else False,
+                fitted=estimate is not None,
             )
     others = [parameter for parameter in fitted.values() if "." not in parameter.name]
     if others:
@@ -190,15 +191,15 @@ def compare(
     """Compare a measurement with a muscle and its effects.
 
     Args:
-        measurement: what was measured.
-        muscle: the muscle as given.
-        effects: effect id -> parameter values, SI; parameters left out take the effect's default.
-        catalogue: where effects are looked up.
+        measurement: the measurement.
+        muscle: the muscle.
+        effects: effect id -> parameter values, SI; missing parameters take the effect's default.
+        catalogue: all known effects.
         drive: valve, tube and load of a transient measurement.
         fit: fit the parameters that the effects declare as fitted.
         free: geometry fields to fit as well, within their tolerance.
         freed: further constants to fit, as "effect.parameter".
-        tolerance: geometry field -> how far it may go either way, SI.
+        tolerance: geometry field -> largest change in either direction, SI.
         noise: standard deviation of the predicted channel, when it is known.
 
     Raises:
@@ -227,12 +228,12 @@ def compared(
     freed: Sequence[str] = (),
     noise: float | None = None,
 ) -> Comparison:
-    """Compare data that are ready with a model.
+    """Compare prepared data with a model.
 
     Args:
         predictor: the data.
         fit_model: the model.
-        rows: of the measurement.
+        rows: number of rows of the measurement.
         fit: fit the parameters that the effects declare as fitted.
         geometry: geometry fields to fit as well.
         freed: further constants to fit, as "effect.parameter".
@@ -245,7 +246,7 @@ def compared(
     messages = list(predictor.messages)
     choice = free_numbers(fit_model, geometry, freed, load=predictor.unknown_load) if fit else ()
     if geometry and not fit:
-        messages.append("a freed geometry only matters to a fit")
+        messages.append("geometry fields were freed, but no fit was requested")
     if fit and not choice:
         messages.append("nothing to fit: the model has no effects and no geometry was freed")
     result = None
@@ -258,7 +259,7 @@ def compared(
     if choice:
         holdout = holdout_rmse(predictor, fit_model, choice)
         if holdout is None:
-            messages.append("one group only: no group can be left out")
+            messages.append("only one group: there is no hold-out error")
     floor, how = noise_of(predictor, (predictor.measured - predicted) / predictor.scale, noise)
     if floor is None:
         messages.append("sweeps are too short to estimate the noise")
@@ -278,10 +279,10 @@ def compared(
 
 
 def check_finite(predictor: Predictor, fit_model: FitModel) -> None:
-    """Refuse a model without a finite value somewhere in the data, as a typed term may be.
+    """Reject a model that is not finite at some rows, for example because of a custom term.
 
     Raises:
-        InputError: says at how many rows.
+        InputError: with the number of these rows.
     """
     lost, rows = predictor.lost(fit_model)
     if lost:
@@ -293,12 +294,12 @@ def check_finite(predictor: Predictor, fit_model: FitModel) -> None:
 
 
 def fit_of(predictor: Predictor, fit_model: FitModel, choice: Sequence[Free]) -> FitResult:
-    """Fit the numbers; several starts where a model is quick, tightly where its derivatives are exact."""
+    """Fit the chosen parameters with the effort of a final fit."""
     return Misfit(predictor, fit_model, choice).fit(final_effort(simulated=predictor.simulated))
 
 
 def holdout_rmse(predictor: Predictor, fit_model: FitModel, choice: Sequence[Free]) -> float | None:
-    """Error over whole groups left out of the fit; None when there is one group only."""
+    """Error over whole groups that are left out of the fit; None for a single group."""
     if len(np.unique(predictor.folds[0])) < 2:
         return None
     predicted, jacobian = predictor.linearised(fit_model, choice)

@@ -1,21 +1,21 @@
-"""How much work a fit and a search may do. It depends on what a prediction costs, never on the clock."""
+"""Limits on the work of fits and searches. They depend on the cost of a prediction, never on the clock."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-_STARTS = 4
-_TIGHT = 1e-10  # with exact derivatives a fit converges quadratically: this costs one evaluation more
+_STARTS = 4  # the given one and three random ones, against local minima
+_TIGHT = 1e-10  # tolerance; with exact derivatives it costs only one more evaluation
 
 
 @dataclass(frozen=True, slots=True)
 class FitEffort:
-    """Work of one fit.
+    """Limits of one fit.
 
     Attributes:
-        starts: the given start and random ones inside the bounds; the best end wins.
-        tolerance: relative change of the sum of squares, of the numbers and of the gradient that ends it.
-        evaluations: most evaluations of each start.
+        starts: number of starts: the given one and random ones inside the bounds. The best result counts.
+        tolerance: relative change of the sum of squares at which the fit stops.
+        evaluations: most evaluations from each start.
     """
 
     starts: int
@@ -25,13 +25,13 @@ class FitEffort:
 
 @dataclass(frozen=True, slots=True)
 class SearchEffort:
-    """Work of a diagnosis.
+    """Limits of a diagnosis.
 
     Attributes:
-        fit: of each fit.
-        tried: candidates that are fitted to one model, those that promise most to first order.
-        thorough: whether further constants of the start model too are tried in every model.
-        dimensions: whether other dimensions of the muscle are tried as an explanation.
+        fit: limits of each fit.
+        tried: candidates fitted per model: those with the largest first-order gain.
+        thorough: whether further constants of the start model's effects are tried too.
+        dimensions: whether wrong dimensions of the muscle are tried as an explanation.
     """
 
     fit: FitEffort
@@ -41,17 +41,17 @@ class SearchEffort:
 
 
 def search_effort(*, simulated: bool) -> FitEffort:
-    """Of a fit within a search: nearly exact for closed forms, as fine as the differences for runs."""
+    """Limits of a fit within a search; simulated runs only have finite-difference derivatives."""
     return FitEffort(1, 1e-4, 20) if simulated else FitEffort(1, 1e-6, 60)
 
 
 def final_effort(*, simulated: bool) -> FitEffort:
-    """Of a single fit whose numbers are shown."""
+    """Limits of a single fit whose results are shown."""
     return FitEffort(1, 1e-5, 40) if simulated else FitEffort(_STARTS, _TIGHT, 200)
 
 
 def diagnosis_effort(*, simulated: bool) -> SearchEffort:
-    """Of a diagnosis; a run costs thousands of times what a closed form does."""
+    """Limits of a diagnosis; a simulated run costs a thousand times a closed-form evaluation."""
     fit = search_effort(simulated=simulated)
     if simulated:
         return SearchEffort(fit, tried=12, thorough=False, dimensions=False)

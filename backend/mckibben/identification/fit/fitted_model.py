@@ -1,4 +1,4 @@
-"""One fitted model in a search: its numbers, its residuals, and how it does on what it was not fitted to."""
+"""A fitted model of a search: its parameters, its residual and its hold-out error."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
 
-_NEAR_BOUND = 1e-6  # of the range
-_AT_BOUND = 1e-3  # of the range
-_COLLINEAR = 3e-3  # singular value of the normalised Jacobian below which numbers stand in for each other
-_CUTOFF = 1e-13  # of the largest singular value, below which a direction is not determined
+_NEAR_BOUND = 1e-6  # share of the range; nearer to a bound a parameter cannot move
+_AT_BOUND = 1e-3  # share of the range; nearer to a bound a parameter counts as being at it
+_COLLINEAR = 3e-3  # singular value of the normalised Jacobian below which parameters are not separable
+_CUTOFF = 1e-13  # share of the largest singular value below which a direction is not determined
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,12 +25,12 @@ class FittedModel:
     """A fitted model.
 
     Attributes:
-        fit_model: with the fitted numbers.
-        free: what was free, starts at the fitted numbers.
+        fit_model: the model with the fitted values.
+        free: the free parameters; their starts are the fitted values.
         freed: names of further constants that were freed.
         residual: measured minus predicted over the scale, shape (values,).
         jacobian: derivatives of the prediction over the scale, shape (values, free).
-        folds: ways of leaving out, see `mckibben.identification.predict.predictor.Predictor`.
+        folds: folds of the hold-out error, see `mckibben.identification.predict.predictor.Predictor`.
     """
 
     fit_model: FitModel
@@ -42,12 +42,12 @@ class FittedModel:
 
     @property
     def key(self) -> tuple[frozenset[str], frozenset[str]]:
-        """What was searched: the effects and the freed constants."""
+        """Identity of the model in a search: its effects and freed constants."""
         return frozenset(self.fit_model.ids), self.freed
 
     @cached_property
     def mean_square(self) -> float:
-        """Of the residual."""
+        """Mean square of the residual."""
         return float(np.mean(self.residual**2))
 
     @property
@@ -57,7 +57,7 @@ class FittedModel:
 
     @cached_property
     def inner(self) -> np.ndarray:
-        """Indices of the free numbers that are not at a bound and that the data see."""
+        """Indices of the free parameters that are not at a bound and that affect the prediction."""
         scale = np.linalg.norm(self.jacobian, axis=0) if self.free else np.empty(0)
         span = np.array([p.upper - p.lower for p in self.free])
         gap = np.array([min(p.start - p.lower, p.upper - p.start) for p in self.free])
@@ -66,16 +66,16 @@ class FittedModel:
 
     @cached_property
     def idle(self) -> np.ndarray:
-        """Which free numbers ended where they do nothing, mask."""
+        """Mask of the free parameters that ended at their off value, where they have no effect."""
         return np.array([
             p.off is not None and abs(p.start - p.off) <= _AT_BOUND * (p.upper - p.lower) for p in self.free
         ], dtype=bool)  # fmt: skip
 
     @cached_property
     def at_bound(self) -> np.ndarray:
-        """Which free numbers ended at a bound of what is plausible and still do something, mask.
+        """Mask of the free parameters that ended at a bound of their plausible range and have an effect.
 
-        Where a bound is the end of the definition, as of a share, a value there is plausible.
+        A natural bound, such as 0 or 1 of a share, is a plausible value and does not count.
         """
         span = np.array([p.upper - p.lower for p in self.free])
         gap = np.array([min(p.start - p.lower, p.upper - p.start) for p in self.free])
@@ -84,7 +84,7 @@ class FittedModel:
 
     @cached_property
     def implausible(self) -> int:
-        """How many numbers are at a bound, or are determined only together with others."""
+        """Number of parameters that are at a bound or not separable from others."""
         inner = self.jacobian[:, ~self.at_bound & ~self.idle]
         if not inner.shape[1]:
             return int(np.count_nonzero(self.at_bound))
@@ -94,7 +94,7 @@ class FittedModel:
 
     @cached_property
     def standard_errors(self) -> list[float | None]:
-        """Of the free numbers; None at a bound, or where the data do not determine it."""
+        """Standard errors of the free parameters; None at a bound or where the data do not determine it."""
         errors: list[float | None] = [None] * len(self.free)
         inner = [i for i in self.inner if not self.at_bound[i]]
         if not inner or self.implausible:
@@ -108,15 +108,15 @@ class FittedModel:
 
     @cached_property
     def fold_squares(self) -> tuple[np.ndarray, ...]:
-        r"""Mean square of what is left out, per fold of each way of folding, without refitting.
+        r"""Hold-out mean square of each fold, for each way of folding, without refitting.
 
-        Leaving fold g out moves the numbers to first order by
+        Leaving fold g out changes the parameters to first order by
 
         .. math:: -(J^TJ - J_g^TJ_g + \Lambda)^{+}\,(J_g^Tr_g + \Lambda(\theta-\theta_{off}))
 
-        within their bounds; for a model that is linear in its numbers this is the exact hold-out residual.
-        The prior :math:`\Lambda`, one noise over the whole range of a number, matters only where fold g alone
-        determines a number: without it nobody would know of the effect, so it goes to where it does nothing.
+        within their bounds. For a model that is linear in its parameters the result is exact. The prior
+        :math:`\Lambda`, one standard deviation of the residual over the range of a parameter, matters only
+        where fold g alone determines a parameter: without fold g, the parameter then goes to its off value.
         """
         inner = self.inner
         free = [self.free[i] for i in inner]
@@ -151,7 +151,7 @@ class FittedModel:
 
 
 def counts(labels: np.ndarray) -> np.ndarray:
-    """Rows of each fold, in the order of its label."""
+    """Number of rows of each fold, in the order of the labels."""
     return np.unique(labels, return_counts=True)[1]
 
 
@@ -163,7 +163,7 @@ def refitted(
     freed: Collection[str] = (),
     effort: FitEffort | None = None,
 ) -> FittedModel:
-    """Fit the free numbers jointly from their starts; without an effort as tightly as a search needs it."""
+    """Fit the free parameters jointly from their starts; the default effort is that of a search."""
     if not free:
         residual = predictor.residual(fit_model) / predictor.scale
         empty = np.empty((len(residual), 0))
@@ -172,9 +172,9 @@ def refitted(
     result = misfit.fit(effort or search_effort(simulated=predictor.simulated))
     numbers = np.array(result.numbers)
     ended = misfit.fit_model(numbers)
-    # Fits follow the force below zero too; what counts is what a slack muscle reads.
+    # Fits use the unclipped force, which may be negative; the residual uses the force of a slack muscle.
     residual = predictor.residual(ended) / predictor.scale
     same = np.isclose(residual, -misfit.value(numbers), rtol=1e-9)
     jacobian = np.where(same[:, None], misfit.derivatives(numbers), 0.0)
-    there = tuple(replace(p, start=float(x)) for p, x in zip(free, numbers, strict=True))
-    return FittedModel(ended, there, frozenset(freed), residual, jacobian, predictor.folds)
+    at_solution = tuple(replace(p, start=float(x)) for p, x in zip(free, numbers, strict=True))
+    return FittedModel(ended, at_solution, frozenset(freed), residual, jacobian, predictor.folds)

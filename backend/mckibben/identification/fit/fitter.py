@@ -1,4 +1,4 @@
-"""Fits models of one subject and remembers them: what a search, its twins and its verdict are made of."""
+"""Fits models to one set of data and remembers them, for search, alternatives and verdict."""
 
 from __future__ import annotations
 
@@ -14,32 +14,35 @@ from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.physics.effect import Effect
 
-_MOVED = 1e-3  # of its start: a number that moves less has not been looked for
-_USUAL = 0.01  # of the range: size of a number that is off by default
-_STUCK = 0.999  # of the error before: a fit that gains less starts once more
-_LEAST_PROMISE = 0.02  # of the mean square, near the floor
-_NEAR_FLOOR = 1.2  # of the noise: below, only an effect that shows by itself is tried
+_MOVED = 1e-3  # relative change of a parameter below which the fit has not left its start
+_USUAL = 0.01  # share of the range: size of a parameter that is off by default
+_STUCK = 0.999  # error over the error before, above which a fit is repeated from another start
+_LEAST_PROMISE = 0.02  # least first-order gain near the noise, share of the mean square
+_NEAR_FLOOR = 1.2  # error over noise below which only effects with a clear gain of their own are tried
 
 
 class CancelledError(Exception):
-    """Nobody waits for the diagnosis any more."""
+    """The diagnosis was cancelled."""
 
 
 @dataclass
 class Fitter:
-    """Fits models of one subject and remembers them.
+    """Fits models to one set of data and remembers them.
 
     Attributes:
         predictor: the data.
-        geometry: geometry that every fit may change.
+        geometry: geometry fields that every fit may change.
         candidates: effects that may be added.
-        noise: of the residual over its scale, None when it cannot be told.
-        load: bounds of the load where every fit has to find it.
-        effort: how much work fits and search may do.
-        held: names of numbers that no fit changes, because something else has told them.
-        estimate: the noise as a model's residual shows it; what a model misses may look like noise, so the
-            search asks again as models become better.
-        tell: told now and then what is being done; may raise `CancelledError`.
+        noise: of the scaled residual; None when it cannot be estimated.
+        load: bounds of the load when it is unknown and fitted.
+        effort: limits of fits and search.
+        held: names of parameters that no fit changes, because they are known from elsewhere.
+        tell: called before each fit with the ids of the effects; may raise `CancelledError`.
+        estimate: estimates the noise from a model's residual. Missing effects may look like noise, so the
+            search repeats the estimate with better models.
+        known: the models fitted so far.
+        acts: effect id -> result of `acting`.
+        twice: keys of the models that were fitted from a second start.
     """
 
     predictor: Predictor
@@ -58,9 +61,9 @@ class Fitter:
     def fit(
         self, fit_model: FitModel, freed: frozenset[str] = frozenset(), *, again: bool = False
     ) -> FittedModel:
-        """The fitted model of a choice of effects and freed constants; found again when it was fitted.
+        """The fitted model of a choice of effects and freed constants, fitted only once.
 
-        ``again`` fits from another start, once, and keeps the better end.
+        ``again`` fits once more from another start and keeps the better result.
         """
         key = frozenset(fit_model.ids), freed
         if key not in self.known or (again and key not in self.twice):
@@ -75,40 +78,41 @@ class Fitter:
         return self.known[key]
 
     def adding(self, fitted_model: FittedModel, effect: Effect) -> FittedModel:
-        """The model with one more effect, its numbers refitted from where they are."""
+        """The model with one more effect, refitted from the present values."""
         off = self.acting(fitted_model, effect)
         freed = fitted_model.freed | {f"{effect.id}.{n}" for n in off if not effect.parameter(n).fitted}
-        near = fitted_model.fit_model.adding(effect, _between(effect, off))
-        found = self.fit(near, freed)
-        started = near.values[effect.id]
-        still = all(
-            abs(found.fit_model.values[effect.id][name] - started[name]) < _MOVED * abs(started[name])
+        started_model = fitted_model.fit_model.adding(effect, _between(effect, off))
+        refitted_model = self.fit(started_model, freed)
+        started = started_model.values[effect.id]
+        unmoved = all(
+            abs(refitted_model.fit_model.values[effect.id][name] - started[name])
+            < _MOVED * abs(started[name])
             for name in off
         )
-        if found.rmse > _STUCK * fitted_model.rmse or still:
-            found = self.fit(fitted_model.fit_model.adding(effect), freed, again=True)
-        return found
+        if refitted_model.rmse > _STUCK * fitted_model.rmse or unmoved:
+            refitted_model = self.fit(fitted_model.fit_model.adding(effect), freed, again=True)
+        return refitted_model
 
     def acting(self, fitted_model: FittedModel, effect: Effect) -> dict[str, float]:
-        """Numbers of an effect that do something in these data, with the value at which they do nothing.
+        """Parameters of an effect that change the prediction -> value at which they have no effect.
 
-        Those that the effect declares as fitted; where the data do not see them, its further constants.
+        These are the parameters declared as fitted, or the further constants if those change nothing.
         """
         if effect.id not in self.acts:
-            own = [
+            choices = [
                 {p.name: p.off for p in effect.parameters if p.off is not None and p.fitted is fitted}
                 for fitted in (True, False)
             ]
-            seen = (
+            visible = (
                 off
-                for off in own
+                for off in choices
                 if np.any(self._sizes(self._columns(fitted_model, effect, off)) > self._least)
             )
-            self.acts[effect.id] = next(seen, own[0])
+            self.acts[effect.id] = next(visible, choices[0])
         return self.acts[effect.id]
 
     def freeing(self, fitted_model: FittedModel, effect: Effect) -> list[FittedModel]:
-        """The model with further constants of an effect freed: together, or fewer where that is too much."""
+        """The model with further constants of an effect freed: all, and subsets if all are too many."""
         names = {f"{effect.id}.{p.name}" for p in effect.parameters if not p.fitted} - fitted_model.freed
         names -= self._blind(fitted_model, names)
         if not names:
@@ -124,7 +128,7 @@ class Fitter:
         ]
 
     def holding(self, fitted_model: FittedModel, name: str, value: float) -> FittedModel:
-        """The model with a freed constant held at a value again, refitted."""
+        """The model with a freed constant fixed at a value again, refitted."""
         return self.fit(fitted_model.fit_model.with_numbers([name], [value]), fitted_model.freed - {name})
 
     def dropping(self, fitted_model: FittedModel, effect_id: str) -> FittedModel:
@@ -133,26 +137,28 @@ class Fitter:
         return self.fit(fitted_model.fit_model.without(effect_id), freed)
 
     def promising(self, fitted_model: FittedModel, effects: Sequence[Effect]) -> list[Effect]:
-        """Effects in the order of the error they would take away to first order."""
+        """Effects in the order of their first-order gain, the largest first."""
         inner = fitted_model.jacobian[:, fitted_model.inner]
         basis = np.linalg.qr(inner)[0] if inner.shape[1] else np.empty((len(fitted_model.residual), 0))
-        left = fitted_model.residual - basis @ (basis.T @ fitted_model.residual)
+        unexplained = fitted_model.residual - basis @ (basis.T @ fitted_model.residual)
         gains = []
         for effect in effects:
             columns = self.changes(fitted_model, effect)
             rest = columns - basis @ (basis.T @ columns)
             size, whole = np.linalg.norm(rest, axis=0), np.linalg.norm(columns, axis=0)
-            seen = size > 1e-3 * whole
-            found = (
-                np.linalg.lstsq(rest[:, seen] / size[seen], left, rcond=1e-6)[0] if np.any(seen) else left[:0]
+            distinct = size > 1e-3 * whole
+            solution = (
+                np.linalg.lstsq(rest[:, distinct] / size[distinct], unexplained, rcond=1e-6)[0]
+                if np.any(distinct)
+                else unexplained[:0]
             )
-            gains.append(float(np.sum((rest[:, seen] / size[seen] @ found) ** 2)))
+            gains.append(float(np.sum((rest[:, distinct] / size[distinct] @ solution) ** 2)))
         order = np.argsort(gains)[::-1]
-        least = _LEAST_PROMISE * float(left @ left) if self.near_floor(fitted_model) else 0.0
+        least = _LEAST_PROMISE * float(unexplained @ unexplained) if self.near_floor(fitted_model) else 0.0
         return [effects[index] for index in order if gains[index] > least]
 
     def guessed(self, fitted_model: FittedModel, effect: Effect) -> FittedModel:
-        """The model with one more effect of the size that is best to first order, nothing else refitted."""
+        """The model with one more effect of the best first-order size; nothing else is refitted."""
         free = tuple(
             p
             for p in free_numbers(fitted_model.fit_model.adding(effect, effect.off), (), fitted_model.freed)
@@ -166,15 +172,23 @@ class Fitter:
         inside = {p.name: float(np.clip(named[p.name], p.lower, p.upper)) for p in free if p.name in named}
         fit_model = fitted_model.fit_model.adding(effect, effect.off)
         fit_model = fit_model.with_numbers(list(inside), list(inside.values()))
-        left = (self.predictor.measured - self.predictor.trial(fit_model)) / self.predictor.scale
-        if float(np.mean(left**2)) > fitted_model.mean_square:
-            fit_model, left = fitted_model.fit_model.adding(effect, effect.off), fitted_model.residual
+        trial_residual = (self.predictor.measured - self.predictor.trial(fit_model)) / self.predictor.scale
+        if float(np.mean(trial_residual**2)) > fitted_model.mean_square:
+            fit_model, trial_residual = (
+                fitted_model.fit_model.adding(effect, effect.off),
+                fitted_model.residual,
+            )
         return FittedModel(
-            fit_model, fitted_model.free, fitted_model.freed, left, fitted_model.jacobian, fitted_model.folds
+            fit_model,
+            fitted_model.free,
+            fitted_model.freed,
+            trial_residual,
+            fitted_model.jacobian,
+            fitted_model.folds,
         )
 
     def changes(self, fitted_model: FittedModel, effect: Effect) -> np.ndarray:
-        """Change of the prediction by each number of an effect of moderate size, (values, numbers)."""
+        """Change of the prediction by each parameter of an effect, shape (values, parameters)."""
         return self._columns(fitted_model, effect, self.acting(fitted_model, effect))
 
     def _columns(self, fitted_model: FittedModel, effect: Effect, off: dict[str, float]) -> np.ndarray:
@@ -187,7 +201,7 @@ class Fitter:
         return np.hstack(columns)
 
     def _blind(self, fitted_model: FittedModel, names: set[str]) -> set[str]:
-        """Those of some constants that change nothing in these data."""
+        """The constants that do not change the prediction."""
         free = [p for p in free_numbers(fitted_model.fit_model, (), names) if p.name in names]
         if not free:
             return set()
@@ -197,18 +211,18 @@ class Fitter:
         return {p.name for p, size in zip(free, reach, strict=True) if not size > self._least}
 
     def listen(self, fitted_model: FittedModel) -> None:
-        """Lower the noise where the residual of a better model shows less."""
-        found = self.estimate(fitted_model)
-        if found is not None:
-            self.noise = found if self.noise is None else min(self.noise, found)
+        """Lower the noise when the residual of a better model shows less."""
+        estimated = self.estimate(fitted_model)
+        if estimated is not None:
+            self.noise = estimated if self.noise is None else min(self.noise, estimated)
 
     def near_floor(self, fitted_model: FittedModel) -> bool:
-        """Whether only an effect that shows by itself is worth a look."""
+        """Whether the error is so near the noise that only clear gains count."""
         return self.noise is not None and fitted_model.rmse < _NEAR_FLOOR * self.noise
 
     @property
     def _least(self) -> float:
-        """Rms change that data of this noise can show."""
+        """Smallest rms change that counts, a tenth of the noise."""
         return 0.1 * (self.noise or 0.0)
 
     @staticmethod
@@ -217,7 +231,7 @@ class Fitter:
 
 
 def _between(effect: Effect, off: dict[str, float]) -> dict[str, float]:
-    """A third of the way from off to the default, or where that is off to a hundredth of the range."""
+    """A third of the way from off to the default; to 1 % of the range where the default is off."""
     ways = {}
     for name, value in off.items():
         p = effect.parameter(name)

@@ -1,4 +1,4 @@
-"""Bounded least squares with several starts, and an honest report of what could not be determined."""
+"""Bounded least squares with several starts, and a report of parameters that are not determined."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import numpy as np
 from mckibben.identification.fit.levenberg import minimise
 from mckibben.identification.predict.free import Free
 
-_AT_BOUND = 1e-3  # of the range between the bounds
-_CORRELATED = 0.95
+_AT_BOUND = 1e-3  # share of the range; nearer to a bound a parameter counts as being at it
+_CORRELATED = 0.95  # correlations above are reported
 _UNDETERMINED = 1e10  # condition number of the scaled normal matrix beyond which no errors are given
 
 
@@ -28,7 +28,7 @@ class Fitted:
 
 @dataclass(frozen=True, slots=True)
 class FitResult:
-    """The fitted parameters, correlations above 0.95 and what has to be said about them."""
+    """The fitted parameters, their correlations above 0.95 and notes for the user."""
 
     parameters: tuple[Fitted, ...]
     correlations: tuple[tuple[str, str, float], ...]
@@ -53,16 +53,16 @@ def least_squares_fit(
     """Minimise the sum of squared residuals over the free parameters within their bounds.
 
     Args:
-        residual: numbers -> residuals.
-        jacobian: numbers -> derivatives, shape (residuals, free).
+        residual: values -> residuals.
+        jacobian: values -> derivatives, shape (residuals, free).
         free: at least one free parameter.
-        starts: the given start and ``starts - 1`` random ones inside the bounds; the best end wins.
+        starts: the given start and ``starts - 1`` random ones inside the bounds; the best result counts.
         seed: of the random starts, so that a fit is repeatable.
-        tolerance: relative change of the sum of squares, of the numbers and of the gradient that ends it.
-        evaluations: most evaluations of each start.
+        tolerance: relative change of the sum of squares at which the fit stops.
+        evaluations: most evaluations from each start.
 
     Standard errors assume independent residuals of equal size; they come from the exact Jacobian at the end.
-    A parameter at a bound has none, nor has one that the data cannot tell from the others.
+    A parameter at a bound has none, nor has one that the data cannot separate from others.
     """
     lower = np.array([parameter.lower for parameter in free])
     upper = np.array([parameter.upper for parameter in free])
@@ -70,11 +70,11 @@ def least_squares_fit(
     random = np.random.default_rng(seed).uniform(0.02, 0.98, (starts - 1, len(free)))
     best = None
     for start in (first, *(lower + share * (upper - lower) for share in random)):
-        found = minimise(
+        minimum = minimise(
             residual, jacobian, start, lower, upper, tolerance=tolerance, evaluations=evaluations
         )
-        if best is None or found.squares < best.squares * (1.0 - 1e-9):
-            best = found
+        if best is None or minimum.squares < best.squares * (1.0 - 1e-9):
+            best = minimum
     assert best is not None  # noqa: S101 - there is always at least the first start
     return _report(best.numbers, best.jacobian, best.residuals, free)
 
@@ -94,7 +94,7 @@ def _report(
     freedom = len(residuals) - len(free)
     scale = np.linalg.norm(jacobian[:, inner], axis=0)
     blind = scale <= 1e-12 * np.max(scale * span[inner], initial=0.0) / span[inner]
-    messages += [f"these data do not see {free[index].name}" for index in inner[blind]]
+    messages += [f"{free[index].name} has no effect on the predicted values" for index in inner[blind]]
     inner, scale = inner[~blind], scale[~blind]
     if freedom <= 0:
         messages.append(f"{len(residuals)} values cannot determine {len(free)} parameters")
@@ -103,7 +103,7 @@ def _report(
         normal = unit.T @ unit
         if np.linalg.cond(normal) > _UNDETERMINED:
             names = ", ".join(free[index].name for index in inner)
-            messages.append(f"these data cannot tell apart: {names}; no standard errors are given")
+            messages.append(f"the data cannot separate {names}: no standard errors are given")
         else:
             inverse = np.linalg.inv(normal)
             variance = float(residuals @ residuals) / freedom

@@ -20,14 +20,14 @@ import numpy as np
 
 _FIRST_DAMPING = 1e-3  # nearly a Gauss-Newton step: the starts are usual values
 _LEAST_DAMPING = 1e-12
-_MOST_DAMPING = 1e10
-_ACCEPTED = 1e-4  # of the predicted reduction
-_FLAT = 1e-30  # of the largest column: a number that changes nothing
+_MOST_DAMPING = 1e10  # the search gives up beyond
+_ACCEPTED = 1e-4  # share of the predicted reduction from which a step is accepted
+_FLAT = 1e-30  # share of the largest column norm below which a parameter changes nothing
 
 
 @dataclass(frozen=True, slots=True)
 class Minimum:
-    """Where it ended: the numbers, residuals and their derivatives there."""
+    """The solution: parameter values, and the residuals and their derivatives there."""
 
     numbers: np.ndarray
     residuals: np.ndarray
@@ -53,9 +53,9 @@ def minimise(
 
     Args:
         residual: numbers, shape (n,) -> residuals, shape (m,), finite.
-        jacobian: numbers -> derivatives, shape (m, n); asked only where the residuals were just evaluated.
+        jacobian: numbers -> derivatives, shape (m, n); called only where the residuals were just evaluated.
         start, lower, upper: shape (n,); a start outside is moved to the bound.
-        tolerance: relative reduction of the sum of squares, promised and reached, that ends it.
+        tolerance: relative reduction of the sum of squares, predicted and achieved, at which it stops.
         evaluations: most evaluations of the residuals.
     """
     x = np.clip(start, lower, upper)
@@ -67,28 +67,28 @@ def minimise(
         scale = np.maximum(scale, np.linalg.norm(j, axis=0))
         d = _step(j, r, damping * _weights(scale) ** 2, lower - x, upper - x)
         linear = j @ d + r
-        promised = squares - float(linear @ linear)
-        if not promised > 0.0 or damping > _MOST_DAMPING:
+        predicted = squares - float(linear @ linear)
+        if not predicted > 0.0 or damping > _MOST_DAMPING:
             break
         new = np.clip(x + d, lower, upper)
         moved = residual(new)
-        reached = squares - float(moved @ moved)
-        ratio = reached / promised
+        achieved = squares - float(moved @ moved)
+        ratio = achieved / predicted
         if ratio > _ACCEPTED:
-            x, r, squares = new, moved, squares - reached
+            x, r, squares = new, moved, squares - achieved
             j = jacobian(x)
             damping = max(damping * max(1.0 / 3.0, 1.0 - (2.0 * ratio - 1.0) ** 3), _LEAST_DAMPING)
             growth = 2.0
         else:
             damping, growth = damping * growth, 2.0 * growth
-        small = max(abs(reached), promised) <= tolerance * squares and ratio <= 2.0
+        small = max(abs(achieved), predicted) <= tolerance * squares and ratio <= 2.0
         if small or not squares > 0.0:
             break
     return Minimum(x, r, j)
 
 
 def _weights(scale: np.ndarray) -> np.ndarray:
-    """Of the damping: sizes of the columns; what changes nothing is held by the largest of the others."""
+    """Weights of the damping: the column norms; for zero columns the largest norm."""
     largest = float(np.max(scale, initial=0.0)) or 1.0
     return np.where(scale > _FLAT * largest, scale, largest)
 
@@ -96,7 +96,7 @@ def _weights(scale: np.ndarray) -> np.ndarray:
 def _step(
     jacobian: np.ndarray, residuals: np.ndarray, damping: np.ndarray, lower: np.ndarray, upper: np.ndarray
 ) -> np.ndarray:
-    """The damped least-squares step within a box that holds 0, by an active set."""
+    """The damped least-squares step within a box that contains 0, by an active-set method."""
     unit = 1.0 / np.sqrt(damping)  # in these units the damping is 1 for every number
     columns = jacobian * unit
     normal = columns.T @ columns + np.eye(len(unit))
@@ -118,7 +118,7 @@ def _step(
             if part < 1.0:
                 held[np.flatnonzero(free)[np.argmin(share)]] = True
                 continue
-        pull = normal @ d + slope  # of a held number it must point out of the box
+        pull = normal @ d + slope  # at an active bound it must point out of the box
         inward = held & np.where(d <= low, pull < 0.0, np.where(d >= high, pull > 0.0, True))
         if not np.any(inward):
             break

@@ -1,4 +1,4 @@
-"""What a fit makes small: a model's misfit as a function of its free numbers, with derivatives."""
+"""The misfit of a model as a function of its free parameters, with derivatives."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
 
-_LOST = 1e3  # times the largest value: misfit of a row where a guess of the fit has no finite value
+_LOST = 1e3  # misfit of a row whose prediction is not finite, over the largest value
 
 
 class Misfit:
-    """Predicted minus measured over the scale; the last evaluation serves both value and derivatives.
+    """Predicted minus measured over the scale; the last evaluation is kept for value and derivatives.
 
-    The unclipped force is followed: where the model is slack although the muscle pulls, a clipped one has no
-    gradient. A row without a finite value is far off and has no gradient.
+    The force is not clipped: where the model is slack although the muscle pulls, a clipped force has no
+    gradient. A row without a finite value gets a large misfit and no gradient.
 
     Args:
         predictor: the data.
-        fit_model: the model around which numbers are changed.
-        free: what is changed.
+        fit_model: the model with the fixed values.
+        free: the free parameters.
     """
 
     def __init__(self, predictor: Predictor, fit_model: FitModel, free: Sequence[Free]) -> None:
@@ -37,7 +37,7 @@ class Misfit:
         self._slopes: np.ndarray | None = None
 
     def fit_model(self, numbers: np.ndarray) -> FitModel:
-        """The model with these numbers."""
+        """The model with these values of the free parameters."""
         return self._fit_model.with_numbers(self._names, numbers)
 
     def value(self, numbers: np.ndarray) -> np.ndarray:
@@ -47,7 +47,7 @@ class Misfit:
             predictor, fit_model = self._predictor, self.fit_model(numbers)
             self._predicted, self._slopes = None, None
             with np.errstate(all="ignore"):
-                if predictor.simulated:  # derivatives are runs of their own: only where a step was good
+                if predictor.simulated:  # derivatives need further runs: only for accepted steps
                     predicted = self._predicted = predictor.predict(fit_model, clipped=False)
                 else:
                     predicted, slopes = predictor.linearised(fit_model, self._free)
@@ -58,7 +58,7 @@ class Misfit:
         return self._misfit
 
     def derivatives(self, numbers: np.ndarray) -> np.ndarray:
-        """Of the misfit, shape (values, free)."""
+        """Derivatives of the misfit, shape (values, free)."""
         self.value(numbers)
         if self._slopes is None:
             slopes = self._predictor.differences(self.fit_model(numbers), self._free, self._predicted)
@@ -69,7 +69,7 @@ class Misfit:
         return np.where(np.all(np.isfinite(slopes), axis=1, keepdims=True), slopes, 0.0)
 
     def fit(self, effort: FitEffort) -> FitResult:
-        """Least squares over the free numbers, see `least_squares_fit`."""
+        """Least squares over the free parameters, see `least_squares_fit`."""
         return least_squares_fit(
             self.value,
             self.derivatives,

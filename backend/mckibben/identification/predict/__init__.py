@@ -1,4 +1,4 @@
-"""What a measurement asks of a model: for each kind, which run of the model predicts which channel.
+"""Prediction of a measurement by a model: for each kind, the inputs and the predicted channels.
 
 | kind | given | predicted |
 |---|---|---|
@@ -6,7 +6,7 @@
 | isotonic | pressure, load | length |
 | diameter | pressure or length | diameter |
 | transient | command, supply, load | pressure, displacement (force where measured) |
-| transient, no command channel | measured pressure, load | displacement |
+| transient, no command channel | measured pressure, load | displacement (force where measured) |
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ from mckibben.simulation.statics.model import StaticModel
 
 __all__ = ["PredictedChannel", "Predictor", "QuasistaticPredictor", "TransientPredictor", "predictor_of"]
 
-_PRESSURE = 6e5  # Pa; where no pressure was measured
+_PRESSURE = 6e5  # Pa; required by the drive, but unused because the pressure is measured
 _ANY_VALVE = Valve(1e-8, 1e-8)  # the pressure is measured, so no air flows through it
 
 
 def predictor_of(measurement: Measurement, muscle: Muscle, drive: Drive | None = None) -> Predictor:
-    """The subject of a measurement.
+    """The predictor for a measurement.
 
     Args:
         measurement: of any kind.
-        muscle: whose lengths and lock count.
-        drive: of a transient measurement; without a command channel a stated load is enough.
+        muscle: for the nominal length and the thread length of the braid.
+        drive: of a transient measurement; not needed if the load is stated and there is no command channel.
 
     Raises:
         InputError: a channel, a condition or the drive is missing.
@@ -58,7 +58,7 @@ def _bare_drive(measurement: Measurement, muscle: Muscle) -> Drive:
     conditions = measurement.conditions
     if not {"load_mass", "load_force"} & set(conditions):
         unused = ", ".join(f"'{header}'" for header in measurement.ignored)
-        also = f"; is one of the columns that are not used, {unused}, the force?" if unused else ""
+        also = f"; is the force in one of the unused columns {unused}?" if unused else ""
         raise InputError(
             f"{measurement.name}: the load of a transient measurement is not given",
             field="load_mass",

@@ -1,4 +1,4 @@
-"""The rows of a measurement that a model can predict, and what the model needs for them.
+"""The rows of a measurement that a model can predict, with the inputs of the model.
 
 | kind | given | predicted |
 |---|---|---|
@@ -22,20 +22,21 @@ from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.physics.muscle import Muscle
 
 GRAVITY = 9.80665  # m/s2
-_LONGEST_SHARE = 0.9999  # of the thread: the braid locks there
-_UNSURE = 5.0  # times the usual uncertainty of the velocity ...
-_JUMP = 0.05  # ... and of the speed around: there it jumps
-_STILL = 0.25  # of the speed before and after: there it turns
-_SUDDEN = 4.0  # times the changes before and after
-_NEW_LEVEL = 0.05  # of the range of what is held, from one row to the next
-_FORGOTTEN = 0.15  # of the range of what is swept
-_PAUSE = 3.0  # times the usual time between rows
-_FEW = 0.1  # share of the rows up to which that is an exception
+_LONGEST_SHARE = 0.9999  # longest length over the thread length, at which the braid locks
+# The velocity of a row counts as a jump if its uncertainty exceeds both
+_UNSURE = 5.0  # times the median uncertainty and
+_JUMP = 0.05  # times the speed of the neighbouring rows.
+_STILL = 0.25  # speed over that of both neighbours, below which the motion turns
+_SUDDEN = 4.0  # change of velocity over the changes before and after, above which it is a jump
+_NEW_LEVEL = 0.05  # change of the held quantity from row to row, share of its range
+_FORGOTTEN = 0.15  # travel after which friction no longer depends on the history, share of the swept range
+_PAUSE = 3.0  # time step over the median one, above which the recording paused
+_FEW = 0.1  # largest share of rows with jumps; above, the velocity is simply noisy
 
 
 @dataclass(frozen=True)
 class ComparableRows:
-    """The rows of a measurement that can be compared, and what the model needs for them.
+    """The comparable rows of a measurement, with the inputs of the model.
 
     Attributes:
         kind: kind of the measurement.
@@ -47,12 +48,12 @@ class ComparableRows:
         time: of each row [s]; None where the rows have no order in time.
         records: label of the uninterrupted record that each row belongs to; rows of a record are in order.
         groups: group label of each row.
-        turning: rows at which the motion turns or its speed jumps: their friction has no known size, so they
-            are not counted, but they belong to the way that memory follows; mask.
+        turning: mask of the rows whose friction is unknown, because the motion turns, its speed jumps or the
+            history is unknown. They are not scored, but they belong to the path of effects with memory.
         rows: index of each row in the measurement.
-        excluded: why rows were left out -> how many.
+        excluded: reason -> number of excluded rows.
         unknown_load: whether the load is not stated and has to be fitted.
-        messages: what was assumed.
+        messages: the assumptions.
     """
 
     kind: str
@@ -70,7 +71,7 @@ class ComparableRows:
     messages: tuple[str, ...]
 
     def chosen(self, keep: np.ndarray) -> ComparableRows:
-        """The task with some of its rows (a mask or indices) only."""
+        """Only some of the rows (a mask or indices)."""
         return replace(
             self,
             measured=self.measured[keep],
@@ -84,13 +85,12 @@ class ComparableRows:
 
 
 def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
-    """The comparison that a measurement of any kind but transient allows.
+    """The comparable rows of a measurement of any kind but transient.
 
-    Rows without pulling force (slack), unusable rows and rows longer than the braid allows are excluded, with
-    a count.
+    Unusable rows (slack or a faulty sensor) and rows longer than the braid allows are excluded, with a count.
 
     Raises:
-        InputError: a condition is missing, or no row is left.
+        InputError: the predicted channel is missing, or no row can be compared.
     """
     columns, kind, count = measurement.columns, measurement.kind, measurement.rows
     messages = list(measurement.messages)
@@ -159,7 +159,7 @@ def _motion(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Velocity and direction of each row, and where the velocity jumps.
 
-    A direction channel counts before what the velocity says.
+    A direction channel takes precedence over the sign of the velocity.
     """
     columns = measurement.columns
     velocity, direction = np.zeros(measurement.rows), columns.get("direction")
@@ -171,7 +171,7 @@ def _motion(
         velocity = moved.velocity
         if stroked and not moved.measured:
             unsure = _jumps(columns["time"], lengths(measurement, nominal_length), moved)
-            # After a pause it moves already, or is still at rest: the file does not tell.
+            # The file does not show whether the muscle already moves after a pause.
             unsure[1:] |= _pauses(columns["time"], columns["group"])
         messages += moved.messages
         if not known:
@@ -181,13 +181,13 @@ def _motion(
         if not known:
             direction, known = velocity, True
     if direction is None or not known:
-        messages.append("direction of motion unknown: friction cannot show in these rows")
+        messages.append("the direction of motion is unknown: friction cannot be determined from these rows")
         return velocity, np.zeros(measurement.rows), unsure
     return velocity, np.sign(direction).astype(float), unsure
 
 
 def _pauses(time: np.ndarray, group: np.ndarray) -> np.ndarray:
-    """Whether the recording paused before each row but the first, and went on with another group."""
+    """Whether the recording paused before each row but the first and continued with another group."""
     steps = np.diff(time)
     if not len(steps):
         return np.zeros(0, bool)
@@ -195,19 +195,19 @@ def _pauses(time: np.ndarray, group: np.ndarray) -> np.ndarray:
 
 
 def _unknown_history(measurement: Measurement, length: np.ndarray | None) -> np.ndarray:
-    """Rows after a break in which what is held was set anew, until the muscle has forgotten the way there.
+    """Mask of the rows after a break whose friction still depends on the unrecorded motion in the break.
 
-    Such a break is a pause between groups, or a jump of the held quantity. What happened in it was not
-    recorded, and where friction was left by it is known only after some way. A record begins at rest, but
-    for a muscle that already carries its weight: it was filled before.
+    A break is a pause between groups, or a jump of the held quantity. The state of friction after it is
+    known only after some travel. A record is assumed to begin at rest, except in isotonic measurements: there
+    the muscle was filled before the record to carry its load.
     """
     columns, rows = measurement.columns, np.zeros(measurement.rows, bool)
-    ways = {  # what is held and what is swept
+    quantities = {  # the held and the swept quantity
         "isobaric": (columns.get("pressure"), length),
         "isometric": (length, columns.get("pressure")),
         "isotonic": (columns.get("force"), columns.get("pressure")),
     }
-    held, swept = ways.get(measurement.kind, (None, None))
+    held, swept = quantities.get(measurement.kind, (None, None))
     if swept is None or "time" not in columns or measurement.rows < 3:
         return rows
     breaks = _pauses(columns["time"], columns["group"])
@@ -225,36 +225,38 @@ def _unknown_history(measurement: Measurement, length: np.ndarray | None) -> np.
 
 
 def _jumps(time: np.ndarray, length: np.ndarray, moved: RecordedMotion) -> np.ndarray:
-    """Rows at which the velocity jumps, so that they may belong to either side: few, or none is told.
+    """Mask of the rows at which the velocity jumps, so that it is undefined; empty if there are many.
 
-    Those far less sure than all the others; and of two rows between which it changes suddenly the one nearer
-    to where both lines meet.
+    These are rows whose velocity is far less certain than that of the others. Where the velocity changes
+    suddenly between two rows, it is the row nearer to the intersection of both straight lines.
     """
     velocity, sigma = moved.velocity, moved.velocity_sigma
     speed = np.pad(np.abs(velocity), 1)
     size = np.maximum(np.maximum(speed[:-2], speed[2:]), speed[1:-1])
-    found = np.isfinite(sigma) & (sigma > np.maximum(_UNSURE * float(np.median(sigma)), _JUMP * size))
-    found |= speed[1:-1] < _STILL * np.minimum(speed[:-2], speed[2:])
+    jumps = np.isfinite(sigma) & (sigma > np.maximum(_UNSURE * float(np.median(sigma)), _JUMP * size))
+    jumps |= speed[1:-1] < _STILL * np.minimum(speed[:-2], speed[2:])
     change = np.pad(np.abs(np.diff(velocity)), 1)
     around = np.maximum(np.maximum(change[:-2], change[2:]), np.hypot(sigma[1:], sigma[:-1]))
     sudden = np.flatnonzero(change[1:-1] > np.maximum(_SUDDEN * around, _JUMP * size[1:]))
-    step, risen = time[sudden + 1] - time[sudden], length[sudden + 1] - length[sudden]
+    step, lengthened = time[sudden + 1] - time[sudden], length[sudden + 1] - length[sudden]
     before, after = velocity[sudden], velocity[sudden + 1]
-    meet = (risen - after * step) / (before - after)  # after the first of both rows [s]
-    found[sudden + (meet > 0.5 * step)] = True
-    return found if np.mean(found) < _FEW else np.zeros(len(found), bool)
+    intersection = (lengthened - after * step) / (
+        before - after
+    )  # time of the intersection after the first row [s]
+    jumps[sudden + (intersection > 0.5 * step)] = True
+    return jumps if np.mean(jumps) < _FEW else np.zeros(len(jumps), bool)
 
 
 def _turning(direction: np.ndarray, records: np.ndarray) -> np.ndarray:
-    """Single rows without a direction between two opposite ones."""
-    found = np.zeros(len(direction), bool)
+    """Mask of single rows without motion between two opposite directions."""
+    turns = np.zeros(len(direction), bool)
     same = (records[2:] == records[:-2]) if len(records) > 2 else np.zeros(0, bool)
-    found[1:-1] = same & (direction[1:-1] == 0.0) & (direction[2:] * direction[:-2] < 0.0)
-    return found
+    turns[1:-1] = same & (direction[1:-1] == 0.0) & (direction[2:] * direction[:-2] < 0.0)
+    return turns
 
 
 def records_of(measurement: Measurement) -> np.ndarray:
-    """Label of the uninterrupted record of each row: a new one begins where time does not go on."""
+    """Label of the uninterrupted record of each row: a new one begins where time does not increase."""
     columns = measurement.columns
     if "time" not in columns:
         return np.zeros(measurement.rows, dtype=np.int64)

@@ -1,7 +1,7 @@
-r"""The static model at the rows of a task, with memory along its records, and exact derivatives.
+r"""The static model at the comparable rows, with memory along the records, and exact derivatives.
 
-With a series compliance c the muscle settles where :math:`L(x) + c\,T(x)` is the measured length, so by the
-implicit function theorem
+With a series compliance c the muscle is in equilibrium where :math:`L(x) + c\,T(x)` is the measured length.
+By the implicit function theorem,
 
 .. math:: \frac{dF}{d\theta} = F_\theta - F_x\,\frac{c\,T_\theta + T c_\theta}{L_x + c\,T_x}
 """
@@ -23,31 +23,31 @@ from mckibben.simulation.statics.model import settle
 
 State = Mapping[str, np.ndarray]
 
-# Up to here a structure is compiled once with the derivatives by all its parameters: another 10 ms for each
-# choice of them would take longer than to evaluate what is not asked for.
+# Up to this many rows a model is compiled once with derivatives by all its parameters. Compiling each choice
+# of parameters (10 ms) would take longer than to evaluate the unneeded derivatives.
 _FEW_ROWS = 600
 
 
 class Evaluation:
-    """Evaluates settings at the rows of one task."""
+    """Evaluates models at the same comparable rows."""
 
     def __init__(self, task: ComparableRows) -> None:
         self.task = task
         self._memory = Memory(task)
 
     def state(self, fit_model: FitModel) -> dict[str, np.ndarray]:
-        """What the model is evaluated at: measured inputs, and where the memory of the effects has got to."""
+        """Inputs of the model: the measured ones, and the states of effects with memory."""
         state = {name: self.task.state[name] for name in INPUTS if name in self.task.state}
         return state | self._memory.states(fit_model)
 
     def at(
         self, fit_model: FitModel, names: Sequence[str] = (), state: State | None = None
     ) -> tuple[dict[str, np.ndarray], np.ndarray]:
-        """Outputs at the measured length, and derivatives of the force by the named numbers.
+        """Outputs at the measured length, and derivatives of the force by the named parameters.
 
-        The second has shape (rows, names); the load is none of the model's own, its column is 0.
+        The derivatives have shape (rows, names). The load does not enter the model; its column is 0.
         """
-        # A typed term may have no slope, or no value, somewhere: that is looked for in what comes out.
+        # A custom term may be undefined at some rows; callers check the result.
         with np.errstate(all="ignore"):
             return self._at(fit_model, names, state)
 
@@ -69,7 +69,7 @@ class Evaluation:
         pulling = out["tension"] > 0.0
         c = np.where(pulling, out["compliance"], 0.0)
         slope = out["length_by_length"] + c * out["tension_by_length"]
-        # settle() gives dF/dL as seen at the measured length; here the slope at the muscle itself is needed.
+        # settle() gives dF/dL by the measured length; the slope by the length of the muscle is needed here.
         by_length = out["force_by_length"] * slope / out["length_by_length"]
         stretch = c * tension + np.where(pulling, out["tension"], 0.0) * compliance
         total = force - by_length * stretch / slope
@@ -83,7 +83,7 @@ class Evaluation:
 
 
 def _derivatives(effects: Sequence[Effect], names: Sequence[str], memory: bool) -> tuple[str, ...]:
-    """All that fits of these effects may ask derivatives by."""
+    """All names by which a fit of these effects may need derivatives."""
     geometry = [name for name in GEOMETRY if name in names]
     parameters = [f"{effect.id}.{parameter.name}" for effect in effects for parameter in effect.parameters]
     remembering = filter(remembers, effects) if memory else ()
@@ -92,5 +92,5 @@ def _derivatives(effects: Sequence[Effect], names: Sequence[str], memory: bool) 
 
 
 def sorted_effects(effects: Sequence[Effect]) -> tuple[Effect, ...]:
-    """One order for one choice of effects, so that its machine code is found again."""
+    """The effects in a fixed order, so that their machine code is found in the cache."""
     return Model(effects).effects

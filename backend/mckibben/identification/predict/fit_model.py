@@ -1,4 +1,4 @@
-"""A model with numbers, and which of them a fit may change."""
+"""A model with values, and which of them a fit may change."""
 
 from __future__ import annotations
 
@@ -14,28 +14,27 @@ from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import GEOMETRY, NEUTRAL_ANGLE, Muscle
 from mckibben.physics.parameter import Parameter
 
-#: Name of the load of a measurement that does not say it [N].
+#: Name of the unknown load of a measurement [N].
 LOAD = "load_force"
 
 _UNITS = {name: "rad" if name == "braid_angle" else "m" for name in GEOMETRY} | {LOAD: "N"}
-# How far a fit may take a geometry field whose tolerance is not known: +- rad or share of the value.
+# Tolerance of a geometry field when none is stated: angle in rad, others as a share of the value.
 _DEFAULT_TOLERANCE = {"braid_angle": 0.06, "nominal_length": 0.02}
 _DEFAULT_SHARE = 0.10
 
 
 @dataclass(frozen=True)
 class FitModel:
-    """A muscle, its effects and their values.
+    """A muscle, its effects and their values, some of which a fit may change.
 
-    Numbers are named "effect.parameter", by the field of the muscle, or `LOAD`.
+    Values are named "effect.parameter", by the field of the muscle, or `LOAD`.
 
     Attributes:
         muscle: geometry, SI.
         effects: the effects, in the order in which they were added.
         values: effect id -> parameter -> value, SI; complete.
-        load: the load where a measurement does not say it [N].
-        assumed: fields of the muscle that nobody stated and that an effect multiplies; they hold a typical
-            value.
+        load: the unknown load of a measurement [N].
+        assumed: fields of the muscle that an effect needs and that are not stated; they hold a typical value.
     """
 
     muscle: Muscle
@@ -48,7 +47,7 @@ class FitModel:
         object.__setattr__(self, "values", {name: dict(own) for name, own in dict(self.values).items()})
 
     def number(self, name: str) -> float:
-        """The value of a named number."""
+        """The value with this name."""
         if name == LOAD:
             return self.load
         if name in GEOMETRY:
@@ -57,7 +56,7 @@ class FitModel:
         return self.values[effect][parameter]
 
     def with_numbers(self, names: Sequence[str], numbers: Sequence[float] | np.ndarray) -> FitModel:
-        """The same model with some numbers replaced."""
+        """The same model with some values replaced."""
         values = {effect: dict(own) for effect, own in self.values.items()}
         geometry: dict[str, Any] = {}
         load = self.load
@@ -75,20 +74,20 @@ class FitModel:
     def adding(self, effect: Effect, values: Mapping[str, float] | None = None) -> FitModel:
         """The model with one more effect, at its defaults unless values are given.
 
-        What the effect needs of the muscle and nobody stated is assumed.
+        Fields of the muscle that the effect needs and that are not stated are assumed.
         """
-        own = {**effect.defaults, **(values or {})}
-        unknown = {name for name in effect.needs if getattr(self.muscle, name) == 0.0}
+        effect_values = {**effect.defaults, **(values or {})}
+        unstated = {name for name in effect.needs if getattr(self.muscle, name) == 0.0}
         return replace(
             self,
-            muscle=self.muscle.assuming(unknown),
+            muscle=self.muscle.assuming(unstated),
             effects=(*self.effects, effect),
-            values={**self.values, effect.id: own},
-            assumed=self.assumed | unknown,
+            values={**self.values, effect.id: effect_values},
+            assumed=self.assumed | unstated,
         )
 
     def without(self, effect_id: str) -> FitModel:
-        """The model without an effect, and without what was assumed for it alone."""
+        """The model without an effect, and without assumptions made only for it."""
         effects = tuple(effect for effect in self.effects if effect.id != effect_id)
         idle = self.assumed - {name for effect in effects for name in effect.needs}
         return replace(
@@ -112,15 +111,15 @@ def free_numbers(
     *,
     load: Free | None = None,
 ) -> tuple[Free, ...]:
-    """What a fit of the model may change.
+    """The free parameters of a fit.
 
     Args:
-        fit_model: the model; starts are its values.
+        fit_model: the model; its values are the starts.
         geometry: geometry fields with their bounds (`free_geometry`).
-        freed: names of further constants that are freed beyond those that effects declare as fitted.
+        freed: names of constants that are free in addition to those declared as fitted.
         load: the unknown load with its bounds.
     """
-    own = [
+    of_effects = [
         _free(effect.id, p, fit_model.values[effect.id][p.name])
         for effect in fit_model.effects
         for p in effect.parameters
@@ -129,7 +128,7 @@ def free_numbers(
     others = [Free(f.name, fit_model.number(f.name), f.lower, f.upper, f.unit) for f in geometry]
     if load is not None:
         others.append(Free(LOAD, fit_model.load, load.lower, load.upper, load.unit))
-    return (*own, *others)
+    return (*of_effects, *others)
 
 
 def _free(effect: str, p: Parameter, value: float) -> Free:
@@ -152,13 +151,13 @@ def free_geometry(muscle: Muscle, names: Iterable[str], tolerance: Mapping[str, 
     """Geometry fields that a fit may change within their tolerance.
 
     Args:
-        muscle: as given.
+        muscle: the muscle.
         names: fields.
-        tolerance: field -> how far it may go either way, SI; others go +-0.06 rad (braid angle), +-2 %
-            (nominal length) or +-10 %.
+        tolerance: field -> largest change in either direction, SI; by default 0.06 rad (braid angle), 2 %
+            (nominal length) or 10 %.
 
     Raises:
-        InputError: not a field of the geometry, or the muscle does not have it.
+        InputError: a name is not a geometry field, or its value is not known.
     """
     choice = []
     for name in dict.fromkeys(names):

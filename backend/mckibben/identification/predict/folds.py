@@ -1,18 +1,18 @@
-"""What is left out together: whole pressures, lengths, sweeps or cycles, or contiguous blocks; never rows."""
+"""Folds of cross-validation: whole pressures, lengths, sweeps, cycles or blocks, never single rows."""
 
 from __future__ import annotations
 
 import numpy as np
 
-FEWEST, MOST = 6, 12
-_RANGES = 6
+FEWEST, MOST = 6, 12  # folds
+_RANGES = 6  # of a swept quantity
 
 
 def folds_of(groups: np.ndarray) -> np.ndarray:
     """Label of the fold of each row, shape (rows,).
 
-    Groups are the folds. More than 12 are dealt out to 12 folds in turn, so that a fold never holds one end
-    of the range only; of fewer than 6 each is cut into as many contiguous blocks as it takes to have 6.
+    The groups are the folds. More than 12 groups are distributed in turn over 12 folds, so that no fold holds
+    only one end of the range. Fewer than 6 groups are split into contiguous blocks, at least 6 in total.
     """
     labels, group = np.unique(groups, return_inverse=True)
     if len(labels) > MOST:
@@ -28,7 +28,7 @@ def folds_of(groups: np.ndarray) -> np.ndarray:
 
 
 def ranges_of(values: np.ndarray) -> np.ndarray:
-    """Label of the range of a quantity that each row falls into: its levels, or six ranges of equal width."""
+    """Label of each row by the level of a quantity, or by one of six ranges of equal width."""
     low, span = float(np.min(values)), float(np.ptp(values))
     if not span > 0.0:
         return np.zeros(len(values), dtype=np.int64)
@@ -41,10 +41,10 @@ def ranges_of(values: np.ndarray) -> np.ndarray:
 def sweeps_of(
     groups: np.ndarray, records: np.ndarray, length: np.ndarray | None, pressure: np.ndarray, *, timed: bool
 ) -> list[np.ndarray]:
-    """Indices of the rows of each sweep, in order: along which a residual changes smoothly.
+    """Indices of the rows of each sweep, in order. Along a sweep a residual changes smoothly.
 
-    With time the rows of a group in a record, in order. A map without time has none; there the lines of equal
-    length over pressure are taken, or the groups, whichever are longer.
+    With time, a sweep is the rows of a group in a record. A map without time has lines of equal length
+    over pressure or the groups as sweeps, whichever are longer.
     """
     if timed:
         return _split(np.arange(len(groups)), groups, records)

@@ -1,4 +1,4 @@
-"""A number that a fit may change."""
+"""A free parameter of a fit."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Free:
-    """A free parameter: name, start, bounds, SI unit, the value at which it does nothing, a usual change.
+    """A free parameter: name, start, bounds, SI unit, the value at which it has no effect, a usual change.
 
-    ``natural`` bounds are where its definition ends.
+    ``natural``: its bounds are those of its definition, such as 0 and 1 of a share.
     """
 
     name: str

@@ -1,16 +1,16 @@
-r"""What a slow or late force channel shows of a signal: the effects' own equations as a linear filter.
+r"""Reading of a slow or delayed force channel: the equations of its effects as a linear filter.
 
-A lag obeys :math:`\dot y = (r - y)/\tau`, at rest before the first row of each record. For a signal in lines
-between rows the solution is
+A lag obeys :math:`\dot y = (r - y)/\tau`, at rest before the first row of each record. For a signal that is
+linear between rows the solution is
 
 .. math:: y_{k+1} = a\,y_k + r_{k+1} - a\,r_k - s\tau\,(1 - a), \quad a = e^{-\Delta t/\tau}
 
-with the slope s of the line. Stages in a row are a sum of such lags, by partial fractions:
+with the slope s of the line. Stages in series are a sum of such lags, by partial fractions:
 
 .. math:: \prod_i \frac{1}{1+\tau_i p} = \sum_i \frac{1}{1+\tau_i p}\prod_{j\ne i}\frac{\tau_i}{\tau_i-\tau_j}
 
-A skew shifts the signal in time. Both are linear, so derivatives by a model's
-numbers pass through the same filter.
+A skew shifts the signal in time. Both are linear, so derivatives by a model's parameters pass through the
+same filter.
 """
 
 from __future__ import annotations
@@ -24,32 +24,32 @@ from mckibben.physics.effect import Effect
 
 _SLOTS = ("skew", "force_reading", "pressure_reading", "stroke_reading")
 _LAG = "drive_rates"
-_APART = 1e-6
+_APART = 1e-6  # relative distance of equal time constants: partial fractions need different ones
 
 
 def late(effect: Effect) -> bool:
-    """Whether an effect delays what is read, so that rows depend on the rows before them."""
+    """Whether an effect delays a reading, so that rows depend on the rows before them."""
     return any(slot in effect.slots for slot in _SLOTS)
 
 
 def as_read(
     fit_model: FitModel, *, time: np.ndarray, records: Sequence[np.ndarray], values: np.ndarray
 ) -> np.ndarray:
-    """What the force channel shows of values, shape (rows,) or (rows, columns), record by record.
+    """Readings of the force channel, shape (rows,) or (rows, columns), record by record.
 
     Args:
-        fit_model: the late effects of this model are applied.
+        fit_model: the model whose delaying effects are applied.
         time: of each row [s], ascending within a record.
         records: rows of each record.
-        values: what an ideal channel would show.
+        values: readings of an ideal channel, of the same shape.
     """
     read = values.astype(float).copy()
     for effect in fit_model.effects:
         if not late(effect):
             continue
-        own = fit_model.values[effect.id]
-        constants = _constants(effect, own)
-        delay = float(effect.call("skew", {}, own)) if "skew" in effect.slots else 0.0
+        values_of_effect = fit_model.values[effect.id]
+        constants = _constants(effect, values_of_effect)
+        delay = float(effect.call("skew", {}, values_of_effect)) if "skew" in effect.slots else 0.0
         for rows in records:
             clock = time[rows]
             if constants:
@@ -60,28 +60,28 @@ def as_read(
 
 
 def _constants(effect: Effect, values: Mapping[str, float]) -> list[float]:
-    """Time constants of the stages that the force passes [s]: how fast each state follows what drives it."""
+    """Time constants of the stages that the force passes through [s], from the rates of their states."""
     if _LAG not in effect.slots:
         return []
     signals = {f"instant_{name}_reading": 0.0 for name in ("force", "pressure", "stroke")}
     names = [state.name for state in effect.states]
 
     def rates(**raised: float) -> np.ndarray:
-        given = signals | dict.fromkeys(names, 0.0) | raised
-        return np.array(effect.call(_LAG, given, values), dtype=float)
+        inputs = signals | dict.fromkeys(names, 0.0) | raised
+        return np.array(effect.call(_LAG, inputs, values), dtype=float)
 
     reached = rates(instant_force_reading=1.0) > 0.0
     constants = {}
     while np.any(reached):
         stage = int(np.argmax(reached))
-        answer = rates(**{names[stage]: 1.0})
-        constants[stage] = -1.0 / float(answer[stage])
-        reached = answer > 0.0
+        response = rates(**{names[stage]: 1.0})
+        constants[stage] = -1.0 / float(response[stage])
+        reached = response > 0.0
     return list(constants.values())
 
 
 def _filtered(time: np.ndarray, signal: np.ndarray, constants: Sequence[float]) -> np.ndarray:
-    """Behind all stages. Equal ones are taken a millionth apart, which no reading shows."""
+    """The signal after all stages; equal time constants are shifted by a negligible amount."""
     apart = [constant * (1.0 + _APART * number) for number, constant in enumerate(constants)]
     weights = [np.prod([own / (own - other) for other in apart if other != own]) for own in apart]
     shown = np.zeros_like(signal)
@@ -102,7 +102,7 @@ def _lagged(time: np.ndarray, signal: np.ndarray, constant: float) -> np.ndarray
     right[1:] = signal[1:] - kept * signal[:-1] - slope * constant * (1.0 - kept)
     bands = np.ones((2, len(time)))
     bands[1, :-1] = -kept.ravel()
-    return solve_banded((1, 0), bands, right, check_finite=False)  # a guess may have no value
+    return solve_banded((1, 0), bands, right, check_finite=False)  # a trial model may give NaN
 
 
 def _shifted(time: np.ndarray, signal: np.ndarray, delay: float) -> np.ndarray:

@@ -1,11 +1,12 @@
 r"""The length at which a muscle carries a load while the pressure changes slowly.
 
 It is where :math:`F(L) = W`, so :math:`dL/d\theta = (W_\theta - F_\theta)/F_L`. With dry friction the muscle
-sticks: shortening it would come to :math:`L_s`, lengthening to :math:`L_l \le L_s`, and along a record
+sticks. Its equilibrium is :math:`L_s` while shortening and :math:`L_l \le L_s` while lengthening, and along a
+record
 
 .. math:: L_t = \min(\max(L_{t-1}, L_l), L_s)
 
-so friction needs no measured direction, and a length that does not move is predicted not to.
+so friction needs no measured direction, and the prediction of a sticking muscle is constant.
 """
 
 from __future__ import annotations
@@ -21,16 +22,18 @@ from mckibben.physics.model import Model
 
 _NEWTON_STEPS = 40
 _TOLERANCE = 1e-9  # m
-_LARGEST_STEP = 0.02  # of the nominal length, per Newton step
-_SHORTEST = 0.35  # share of the nominal length down to which a length is looked for
-_CREEP = 1e-9  # m/s, for the sense of a motion of no speed
-_STEP = 1e-3  # of a parameter's range, for the guide's derivative
+_LARGEST_STEP = 0.02  # per Newton step, share of the nominal length
+_SHORTEST = 0.35  # shortest length of the search, share of the nominal length
+_CREEP = 1e-9  # m/s; speed that carries the direction where the measured speed is 0
+_STEP = 1e-3  # difference step of a guide's parameter, share of its range
 
-Found = tuple[np.ndarray, np.ndarray]
+LengthAndGradient = tuple[np.ndarray, np.ndarray]
 
 
-def predicted_lengths(evaluation: Evaluation, fit_model: FitModel, names: Sequence[str] = ()) -> Found:
-    """Length of each row [m], and its derivatives by the named numbers, shape (rows, names)."""
+def predicted_lengths(
+    evaluation: Evaluation, fit_model: FitModel, names: Sequence[str] = ()
+) -> LengthAndGradient:
+    """Length of each row [m], and its derivatives by the named parameters, shape (rows, names)."""
     state = evaluation.state(fit_model)
     if not any(map(_rubs, fit_model.effects)):
         return _balance(evaluation, fit_model, names, state)
@@ -43,13 +46,15 @@ def predicted_lengths(evaluation: Evaluation, fit_model: FitModel, names: Sequen
 
 
 def _rubs(effect: Effect) -> bool:
-    """Whether an effect opposes the motion whatever its speed: a guide, or friction without memory."""
+    """Whether an effect opposes the motion at any speed: a guide, or friction without memory."""
     rubbing = "friction" in effect.slots and "direction" in effect.wanted("friction") and not effect.states
     return "guide" in effect.slots or rubbing
 
 
-def _stuck(evaluation: Evaluation, shortening: Found, lengthening: Found) -> Found:
-    """The length along each record between the two branches."""
+def _stuck(
+    evaluation: Evaluation, shortening: LengthAndGradient, lengthening: LengthAndGradient
+) -> LengthAndGradient:
+    """The length along each record, which sticks between the two branches."""
     task = evaluation.task
     short, long = shortening[0], lengthening[0]
     upper, lower = np.maximum(short, long), np.minimum(short, long)
@@ -68,8 +73,10 @@ def _stuck(evaluation: Evaluation, shortening: Found, lengthening: Found) -> Fou
     return length, gradient
 
 
-def _balance(evaluation: Evaluation, fit_model: FitModel, names: Sequence[str], state: State) -> Found:
-    """Newton's method from the measured length, in bounded steps, within what the braid allows."""
+def _balance(
+    evaluation: Evaluation, fit_model: FitModel, names: Sequence[str], state: State
+) -> LengthAndGradient:
+    """Newton's method from the measured length, in bounded steps, up to the lock of the braid."""
     task = evaluation.task
     rest = fit_model.muscle.nominal_length
     low, high = _SHORTEST * rest, 0.9999 * float(fit_model.muscle.braid.thread_length)
@@ -99,7 +106,7 @@ def _balance(evaluation: Evaluation, fit_model: FitModel, names: Sequence[str], 
 
 
 def _load(stated: np.ndarray, fit_model: FitModel, state: State, length: np.ndarray) -> np.ndarray:
-    """What the muscle has to pull: load, unknown load, and the guide against the motion [N]."""
+    """Force that the muscle has to balance: load, unknown load and friction of the guide [N]."""
     creeping = np.where(state["velocity"] == 0.0, _CREEP * state["direction"], state["velocity"])
     context = {
         "stroke": fit_model.muscle.nominal_length - length,
@@ -116,7 +123,7 @@ def _load(stated: np.ndarray, fit_model: FitModel, state: State, length: np.ndar
 def _sliding(
     effect: Effect, values: Mapping[str, float], context: Mapping[str, np.ndarray]
 ) -> dict[str, np.ndarray]:
-    """States of a guide when it has slid for long: their rates, linear in each, are zero."""
+    """Steady-state values of a guide's states while it slides; their rates are linear in the states."""
     if not effect.states:
         return {}
     empty, full = (

@@ -1,4 +1,4 @@
-"""States of effects with memory along a measured record: where friction, creep and run-in have got to."""
+"""States of effects with memory (friction, creep, run-in) along a measured record."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.simulation.drive.driven import driven_states
 from mckibben.simulation.statics.model import StaticModel
 
-_KEPT = 128
+_KEPT = 128  # trajectories in the cache; the oldest are dropped
 _SENSORS = ("pressure_sensor", "length_sensor")
-_STEP = 2e-3  # of a parameter, for the derivative of a state by it
+_STEP = 2e-3  # relative difference step of a parameter, for the derivative of a state
 
 
 def remembers(effect: Effect) -> bool:
@@ -24,11 +24,11 @@ def remembers(effect: Effect) -> bool:
 
 
 class Memory:
-    """Trajectories of the states of effects over the rows of a task, kept for models that share them.
+    """Trajectories of the states of effects over the rows, cached for models that share them.
 
-    They follow the measured length and pressure and start at rest with each record, so they depend on the
-    parameters in the effect's own rates and on the sensors only: each effect is integrated by itself, and a
-    fit of other parameters never integrates it again.
+    The states follow the measured length and pressure and start at rest in each record. They depend only on
+    the parameters in the rates of their effect and on the sensors. So each effect is integrated by itself,
+    and a fit of other parameters does not integrate it again.
     """
 
     def __init__(self, task: ComparableRows) -> None:
@@ -43,7 +43,7 @@ class Memory:
     def states(self, fit_model: FitModel) -> dict[str, np.ndarray]:
         """Value of each state ("effect.state") at each row."""
         sensors = tuple(e for e in fit_model.effects if any(slot in e.slots for slot in _SENSORS))
-        found: dict[str, np.ndarray] = {}
+        trajectories: dict[str, np.ndarray] = {}
         for effect in filter(remembers, fit_model.effects):
             effects = (effect, *(sensor for sensor in sensors if sensor is not effect))
             values = {e.id: dict(fit_model.values[e.id]) for e in effects}
@@ -52,12 +52,12 @@ class Memory:
                 if len(self._kept) >= _KEPT:
                     self._kept.pop(next(iter(self._kept)))
                 self._kept[key] = self._run(StaticModel.of(fit_model.muscle, effects, values), effect)
-            found |= self._kept[key]
-        return found
+            trajectories |= self._kept[key]
+        return trajectories
 
     def by_parameters(self, fit_model: FitModel, names: Sequence[str]) -> dict[str, dict[str, np.ndarray]]:
-        """Derivatives of the states by the named parameters that move them: name -> state -> rows."""
-        found: dict[str, dict[str, np.ndarray]] = {}
+        """Derivatives of the states by the named parameters that affect them: name -> state -> rows."""
+        derivatives: dict[str, dict[str, np.ndarray]] = {}
         for name in names:
             effect_id, _, parameter = name.partition(".")
             effect = next((e for e in fit_model.effects if e.id == effect_id), None)
@@ -68,12 +68,12 @@ class Memory:
             step = _STEP * max(abs(here), 0.01 * (declared.upper - declared.lower))
             other = here + step if here + step <= declared.upper else here - step
             first, last = self.states(fit_model), self.states(fit_model.with_numbers([name], [other]))
-            found[name] = {
+            derivatives[name] = {
                 state: (last[state] - first[state]) / (other - here)
                 for state in first
                 if state.startswith(f"{effect_id}.")
             }
-        return found
+        return derivatives
 
     @staticmethod
     def _key(effect: Effect, values: dict[str, float]) -> tuple:
@@ -83,7 +83,7 @@ class Memory:
     def _run(self, model: StaticModel, effect: Effect) -> dict[str, np.ndarray]:
         task = self._task
         rest = {f"{effect.id}.{state.name}": state.initial for state in effect.states}
-        found = {name: np.full(len(task.measured), value) for name, value in rest.items()}
+        trajectories = {name: np.full(len(task.measured), value) for name, value in rest.items()}
         clock = task.time if task.time is not None else np.arange(len(task.measured), dtype=float)
         for rows in self._records:
             states = driven_states(
@@ -93,6 +93,6 @@ class Memory:
                 length=task.state["length"][rows],
                 temperature=float(np.mean(task.state.get("temperature", ROOM_TEMPERATURE))),
             )
-            for name in found:
-                found[name][rows] = states[name]
-        return found
+            for name in trajectories:
+                trajectories[name][rows] = states[name]
+        return trajectories

@@ -1,7 +1,8 @@
-"""Transient measurements: the drive is simulated, or its motion under the measured pressure.
+"""Transient measurements: simulation of the whole drive, or of its motion under the measured pressure.
 
-With a command channel pressure and displacement (and force where measured) are predicted; without one the
-displacement that the measured pressure brings about. Several channels are scaled by their noise.
+With a command channel, pressure and displacement (and force where measured) are predicted. Without one, the
+measured pressure is the input, and displacement (and force where measured) is predicted. Several channels
+are scaled by their noise.
 """
 
 from __future__ import annotations
@@ -29,12 +30,12 @@ from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.statics.model import StaticModel
 
 _MOST_ROWS = 1000  # per record; more are thinned evenly
-_FEW_LEVELS = 0.2  # share of rows with another command than the row before, up to which it is held
-_FIRST_ROWS = 50
-_NOT_VENTED = 30e3  # Pa from the documented start; less is a zero error of the gauge
-_LOST = 1e3  # noises by which a run that broke off is said to miss
-_TIME_LIMIT = 2.0  # s; a run that takes longer is a bad guess of a fit
-# What only acts on the way of the air, and is not there when the pressure is measured.
+_FEW_LEVELS = 0.2  # share of rows at which the command changes, up to which it is held between changes
+_FIRST_ROWS = 50  # most rows for the start pressure
+_NOT_VENTED = 30e3  # Pa from the documented start pressure; less may be a zero error of the gauge
+_LOST = 1e3  # residual after a run has stopped early, over the noise
+_TIME_LIMIT = 2.0  # s; a longer run means implausible values of a fit
+# Slots of the air flow only; irrelevant when the pressure is measured.
 _AIR = (
     "extra_volume", "heat", "leakage", "command_delay", "opening", "fill_conductance", "exhaust_conductance",
     "tube_conductance", "supply",
@@ -42,13 +43,13 @@ _AIR = (
 
 
 class Recorded(TableSignal):
-    """A measured command; a record that begins with the valve open was switched on at its first row."""
+    """A measured command; if the first row is not 0, the command is switched on at that row."""
 
     shape = "recorded"
 
     @property
     def before(self) -> float:
-        """Closed where the first row fills: the muscle was at rest."""
+        """Command before the first row: 0 if the first row fills, because the muscle was at rest."""
         return min(float(self.values[0]), 0.0)
 
 
@@ -68,10 +69,10 @@ class TransientPredictor(Predictor):
 
     Args:
         measurement: of kind transient.
-        drive: the drive as documented; load and supply that the measurement states replace its own.
+        drive: the drive as documented; load and supply pressure of the measurement take precedence.
 
     Raises:
-        InputError: nothing that the model predicts was measured.
+        InputError: no predicted channel was measured.
     """
 
     simulated = True
@@ -87,7 +88,7 @@ class TransientPredictor(Predictor):
                 f"{measurement.name}: a transient without a command column needs a displacement",
                 field="displacement",
                 hint="add a displacement column, or a command column to simulate valve and pressure (the "
-                "command of a drive document does not stand in for it)",
+                "command of a drive document is not used instead)",
             )
         labels = records_of(measurement)
         self._records = [
@@ -98,8 +99,8 @@ class TransientPredictor(Predictor):
             raise InputError(
                 f"{measurement.name}: neither command nor pressure was measured",
                 field="pressure",
-                hint="add a command column, or a pressure column (the command of a drive document does not "
-                "stand in for it)",
+                hint="add a command column, or a pressure column (the command of a drive document is not "
+                "used instead)",
             )
         rows = np.concatenate([record.rows for record in self._records])
         self.rows, count = rows, len(rows)
@@ -136,7 +137,7 @@ class TransientPredictor(Predictor):
         self._wide: tuple[Effect, ...] = ()
 
     def why_hidden(self, effect: Effect) -> str:
-        """By the kinds that the effect names; what acts on the flow of air shows under a command only."""
+        """Checked by the kinds of the effect; effects on the air flow need a command channel."""
         if self.kind not in effect.kinds:
             return f"it does not show in {self.kind} data, only in {' or '.join(sorted(effect.kinds))}"
         forced = any(channel.name == "force" for channel in self.channels)
@@ -150,10 +151,10 @@ class TransientPredictor(Predictor):
         return ""
 
     def prepared(self, fit_model: FitModel, candidates: Sequence[Effect]) -> TransientPredictor:
-        """With one structure of every candidate that can be off, to look at their changes by."""
+        """With one compiled model of all candidates that can be off, for quick trials."""
         inside = {effect.id for effect in fit_model.effects}
-        # An energy balance in place of a polytrope is another structure even when no heat flows.
-        # So is a tube that the drive does not state.
+        # An energy balance instead of a polytrope changes the equations even without heat flow.
+        # So does a tube that the drive does not state.
         tubeless = self._records[0].drive.tube is None
         other = {"heat", "tube_conductance"} if tubeless else {"heat"}
         further = [e for e in candidates if e.id not in inside and not other & set(e.slots) and not _fast(e)]
@@ -162,14 +163,14 @@ class TransientPredictor(Predictor):
         return ready
 
     def trial(self, fit_model: FitModel) -> np.ndarray:
-        """As `predict`, in the structure of all candidates when it holds the model."""
+        """As `predict`, with the compiled model of all candidates if it contains this model."""
         if not set(fit_model.effects) <= set(self._wide):
             return self.predict(fit_model)
         values = {effect.id: fit_model.values.get(effect.id, effect.off) for effect in self._wide}
         return self.predict(replace(fit_model, effects=self._wide, values=values))
 
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
-        """The channels of all records, stacked; far off where a run breaks off."""
+        """The channels of all records, stacked; far from the measurement after a run has stopped early."""
         model = StaticModel.of(fit_model.muscle, Model(fit_model.effects).effects, fit_model.values)
         parts: list[list[np.ndarray]] = [[] for _ in self.channels]
         for record in self._records:
@@ -178,8 +179,8 @@ class TransientPredictor(Predictor):
                 values = readings.get(channel.name, np.empty(0))
                 lost = np.full(len(record.rows) - len(values), np.nan)
                 part.append(np.concatenate([values, lost]))
-        found = np.concatenate([np.concatenate(part) for part in parts])
-        return np.where(np.isfinite(found), found, self.measured + _LOST * self._noises())
+        predicted = np.concatenate([np.concatenate(part) for part in parts])
+        return np.where(np.isfinite(predicted), predicted, self.measured + _LOST * self._noises())
 
     def _noises(self) -> np.ndarray:
         return np.repeat([channel.noise for channel in self.channels], len(self.rows))
@@ -191,13 +192,15 @@ class TransientPredictor(Predictor):
                 run = simulate(drive, grid=record.time, watch=Watch(time_limit=_TIME_LIMIT))
                 if run.outcome is Outcome.CANCELLED:
                     return {}
-                found = run.outputs
+                results = run.outputs
             else:
-                assert record.pressure is not None  # noqa: S101 - asked for at the start
-                found = driven_motion(drive, time=record.time, pressure=record.pressure, stroke=record.stroke)
-        except InputError:  # a guess of the fit that no drive follows
+                assert record.pressure is not None  # noqa: S101 - checked by the constructor
+                results = driven_motion(
+                    drive, time=record.time, pressure=record.pressure, stroke=record.stroke
+                )
+        except InputError:  # values of the fit that no drive can have
             return {}
-        return {name: found[output] for name, output in names.items() if output in found}
+        return {name: results[output] for name, output in names.items() if output in results}
 
 
 def _fast(effect: Effect) -> bool:
@@ -217,15 +220,15 @@ def _channels(
     measurement: Measurement, drive: Drive, *, commanded: bool
 ) -> list[tuple[str, str, np.ndarray]]:
     columns = measurement.columns
-    found = []
+    channels = []
     if commanded and "pressure" in columns:
-        found.append(("pressure", "Pa", columns["pressure"]))
+        channels.append(("pressure", "Pa", columns["pressure"]))
     stroke = _stroke(measurement, drive)
     if stroke is not None:
-        found.append(("displacement", "m", stroke))
+        channels.append(("displacement", "m", stroke))
     if "force" in columns and (commanded or stroke is not None):
-        found.append(("force", "N", columns["force"]))
-    return found
+        channels.append(("force", "N", columns["force"]))
+    return channels
 
 
 def _record(measurement: Measurement, drive: Drive, rows: np.ndarray) -> Record:
@@ -255,7 +258,7 @@ def _record(measurement: Measurement, drive: Drive, rows: np.ndarray) -> Record:
 
 
 def _start_pressure(drive: Drive, pressure: np.ndarray, command: np.ndarray) -> float:
-    """As documented, unless it is clearly another that was measured before the valve first moved [Pa]."""
+    """Measured pressure before the valve first moves if clearly not the documented one, else that [Pa]."""
     closed = command[0] == 0.0
     resting = int(np.argmax(command != 0.0)) or len(command) if closed else 1
     measured = float(np.median(pressure[: min(resting, _FIRST_ROWS)]))
@@ -263,7 +266,7 @@ def _start_pressure(drive: Drive, pressure: np.ndarray, command: np.ndarray) -> 
 
 
 def _command(time: np.ndarray, command: np.ndarray, rows: np.ndarray) -> Recorded:
-    """The measured command, held between changes when it has few levels, else in lines."""
+    """The measured command: held between changes if they are few, else interpolated linearly."""
     part = slice(rows[0], rows[-1] + 1)
     t, u = time[part] - time[part.start], command[part]
     changes = np.flatnonzero(np.diff(u) != 0.0) + 1
@@ -274,7 +277,7 @@ def _command(time: np.ndarray, command: np.ndarray, rows: np.ndarray) -> Recorde
 
 
 def _blocks(records: Sequence[Record], channels: int) -> np.ndarray:
-    """Contiguous blocks of time as folds, at least six; the channels of one block are left out together."""
+    """Contiguous blocks of time as folds, at least six; a fold contains all channels of its block."""
     blocks = max(2, -(-FEWEST // len(records)))
     labels = [
         number * blocks + np.arange(len(record.rows)) * blocks // len(record.rows)

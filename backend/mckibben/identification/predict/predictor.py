@@ -1,4 +1,4 @@
-"""What fits, scores and diagnoses work on: measured values, and a model that predicts them."""
+"""Base of the predictors: measured values, and their prediction by a model."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ class PredictedChannel:
     Attributes:
         name: as in `mckibben.measurement.measurement.CHANNEL_UNITS`.
         unit: SI.
-        rows: where its values are in the stacked arrays of the subject.
-        noise: standard deviation of its noise; 1 as long as it is not known.
+        rows: its values in the stacked arrays of the predictor.
+        noise: standard deviation of its noise; 1 if unknown.
         full_scale: largest measured magnitude.
     """
 
@@ -33,25 +33,27 @@ class PredictedChannel:
 
 
 class Predictor(ABC):
-    """Measured values beside a model; arrays are stacked over the predicted channels.
+    """Measured values and their prediction; arrays are stacked over the predicted channels.
 
     Attributes:
         kind: kind of the measurement.
         channels: the predicted channels.
         measured: shape (values,), SI.
-        scale: what residuals are divided by before they are squared and added: 1 for a single channel, each
-            channel's noise for several; shape (values,).
-        folds: ways of leaving out, each a label of what is left out together, shape (values,): whole groups
-            first, then ranges of what changes within a group.
+        scale: divisor of the residuals: 1 for a single channel, the noise of each channel for several,
+            shape (values,).
+        folds: ways of folding, each a label of the fold of each value, shape (values,): first by groups, then
+            by ranges of the quantity that changes within a group.
         groups: label of the curve that a value belongs to, shape (values,).
         records: label of the uninterrupted record, shape (values,).
         sweeps: indices of the values of each smooth sweep, in order.
-        inputs: what the residual may depend on, name -> shape (values,), SI.
-        simulated: whether each prediction is a run through time: a thousand times the cost of a closed form,
-            with derivatives by differences of runs.
-        step: of these differences, over the size of a number or its usual change.
-        rows_used, excluded, messages: rows that count, why others do not, what was assumed.
-        unknown_load: bounds of the load where it has to be fitted.
+        inputs: variables that the residual may depend on, name -> shape (values,), SI.
+        simulated: whether each prediction is a simulated run: a thousand times the cost of a closed form,
+            with derivatives by finite differences.
+        step: of finite differences, relative to the size of a parameter or its usual change.
+        rows_used: number of rows that are scored.
+        excluded: reason -> number of excluded rows.
+        messages: the assumptions.
+        unknown_load: bounds of the load when it is fitted.
     """
 
     kind: str
@@ -75,34 +77,34 @@ class Predictor(ABC):
         """Predicted values, shape (values,); ``clipped``: a slack muscle reads no force."""
 
     def trial(self, fit_model: FitModel) -> np.ndarray:
-        """Unclipped prediction by the quickest way, to look at what a candidate would change."""
+        """Unclipped prediction by the quickest method, for the change caused by a candidate."""
         return self.predict(fit_model, clipped=False)
 
     @abstractmethod
     def why_hidden(self, effect: Effect) -> str:
-        """Why an effect cannot show in these data; empty when it can."""
+        """Why these data cannot reveal an effect; empty if they can."""
 
     def reveals(self, effect: Effect) -> bool:
-        """Whether an effect can show in these data at all."""
+        """Whether these data can reveal an effect."""
         return not self.why_hidden(effect)
 
     @abstractmethod
     def prepared(self, fit_model: FitModel, candidates: Sequence[Effect]) -> Predictor:
-        """This predictor, ready for what a search will try: the start model with any candidates."""
+        """This predictor, prepared for a search over the start model with any of the candidates."""
 
     def lost(self, fit_model: FitModel) -> tuple[int, int]:
-        """At how many rows a model has no finite value, and of how many; a run that breaks off is far off."""
+        """Number of rows without a finite prediction, and of all rows."""
         return 0, len(self.measured)
 
     def linearised(self, fit_model: FitModel, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
-        """Predicted values and their derivatives by the free numbers, shape (values, free)."""
+        """Predicted values and their derivatives by the free parameters, shape (values, free)."""
         predicted = self.predict(fit_model, clipped=False)
         return predicted, self.differences(fit_model, free, predicted if self.simulated else None)
 
     def differences(
         self, fit_model: FitModel, free: Sequence[Free], here: np.ndarray | None = None
     ) -> np.ndarray:
-        """Differences of `predict`, shape (values, free): central, or from what is predicted ``here``."""
+        """Finite differences of `predict`, shape (values, free): central, or from the prediction ``here``."""
         columns = []
         for parameter in free:
             value = fit_model.number(parameter.name)
@@ -110,8 +112,8 @@ class Predictor(ABC):
             low, high = max(value - step, parameter.lower), min(value + step, parameter.upper)
             if here is not None:
                 other = high if high - value >= value - low else low
-                moved = self.predict(fit_model.with_numbers([parameter.name], [other]), clipped=False)
-                columns.append((moved - here) / (other - value))
+                changed = self.predict(fit_model.with_numbers([parameter.name], [other]), clipped=False)
+                columns.append((changed - here) / (other - value))
                 continue
             ends = [
                 self.predict(fit_model.with_numbers([parameter.name], [end]), clipped=False)

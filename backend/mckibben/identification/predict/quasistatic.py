@@ -1,4 +1,4 @@
-"""Measurements of force, length or diameter: the model is evaluated row by row, memory follows the record."""
+"""Quasistatic measurements of force, length or diameter: static evaluation, memory along the records."""
 
 from __future__ import annotations
 
@@ -20,23 +20,23 @@ from mckibben.identification.predict.predictor import PredictedChannel, Predicto
 from mckibben.physics.effect import Effect
 from mckibben.simulation.statics.model import clip_slack
 
-_LEAST = 0.01  # quantile of the forces: one row alone may be a slip
-_NEAR_ZERO = 0.05  # of the range of the force
-_SLACK_BAND = 0.02  # of the range of the force
+_LEAST = 0.01  # quantile that serves as the smallest force: a single row may be an outlier
+_NEAR_ZERO = 0.05  # largest force of a slack muscle, share of the range of the force
+_SLACK_BAND = 0.02  # scatter of the readings of a slack muscle, share of the range of the force
 
 
 class QuasistaticPredictor(Predictor):
-    """A task of any kind but transient.
+    """Predicts the comparable rows of any kind but transient.
 
     Args:
         task: the rows.
-        largest_load: up to where an unknown load is looked for [N].
+        largest_load: upper bound of an unknown load [N].
     """
 
     def __init__(self, task: ComparableRows, *, largest_load: float = 0.0) -> None:
         self.task = task
         self.kind = task.kind
-        # Rows where the motion turns belong to the way, but are not held against the model.
+        # Rows where the motion turns belong to the path, but are not scored.
         self._counted = ~task.turning if np.any(~task.turning) else np.ones(len(task.turning), bool)
         counted = task.chosen(self._counted)
         self.measured = counted.measured
@@ -71,9 +71,9 @@ class QuasistaticPredictor(Predictor):
         self._wide: tuple[Effect, ...] = ()
 
     def why_hidden(self, effect: Effect) -> str:
-        """By the kinds that the effect names; memory needs an order in time.
+        """Checked by the kinds of the effect; memory needs an order in time.
 
-        Rows in time with nothing held show what both kinds do in which one thing is held.
+        Static rows with time also reveal effects of isobaric and isometric measurements.
         """
         free = self.kind == "static" and self.task.time is not None
         if not effect.kinds & ({"static", "isobaric", "isometric"} if free else {self.kind}):
@@ -88,7 +88,7 @@ class QuasistaticPredictor(Predictor):
         return ""
 
     def prepared(self, fit_model: FitModel, candidates: Sequence[Effect]) -> QuasistaticPredictor:
-        """With one structure that holds every model of a search: absent effects are off in it."""
+        """With one compiled model for every model of a search; absent effects are off in it."""
         inside = {effect.id for effect in fit_model.effects}
         further = [e for e in candidates if e.id not in inside and not late(e)]
         ready = copy(self)
@@ -96,18 +96,18 @@ class QuasistaticPredictor(Predictor):
         return ready
 
     def trial(self, fit_model: FitModel) -> np.ndarray:
-        """As `predict`, in the structure of all candidates where that holds the model."""
+        """As `predict`, with the compiled model of all candidates if it contains this model."""
         if not set(fit_model.effects) <= set(self._wide):
             return self.predict(fit_model, clipped=False)
         values = {effect.id: fit_model.values.get(effect.id, effect.off) for effect in self._wide}
         return self.predict(replace(fit_model, effects=self._wide, values=values), clipped=False)
 
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
-        """Force, length or diameter of each row; a load that passes the braid lock is predicted there."""
+        """Force, length or diameter of each row; the length is limited by the lock of the braid."""
         return self._everywhere(fit_model, clipped=clipped)[self._counted]
 
     def lost(self, fit_model: FitModel) -> tuple[int, int]:
-        """At how many rows of the record a model has no finite value, counted or not, and of how many."""
+        """Number of rows without a finite prediction, scored or not, and of all rows."""
         with np.errstate(all="ignore"):
             values = self._everywhere(fit_model, clipped=False)
         return int(np.count_nonzero(~np.isfinite(values))), len(values)
@@ -122,7 +122,7 @@ class QuasistaticPredictor(Predictor):
         return self._as_read(fit_model, force) if any(map(late, fit_model.effects)) else force
 
     def linearised(self, fit_model: FitModel, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
-        """Predicted values and exact derivatives of force and length; differences for what has none."""
+        """Predicted values; exact derivatives of force and length, finite differences of the diameter."""
         names = tuple(parameter.name for parameter in free)
         if self.task.channel == "diameter":
             return super().linearised(fit_model, free)
@@ -136,11 +136,11 @@ class QuasistaticPredictor(Predictor):
         return length[self._counted], gradient[self._counted]
 
     def _late_linearised(self, fit_model: FitModel, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
-        """The filter of the late channel passes the exact derivatives too; differences by its own numbers."""
+        """The filter applied to the exact derivatives; finite differences by its own parameters."""
         ids = {effect.id for effect in fit_model.effects if late(effect)}
         inner = [p.name for p in free if p.name.partition(".")[0] not in ids]
         out, slopes = self._evaluation.at(_at_once(fit_model), tuple(inner))
-        # A row without a slope must not take it from all rows after it.
+        # The filter would spread a NaN of one row to all rows after it.
         slopes = np.where(np.isfinite(slopes), slopes, 0.0)
         slopes[self._slack(out)] = 0.0
         force = self._followed(out)
@@ -160,17 +160,17 @@ class QuasistaticPredictor(Predictor):
         return shown[:, 0][self._counted], gradient[self._counted]
 
     def _followed(self, out: Mapping[str, np.ndarray]) -> np.ndarray:
-        """The force that a fit follows: below zero too, but not where slack is what was measured."""
+        """The unclipped force of a fit; clipped where the measured muscle is slack as well."""
         return np.where(self._slack(out), out["slack_force"], out["force"])
 
     def _slack(self, out: Mapping[str, np.ndarray]) -> np.ndarray:
-        """Rows that a model has slack and that read like it."""
+        """Mask of the rows at which the muscle is slack in the model and in the measurement."""
         return self._idle & (out["tension"] <= 0.0)
 
     def _as_read(self, fit_model: FitModel, values: np.ndarray) -> np.ndarray:
-        """Values of every row behind the lags and the skew of a model."""
+        """Values of every row after the lags and the skew of a model."""
         task = self.task
-        assert task.time is not None  # noqa: S101 - `reveals` asks for it
+        assert task.time is not None  # noqa: S101 - `reveals` requires it
         records = [np.flatnonzero(task.records == label) for label in np.unique(task.records)]
         return as_read(fit_model, time=task.time, records=records, values=values)
 
@@ -183,9 +183,9 @@ class QuasistaticPredictor(Predictor):
 
 
 def _like_slack(force: np.ndarray) -> np.ndarray:
-    """Whether a force may be what a slack muscle shows, shape (rows,): near the least, and that near zero.
+    """Mask of the forces that a slack muscle may show: near the smallest, if that is near zero.
 
-    The least of them tell how far the readings without any pull scatter.
+    A negative smallest force shows how far the readings of a slack muscle scatter.
     """
     least, span = float(np.quantile(force, _LEAST)), float(np.ptp(force))
     if span == 0.0 or abs(least) > _NEAR_ZERO * span:
@@ -194,5 +194,5 @@ def _like_slack(force: np.ndarray) -> np.ndarray:
 
 
 def _at_once(fit_model: FitModel) -> FitModel:
-    """The model without what is late."""
+    """The model without delaying effects."""
     return replace(fit_model, effects=tuple(effect for effect in fit_model.effects if not late(effect)))

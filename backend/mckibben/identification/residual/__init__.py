@@ -1,1 +1,1 @@
-"""What a model leaves: where it fails, how much of that is noise, and the structure in the rest."""
+"""Analysis of residuals: profiles over the variables, noise, and remaining structure."""

@@ -1,4 +1,4 @@
-"""Where a model fails: the residual over pressure, contraction, velocity, time; its loops; is it noise."""
+"""Where a model fails: the residual over each variable, its hysteresis loops and its whiteness."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ import numpy as np
 from mckibben.identification.predict.predictor import Predictor
 
 _BINS = 10
-_MAP = (8, 8)
+_MAP = (8, 8)  # bins of a map in x and y
 _LAGS = 24
 _BAND = 1.959964  # standard deviations of a 95 % band
-#: Variable -> how its ranges are told: words, factor, unit, digits.
+#: Variable -> how its ranges are shown: name, factor from SI, unit, decimals.
 SHOWN: Mapping[str, tuple[str, float, str, int]] = {
     "pressure": ("pressure", 1e-5, "bar", 2),
     "contraction": ("contraction", 100.0, "%", 1),
@@ -34,7 +34,7 @@ class Profile:
 
     Attributes:
         over: name of the variable.
-        share_explained: share of its mean square that bin means predict on folds they did not see.
+        share_explained: share of the mean square that the bin means of other folds predict.
         worst: the range with the largest error, in words.
         rmse: root mean square in that range.
         edges, mean, rms, count: of each bin; bins of equal count, ``edges`` one longer, SI.
@@ -53,19 +53,21 @@ class Profile:
 def variables_of(
     predictor: Predictor, nominal_length: float, groups: np.ndarray | None = None
 ) -> dict[str, np.ndarray]:
-    """What the residual may depend on, name of `SHOWN` -> values; only what changes."""
-    found = dict(predictor.inputs)
-    if "length" in found:
-        found["contraction"] = 1.0 - found.pop("length") / nominal_length
+    """Variables that the residual may depend on, name of `SHOWN` -> values; constant ones are left out."""
+    variables = dict(predictor.inputs)
+    if "length" in variables:
+        variables["contraction"] = 1.0 - variables.pop("length") / nominal_length
     if groups is not None:
-        found["group"] = groups.astype(float)
-    return {name: v for name, v in found.items() if name in SHOWN and np.ptp(v) > 1e-9 * np.max(np.abs(v))}
+        variables["group"] = groups.astype(float)
+    return {
+        name: v for name, v in variables.items() if name in SHOWN and np.ptp(v) > 1e-9 * np.max(np.abs(v))
+    }
 
 
 def profiles(residual: np.ndarray, variables: Mapping[str, np.ndarray], folds: np.ndarray) -> list[Profile]:
-    """The residual over each variable, the most telling first."""
-    found = [_profile(name, residual, values, folds) for name, values in variables.items()]
-    return sorted(found, key=lambda profile: -profile.share_explained)
+    """The residual over each variable, the largest explained share first."""
+    unsorted = [_profile(name, residual, values, folds) for name, values in variables.items()]
+    return sorted(unsorted, key=lambda profile: -profile.share_explained)
 
 
 def _profile(name: str, residual: np.ndarray, values: np.ndarray, folds: np.ndarray) -> Profile:
@@ -196,7 +198,7 @@ def whiteness(residual: np.ndarray, sweeps: Sequence[np.ndarray]) -> Whiteness:
 
 @dataclass(frozen=True, slots=True)
 class ResidualLoop:
-    """A group that returns to where it began: area of its force residual [J], way between the turns [m]."""
+    """A group that returns to its start: area of its force residual [J] and range of its length [m]."""
 
     group: int
     area: float
@@ -204,23 +206,23 @@ class ResidualLoop:
 
 
 def loops(force: np.ndarray, length: np.ndarray, groups: np.ndarray) -> list[ResidualLoop]:
-    r"""Area :math:`\oint r\,dL` of the force residual over each group that returns to where it began [J].
+    r"""Area :math:`\oint r\,dL` of the force residual over each group that returns to its start [J].
 
     Positive areas take energy out of the motion, as friction does; negative ones cannot come from friction.
-    What follows the last return is not part of the loop: the way there may not have been counted.
+    Rows after the last return are not part of the loop.
     """
-    found = []
+    closed = []
     for label in np.unique(groups):
         rows = np.flatnonzero(groups == label)
         whole = float(np.ptp(length[rows]))
-        away = np.abs(length[rows] - length[rows[0]])
-        near = np.flatnonzero(away <= 0.1 * whole)
-        last = near[np.flatnonzero(np.diff(near, prepend=-2) > 1)[-1] :]  # the last time it comes by
-        rows = rows[: last[np.argmin(away[last])] + 1]
+        distance = np.abs(length[rows] - length[rows[0]])
+        near = np.flatnonzero(distance <= 0.1 * whole)
+        last = near[np.flatnonzero(np.diff(near, prepend=-2) > 1)[-1] :]  # the last return to the start
+        rows = rows[: last[np.argmin(distance[last])] + 1]
         span = float(np.ptp(length[rows]))
         if len(rows) < 8 or span < 0.5 * whole:
             continue
         middle = 0.5 * (force[rows][1:] + force[rows][:-1])
         area = float(np.sum(middle * np.diff(length[rows])))
-        found.append(ResidualLoop(int(label), area, span))
-    return found
+        closed.append(ResidualLoop(int(label), area, span))
+    return closed

@@ -1,8 +1,8 @@
-"""Structure that no catalogued effect explains: how much, in what, and a term that would take it away.
+"""Structure that no catalogued effect explains: its size, its variables, and a term that describes it.
 
-The share comes from a regression without any physics, judged on blocks it did not see. The term is found by
-orthogonal matching pursuit over products that a force can physically be made of: powers of the pressure,
-contraction, direction and velocity, waves and bumps over contraction, pressure and time.
+The share comes from a regression without any physics, cross-validated over blocks of rows. The term is found
+by orthogonal matching pursuit over physically plausible products: powers of pressure, contraction, direction
+and velocity, and sines and Gaussians of contraction, pressure and time.
 """
 
 from __future__ import annotations
@@ -12,14 +12,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-_MOST_ROWS = 2000
+_MOST_ROWS = 2000  # for the regression; more are thinned
 _BLOCK = 12  # rows that are left out together
 _FOLDS = 5
 _TREES = 60
-_TERMS = 3
-_WORTH = 0.08  # of the mean square that is left: a term that takes less is not proposed
-_PER_WAVE = 4.0  # steps of a variable that a wave needs
-_FINEST = 100
+_TERMS = 3  # most terms of a proposal
+_WORTH = 0.08  # least share of the remaining mean square that a proposed term explains
+_PER_WAVE = 4.0  # fewest distinct values of a variable per period of a sine
+_FINEST = 100  # resolution of a variable, steps over its range
 _SEED = 0
 #: Name in a term -> variable.
 SYMBOLS = {"P": "pressure", "kappa": "contraction", "v": "velocity", "s": "direction", "t": "time"}
@@ -27,11 +27,11 @@ SYMBOLS = {"P": "pressure", "kappa": "contraction", "v": "velocity", "s": "direc
 
 @dataclass(frozen=True)
 class ResidualStructure:
-    """What a regression without physics can still predict of a residual.
+    """The part of a residual that a regression without physics predicts.
 
     Attributes:
-        share: of the mean square, on blocks it did not see.
-        variables: those it cannot do without, the most important first, with the share that is lost when a
+        share: of the mean square, cross-validated.
+        variables: the important ones, the most important first, each with the share that is lost when the
             variable is shuffled.
     """
 
@@ -44,9 +44,9 @@ class Term:
     """A proposed term of the tension [N].
 
     Attributes:
-        formula: as it can be typed into the ``custom`` effect.
+        formula: in the syntax of the ``custom`` effect.
         coefficients: name -> value, SI.
-        share: of the residual's mean square that it takes away.
+        share: of the residual's mean square that it explains.
         values: of the term at each row, shape (rows,).
     """
 
@@ -57,7 +57,7 @@ class Term:
 
 
 def structure(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> ResidualStructure:
-    """How much of a residual a regression without physics predicts, and from what."""
+    """The part of a residual that a regression without physics predicts, and from which variables."""
     from sklearn.ensemble import ExtraTreesRegressor  # 1 s import, not paid at start
 
     names = [name for name in variables if name != "group"]
@@ -78,10 +78,12 @@ def structure(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> Resi
             continue
         model = ExtraTreesRegressor(_TREES, min_samples_leaf=4, max_features=1.0, random_state=_SEED)
         model.fit(table[~out], target[~out])
-        asked = np.tile(table[out], (len(names) + 1, 1, 1))  # the last as it is, each other shuffled in one
+        inputs = np.tile(
+            table[out], (len(names) + 1, 1, 1)
+        )  # copy i has variable i shuffled, the last copy none
         for column in range(len(names)):
-            asked[column, :, column] = random.permutation(asked[column, :, column])
-        predicted = model.predict(asked.reshape(-1, len(names))).reshape(len(names) + 1, -1)
+            inputs[column, :, column] = random.permutation(inputs[column, :, column])
+        predicted = model.predict(inputs.reshape(-1, len(names))).reshape(len(names) + 1, -1)
         shuffled[:, out], left[out] = target[out] - predicted[:-1], target[out] - predicted[-1]
     whole = float(np.mean(target**2))
     share = max(0.0, 1.0 - float(np.mean(left**2)) / whole)
@@ -93,28 +95,28 @@ def structure(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> Resi
 def proposed_term(
     residual: np.ndarray, variables: Mapping[str, np.ndarray], basis: np.ndarray | None = None
 ) -> Term | None:
-    """The product terms that take away most of a force residual, at most three; None when none is worth it.
+    """The product terms that explain most of a force residual, at most three; None without a relevant one.
 
     Args:
         residual: measured minus predicted force [N].
-        variables: pressure [Pa], contraction, velocity [m/s], direction, time [s]; what there is of them.
-        basis: derivatives of the model by its free numbers: what they can take up is not proposed.
+        variables: pressure [Pa], contraction, velocity [m/s], direction, time [s]; some may be missing.
+        basis: derivatives of the model by its free parameters; what these can fit is not proposed.
     """
-    given = {symbol: variables[name] for symbol, name in SYMBOLS.items() if name in variables}
-    library = list(_library(given))
+    symbols = {symbol: variables[name] for symbol, name in SYMBOLS.items() if name in variables}
+    library = list(_library(symbols))
     if not library:
         return None
     columns = np.column_stack([column for _, group in library for column in group])
     sizes = [len(group) for _, group in library]
     starts = np.concatenate([[0], np.cumsum(sizes)])
     basis = np.empty((len(residual), 0)) if basis is None else basis[:, np.any(basis, axis=0)]
-    taken = np.linalg.qr(basis)[0]
-    left = residual - taken @ (taken.T @ residual)
+    explained = np.linalg.qr(basis)[0]
+    left = residual - explained @ (explained.T @ residual)
     whole = float(left @ left)
     chosen: list[int] = []
     for _ in range(_TERMS):
         gains = []
-        projected = columns - taken @ (taken.T @ columns)
+        projected = columns - explained @ (explained.T @ columns)
         for number, start in enumerate(starts[:-1]):
             group = projected[:, start : starts[number + 1]]
             norm = np.linalg.norm(group, axis=0)
@@ -128,8 +130,8 @@ def proposed_term(
             break
         chosen.append(best)
         group = columns[:, starts[best] : starts[best + 1]]
-        taken = np.linalg.qr(np.column_stack([taken, group]))[0]
-        left = residual - taken @ (taken.T @ residual)
+        explained = np.linalg.qr(np.column_stack([explained, group]))[0]
+        left = residual - explained @ (explained.T @ residual)
     if not chosen:
         return None
     design = np.column_stack([columns[:, starts[n] : starts[n + 1]] for n in chosen])
@@ -144,13 +146,13 @@ def proposed_term(
 
 
 def _steps(values: np.ndarray) -> float:
-    """Number of steps over its range that a variable takes: few for set levels, many for a sweep."""
+    """Number of distinct values of a variable at 1 % resolution: few for set levels, many for a sweep."""
     low, span = float(np.min(values)), float(np.ptp(values))
     return float(len(np.unique(np.rint(_FINEST * (values - low) / span))))
 
 
 def _library(given: Mapping[str, np.ndarray]) -> Iterator[tuple[Sequence[str], list[np.ndarray]]]:
-    """Products as (texts, columns); a wave has two columns, so that its phase is free."""
+    """Products as (texts, columns); a sine has two columns, so that its phase is free."""
     if not given:
         return
     shapes: list[tuple[list[str], list[np.ndarray]]] = [(["1"], [np.ones(len(next(iter(given.values()))))])]
@@ -168,7 +170,7 @@ def _library(given: Mapping[str, np.ndarray]) -> Iterator[tuple[Sequence[str], l
         if symbol == "v" or not span > 0.0:
             shapes += [(["abs(v)"], [np.abs(x)]), (["v*abs(v)"], [x * np.abs(x)])]
             continue
-        # What is narrower than the steps of a variable could be anything between them.
+        # Features narrower than the spacing of the data are not determined.
         steps = _steps(x)
         for periods in (*np.arange(1.0, 8.1, 0.5), *np.arange(9.0, 20.1, 1.0)):
             if periods > steps / _PER_WAVE:
@@ -197,8 +199,8 @@ def _library(given: Mapping[str, np.ndarray]) -> Iterator[tuple[Sequence[str], l
         for text, factor in factors:
             if text and text == texts[0]:
                 continue
-            made = [column * factor for column in columns]
-            if all(np.ptp(column) > 0.0 or texts == ["1"] for column in made) and any(
-                np.any(c) for c in made
+            products = [column * factor for column in columns]
+            if all(np.ptp(column) > 0.0 or texts == ["1"] for column in products) and any(
+                np.any(c) for c in products
             ):
-                yield [f"{t}*{text}" if text and t != "1" else text or t for t in texts], made
+                yield [f"{t}*{text}" if text and t != "1" else text or t for t in texts], products
