@@ -28,7 +28,7 @@ from mckibben.resources import presets_folder
 from mckibben.simulation.integrate.engine import kernel
 from mckibben.simulation.outcome import Watch
 from mckibben.sizing import Sizing, size
-from mckibben.sizing.bench import Bench
+from mckibben.sizing.batch import Bench
 from mckibben.sizing.catalogue import Design
 from mckibben.sizing.chance import chance
 from mckibben.sizing.prepared import Prepared

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import pytest
 
 from mckibben.application.size import RejectedParts, SizingResult
-from mckibben.report.sizing import Command, Entry, Margin, Material, Spread, sizing_report
+from mckibben.report.sizing import Command, Entry, Margin, SizingMaterial, SpecimenSpread, sizing_report
 from mckibben.report.sizing.given import task_section
 from mckibben.report.sizing.others import rejected_section
 from mckibben.report.sizing.safety import margins_section, uncertainty_section
@@ -28,7 +28,7 @@ NOTHING = SizingResult(
 )  # fmt: skip
 
 
-def material(**changes: Any) -> Material:
+def material(**changes: Any) -> SizingMaterial:
     """Of a task that nothing does."""
     given: dict[str, Any] = {
         "title": "A title", "made": datetime(2026, 1, 2, tzinfo=UTC), "versions": {"mckibben": "1"},
@@ -37,7 +37,7 @@ def material(**changes: Any) -> Material:
         "chosen": None, "catalogue": {}, "hashes": {"task.json": "ab" * 32},
         "command": Command(["mckibben size task.json"], {"task.json": "{}"}),
     }  # fmt: skip
-    return Material(**(given | changes))
+    return SizingMaterial(**(given | changes))
 
 
 class Picked:
@@ -110,7 +110,7 @@ def test_margins_are_drawn_to_scale_and_the_nearest_is_named() -> None:
 
 
 def test_a_probability_says_what_it_is_a_share_of() -> None:
-    spread = Spread(0.1, 0.004, None, 0.0, 0.03, ["arrives"])
+    spread = SpecimenSpread(0.1, 0.004, None, 0.0, 0.03, ["arrives"])
     proposal = Picked(probability=0.9, probability_error=0.03, specimens=100)
     section = uncertainty_section(Picked(proposal=proposal, spread=spread))  # pyright: ignore[reportArgumentType]
     words = text_of(section).replace("\xa0", " ")

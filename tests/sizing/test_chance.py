@@ -10,7 +10,7 @@ from scipy.stats import norm
 
 from mckibben.documents.studio import Studio
 from mckibben.simulation.outcome import Watch
-from mckibben.sizing.bench import Bench
+from mckibben.sizing.batch import Bench
 from mckibben.sizing.catalogue import Design, Group
 from mckibben.sizing.chance import chance
 from mckibben.sizing.spread import spread_of

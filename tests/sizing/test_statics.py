@@ -12,7 +12,7 @@ from mckibben.physics import gas
 from mckibben.simulation.statics import inverse
 from mckibben.simulation.statics.model import StaticModel
 from mckibben.sizing import Task
-from mckibben.sizing.sheet import sheet_of
+from mckibben.sizing.design_table import sheet_of
 from mckibben.sizing.statics import AMPLE, at_rest, least_time, margins, outputs
 from mckibben.sizing.task import GRAVITY
 from mckibben.sizing.trial import Trial
@@ -100,7 +100,7 @@ def test_a_counterweight_takes_weight_and_adds_mass() -> None:
 
 def test_the_least_time_is_below_every_simulated_time(studio: Studio) -> None:
     from mckibben.simulation.outcome import Watch
-    from mckibben.sizing.bench import Bench
+    from mckibben.sizing.batch import Bench
     from mckibben.sizing.catalogue import Group
     from mckibben.sizing.search import DesignCandidate
 

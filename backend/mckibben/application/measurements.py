@@ -94,7 +94,7 @@ class SkippedSummary:
 
 
 @dataclass(frozen=True, slots=True)
-class FileProblem:
+class UnreadableFile:
     """Why a file cannot be read as a measurement."""
 
     code: str
@@ -141,7 +141,7 @@ class PreviewResult:
     conditions: Mapping[str, float | str]
     missing: list[MissingCondition]
     measurement: MeasurementSummary | None
-    problem: FileProblem | None
+    problem: UnreadableFile | None
     only_bad_rows: bool
     messages: list[str]
     channel_choices: list[ChannelOption]
@@ -220,7 +220,7 @@ def preview_of(preview: Preview) -> PreviewResult:
         measurement=summary_of(measurement) if measurement else None,
         problem=None
         if problem is None
-        else FileProblem(problem.code, problem.message, problem.field, problem.hint),
+        else UnreadableFile(problem.code, problem.message, problem.field, problem.hint),
         only_bad_rows=preview.refused,
         messages=list(preview.messages),
         channel_choices=[

@@ -17,7 +17,7 @@ from mckibben.documents.quantity import (
     Length,
     PositivePressure,
     Pressure,
-    Quantity,
+    QuantityField,
     Temperature,
     Volume,
 )
@@ -28,22 +28,22 @@ from mckibben.physics.units import si
 
 LONGEST = 600.0  # s, of a run
 
-Mass = Annotated[float, Quantity("kg", "10 kg", at_least=0.0, at_most=1e5)]
-Conductance = Annotated[float, Quantity("m^3/(s*Pa)", "1.2 l/(s*bar)", at_least=0.0, at_most=1e-5)]
-Flow = Annotated[float, Quantity("m^3/s", "350 l/min", above=0.0, at_most=10.0)]
-Ratio = Annotated[float, Quantity("1", "0.3", at_least=0.0, at_most=0.99)]
-Inclination = Annotated[float, Quantity("rad", "90 deg", at_least=-1.5707963268, at_most=1.5707963268)]
-Stiffness = Annotated[float, Quantity("N/m", "500 N/m", at_least=0.0, at_most=1e9)]
-LeverRatio = Annotated[float, Quantity("1", "0.5", above=1e-3, at_most=1e3)]
-PulleyRadius = Annotated[float, Quantity("m", "20 mm", above=1e-4, at_most=10.0)]
-Exponent = Annotated[float, Quantity("1", "1.2", at_least=1.0, at_most=1.4)]
-Duration = Annotated[float, Quantity("s", "4 s", above=0.0, at_most=LONGEST)]
-LagTime = Annotated[float, Quantity("s", "50 ms", above=1e-5, at_most=100.0)]
-Ambient = Annotated[float, Quantity("Pa", "1013.25 hPa", at_least=1e4, at_most=1e6)]
+Mass = Annotated[float, QuantityField("kg", "10 kg", at_least=0.0, at_most=1e5)]
+Conductance = Annotated[float, QuantityField("m^3/(s*Pa)", "1.2 l/(s*bar)", at_least=0.0, at_most=1e-5)]
+Flow = Annotated[float, QuantityField("m^3/s", "350 l/min", above=0.0, at_most=10.0)]
+Ratio = Annotated[float, QuantityField("1", "0.3", at_least=0.0, at_most=0.99)]
+Inclination = Annotated[float, QuantityField("rad", "90 deg", at_least=-1.5707963268, at_most=1.5707963268)]
+Stiffness = Annotated[float, QuantityField("N/m", "500 N/m", at_least=0.0, at_most=1e9)]
+LeverRatio = Annotated[float, QuantityField("1", "0.5", above=1e-3, at_most=1e3)]
+PulleyRadius = Annotated[float, QuantityField("m", "20 mm", above=1e-4, at_most=10.0)]
+Exponent = Annotated[float, QuantityField("1", "1.2", at_least=1.0, at_most=1.4)]
+Duration = Annotated[float, QuantityField("s", "4 s", above=0.0, at_most=LONGEST)]
+LagTime = Annotated[float, QuantityField("s", "50 ms", above=1e-5, at_most=100.0)]
+Ambient = Annotated[float, QuantityField("Pa", "1013.25 hPa", at_least=1e4, at_most=1e6)]
 
 
 @dataclass(frozen=True, slots=True)
-class AsGiven(Quantity):
+class AsGiven(QuantityField):
     """A quantity that is checked but not converted, because a plain number is not in SI."""
 
     def __call__(self, value: object) -> Any:

@@ -14,7 +14,7 @@ from mckibben.physics.units import MAX_TEXT_LENGTH, si
 
 
 @dataclass(frozen=True, slots=True)
-class Quantity:
+class QuantityField:
     """Converts a value of a request to SI, and describes it in OpenAPI.
 
     Attributes:
@@ -75,16 +75,16 @@ class Quantity:
 
 
 # Bounds far beyond any real design; they only protect the arithmetic from absurd values.
-Length = Annotated[float, Quantity("m", "300 mm", above=0.0, at_most=1e3)]
-Diameter = Annotated[float, Quantity("m", "20 mm", above=0.0, at_most=10.0)]
-Thickness = Annotated[float, Quantity("m", "1.8 mm", at_least=0.0, at_most=1.0)]
+Length = Annotated[float, QuantityField("m", "300 mm", above=0.0, at_most=1e3)]
+Diameter = Annotated[float, QuantityField("m", "20 mm", above=0.0, at_most=10.0)]
+Thickness = Annotated[float, QuantityField("m", "1.8 mm", at_least=0.0, at_most=1.0)]
 # Without bounds: the physics checks it with a better message ("… the muscle would lengthen …").
-Angle = Annotated[float, Quantity("rad", "25 deg")]
-Turns = Annotated[float, Quantity("1", "1.48", above=0.0, at_most=1e6)]
-Pressure = Annotated[float, Quantity("Pa", "6 bar", at_least=0.0, at_most=1e8)]
-PositivePressure = Annotated[float, Quantity("Pa", "6 bar", above=0.0, at_most=1e8)]
-Force = Annotated[float, Quantity("N", "500 N", at_least=-1e9, at_most=1e9)]
-Load = Annotated[float, Quantity("N", "500 N", at_least=0.0, at_most=1e9)]
-Temperature = Annotated[float, Quantity("K", "20 degC", at_least=150.0, at_most=600.0)]
-Contraction = Annotated[float, Quantity("1", "10 %", at_least=-5.0, at_most=1.0)]
-Volume = Annotated[float, Quantity("m3", "15 ml", at_least=0.0, at_most=10.0)]
+Angle = Annotated[float, QuantityField("rad", "25 deg")]
+Turns = Annotated[float, QuantityField("1", "1.48", above=0.0, at_most=1e6)]
+Pressure = Annotated[float, QuantityField("Pa", "6 bar", at_least=0.0, at_most=1e8)]
+PositivePressure = Annotated[float, QuantityField("Pa", "6 bar", above=0.0, at_most=1e8)]
+Force = Annotated[float, QuantityField("N", "500 N", at_least=-1e9, at_most=1e9)]
+Load = Annotated[float, QuantityField("N", "500 N", at_least=0.0, at_most=1e9)]
+Temperature = Annotated[float, QuantityField("K", "20 degC", at_least=150.0, at_most=600.0)]
+Contraction = Annotated[float, QuantityField("1", "10 %", at_least=-5.0, at_most=1.0)]
+Volume = Annotated[float, QuantityField("m3", "15 ml", at_least=0.0, at_most=10.0)]

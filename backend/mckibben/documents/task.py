@@ -7,22 +7,22 @@ from typing import Annotated, Literal
 from pydantic import ConfigDict, Field, JsonValue
 
 from mckibben.documents.drive import Inclination, LeverRatio, Mass, PulleyRadius, Stiffness
-from mckibben.documents.quantity import Diameter, Force, PositivePressure, Quantity, Temperature
+from mckibben.documents.quantity import Diameter, Force, PositivePressure, QuantityField, Temperature
 from mckibben.documents.strict import Id, Strict
 
-Stroke = Annotated[float, Quantity("m", "60 mm", above=1e-5, at_most=10.0)]
-TaskTime = Annotated[float, Quantity("s", "0.5 s", above=1e-3, at_most=60.0)]
-Speed = Annotated[float, Quantity("m/s", "0.2 m/s", above=1e-4, at_most=50.0)]
-Place = Annotated[float, Quantity("m", "20 mm", at_least=0.0, at_most=10.0)]
-Swing = Annotated[float, Quantity("rad", "60 deg", above=1e-3, at_most=6.2832)]
-Torque = Annotated[float, Quantity("N*m", "5 N*m", at_least=0.0, at_most=1e5)]
-Inertia = Annotated[float, Quantity("kg*m^2", "0.02 kg*m^2", at_least=0.0, at_most=1e4)]
-Reach = Annotated[float, Quantity("1", "20 %", above=0.0, at_most=0.6)]
-Reserve = Annotated[float, Quantity("1", "10 %", at_least=0.0, at_most=10.0)]
-Share = Annotated[float, Quantity("1", "10 %", at_least=0.0, at_most=0.9)]
-Room = Annotated[float, Quantity("m", "600 mm", at_least=0.0, at_most=100.0)]
-Cycles = Annotated[float, Quantity("1", "1e6", above=0.0, at_most=1e12)]
-TubeLength = Annotated[float, Quantity("m", "1 m", at_least=0.0, at_most=100.0)]
+Stroke = Annotated[float, QuantityField("m", "60 mm", above=1e-5, at_most=10.0)]
+TaskTime = Annotated[float, QuantityField("s", "0.5 s", above=1e-3, at_most=60.0)]
+Speed = Annotated[float, QuantityField("m/s", "0.2 m/s", above=1e-4, at_most=50.0)]
+Place = Annotated[float, QuantityField("m", "20 mm", at_least=0.0, at_most=10.0)]
+Swing = Annotated[float, QuantityField("rad", "60 deg", above=1e-3, at_most=6.2832)]
+Torque = Annotated[float, QuantityField("N*m", "5 N*m", at_least=0.0, at_most=1e5)]
+Inertia = Annotated[float, QuantityField("kg*m^2", "0.02 kg*m^2", at_least=0.0, at_most=1e4)]
+Reach = Annotated[float, QuantityField("1", "20 %", above=0.0, at_most=0.6)]
+Reserve = Annotated[float, QuantityField("1", "10 %", at_least=0.0, at_most=10.0)]
+Share = Annotated[float, QuantityField("1", "10 %", at_least=0.0, at_most=0.9)]
+Room = Annotated[float, QuantityField("m", "600 mm", at_least=0.0, at_most=100.0)]
+Cycles = Annotated[float, QuantityField("1", "1e6", above=0.0, at_most=1e12)]
+TubeLength = Annotated[float, QuantityField("m", "1 m", at_least=0.0, at_most=100.0)]
 
 
 class ForceOverStroke(Strict):

@@ -18,8 +18,8 @@ from mckibben.presets.quantity import (
     Column,
     Finding,
     Note,
+    PresetModel,
     Quantity,
-    Strict,
     Text,
     quantity_findings,
     si_unit,
@@ -27,7 +27,7 @@ from mckibben.presets.quantity import (
 from mckibben.presets.schema import EffectTable, Key, Preset
 
 
-class MysteryColumns(Strict):
+class MysteryColumns(PresetModel):
     """The measured channels, all of the same length."""
 
     time: Column | None = None
@@ -42,7 +42,7 @@ class MysteryColumns(Strict):
         return {name: column for name, column in self if column is not None}
 
 
-class HiddenEffect(Strict):
+class HiddenEffect(PresetModel):
     """One effect that the start model lacks.
 
     Attributes:
@@ -56,7 +56,7 @@ class HiddenEffect(Strict):
     effects: Annotated[list[Key], Field(min_length=1)]
 
 
-class MysteryAnswer(Strict):
+class MysteryAnswer(PresetModel):
     """The hidden effects of a measurement; none if the start model explains it."""
 
     hidden: list[HiddenEffect]

@@ -29,7 +29,7 @@ class Finding(NamedTuple):
     hint: str | None = None
 
 
-class Strict(BaseModel):
+class PresetModel(BaseModel):
     """Base of all preset models: no unknown keys, no coercion of types, no nan or inf, immutable."""
 
     model_config = ConfigDict(
@@ -37,7 +37,7 @@ class Strict(BaseModel):
     )
 
 
-class Quantity(Strict):
+class Quantity(PresetModel):
     """A value with its unit (text), source (short) and grade (a key of `physics.parameter.GRADES`)."""
 
     value: Number
@@ -60,7 +60,7 @@ class Quantity(Strict):
         return float(convert(self.value, self.unit, unit, field=field))
 
 
-class Column(Strict):
+class Column(PresetModel):
     """A column of numbers in one unit."""
 
     unit: Annotated[str, Field(min_length=1, max_length=40)]

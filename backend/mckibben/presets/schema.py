@@ -14,8 +14,8 @@ from mckibben.presets.quantity import (
     Finding,
     Grade,
     Note,
+    PresetModel,
     Quantity,
-    Strict,
     Text,
     quantities,
     quantity_findings,
@@ -33,7 +33,7 @@ FigureName = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_.]{0,127}$")]
 Share = Annotated[float, Field(gt=0.0, le=1.0)]
 
 
-class Preset(Strict):
+class Preset(PresetModel):
     """Fields and methods of all presets."""
 
     schema_version: Literal[1] = Field(alias="schema")
@@ -75,7 +75,7 @@ class Preset(Strict):
                 yield from quantity_findings(path, quantity)
 
 
-class Geometry(Strict):
+class Geometry(PresetModel):
     """The muscle at rest; an unknown wall thickness is left out."""
 
     inside_diameter: Quantity
@@ -85,7 +85,7 @@ class Geometry(Strict):
     wall_thickness: Quantity | None = None
 
 
-class Tolerance(Strict):
+class Tolerance(PresetModel):
     """How far (+-) a fit may change a geometry value."""
 
     braid_angle: Quantity | None = None
@@ -94,7 +94,7 @@ class Tolerance(Strict):
     wall_thickness: Quantity | None = None
 
 
-class Limits(Strict):
+class Limits(PresetModel):
     """Limits stated by the maker; unknown ones are left out."""
 
     max_pressure: Quantity | None = None
@@ -190,7 +190,7 @@ class _Part(_WithEffects):
     data: dict[Key, Quantity] = Field(default_factory=dict)
 
 
-class RegulatorPart(Strict):
+class RegulatorPart(PresetModel):
     """Figures of a pressure regulator: full-scale gauge pressure and time constant."""
 
     range: Quantity
@@ -224,7 +224,7 @@ class DesignPreset(Preset):
     document: dict[str, Any]
 
 
-class Ground(Strict):
+class Ground(PresetModel):
     """Source of a value of a drive document."""
 
     source: Text
@@ -232,7 +232,7 @@ class Ground(Strict):
     note: Note | None = None
 
 
-class PaperFigures(Strict):
+class PaperFigures(PresetModel):
     """Published figures of a drive.
 
     Attributes:

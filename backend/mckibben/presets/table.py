@@ -12,18 +12,18 @@ from pydantic import Field
 from mckibben.physics.errors import InputError
 from mckibben.physics.parameter import UNVERIFIED_GRADES
 from mckibben.physics.units import convert
-from mckibben.presets.quantity import COLUMN_UNITS, Column, Finding, Grade, Note, Quantity, Strict, Text
+from mckibben.presets.quantity import COLUMN_UNITS, Column, Finding, Grade, Note, PresetModel, Quantity, Text
 from mckibben.presets.schema import EffectTable, Preset, PresetId
 
 
-class Exclusion(Strict):
+class Exclusion(PresetModel):
     """A row that is not used, and why."""
 
     index: Annotated[int, Field(ge=0)]
     why: Text
 
 
-class CurveColumns(Strict):
+class CurveColumns(PresetModel):
     """Force over pressure and contraction."""
 
     pressure: Column
@@ -31,7 +31,7 @@ class CurveColumns(Strict):
     force: Column
 
 
-class MeasurementColumns(Strict):
+class MeasurementColumns(PresetModel):
     """Force over pressure and length."""
 
     pressure: Column

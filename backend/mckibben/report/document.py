@@ -62,7 +62,7 @@ def document(
 
 
 @dataclass(frozen=True)
-class Column:
+class Head:
     """A column of a table; numbers stand at the right, a wide one is not squeezed by its neighbours."""
 
     title: Child
@@ -76,7 +76,11 @@ class Column:
 
 
 def table(
-    columns: Sequence[Column], rows: Iterable[Sequence[Child]], *, caption: Child = None, whole: bool = True
+    columns: Sequence[Head],
+    rows: Iterable[Sequence[Child]],
+    *,
+    caption: Child = None,
+    whole: bool = True,
 ) -> Html:
     """A table whose head is repeated on every printed page.
 

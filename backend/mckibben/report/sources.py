@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from mckibben.physics.parameter import GRADES, UNVERIFIED_GRADES
-from mckibben.report.document import Column, mark, table
+from mckibben.report.document import Head, mark, table
 from mckibben.report.html import Html, html
 
 
@@ -33,4 +33,4 @@ def grades_table() -> Html:
         [grade, meaning, mark("no") if grade in UNVERIFIED_GRADES else "yes"]
         for grade, meaning in GRADES.items()
     ]
-    return table([Column("Grade"), Column("Meaning"), Column("Verified")], rows)
+    return table([Head("Grade"), Head("Meaning"), Head("Verified")], rows)

@@ -31,8 +31,8 @@ from mckibben.server.routes import (
     sizings,
 )
 from mckibben.server.security import BodyLimitMiddleware, SecurityMiddleware
+from mckibben.server.server_timing import TimingMiddleware
 from mckibben.server.settings import Settings
-from mckibben.server.timing import TimingMiddleware
 from mckibben.simulation.integrate.engine import kernel
 
 # Bytes. The usual curves answer is smaller: compressing it would take longer than computing it.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import sqrt
 
-from mckibben.sizing.bench import Bench
+from mckibben.sizing.batch import Bench
 from mckibben.sizing.catalogue import Design
 from mckibben.sizing.prepared import Prepared
 from mckibben.sizing.spread import Spread, spread_of

@@ -9,8 +9,8 @@ import numpy as np
 from mckibben.physics.drive_terms import COUNTER, INPUTS, OUTPUTS
 from mckibben.physics.errors import InputError
 from mckibben.physics.gas import ANR_DENSITY
+from mckibben.simulation.drive.initial_state import start_of
 from mckibben.simulation.drive.parts import Drive
-from mckibben.simulation.drive.rest import start_of
 from mckibben.simulation.integrate.engine import CompiledDrive, integrate
 from mckibben.sizing.catalogue import Design
 

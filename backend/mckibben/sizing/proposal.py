@@ -13,7 +13,7 @@ from mckibben.simulation.drive.transient import Run, simulate
 from mckibben.simulation.outcome import Outcome
 from mckibben.simulation.timing.of_run import stops_of, time_step, trace_of
 from mckibben.simulation.timing.table import timing
-from mckibben.sizing.bench import Bench
+from mckibben.sizing.batch import Bench
 from mckibben.sizing.catalogue import Design, switch_on
 from mckibben.sizing.chance import Chance
 from mckibben.sizing.prepared import HELD_SHARE, ON_STOP, Figures

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import isfinite
 
 from mckibben.sizing.catalogue import MusclePart
-from mckibben.sizing.sheet import Sheet, Shortfall
+from mckibben.sizing.design_table import Sheet, Shortfall
 from mckibben.sizing.statics import contraction_limit
 from mckibben.sizing.task import Task
 from mckibben.sizing.trial import Trial

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mckibben.sizing.bench import Bench
+from mckibben.sizing.batch import Bench
 from mckibben.sizing.catalogue import Design
 from mckibben.sizing.statics import contraction_limit
 from mckibben.sizing.trial import Trial, hard_trial_of

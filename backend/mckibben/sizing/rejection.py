@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mckibben.sizing.catalogue import Group, PartsCatalogue
+from mckibben.sizing.design_table import Sheet, shortfall
 from mckibben.sizing.reasons import (
     number_text,
     remedies_text,
@@ -16,7 +17,6 @@ from mckibben.sizing.reasons import (
     temperature_text,
     why_at_rest,
 )
-from mckibben.sizing.sheet import Sheet, shortfall
 from mckibben.sizing.task import Task
 from mckibben.sizing.trial import Trial
 

@@ -9,15 +9,15 @@ from functools import cached_property
 import numpy as np
 
 from mckibben.simulation.outcome import Outcome, Watch
-from mckibben.sizing.bench import Bench, EndedError
+from mckibben.sizing.batch import Bench, EndedError
 from mckibben.sizing.catalogue import Design, Group, PartsCatalogue
 from mckibben.sizing.chance import chance
+from mckibben.sizing.design_table import Sheet, sheet_of
 from mckibben.sizing.proposal import Proposal, propose
 from mckibben.sizing.ranking import ranked
 from mckibben.sizing.reasons import temperature_text
 from mckibben.sizing.refine import refined
 from mckibben.sizing.rejection import Rejection, at_rest_rejections, slow_rejections
-from mckibben.sizing.sheet import Sheet, sheet_of
 from mckibben.sizing.statics import least_time
 from mckibben.sizing.task import Task
 from mckibben.sizing.trial import Trial, trial_of

@@ -7,7 +7,7 @@ from math import inf, log
 
 import numpy as np
 
-from mckibben.sizing.bench import Bench
+from mckibben.sizing.batch import Bench
 from mckibben.sizing.catalogue import Design
 from mckibben.sizing.prepared import Figures
 from mckibben.sizing.spread import weak

@@ -11,8 +11,8 @@ from scipy.integrate import solve_ivp
 from mckibben.physics import gas
 from mckibben.physics.muscle import Muscle
 from mckibben.simulation.command.signals import signal_from
+from mckibben.simulation.drive.initial_state import start_of
 from mckibben.simulation.drive.parts import Drive, Load, Tube, Valve
-from mckibben.simulation.drive.rest import start_of
 from mckibben.simulation.drive.transient import GRAVITY, parameters_of, segments_of, simulate
 from mckibben.simulation.statics.model import StaticModel
 

@@ -9,7 +9,7 @@ from mckibben.measurement.read.cells import CellTable, Skip
 from mckibben.measurement.read.channels import ChannelReading, read_channels
 from mckibben.measurement.read.conditions import read_conditions
 from mckibben.measurement.read.correction import Correction
-from mckibben.measurement.read.header import TEXT_COLUMNS, Column, Meaning, map_headers
+from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning, map_headers
 from mckibben.measurement.read.source import RawTable
 
 
@@ -17,7 +17,7 @@ class Read(NamedTuple):
     """A table read: its measurement, and how it was come by."""
 
     measurement: Measurement
-    columns: list[Column]
+    columns: list[HeaderColumn]
     skipped: dict[str, Skip]
 
 
@@ -44,7 +44,7 @@ def conditions_of(source: RawTable, correction: Correction, messages: list[str])
     return conditions
 
 
-def rows_of(source: RawTable, columns: list[Column], *, skip: bool) -> CellTable:
+def rows_of(source: RawTable, columns: list[HeaderColumn], *, skip: bool) -> CellTable:
     """The rows of the columns that are used."""
     numeric = [c.place for c in columns if c.use not in TEXT_COLUMNS]
     text = [c.place for c in columns if c.use in TEXT_COLUMNS]

@@ -14,7 +14,7 @@ from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.read.cells import CellTable, Labels, no_rows
 from mckibben.measurement.read.conditions import ATMOSPHERE
 from mckibben.measurement.read.correction import SAMPLE, SLACK
-from mckibben.measurement.read.header import TEXT_COLUMNS, Column
+from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
 
@@ -39,7 +39,7 @@ class ChannelReading:
     ignored: list[str]
     skip: bool = False
 
-    def drop(self, column: Column, why: str) -> None:
+    def drop(self, column: HeaderColumn, why: str) -> None:
         """Do not use a column."""
         self.ignored.append(column.header)
         self.messages.append(f"{self.noun} '{column.header}' is not used: {why}")
@@ -55,15 +55,15 @@ class _Values(NamedTuple):
 
 
 def read_channels(
-    columns: list[Column], reading: ChannelReading
-) -> tuple[dict[str, NDArray], dict[str, Column], NDArray[np.bool_] | None]:
+    columns: list[HeaderColumn], reading: ChannelReading
+) -> tuple[dict[str, NDArray], dict[str, HeaderColumn], NDArray[np.bool_] | None]:
     """(channel -> values in SI, channel -> its column, rows marked as slack).
 
     Raises:
         InputError: a value that no physical quantity has, naming its row and column (unless such rows are
             skipped).
     """
-    units: dict[str, Column] = {}
+    units: dict[str, HeaderColumn] = {}
     for column in [c for c in columns if c.use not in TEXT_COLUMNS]:
         known = _with_known_unit(column, reading)
         if known is None:
@@ -89,7 +89,7 @@ def read_channels(
     return channels, by_use | units, slack
 
 
-def _with_known_unit(column: Column, reading: ChannelReading) -> Column | None:
+def _with_known_unit(column: HeaderColumn, reading: ChannelReading) -> HeaderColumn | None:
     """The column with a unit, guessed from its numbers where none is given; None = no such channel."""
     raw = reading.table.numbers[column.place]
     use, unit = column.use, column.unit
@@ -112,14 +112,14 @@ def _with_known_unit(column: Column, reading: ChannelReading) -> Column | None:
     return column._replace(unit=unit)
 
 
-def _absolute(column: Column, conditions: Mapping[str, float | str]) -> bool | None:
+def _absolute(column: HeaderColumn, conditions: Mapping[str, float | str]) -> bool | None:
     if column.absolute is not None:
         return column.absolute
     said = str(conditions.get("pressure", "")).lower()
     return True if said.startswith("abs") else False if said.startswith(("gauge", "rel")) else None
 
 
-def _values(column: Column, reading: ChannelReading) -> _Values:
+def _values(column: HeaderColumn, reading: ChannelReading) -> _Values:
     """One numeric column in SI, and which of its rows cannot be."""
     raw = reading.table.numbers[column.place]
     use = column.use
@@ -141,7 +141,7 @@ def _values(column: Column, reading: ChannelReading) -> _Values:
     return _Values(values, np.zeros(len(values), bool), "", "")
 
 
-def _say_reference(column: Column, reading: ChannelReading) -> None:
+def _say_reference(column: HeaderColumn, reading: ChannelReading) -> None:
     label = f"{reading.noun} '{column.header}'"
     if column.absolute:
         reading.messages.append(f"{label} is absolute pressure: {ATMOSPHERE:.0f} Pa subtracted")
@@ -149,7 +149,7 @@ def _say_reference(column: Column, reading: ChannelReading) -> None:
         reading.messages.append(f"{label} read as gauge pressure")
 
 
-def _value_error(reading: ChannelReading, column: Column, values: _Values) -> InputError:
+def _value_error(reading: ChannelReading, column: HeaderColumn, values: _Values) -> InputError:
     first, count = int(np.argmax(values.bad)), int(np.count_nonzero(values.bad))
     line, value = int(reading.table.lines[first]), reading.table.numbers[column.place][first]
     more = f" (and {count - 1} more such rows)" if count > 1 else ""
@@ -161,7 +161,7 @@ def _value_error(reading: ChannelReading, column: Column, values: _Values) -> In
 
 
 def _read_labels(
-    by_use: Mapping[str, Column], columns: dict[str, NDArray], reading: ChannelReading
+    by_use: Mapping[str, HeaderColumn], columns: dict[str, NDArray], reading: ChannelReading
 ) -> NDArray[np.bool_] | None:
     """Add direction, group and sample; returns the rows marked as slack."""
     labels = {use: reading.table.labels[c.place] for use, c in by_use.items() if use in TEXT_COLUMNS}

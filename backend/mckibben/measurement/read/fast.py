@@ -20,7 +20,7 @@ _MANY_ODD = 1000  # rows
 _PIECE = 8_000_000  # bytes
 
 
-class _Lines(NamedTuple):
+class _PlainLines(NamedTuple):
     """Lines of a text: where each ends, and the numbers of those with another number of cells."""
 
     data: bytes
@@ -113,7 +113,7 @@ def read_fast(
     return CellTable(numbers, labels, first_line + rows, problems.skipped)
 
 
-def _lines(data: bytes, separator: str, width: int) -> _Lines:
+def _lines(data: bytes, separator: str, width: int) -> _PlainLines:
     raw = np.frombuffer(data, np.uint8)
     found = [
         begin + np.flatnonzero(raw[begin : begin + _PIECE] == ord("\n"))
@@ -123,11 +123,11 @@ def _lines(data: bytes, separator: str, width: int) -> _Lines:
     begins = np.concatenate([[0], ends[:-1] + 1])
     marks = (raw == ord(separator)).view(np.uint8)
     counts = np.add.reduceat(marks, begins, dtype=np.int32)
-    return _Lines(data, ends, np.flatnonzero(counts != width - 1))
+    return _PlainLines(data, ends, np.flatnonzero(counts != width - 1))
 
 
 def _piece(
-    lines: _Lines, first: int, last: int, form: _Format, words: dict[int, dict[str, int]]
+    lines: _PlainLines, first: int, last: int, form: _Format, words: dict[int, dict[str, int]]
 ) -> _Piece | None:
     """Some lines read; None when pandas makes something else of them. New words join the known ones."""
     import pandas as pd  # 150 ms: only when a large file comes
@@ -173,7 +173,7 @@ def _piece(
 
 
 def _told(
-    lines: _Lines, bad: NDArray[np.intp], separator: str, headers: Sequence[str], numeric: Sequence[int],
+    lines: _PlainLines, bad: NDArray[np.intp], separator: str, headers: Sequence[str], numeric: Sequence[int],
     problems: Problems, first_line: int,
 ) -> bool:  # fmt: skip
     """Whether every bad line is one by the careful way too; then the problems know them."""

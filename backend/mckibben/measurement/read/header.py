@@ -48,7 +48,7 @@ HEADER_EXAMPLE = "e.g. a header 'pressure_bar,length_mm,force_N'"
 TEXT_COLUMNS = ("direction", "group", SLACK, SAMPLE)
 
 
-class Column(NamedTuple):
+class HeaderColumn(NamedTuple):
     """A column that is used: ``use`` is a channel, ``slack`` or ``sample``; ``unit`` None = not given."""
 
     place: int
@@ -65,7 +65,7 @@ class Meaning(NamedTuple):
     ``problems``: index of a column -> why its header cannot be used, only where they are collected.
     """
 
-    columns: list[Column]
+    columns: list[HeaderColumn]
     ignored: list[str]
     messages: list[str]
     problems: dict[int, InputError]
@@ -102,7 +102,7 @@ def map_headers(
     messages: list[str] = []
     problems: dict[int, InputError] = {}
     seen: set[str] = set()
-    found: list[Column] = []
+    found: list[HeaderColumn] = []
     for index, header in enumerate(names):
         try:
             if index in choices:
@@ -125,7 +125,7 @@ def map_headers(
     found.sort(
         key=lambda c: (c.place not in choices, c.penalty, not c.header.lower().startswith(c.use), c.place)
     )
-    used: dict[str, Column] = {}
+    used: dict[str, HeaderColumn] = {}
     for column in found:
         winner = used.setdefault(column.use, column)
         if winner is not column:
@@ -157,7 +157,7 @@ def _positions(chosen: Mapping[str, Choice | None], names: Sequence[str]) -> dic
     return result
 
 
-def _chosen(index: int, header: str, choice: Choice | None) -> Column | None:
+def _chosen(index: int, header: str, choice: Choice | None) -> HeaderColumn | None:
     """A column as the user wants it; a unit that is not said is the header's, where it fits."""
     if choice is None:
         return None
@@ -169,7 +169,7 @@ def _chosen(index: int, header: str, choice: Choice | None) -> Column | None:
             guess = None
         if guess is not None and guess.unit is not None and _fits(guess.unit, CHANNEL_UNITS[choice.channel]):
             unit, absolute = guess.unit, guess.absolute if absolute is None else absolute
-    return Column(index, header or f"column {index + 1}", choice.channel, unit, absolute)
+    return HeaderColumn(index, header or f"column {index + 1}", choice.channel, unit, absolute)
 
 
 def _no_channel(
@@ -186,12 +186,12 @@ def _no_channel(
     return InputError(f"{where}: {problem}", field=field, hint=hint)
 
 
-def _column(index: int, header: str, where: str, noun: str, messages: list[str]) -> Column | None:
+def _column(index: int, header: str, where: str, noun: str, messages: list[str]) -> HeaderColumn | None:
     """The column of one header; None = not one of ours."""
     if not header or len(header) > _MAX_HEADER:
         return None
     if header.lower() in ("muscle", "sample"):
-        return Column(index, header, SAMPLE)
+        return HeaderColumn(index, header, SAMPLE)
     text, absolute = split_mark(header)
     bracketed = _BRACKETED.fullmatch(text)
     unit = None
@@ -222,14 +222,16 @@ def _column(index: int, header: str, where: str, noun: str, messages: list[str])
         else:
             return None
     if penalty >= 100 and unit is None and channel in ("", "force"):
-        return Column(index, header, SLACK)
+        return HeaderColumn(index, header, SLACK)
     if not channel:
         return None
-    column = Column(index, header, channel, unit, absolute if channel == "pressure" else None, penalty)
+    column = HeaderColumn(index, header, channel, unit, absolute if channel == "pressure" else None, penalty)
     return _with_unit(column, letter, where, noun, messages)
 
 
-def _with_unit(column: Column, letter: str, where: str, noun: str, messages: list[str]) -> Column | None:
+def _with_unit(
+    column: HeaderColumn, letter: str, where: str, noun: str, messages: list[str]
+) -> HeaderColumn | None:
     """The column after its unit had a word: contraction in mm is a displacement, volts are no pressure."""
     use, unit = column.use, column.unit
     if letter in ("t", "T"):

@@ -63,7 +63,7 @@ def read_variables(data: bytes, file: str) -> dict[str, Any]:
     if len(data) < HEADER or data[126:128] not in (b"IM", b"MI"):
         raise DamagedError("the header is not complete")
     order = "<" if data[126:128] == b"IM" else ">"
-    reader = _Reader(order, file, len(data))
+    reader = _Mat5Reader(order, file, len(data))
     elements = []
     for element in reader.elements(memoryview(data)[HEADER:], "the file"):
         elements.append(element)
@@ -84,7 +84,7 @@ def read_variables(data: bytes, file: str) -> dict[str, Any]:
     return variables
 
 
-class _Reader:
+class _Mat5Reader:
     """Elements of one byte order."""
 
     def __init__(self, order: str, file: str, size: int) -> None:

@@ -42,7 +42,7 @@ def open_mat73(data: bytes, name: str) -> RawTable:
 
     try:
         with h5py.File(io.BytesIO(data), "r") as file:
-            values = _Reader(file, name, data).group(file)
+            values = _Mat73Reader(file, name, data).group(file)
     except InputError:
         raise
     except Exception as error:  # h5py raises whatever a damaged file leads to
@@ -54,7 +54,7 @@ def open_mat73(data: bytes, name: str) -> RawTable:
     return choose(values, name)
 
 
-class _Reader:
+class _Mat73Reader:
     """Datasets and groups to arrays, texts and mappings; counts what it reads."""
 
     def __init__(self, file: Any, name: str, data: bytes) -> None:

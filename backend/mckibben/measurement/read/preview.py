@@ -12,7 +12,7 @@ from mckibben.measurement.read.assemble import Read, assemble, conditions_of, me
 from mckibben.measurement.read.cells import Skip
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.formats import open_source
-from mckibben.measurement.read.header import Column, Meaning
+from mckibben.measurement.read.header import HeaderColumn, Meaning
 from mckibben.measurement.read.source import RawTable
 from mckibben.physics.errors import InputError
 
@@ -162,7 +162,7 @@ def _columns(source: RawTable, meaning: Meaning, read: Read | None) -> tuple[Pre
     ranges = {} if read is None else {c.name: c for c in read.measurement.channels}
     result = []
     for index, header in enumerate(source.headers):
-        column: Column | None = used.get(index, guessed.get(index))
+        column: HeaderColumn | None = used.get(index, guessed.get(index))
         problem = meaning.problems.get(index)
         if (
             read is not None

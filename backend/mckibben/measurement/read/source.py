@@ -16,7 +16,7 @@ from mckibben.physics.errors import InputError
 SAMPLE_ROWS = 8
 #: (indices of numeric columns, of text columns, leave bad rows out) -> the table.
 ReadRows = Callable[[Sequence[int], Sequence[int], bool], CellTable]
-Column = NDArray[np.float64] | list[str]
+HeaderColumn = NDArray[np.float64] | list[str]
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class RawTable:
 
 
 def array_source(
-    columns: Mapping[str, Column],
+    columns: Mapping[str, HeaderColumn],
     *,
     place: str,
     format: str,
@@ -116,7 +116,7 @@ def array_source(
     )
 
 
-def _length(values: Sequence[Column]) -> int:
+def _length(values: Sequence[HeaderColumn]) -> int:
     return len(values[0]) if values else 0
 
 
@@ -124,7 +124,7 @@ def _shown(value: float | str) -> str:
     return value if isinstance(value, str) else f"{value:.10g}"
 
 
-def _labels(column: Column) -> Labels:
+def _labels(column: HeaderColumn) -> Labels:
     words: dict[str, int] = {}
     if isinstance(column, list):
         codes = [words.setdefault(word.strip(), len(words)) for word in column]

@@ -17,7 +17,7 @@ import numpy as np
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, Note, key_of
 from mckibben.measurement.read.header import map_headers
 from mckibben.measurement.read.limits import WORD, Allowance, check_variables, size_of
-from mckibben.measurement.read.source import Column, RawTable, array_source
+from mckibben.measurement.read.source import HeaderColumn, RawTable, array_source
 from mckibben.measurement.read.vectors import known_columns, sorted_out, time_axis
 from mckibben.physics.errors import InputError
 
@@ -43,7 +43,7 @@ def open_tdms(data: bytes, name: str) -> RawTable:
     """
     groups, properties = _loaded(data, name)
     notes = _notes(properties, name)
-    tables: dict[str, tuple[dict[str, Column], list[Note], list[str]]] = {}
+    tables: dict[str, tuple[dict[str, HeaderColumn], list[Note], list[str]]] = {}
     problem: InputError | None = None
     for title, (values, own) in groups.items():
         place = f"{name}, group '{title}'"
@@ -212,9 +212,9 @@ def _add_time(values: dict[str, Any], channels: list[Any], place: str) -> None:
             return
 
 
-def _stacked(parts: list[dict[str, Column]]) -> dict[str, Column]:
+def _stacked(parts: list[dict[str, HeaderColumn]]) -> dict[str, HeaderColumn]:
     """The columns of several groups one below the other, with a column that numbers the groups."""
-    result: dict[str, Column] = {}
+    result: dict[str, HeaderColumn] = {}
     for header in parts[0]:
         pieces = [part[header] for part in parts]
         if any(isinstance(piece, list) for piece in pieces):

@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 from mckibben.measurement.read.conditions import Note
 from mckibben.measurement.read.header import map_headers
 from mckibben.measurement.read.limits import check_columns
-from mckibben.measurement.read.source import Column
+from mckibben.measurement.read.source import HeaderColumn
 from mckibben.physics.errors import InputError
 
 Named = Mapping[str, Any]  # name -> array of numbers, list of words, text, or a mapping of these
 
 
-def as_column(value: Any) -> Column | None:
+def as_column(value: Any) -> HeaderColumn | None:
     """A vector as floats, or as words; None = something else (a matrix, a struct, complex numbers)."""
     if isinstance(value, list):
         return value
@@ -45,13 +45,15 @@ def scalar_note(name: str, value: Any, where: str) -> Note | None:
     return Note(where, name, str(value)) if isinstance(value, np.str_) else None
 
 
-def sorted_out(values: Named, *, place: str, noun: str) -> tuple[dict[str, Column], list[Note], list[str]]:
+def sorted_out(
+    values: Named, *, place: str, noun: str
+) -> tuple[dict[str, HeaderColumn], list[Note], list[str]]:
     """(columns, conditions, messages) of named values.
 
     The columns are the vectors of the length that most known channels have; a vector of another length is
     refused when it is named like a channel, and said otherwise.
     """
-    columns: dict[str, Column] = {}
+    columns: dict[str, HeaderColumn] = {}
     notes: list[Note] = []
     messages: list[str] = []
     for name, value in values.items():
@@ -81,7 +83,7 @@ def sorted_out(values: Named, *, place: str, noun: str) -> tuple[dict[str, Colum
     return columns, notes, messages
 
 
-def known_columns(columns: Mapping[str, Column], *, place: str, noun: str) -> int:
+def known_columns(columns: Mapping[str, HeaderColumn], *, place: str, noun: str) -> int:
     """How many of the columns are named like a channel."""
     return len(map_headers(list(columns), place=place, noun=noun, collect=True).columns) if columns else 0
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from mckibben.application.compare import ComparisonResult
 from mckibben.application.diagnosis_result import DiagnosisResult
-from mckibben.report.document import Column, bullets, figure_of, paragraph, table
+from mckibben.report.document import Head, bullets, figure_of, paragraph, table
 from mckibben.report.figures import Scale, figure, percent, variable
 from mckibben.report.heat import heat
 from mckibben.report.html import Child, Html, html
@@ -76,7 +76,7 @@ def error_table(columns: Sequence[tuple[str, ComparisonResult]]) -> Html:
                 *(_percent(None if check is None else check.nrmse_percent) for check in checks),
             ]
         )
-    names = [Column("", False), *(Column(name, number=True) for name, _ in columns)]
+    names = [Head("", False), *(Head(name, number=True) for name, _ in columns)]
     parts: list[Child] = [table(names, rows, caption=f"Error of the predicted {words_of(first.predicted)}.")]
     if first.rows_used < first.rows:
         reasons = "; ".join(f"{number} {reason}" for reason, number in first.excluded.items())
@@ -111,8 +111,8 @@ def where_it_fails(answer: ComparisonResult) -> Html:
         for profile in answer.where
     ]
     columns = [
-        Column("Variable"), Column("Share of the squared error that it alone predicts", number=True),
-        Column("Worst range"), Column("RMS error there", number=True),
+        Head("Variable"), Head("Share of the squared error that it alone predicts", number=True),
+        Head("Worst range"), Head("RMS error there", number=True),
     ]  # fmt: skip
     words: list[Child] = [
         html(

@@ -24,11 +24,11 @@ from mckibben.physics.muscle import GEOMETRY
 from mckibben.presets.quantity import Quantity, quantities
 from mckibben.report.diagnosis import (
     Command,
+    DataSource,
+    DiagnosisMaterial,
     Figure,
-    Material,
     MuscleFacts,
     PastModel,
-    Source,
     diagnosis_report,
 )
 from mckibben.report.versions import versions
@@ -86,7 +86,7 @@ def report_of(
     known = {} if preset is None else dict(quantities(studio.library.muscle(preset.id)))
     catalogue = {**studio.catalogue, **question.start.catalogue}
     return diagnosis_report(
-        Material(
+        DiagnosisMaterial(
             title=options.title.strip() or ", ".join(names),
             made=datetime.now().astimezone(),
             versions=versions(),
@@ -108,10 +108,10 @@ def report_of(
     )
 
 
-def _sources(points: Points, use: str) -> Iterator[Source]:
+def _sources(points: Points, use: str) -> Iterator[DataSource]:
     for part in points.parts or (points,):
         measurement = part.measurement
-        yield Source(
+        yield DataSource(
             name=measurement.name,
             identity="" if part.source else measurement.id,
             origin=part.source and f"built in; {part.source}",

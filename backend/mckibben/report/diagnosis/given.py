@@ -5,20 +5,20 @@ from __future__ import annotations
 import re
 
 from mckibben.application.measurements import ChannelSummary
-from mckibben.report.diagnosis.material import Material, Source
+from mckibben.report.diagnosis.material import DataSource, DiagnosisMaterial
 from mckibben.report.diagnosis.model import named
-from mckibben.report.document import Column, bullets, facts, heading, paragraph, table
+from mckibben.report.document import Head, bullets, facts, heading, paragraph, table
 from mckibben.report.figures import Scale, figure, pretty, scale_of, variable, with_error
 from mckibben.report.html import Child, Html, html, tag
 from mckibben.report.sources import source_text
 
 
-def data_section(material: Material) -> Html:
+def data_section(material: DiagnosisMaterial) -> Html:
     """Every measurement: what it is, its rows and channels."""
     return html(_measurement(source) for source in material.sources)
 
 
-def _measurement(source: Source) -> Html:
+def _measurement(source: DataSource) -> Html:
     about = source.about
     left_out = dict(source.left_out) | dict(about.excluded)
     rows = about.rows + sum(source.left_out.values())
@@ -39,10 +39,14 @@ def _measurement(source: Source) -> Html:
     conditions = [_condition(name, value) for name, value in about.conditions.items()]
     if conditions:
         pairs.append(("Conditions", "; ".join(conditions)))
-    columns = [Column("Channel"), Column("Smallest", number=True), Column("Largest", number=True)]
+    columns = [
+        Head("Channel"),
+        Head("Smallest", number=True),
+        Head("Largest", number=True),
+    ]
     channels = [_channel(channel) for channel in about.channels]
     if source.identity:  # a built-in measurement has no columns of a file
-        columns += [Column("Column of the file"), Column("Its unit")]
+        columns += [Head("Column of the file"), Head("Its unit")]
         for row, channel in zip(channels, about.channels, strict=True):
             row += [channel.column, pretty(channel.unit) if channel.unit != "1" else "–"]
     return html(heading(source.name), facts(pairs), table(columns, channels))
@@ -71,7 +75,7 @@ _GEOMETRY = (
 )
 
 
-def muscle_section(material: Material) -> Html:
+def muscle_section(material: DiagnosisMaterial) -> Html:
     """Geometry at rest with its sources, limits, and the drive around the muscle."""
     known = material.muscle
     geometry = material.comparison.geometry
@@ -98,7 +102,7 @@ def muscle_section(material: Material) -> Html:
     parts: list[Child] = []
     if known.preset:
         parts.append(paragraph(f"Based on the preset {known.preset}."))
-    parts.append(table([Column("At rest"), Column("Value", number=True), Column("Source")], rows))
+    parts.append(table([Head("At rest"), Head("Value", number=True), Head("Source")], rows))
     if known.limits:
         limits = [
             [
@@ -108,7 +112,7 @@ def muscle_section(material: Material) -> Html:
             ]
             for name, (value, unit, found) in known.limits.items()
         ]
-        parts.append(table([Column("Limit"), Column("Value", number=True), Column("Source")], limits))
+        parts.append(table([Head("Limit"), Head("Value", number=True), Head("Source")], limits))
     if material.drive:
         parts += [heading("Drive around it"), facts(material.drive)]
     return html(parts)
@@ -119,7 +123,7 @@ def _limit_scale(unit: str) -> Scale:
     return variable({"Pa": "pressure", "1": "contraction"}.get(unit, "force"))[1]
 
 
-def _in_words(message: str, material: Material) -> str:
+def _in_words(message: str, material: DiagnosisMaterial) -> str:
     """A message with parameters named as on the page."""
     return re.sub(
         r"\b([a-z_]+)\.([a-z_]+)\b",
@@ -128,7 +132,7 @@ def _in_words(message: str, material: Material) -> str:
     )
 
 
-def assumptions_section(material: Material) -> Html:
+def assumptions_section(material: DiagnosisMaterial) -> Html:
     """What was assumed, and what nobody verified."""
     lines: list[str] = []
     for answer in (material.comparison, material.diagnosis):

@@ -16,7 +16,7 @@ from mckibben.report.sources import Figure
 
 
 @dataclass(frozen=True)
-class Source:
+class DataSource:
     """One measurement.
 
     Attributes:
@@ -60,7 +60,7 @@ class PastModel(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Material:
+class DiagnosisMaterial:
     """Everything the report tells.
 
     Attributes:
@@ -83,7 +83,7 @@ class Material:
     title: str
     made: datetime
     versions: Mapping[str, str]
-    sources: Sequence[Source]
+    sources: Sequence[DataSource]
     muscle: MuscleFacts
     catalogue: Mapping[str, Effect]
     comparison: ComparisonResult

@@ -10,8 +10,8 @@ from mckibben.application.diagnosis_result import DiagnosisResult
 from mckibben.identification.fit.comparison import ParameterTable, ParameterValue
 from mckibben.physics.effect import Effect
 from mckibben.physics.parameter import Parameter
-from mckibben.report.diagnosis.material import Material
-from mckibben.report.document import Column, bullets, heading, mark, paragraph, table
+from mckibben.report.diagnosis.material import DiagnosisMaterial
+from mckibben.report.document import Head, bullets, heading, mark, paragraph, table
 from mckibben.report.figures import Scale, figure, scale_of, with_error
 from mckibben.report.formula import formula
 from mckibben.report.html import Child, Html, html, tag
@@ -24,7 +24,7 @@ _NOTHING = 1e-6  # of the bounds
 
 def model_cards(
     parameters: ParameterTable,
-    material: Material,
+    material: DiagnosisMaterial,
     *,
     figures: Mapping[str, Figure] | None = None,
     added: Sequence[str] = (),
@@ -52,7 +52,7 @@ def model_cards(
 def _card(
     name: str,
     own: Mapping[str, ParameterValue],
-    material: Material,
+    material: DiagnosisMaterial,
     figures: Mapping[str, Figure],
     new: bool,
     given: Mapping[str, Any],
@@ -70,8 +70,8 @@ def _card(
         for key, item in own.items()
     ]
     columns = [
-        Column("Symbol"), Column("Parameter"), Column("Value ± standard error", number=True),
-        Column("Bounds", number=True), Column("Where from"),
+        Head("Symbol"), Head("Parameter"), Head("Value ± standard error", number=True),
+        Head("Bounds", number=True), Head("Where from"),
     ]  # fmt: skip
     if effect is None:
         return html(heading("Geometry and load"), table(columns, rows))
@@ -138,7 +138,7 @@ def _origin(item: ParameterValue, found: Figure | None) -> Html:
     return html(said)
 
 
-def correlations(answer: ComparisonResult | DiagnosisResult, material: Material) -> Html:
+def correlations(answer: ComparisonResult | DiagnosisResult, material: DiagnosisMaterial) -> Html:
     """Fitted numbers that can stand in for each other."""
     found = [item for item in answer.correlations if abs(item.value) > 0.9]
     if not found:
@@ -151,7 +151,7 @@ def correlations(answer: ComparisonResult | DiagnosisResult, material: Material)
     return html(heading("Fitted numbers that cannot be told apart"), bullets(lines))
 
 
-def named(path: str, material: Material) -> str:
+def named(path: str, material: DiagnosisMaterial) -> str:
     """A number "effect.parameter" (or of the geometry) in words."""
     effect, _, name = path.rpartition(".")
     words = name.replace("_", " ")

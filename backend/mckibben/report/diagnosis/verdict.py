@@ -7,9 +7,9 @@ from mckibben.identification.diagnose.verdict import Status
 from mckibben.report.bars import Bar, bars
 from mckibben.report.chart import chart
 from mckibben.report.diagnosis.errors import TIMES_NOISE, error_scale
-from mckibben.report.diagnosis.material import Material
+from mckibben.report.diagnosis.material import DiagnosisMaterial
 from mckibben.report.document import (
-    Column,
+    Head,
     Tone,
     bullets,
     callout,
@@ -37,7 +37,7 @@ _MOST_TWINS = 4
 _SHOWN = 8  # candidates with their reasons; the others that help are named
 
 
-def verdict_section(material: Material) -> Html:
+def verdict_section(material: DiagnosisMaterial) -> Html:
     """The answer first: sentence, the figures that matter, what to measure next."""
     answer, found = material.comparison, material.diagnosis
     scale = error_scale(answer)
@@ -62,7 +62,7 @@ def verdict_section(material: Material) -> Html:
     return html(parts)
 
 
-def path_section(material: Material) -> Html:
+def path_section(material: DiagnosisMaterial) -> Html:
     """The error step by step: the history, the model as given, and what the diagnosis adds."""
     scale = error_scale(material.comparison)
     rows: list[list[Child]] = []
@@ -93,8 +93,8 @@ def path_section(material: Material) -> Html:
     unit = f" [{scale.unit}]" if scale.unit else ""
     drawing = bars(drawn, axis=f"RMS error{unit}", title="RMS error of each model", level=level)
     columns = [
-        Column("Model"), Column("RMS error", number=True),
-        Column("With whole groups left out of the fit", number=True), Column(""),
+        Head("Model"), Head("RMS error", number=True),
+        Head("With whole groups left out of the fit", number=True), Head(""),
     ]  # fmt: skip
     return html(
         figure_of(drawing, "RMS error; the black tick is the error on groups that were left out of the fit."),
@@ -102,7 +102,7 @@ def path_section(material: Material) -> Html:
     )
 
 
-def candidates_section(material: Material, found: DiagnosisResult) -> Html:
+def candidates_section(material: DiagnosisMaterial, found: DiagnosisResult) -> Html:
     """What one effect alone would do, what looks alike, and which experiment would tell."""
     scale = error_scale(found)
     verdict = found.verdict
@@ -119,8 +119,8 @@ def candidates_section(material: Material, found: DiagnosisResult) -> Html:
         for c in useful[:_SHOWN]
     ]
     columns = [
-        Column("Effect"), Column("RMS error with it alone", number=True), Column("Gain", number=True),
-        Column("Cannot be told from"), Column("Why"),
+        Head("Effect"), Head("RMS error with it alone", number=True), Head("Gain", number=True),
+        Head("Cannot be told from"), Head("Why"),
     ]  # fmt: skip
     rest = len(found.candidates) - len(useful)
     parts: list[Child] = [heading("One effect alone, everything refitted")]
@@ -143,8 +143,8 @@ def candidates_section(material: Material, found: DiagnosisResult) -> Html:
     if verdict.experiments:
         parts.append(heading("Experiments that would tell"))
         columns = [
-            Column("Pair"), Column("The catalogue says"), Column("Best simulated experiment"),
-            Column("Apart by", number=True),
+            Head("Pair"), Head("The catalogue says"), Head("Best simulated experiment"),
+            Head("Apart by", number=True),
         ]  # fmt: skip
         told = [
             [

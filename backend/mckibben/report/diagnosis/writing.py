@@ -7,16 +7,16 @@ from collections.abc import Iterator
 from mckibben.report.command import command_section
 from mckibben.report.diagnosis.errors import error_scale, error_table, where_it_fails
 from mckibben.report.diagnosis.given import assumptions_section, data_section, muscle_section
-from mckibben.report.diagnosis.material import Material
+from mckibben.report.diagnosis.material import DiagnosisMaterial
 from mckibben.report.diagnosis.model import correlations, model_cards
 from mckibben.report.diagnosis.pictures import pictures
 from mckibben.report.diagnosis.verdict import candidates_section, path_section, verdict_section
-from mckibben.report.document import Column, Section, bullets, document, heading, table
+from mckibben.report.document import Head, Section, bullets, document, heading, table
 from mckibben.report.figures import figure
 from mckibben.report.html import Child, Html, html
 
 
-def diagnosis_report(material: Material) -> str:
+def diagnosis_report(material: DiagnosisMaterial) -> str:
     """One HTML file that needs nothing else."""
     return document(
         kind="diagnosis report",
@@ -27,7 +27,7 @@ def diagnosis_report(material: Material) -> str:
     )
 
 
-def _sections(material: Material) -> Iterator[Section]:
+def _sections(material: DiagnosisMaterial) -> Iterator[Section]:
     answer, found, proposed = material.comparison, material.diagnosis, material.proposed
     yield Section("Verdict" if found else "Result", verdict_section(material))
     yield Section("Data", data_section(material))
@@ -49,7 +49,7 @@ def _sections(material: Material) -> Iterator[Section]:
     yield Section("To repeat it", command_section(material.command))
 
 
-def _proposed(material: Material) -> Html:
+def _proposed(material: DiagnosisMaterial) -> Html:
     found = material.diagnosis
     assert found is not None  # noqa: S101 - of a section that only a diagnosis has
     cards = model_cards(found.parameters, material, added=found.verdict.effects, terms=found.model.effects)
@@ -63,7 +63,7 @@ def _proposed(material: Material) -> Html:
     return html(parts)
 
 
-def _history(material: Material) -> Html:
+def _history(material: DiagnosisMaterial) -> Html:
     scale = error_scale(material.comparison)
     rows = [
         [
@@ -73,5 +73,5 @@ def _history(material: Material) -> Html:
         ]
         for past in material.history
     ]
-    columns = [Column("Step"), Column("Effects"), Column("RMS error", number=True)]
+    columns = [Head("Step"), Head("Effects"), Head("RMS error", number=True)]
     return table(columns, rows, caption="Models before this one, the oldest first.")

@@ -3,13 +3,13 @@
 from mckibben.report.command import Command
 from mckibben.report.sizing.material import (
     Chosen,
-    Curves,
     Entry,
+    ForceCurves,
     KnownFigure,
     Margin,
-    Material,
     Part,
-    Spread,
+    SizingMaterial,
+    SpecimenSpread,
 )
 from mckibben.report.sizing.writing import sizing_report
 from mckibben.report.sources import Figure
@@ -17,13 +17,13 @@ from mckibben.report.sources import Figure
 __all__ = [
     "Chosen",
     "Command",
-    "Curves",
     "Entry",
     "Figure",
+    "ForceCurves",
     "KnownFigure",
     "Margin",
-    "Material",
     "Part",
-    "Spread",
+    "SizingMaterial",
+    "SpecimenSpread",
     "sizing_report",
 ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mckibben.report.sizing.material import Curves, Margin, Spread
+from mckibben.report.sizing.material import ForceCurves, Margin, SpecimenSpread
 from mckibben.sizing import Design, Proposal, Task
 from mckibben.sizing.spread import deviation_of
 from mckibben.sizing.statics import contraction_limit, outputs
@@ -17,7 +17,7 @@ _BAR = 1e5
 _FEW_BARS = 1.5
 
 
-def curves_of(proposal: Proposal, task: Task) -> Curves:
+def curves_of(proposal: Proposal, task: Task) -> ForceCurves:
     """Force of one muscle over its contraction, and what it has to carry over the stroke.
 
     All at rest by the same closed form that the search prunes with, filling.
@@ -37,7 +37,7 @@ def curves_of(proposal: Proposal, task: Task) -> Curves:
     start, slope = duty.straight()
     straight = (duty.weight + start + slope * strokes) / share + counter
     demand = duty.load(strokes) / share + counter
-    return Curves(
+    return ForceCurves(
         contraction=contraction.tolist(),
         pressures=pressures,
         force=force.tolist(),
@@ -100,7 +100,7 @@ def margins_of(proposal: Proposal, task: Task) -> list[Margin]:
     return found
 
 
-def spread_of(proposal: Proposal, task: Task) -> Spread | None:
+def spread_of(proposal: Proposal, task: Task) -> SpecimenSpread | None:
     """What the specimens of the probability vary by."""
     if proposal.chance is None:
         return None
@@ -114,7 +114,7 @@ def spread_of(proposal: Proposal, task: Task) -> Spread | None:
     ):
         if demanded is not None:
             demands.append(f"{words} at most {demanded:.4g} s")
-    return Spread(
+    return SpecimenSpread(
         blocked_force=given.blocked_force,
         shift=deviation.shift,
         hysteresis=(part.hysteresis or None) if given.hysteresis is None else given.hysteresis,

@@ -7,11 +7,11 @@ import math
 import numpy as np
 
 from mckibben.report.chart import chart, family
-from mckibben.report.document import Column, figure_of, paragraph, table
+from mckibben.report.document import Head, figure_of, paragraph, table
 from mckibben.report.figures import figure, plain
 from mckibben.report.html import Child, Html, html
 from mckibben.report.marks import EDGE, INK, SECOND, Axis, Dots, Line, Mark, Rule
-from mckibben.report.sizing.material import Chosen, Material
+from mckibben.report.sizing.material import Chosen, SizingMaterial
 from mckibben.report.sizing.words import AMPLE, BAR, MILLIMETRES, NEWTON, PER_MILLIMETRE, SHARE
 
 _FEW_ROWS = 300
@@ -19,7 +19,7 @@ _HEIGHT = 400.0
 _ROOM = 0.1  # of the highest force: room for a name below a point
 
 
-def curves_section(material: Material, chosen: Chosen) -> Html:
+def curves_section(material: SizingMaterial, chosen: Chosen) -> Html:
     """The curves of one muscle, what it carries, and the operating points as a table."""
     single = chosen.proposal.muscles == 1
     who = "the muscle" if single else "one muscle"
@@ -86,7 +86,7 @@ def _way(chosen: Chosen) -> Line:
     return Line(SHARE.all(contraction), np.asarray(run.force, dtype=float)[rows], "the run", EDGE, width=1.2)
 
 
-def _table(material: Material, chosen: Chosen, who: str) -> Html:
+def _table(material: SizingMaterial, chosen: Chosen, who: str) -> Html:
     curves, found = chosen.curves, chosen.proposal
     supply = [
         float(np.interp(place, curves.contraction, curves.force[-1]))
@@ -115,7 +115,11 @@ def _table(material: Material, chosen: Chosen, who: str) -> Html:
             figure(found.pressure_end, BAR, 3),
         ],
     ]
-    columns = [Column("At rest"), Column("Begin of the stroke", number=True), Column("End", number=True)]
+    columns = [
+        Head("At rest"),
+        Head("Begin of the stroke", number=True),
+        Head("End", number=True),
+    ]
     ratio = 1.0 + found.force_reserve
     least = f"The least force over load on the whole stroke is {_ratio(ratio)}"
     return table(columns, rows, caption=f"Operating points. {least}.")

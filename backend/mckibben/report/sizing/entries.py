@@ -8,7 +8,7 @@ from typing import Any, get_args
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from mckibben.documents.quantity import Quantity
+from mckibben.documents.quantity import QuantityField
 from mckibben.documents.task import ForceOverStroke, SizingTask
 from mckibben.report.figures import scale_of
 from mckibben.report.sizing.material import Entry
@@ -72,7 +72,9 @@ def _shown(value: object) -> float | str | None:
 
 def _unit(field: FieldInfo) -> str:
     """SI unit of a quantity; "%" where people write a share in percent."""
-    found = [item for item in (*field.metadata, *_inside(field.annotation)) if isinstance(item, Quantity)]
+    found = [
+        item for item in (*field.metadata, *_inside(field.annotation)) if isinstance(item, QuantityField)
+    ]
     if not found:
         return ""
     return "%" if "%" in found[0].example else found[0].unit

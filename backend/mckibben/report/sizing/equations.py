@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from mckibben.report.document import Column, heading, paragraph, table
+from mckibben.report.document import Head, heading, paragraph, table
 from mckibben.report.figures import figure, scale_of
 from mckibben.report.formula import formula
 from mckibben.report.html import Child, Html, html, tag
-from mckibben.report.sizing.material import Chosen, Material
+from mckibben.report.sizing.material import Chosen, SizingMaterial
 from mckibben.report.sources import source_text
 
 
@@ -101,7 +101,7 @@ _SIZING = (
 )  # fmt: skip
 
 
-def equations_section(material: Material, chosen: Chosen) -> Html:
+def equations_section(material: SizingMaterial, chosen: Chosen) -> Html:
     """All equations, then each effect with the values of this drive."""
     laws = [*_BASE, *([_TUBE] if chosen.proposal.tube else []), *_SIZING]
     parts: list[Child] = [_law(law) for law in laws]
@@ -122,9 +122,14 @@ def _law(law: _Law) -> Html:
     )
 
 
-def _effect(name: str, material: Material, chosen: Chosen) -> Html:
+def _effect(name: str, material: SizingMaterial, chosen: Chosen) -> Html:
     effect, values = material.catalogue[name], chosen.effects[name]
-    columns = [Column("Symbol"), Column("Parameter"), Column("Value", number=True), Column("Where from")]
+    columns = [
+        Head("Symbol"),
+        Head("Parameter"),
+        Head("Value", number=True),
+        Head("Where from"),
+    ]
     rows: list[list[Child]] = [
         [
             formula(parameter.symbol),

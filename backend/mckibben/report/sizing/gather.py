@@ -21,7 +21,7 @@ from mckibben.physics.errors import InputError, fields_inside
 from mckibben.report.command import Command
 from mckibben.report.sizing.chosen import curves_of, margins_of, spread_of
 from mckibben.report.sizing.entries import about_task, entries_of
-from mckibben.report.sizing.material import Chosen, Material
+from mckibben.report.sizing.material import Chosen, SizingMaterial
 from mckibben.report.sizing.parts_list import effect_figures, parts_of
 from mckibben.report.sizing.writing import sizing_report
 from mckibben.report.versions import versions
@@ -85,7 +85,7 @@ def report_of(
         "tubes": [part.id for part in search.question.catalogue.tubes if part.id],
     }
     return sizing_report(
-        Material(
+        SizingMaterial(
             title=title.strip() or document.title.strip() or about,
             made=datetime.now().astimezone(),
             versions=versions(),

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import re
 
-from mckibben.report.document import Column, bullets, heading, paragraph, table
+from mckibben.report.document import Head, bullets, heading, paragraph, table
 from mckibben.report.html import Child, Html, html
-from mckibben.report.sizing.material import Chosen, Entry, Material
+from mckibben.report.sizing.material import Chosen, Entry, SizingMaterial
 from mckibben.report.sizing.words import entry_value, field_name
 
 _WHOLE = frozenset({"load.force_over_stroke"})  # what the run makes of it belongs to the task
 
 
-def task_section(material: Material) -> Html:
+def task_section(material: SizingMaterial) -> Html:
     """What the task says."""
     rows = [
         [field_name(entry.path), entry_value(entry), _meaning(entry)]
@@ -21,7 +21,7 @@ def task_section(material: Material) -> Html:
     ]
     open_ = [entry for entry in material.entries if not entry.given and entry.value is None]
     parts: list[Child] = [
-        table([Column("Given"), Column("Value"), Column("What it is")], rows),
+        table([Head("Given"), Head("Value"), Head("What it is")], rows),
     ]
     if open_:
         names = ", ".join(field_name(entry.path).lower() for entry in open_)
@@ -37,14 +37,18 @@ def _meaning(entry: Entry) -> str:
     return "" if ":" in first else first
 
 
-def assumptions_section(material: Material) -> Html:
+def assumptions_section(material: SizingMaterial) -> Html:
     """What was assumed because the task does not say it, and what the computation leaves out."""
     rows = [
         [field_name(entry.path), entry_value(entry), entry.about]
         for entry in material.entries
         if not entry.given and entry.value is not None
     ]
-    columns = [Column("Assumed"), Column("Value"), Column("What it is, and why this value", wide=True)]
+    columns = [
+        Head("Assumed"),
+        Head("Value"),
+        Head("What it is, and why this value", wide=True),
+    ]
     parts: list[Child] = [
         heading("What the task does not say"),
         table(columns, rows) if rows else paragraph("The task says everything."),
@@ -54,7 +58,7 @@ def assumptions_section(material: Material) -> Html:
     return html(parts)
 
 
-def _approximations(material: Material) -> list[str]:
+def _approximations(material: SizingMaterial) -> list[str]:
     chosen = material.chosen
     found = [
         "Forces at rest come from the static model with the muscle's own effects; "
@@ -81,7 +85,7 @@ def _approximations(material: Material) -> list[str]:
     return found
 
 
-def _of_drive(material: Material, chosen: Chosen) -> list[str]:
+def _of_drive(material: SizingMaterial, chosen: Chosen) -> list[str]:
     found = [f"The polytropic exponent of the air is {chosen.gas:.3g} (1 isothermal, 1.4 adiabatic)."]
     if chosen.count > 1:
         found.append(

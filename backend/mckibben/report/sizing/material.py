@@ -78,7 +78,7 @@ class Margin(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Curves:
+class ForceCurves:
     """Force of one muscle over its contraction at rest, and what it has to carry.
 
     Attributes:
@@ -103,7 +103,7 @@ class Curves:
 
 
 @dataclass(frozen=True)
-class Spread:
+class SpecimenSpread:
     """What the specimens of the probability vary by.
 
     Attributes:
@@ -149,17 +149,17 @@ class Chosen:
     fill: tuple[float, float]
     count: int
     lever: float
-    curves: Curves
+    curves: ForceCurves
     margins: Sequence[Margin]
     parts: Sequence[Part]
-    spread: Spread | None
+    spread: SpecimenSpread | None
     effects: Mapping[str, Mapping[str, float]]
     figures: Mapping[str, Figure]
     gas: float
 
 
 @dataclass(frozen=True)
-class Material:
+class SizingMaterial:
     """Everything the report tells.
 
     Attributes:

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.application.simulate import SimulationResult
-from mckibben.report.document import Column, figure_of, mark, paragraph, table
+from mckibben.report.document import Head, figure_of, mark, paragraph, table
 from mckibben.report.figures import Scale, figure
 from mckibben.report.html import Child, Html, html
 from mckibben.report.marks import ACCENT, EDGE, INK, SECOND, Axis, Line, Mark, Rule
-from mckibben.report.sizing.material import Chosen, Material
+from mckibben.report.sizing.material import Chosen, SizingMaterial
 from mckibben.report.sizing.words import BAR, JOULE, LITRES, MILLIMETRES, SHARE
 from mckibben.report.stack import Panel, stack
 from mckibben.simulation.timing.table import PhaseFigures, TimingTable
@@ -47,7 +47,7 @@ _FIGURES: Mapping[str, tuple[str, Scale, bool]] = {
 }
 
 
-class _Phase(NamedTuple):
+class _DrawnPhase(NamedTuple):
     name: str
     key: str
     begin: float
@@ -55,11 +55,11 @@ class _Phase(NamedTuple):
     sign: float
 
 
-def motion_section(material: Material, chosen: Chosen) -> Html:
+def motion_section(material: SizingMaterial, chosen: Chosen) -> Html:
     """Both phases as drawings, then the table."""
     on, off = chosen.fill
-    up = _Phase("The stroke, from the instant the valve begins to fill", "extend", on, off, 1.0)
-    back = _Phase(
+    up = _DrawnPhase("The stroke, from the instant the valve begins to fill", "extend", on, off, 1.0)
+    back = _DrawnPhase(
         "The way back, from the instant the valve begins to vent",
         "retract",
         off,
@@ -84,7 +84,7 @@ def motion_section(material: Material, chosen: Chosen) -> Html:
     return html(parts)
 
 
-def _drawing(material: Material, chosen: Chosen, phase: _Phase) -> Html | None:
+def _drawing(material: SizingMaterial, chosen: Chosen, phase: _DrawnPhase) -> Html | None:
     run = chosen.run
     time = np.asarray(run.time, dtype=float)
     figures = _of_phase(run.timing, phase.key)
@@ -138,7 +138,7 @@ def _of_phase(timing: TimingTable, key: str) -> PhaseFigures:
     return timing.extend if key == "extend" else timing.retract
 
 
-def _rules(run: SimulationResult, phase: _Phase, rows: NDArray) -> list[Rule]:
+def _rules(run: SimulationResult, phase: _DrawnPhase, rows: NDArray) -> list[Rule]:
     """When the load leaves, is at 10, 50 and 90 % of its stroke, and arrives."""
     time = np.asarray(run.time, dtype=float)[rows] - phase.begin
     position = np.asarray(run.position, dtype=float)[rows]
@@ -184,9 +184,9 @@ def _table(chosen: Chosen) -> Html:
         times = chosen.count if together else 1
         rows.append([words, *(_figure(v, times, scale) for v in values)])
     columns = [
-        Column("Timing"),
-        Column("Stroke (filling)", number=True),
-        Column("Way back (venting)", number=True),
+        Head("Timing"),
+        Head("Stroke (filling)", number=True),
+        Head("Way back (venting)", number=True),
     ]
     caption = "All times count from the instant the valve switches."
     if chosen.count > 1:

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 from mckibben.application.size import ExploredDrive, ProposedDrive, RejectedParts
 from mckibben.report.chart import chart
-from mckibben.report.document import Column, figure_of, paragraph, table
+from mckibben.report.document import Head, figure_of, paragraph, table
 from mckibben.report.figures import figure, percent, plain
 from mckibben.report.html import Child, Html, html, tag
 from mckibben.report.marks import ACCENT, EDGE, INK, SECOND, Axis, Dots, Mark
-from mckibben.report.sizing.material import Chosen, Material
+from mckibben.report.sizing.material import Chosen, SizingMaterial
 from mckibben.report.sizing.words import (
     BAR,
     LITRES,
@@ -26,7 +26,7 @@ _TOUCHING = 0.03  # of the axes
 _FAR = 2.0  # times the air of the proposals: what takes more is counted only
 
 
-def alternatives_section(material: Material, chosen: Chosen) -> Html:
+def alternatives_section(material: SizingMaterial, chosen: Chosen) -> Html:
     """Air over time of every design that does the task, and the proposals as a table."""
     explored = material.result.explored
     beyond = len(explored) - len(_near(material))
@@ -52,7 +52,7 @@ def alternatives_section(material: Material, chosen: Chosen) -> Html:
     return html(parts)
 
 
-def _picture(material: Material, chosen: Chosen) -> Html:
+def _picture(material: SizingMaterial, chosen: Chosen) -> Html:
     proposals, explored = material.result.proposals, _near(material)
     front = [item for item in explored if item.front]
     rest = [item for item in explored if not item.front]
@@ -89,7 +89,7 @@ def _names(proposals: list[ProposedDrive], explored: list[ExploredDrive], rank: 
     return names
 
 
-def _near(material: Material) -> list[ExploredDrive]:
+def _near(material: SizingMaterial) -> list[ExploredDrive]:
     """Explored designs that do not take many times the air of the proposals."""
     most = _FAR * max(item.air_volume_anr for item in material.result.proposals)
     return [item for item in material.result.explored if item.air_volume_anr <= most]
@@ -102,11 +102,11 @@ def _places(items: Sequence[ProposedDrive | ExploredDrive]) -> tuple[list[float]
     )
 
 
-def _proposals(material: Material, chosen: Chosen) -> Html:
+def _proposals(material: SizingMaterial, chosen: Chosen) -> Html:
     columns = [
-        Column("", number=True), Column("Drive", wide=True), Column("Supply", number=True),
-        Column("Time", number=True), Column("Air a cycle", number=True), Column("Does it", number=True),
-        Column("Why it stands there", wide=True),
+        Head("", number=True), Head("Drive", wide=True), Head("Supply", number=True),
+        Head("Time", number=True), Head("Air a cycle", number=True), Head("Does it", number=True),
+        Head("Why it stands there", wide=True),
     ]  # fmt: skip
     rows: list[list[Child]] = []
     for number, item in enumerate(material.result.proposals, 1):
@@ -136,7 +136,7 @@ def _likely(item: ProposedDrive) -> Child:
     return html(percent(item.probability, 3), f" ± {plain(100.0 * item.probability_error, 2)}")
 
 
-def rejected_section(material: Material) -> Html:
+def rejected_section(material: SizingMaterial) -> Html:
     """What does not do the task: why, the limit in the way, what would help; one row for each muscle."""
     rejected = material.result.rejected
     if not rejected:
@@ -145,9 +145,9 @@ def rejected_section(material: Material) -> Html:
     for item in rejected:
         groups.setdefault((item.muscle, item.parallel, item.binding), []).append(item)
     columns = [
-        Column("Why not", wide=True),
-        Column("Limit in the way"),
-        Column("It would do with", wide=True),
+        Head("Why not", wide=True),
+        Head("Limit in the way"),
+        Head("It would do with", wide=True),
     ]
     rows = [
         [_why(items), limit_name(binding).lower(), items[0].would_work_if]

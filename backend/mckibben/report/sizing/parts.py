@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from mckibben.report.document import Column, bullets, heading, mark, paragraph, table
+from mckibben.report.document import Head, bullets, heading, mark, paragraph, table
 from mckibben.report.figures import plain, pretty
 from mckibben.report.html import Child, Html, html
-from mckibben.report.sizing.material import Chosen, KnownFigure, Material, Part
+from mckibben.report.sizing.material import Chosen, KnownFigure, Part, SizingMaterial
 from mckibben.report.sizing.words import BAR, JOULE, MILLIMETRES
 from mckibben.report.sources import grades_table
 
 _HAIR = 1e-6
 
 
-def parts_section(material: Material, chosen: Chosen) -> Html:
+def parts_section(material: SizingMaterial, chosen: Chosen) -> Html:
     """What to order, and what the sizing does not choose."""
     columns = [
-        Column("Number", number=True), Column("Part"), Column("To order"), Column("Sources"),
-        Column("Verified"),
+        Head("Number", number=True), Head("Part"), Head("To order"), Head("Sources"),
+        Head("Verified"),
     ]  # fmt: skip
     rows = [
         [f"{part.number}", _kind(part), _order(part), _sources(part), _verified(part)]
@@ -57,7 +57,7 @@ def _verified(part: Part) -> Child:
     return html(mark("no"), f": {', '.join(open_)}") if open_ else "yes"
 
 
-def _besides(material: Material, chosen: Chosen) -> list[Child]:
+def _besides(material: SizingMaterial, chosen: Chosen) -> list[Child]:
     found = chosen.proposal
     supply = next(entry.value for entry in material.entries if entry.path == "supply_pressure")
     parts: list[Child] = []
@@ -89,7 +89,7 @@ def _besides(material: Material, chosen: Chosen) -> list[Child]:
 def figures_section(chosen: Chosen) -> Html:
     """Every preset figure that enters, and what the grades mean."""
     columns = [
-        Column("Figure"), Column("Value", number=True), Column("Source"), Column("Grade"), Column("Verified"),
+        Head("Figure"), Head("Value", number=True), Head("Source"), Head("Grade"), Head("Verified"),
     ]  # fmt: skip
     parts: list[Child] = [grades_table()]
     for part in chosen.parts:

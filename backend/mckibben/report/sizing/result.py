@@ -5,7 +5,7 @@ from __future__ import annotations
 from mckibben.report.document import Tone, bullets, callout, paragraph, tiles
 from mckibben.report.figures import figure, percent, plain
 from mckibben.report.html import Child, Html, html
-from mckibben.report.sizing.material import Chosen, Material
+from mckibben.report.sizing.material import Chosen, SizingMaterial
 from mckibben.report.sizing.words import (
     AMPLE,
     BAR,
@@ -22,14 +22,14 @@ _LIKELY, _EVEN = 0.9, 0.5
 _NONE_LEFT = 0.005
 
 
-def result_section(material: Material) -> Html:
+def result_section(material: SizingMaterial) -> Html:
     """The proposal that is written down, or that there is none."""
     if material.chosen is None:
         return _nothing(material)
     return _proposal(material, material.chosen)
 
 
-def _proposal(material: Material, chosen: Chosen) -> Html:
+def _proposal(material: SizingMaterial, chosen: Chosen) -> Html:
     found = chosen.proposal
     likely = found.probability
     tone: Tone = "plain"
@@ -118,7 +118,7 @@ def _unverified(chosen: Chosen) -> Html:
     )
 
 
-def _nothing(material: Material) -> Html:
+def _nothing(material: SizingMaterial) -> Html:
     rejected = material.result.rejected
     words: list[Child] = []
     if rejected:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from mckibben.report.bars import Bar, bars
-from mckibben.report.document import Column, bullets, callout, figure_of, heading, mark, paragraph, table
+from mckibben.report.document import Head, bullets, callout, figure_of, heading, mark, paragraph, table
 from mckibben.report.figures import figure, percent, plain
 from mckibben.report.html import Child, Html, html
-from mckibben.report.sizing.material import Chosen, Margin, Spread
+from mckibben.report.sizing.material import Chosen, Margin, SpecimenSpread
 from mckibben.report.sizing.words import NEWTON, SHARE, in_unit, limit_name
 
 _USED_UP = 0.005
@@ -32,8 +32,8 @@ def margins_section(chosen: Chosen) -> Html:
         "end at 100 %."
     )
     columns = [
-        Column("Limit"), Column("Allowed or wanted", number=True), Column("This drive", number=True),
-        Column("Left", number=True),
+        Head("Limit"), Head("Allowed or wanted", number=True), Head("This drive", number=True),
+        Head("Left", number=True),
     ]  # fmt: skip
     body = [
         [
@@ -103,8 +103,13 @@ def uncertainty_section(chosen: Chosen) -> Html:
     return html(parts)
 
 
-def _spread_table(spread: Spread) -> Html:
-    columns = [Column("What"), Column("Distribution"), Column("Size"), Column("What it means for this drive")]
+def _spread_table(spread: SpecimenSpread) -> Html:
+    columns = [
+        Head("What"),
+        Head("Distribution"),
+        Head("Size"),
+        Head("What it means for this drive"),
+    ]
     rows: list[list[Child]] = [
         [
             "Blocked force",

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mckibben.report.command import command_section
-from mckibben.report.document import Column, Section, document, paragraph, table
+from mckibben.report.document import Head, Section, document, paragraph, table
 from mckibben.report.html import Html, html, tag
 from mckibben.report.sizing.curves import curves_section
 from mckibben.report.sizing.equations import equations_section
 from mckibben.report.sizing.given import assumptions_section, task_section
-from mckibben.report.sizing.material import Material
+from mckibben.report.sizing.material import SizingMaterial
 from mckibben.report.sizing.motion import motion_section
 from mckibben.report.sizing.others import alternatives_section, rejected_section
 from mckibben.report.sizing.parts import figures_section, parts_section
@@ -18,7 +18,7 @@ from mckibben.report.sizing.result import result_section
 from mckibben.report.sizing.safety import margins_section, uncertainty_section
 
 
-def sizing_report(material: Material) -> str:
+def sizing_report(material: SizingMaterial) -> str:
     """One HTML file that needs nothing else."""
     return document(
         kind="sizing report",
@@ -29,7 +29,7 @@ def sizing_report(material: Material) -> str:
     )
 
 
-def _sections(material: Material) -> Iterator[Section]:
+def _sections(material: SizingMaterial) -> Iterator[Section]:
     chosen = material.chosen
     yield Section("Result", result_section(material))
     yield Section("Task", task_section(material))
@@ -48,7 +48,7 @@ def _sections(material: Material) -> Iterator[Section]:
     yield Section("To repeat it", html(_identity(material), command_section(material.command)))
 
 
-def _identity(material: Material) -> Html:
+def _identity(material: SizingMaterial) -> Html:
     """Versions and hashes: whether two reports speak of the same."""
     rows = [
         *([name, version] for name, version in material.versions.items()),
@@ -58,7 +58,7 @@ def _identity(material: Material) -> Html:
         ),
     ]
     return html(
-        table([Column("Made with"), Column("")], rows),
+        table([Head("Made with"), Head("")], rows),
         paragraph(
             "Hashes are those of the JSON with sorted keys and without blanks, so they do not depend on how "
             "the files are written. The search draws its specimens from a fixed seed: the same task, "

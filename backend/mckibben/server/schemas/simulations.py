@@ -7,13 +7,13 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from mckibben.documents.drive import LONGEST, DriveOrId
-from mckibben.documents.quantity import Quantity
+from mckibben.documents.quantity import QuantityField
 from mckibben.documents.strict import Series, Strict, si_field
 from mckibben.server.schemas.common import Flag
 from mckibben.server.schemas.curves import ModelAnswer, MuscleGeometry
 from mckibben.simulation.timing.table import FIGURES
 
-Instant = Annotated[float, Quantity("s", "0.5 s", at_least=0.0, at_most=LONGEST)]
+Instant = Annotated[float, QuantityField("s", "0.5 s", at_least=0.0, at_most=LONGEST)]
 
 
 class SimulationRequest(Strict):

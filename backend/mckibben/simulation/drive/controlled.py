@@ -15,8 +15,8 @@ from mckibben.physics.drive_terms import INPUTS, OUTPUTS
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.pid import PidController, PidState
 from mckibben.simulation.command.segments import Segments
+from mckibben.simulation.drive.initial_state import start_of
 from mckibben.simulation.drive.parts import Drive
-from mckibben.simulation.drive.rest import start_of
 from mckibben.simulation.drive.transient import (
     TOLERANCE,
     Run,

@@ -7,8 +7,8 @@ import numpy as np
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.physics.muscle import GEOMETRY
+from mckibben.simulation.drive.initial_state import settle
 from mckibben.simulation.drive.parts import Drive
-from mckibben.simulation.drive.rest import settle
 from mckibben.simulation.drive.transient import constants_of, external_force, skewed
 from mckibben.simulation.integrate.engine import CompiledDrive, Outcome, compiled_driven, integrate
 from mckibben.simulation.statics.model import StaticModel

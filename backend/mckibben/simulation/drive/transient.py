@@ -14,8 +14,8 @@ from mckibben.physics.model import Model
 from mckibben.physics.muscle import GEOMETRY
 from mckibben.simulation.command.segments import Segments, delayed, merged
 from mckibben.simulation.command.signals import Signal
+from mckibben.simulation.drive.initial_state import start_of
 from mckibben.simulation.drive.parts import Drive, Regulator
-from mckibben.simulation.drive.rest import start_of
 from mckibben.simulation.integrate.engine import CompiledDrive, Outcome, Solution, compiled_drive, integrate
 from mckibben.simulation.outcome import Watch
 from mckibben.simulation.statics.model import StaticModel

@@ -7,7 +7,7 @@ import pytest
 
 from mckibben.identification.predict.comparable_rows import comparable_rows
 from mckibben.identification.predict.fit_model import FitModel
-from mckibben.identification.predict.late import as_read, late
+from mckibben.identification.predict.sensor_dynamics import as_read, late
 from mckibben.simulation.drive.driven import driven_force
 from mckibben.simulation.statics.model import StaticModel
 from tests.identification.synthetic import CATALOGUE, MUSCLE, cycles
