@@ -14,6 +14,7 @@ import numpy as np
 import orjson
 
 _OPTIONS = orjson.OPT_SERIALIZE_NUMPY | orjson.OPT_PASSTHROUGH_DATACLASS
+_AT_ONCE = 500_000  # numbers of an array; one call for more would hold the interpreter for too long
 
 
 @cache
@@ -27,7 +28,7 @@ def _keys(kind: type) -> tuple[tuple[str, str], ...]:
 def _plain(value: object) -> object:
     """Conversion of values that orjson does not support."""
     if is_dataclass(value):
-        return {key: getattr(value, name) for key, name in _keys(type(value))}
+        return {key: _in_pieces(getattr(value, name)) for key, name in _keys(type(value))}
     if isinstance(value, np.ndarray):  # not contiguous
         return value.tolist()
     if isinstance(value, np.generic):
@@ -35,6 +36,25 @@ def _plain(value: object) -> object:
     if isinstance(value, Mapping):
         return dict(value)
     raise TypeError(f"{type(value).__name__} has no JSON form")
+
+
+def _in_pieces(value: object) -> object:
+    """A long array, or a mapping with long arrays, as text written in pieces; other values unchanged."""
+    if isinstance(value, dict):
+        return {key: _in_pieces(item) for key, item in value.items()} if _long_inside(value) else value
+    if not _is_long(value):
+        return value
+    array = np.ascontiguousarray(value)
+    pieces = (array[begin : begin + _AT_ONCE] for begin in range(0, len(array), _AT_ONCE))
+    return orjson.Fragment(b"[" + b",".join(to_json(piece)[1:-1] for piece in pieces) + b"]")
+
+
+def _is_long(value: object) -> bool:
+    return isinstance(value, np.ndarray) and value.size > _AT_ONCE
+
+
+def _long_inside(values: Mapping[object, object]) -> bool:
+    return any(map(_is_long, values.values()))
 
 
 def to_json(content: object) -> bytes:
