@@ -57,7 +57,7 @@ def changed(**parts: Any) -> dict[str, Any]:
     [
         ("mine.json", "{", "line 1, column 2: is not JSON"),
         ("mine.json", "", "line 1, column 1: is not JSON"),
-        ("mine.json", '{"id": 1, "id": 2}', "'id' stands twice in one object (each key once)"),
+        ("mine.json", '{"id": 1, "id": 2}', "'id' occurs twice in one object (each key once)"),
         ("mine.json", "[" * 100_000, "nested deeper than 32 levels"),
         ("mine.json", '{"x": ' + "9" * 5000 + "}", "a number of thousands of digits (a number below 9e18)"),
         ("mine.json", changed(title=float("nan")), "title: nan is not a number"),

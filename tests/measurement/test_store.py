@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from mckibben.measurement import store as store_module
 from mckibben.measurement.read import read_correction
 from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError
@@ -128,3 +129,17 @@ def test_content_that_needs_its_mapping_is_found_by_it_only(tmp_path: Path) -> N
     assert later.get(kept.id).columns["pressure"].tolist() == [1e5, 2e5]
     with pytest.raises(InputError, match="there is no measurement"):
         later.get(hashlib.sha256(content).hexdigest())
+
+
+def test_large_measurements_do_not_pile_up_in_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    store = MeasurementStore(tmp_path)
+    files = [b"# note: %d\n" % number + CSV for number in range(4)]
+    sizes = {sum(values.nbytes for values in store.put(file, "a.csv").columns.values()) for file in files}
+    (size,) = sizes
+    assert len(store._recent) == 4
+    for most, kept in ((2 * size, 2), (size, 1), (1, 1)):  # the last one stays, whatever its size
+        monkeypatch.setattr(store_module, "_MOST_IN_MEMORY", most)
+        last = store.put(files[0], "a.csv")
+        assert len(store._recent) == kept
+        assert last.id in store._recent
+    assert all(store.get(hashlib.sha256(file).hexdigest()).rows == 9 for file in files)

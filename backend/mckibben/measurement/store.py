@@ -26,6 +26,7 @@ from mckibben.physics.errors import InputError
 
 _ID = re.compile(r"[0-9a-f]{64}")
 _KEPT_IN_MEMORY = 8
+_MOST_IN_MEMORY = 256_000_000  # bytes, of all but the last one
 _STALE = 3600.0  # s; the process of an older temporary file has ended
 MAX_NAME = 200
 
@@ -120,8 +121,16 @@ class MeasurementStore:
         with self._lock:
             self._recent[identity] = measurement
             self._recent.move_to_end(identity)
-            while len(self._recent) > _KEPT_IN_MEMORY:
+            while len(self._recent) > 1 and (
+                len(self._recent) > _KEPT_IN_MEMORY
+                or sum(_size(kept) for kept in self._recent.values()) > _MOST_IN_MEMORY
+            ):
                 self._recent.popitem(last=False)
+
+
+def _size(measurement: Measurement) -> int:
+    """Bytes that the columns of a measurement take."""
+    return sum(values.nbytes for values in measurement.columns.values())
 
 
 def _about(path: Path) -> dict[str, Any]:
