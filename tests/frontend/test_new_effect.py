@@ -21,7 +21,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
     (example,) = re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), flags=re.DOTALL)
     folder = tmp_path_factory.mktemp("new-effect")
     (folder / "effects").mkdir()
-    strong = example.replace("5.0, 0.0, 50.0", "40.0, 0.0, 50.0")
+    strong = example.replace("default=5.0", "default=40.0")
     (folder / "effects" / "seal_drag.py").write_text(strong, encoding="utf-8")
     with RunningServer(folder, arguments=["--effects", str(folder / "effects")]) as running:
         yield running
