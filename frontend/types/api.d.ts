@@ -666,6 +666,7 @@ export interface components {
       duration?: number | string;
       /** Gauge pressure in the muscle at t = 0. [Pa] */
       start_pressure?: number | string;
+      start?: components["schemas"]["StartInput"];
     };
     /** Limits stated by the maker (null = not known), and the end stops. */
     DriveLimits: {
@@ -839,8 +840,10 @@ export interface components {
     };
     /** The air and its surroundings. */
     GasInput: {
-      /** 1 isothermal, 1.4 adiabatic. [1] */
-      polytropic_exponent?: number | string;
+      /** 1 isothermal, 1.4 adiabatic. Default: none; the gas then has a temperature that follows from the energy balance with heat exchange, and its mass is conserved. [1] */
+      polytropic_exponent?: number | string | null;
+      /** Heat transfer coefficient between the gas in the muscle and its wall, for the energy balance. 0 is adiabatic. Not verified: 20 to 60 at rest, several hundred during a fast fill. [W/(m^2*K)] */
+      wall_heat_transfer?: number | string;
       /** Temperature of the supply and the surroundings. [K] */
       temperature?: number | string;
       /** Absolute pressure of the surroundings. [Pa] */
@@ -1705,8 +1708,13 @@ export interface components {
       load_force: (number | null)[];
       /** Temperature of the gas in the muscle. [K] */
       temperature: (number | null)[];
-      /** Whether the load touches an end stop. */
+      /** Whether the load rests on an end stop. */
       contact: boolean[];
+      /** Whether the muscle hangs slack: it is then longer than its fittings are apart. */
+      slack: boolean[];
+      start: components["schemas"]["StartPosition"];
+      /** How the air in the muscle is modelled. */
+      gas: string;
       /** Null if no effect changes the sensor readings. */
       readings: components["schemas"]["Readings"] | null;
       /** Joint of an antagonist pair. */
@@ -1821,12 +1829,28 @@ export interface components {
       /** S read in the source, S2 second-hand, C computed, D derived here, M general knowledge and E estimate (both unverified), user. */
       grade: string;
     };
+    /** Where the load is at t = 0. */
+    StartInput: {
+      /** Position of the load, positive = muscle shorter; released there at t = 0. Default: where it rests at the start pressure; on the lower end stop where it would rest anywhere. [m] */
+      position?: number | string | null;
+    };
+    /** Where the run starts, and why. */
+    StartPosition: {
+      /** Position of the load at t = 0. [m] */
+      position: number;
+      /** Contraction of the muscle at t = 0. [1] */
+      contraction: number;
+      /** Why the run starts there, as a sentence. */
+      reason: string;
+    };
     /** End stops as contraction ratios; below 0 the muscle may be stretched. */
     StopsInput: {
       /** The load rests here without pressure. [1] */
       min_contraction?: number | string;
       /** Default: the limit of the muscle preset, else 25 %. [1] */
       max_contraction?: number | string | null;
+      /** Share of the speed with which the load rebounds from a stop; 0 = it does not. [1] */
+      restitution?: number | string;
     };
     /** The pressure that lifts a load by a stroke. */
     StrokePressureQuestion: {
@@ -1932,9 +1956,9 @@ export interface components {
     };
     /** The timing table of the first fill and the exhaust after it. */
     Timing: {
-      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], choked_share [1]. Null where it does not exist; see notes for the reason. */
+      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], tube_air_mass [kg], choked_share [1]. Null where it does not exist; see notes for the reason. */
       extend: { [key: string]: number | null };
-      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], choked_share [1]. Null where it does not exist; see notes for the reason. */
+      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], tube_air_mass [kg], choked_share [1]. Null where it does not exist; see notes for the reason. */
       retract: { [key: string]: number | null };
       /** "extend.rise_time" -> why it is null, or a remark on it. */
       notes: { [key: string]: string };

@@ -40,6 +40,7 @@ from mckibben.simulation.timing.tracking import Tracking
 Array = np.ndarray
 
 POINTS = 2001
+_SLACK = 1e-6  # m; a muscle longer than its fittings are apart by more than this hangs slack
 # Field of the document for each limit.
 _FIELDS = {FlagCode.OVER_PRESSURE: "supply.pressure", FlagCode.OVER_FORCE_LIMIT: "load"}
 _ABOVE = 1.001  # value over limit up to which the excess may be an integration error
@@ -91,6 +92,15 @@ class JointMotion:
 
 
 @dataclass(frozen=True, slots=True)
+class StartPosition:
+    """Position of the load [m] and contraction of the muscle [-] at t = 0, and why the run starts there."""
+
+    position: float
+    contraction: float
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
 class DriveBounds:
     """Limits stated by the maker (None = not known), and positions of the load at the end stops; SI."""
 
@@ -113,7 +123,10 @@ class SimulationResult:
         reference: set point of the controller, None without one.
         tube_pressure, regulator_pressure: None without such a part.
         load_force: external force on the load.
-        contact: whether an end stop is touched.
+        contact: whether the load rests on an end stop.
+        slack: whether the muscle hangs slack: its length is then not that between the fittings.
+        start: where the run starts and why.
+        gas: how the air in the muscle is modelled.
         readings: None if no effect changes the readings.
         joint: of an antagonist pair.
         choked: intervals of choked flow in the whole run.
@@ -147,6 +160,9 @@ class SimulationResult:
     load_force: Array
     temperature: Array
     contact: Array
+    slack: Array
+    start: StartPosition
+    gas: str
     readings: SensorReadings | None
     joint: JointMotion | None
     choked: list[ChokedInterval]
@@ -244,7 +260,12 @@ def result_of(given: GivenDrive, grid: Grid, run: Run) -> SimulationResult:
         contraction=contraction[rows],
         load_force=out["external_force"][rows],
         temperature=out["gas_temperature"][rows],
-        contact=out["penetration"][rows] > 0.0,
+        contact=out["contact"][rows] != 0.0,
+        slack=states["length"][rows] > rest * (1.0 - contraction[rows]) + _SLACK,
+        start=StartPosition(
+            run.start.stroke / lever, run.start.stroke / rest + drive.precontraction, run.start.why.value
+        ),
+        gas=drive.gas_closure,
         readings=_readings(run, rows),
         joint=_joint(run, rows),
         choked=choked_of(run),
@@ -330,7 +351,7 @@ def _part_notices(given: GivenDrive) -> list[Notice]:
 
 
 def _crossed(run: Run) -> Iterable[LimitFlag]:
-    """The limits that the run exceeds; the small penetration of an end stop does not count."""
+    """The limits that the run exceeds."""
     if not len(run.time):
         return
     drive = run.drive

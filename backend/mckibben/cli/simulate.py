@@ -49,8 +49,9 @@ _SHOWN: tuple[tuple[str, Callable[[PhaseFigures], float | None], str, float, str
         "ms",
     ),
     ("air", lambda phase: phase.air_mass, "air_mass", 1e3, "g"),
+    ("  of it for the tube", lambda phase: phase.tube_air_mass, "tube_air_mass", 1e3, "g"),
     ("air at ANR", lambda phase: phase.air_volume_anr, "air_volume_anr", 1e3, "l"),
-    ("valve choked", lambda phase: phase.choked_share, "choked_share", 100.0, "%"),
+    ("share that flows choked", lambda phase: phase.choked_share, "choked_share", 100.0, "%"),
 )
 
 
@@ -140,6 +141,11 @@ def _write_tables(name: str, result: SimulationResult) -> None:
     write_table(f"{name}: {result.outcome}", ["", "extend (fill)", "retract (exhaust)"], rows)
     for reason in sorted(reasons):
         remark(f"– {reason}")
+    start = result.start
+    remark(f"start at {start.position * 1e3:.4g} mm ({start.contraction * 100:.3g} %), {start.reason}")
+    remark(f"air: {result.gas}")
+    if (note := timing.notes.get("extend.air_mass")) is not None:
+        remark(f"air mass {note}")
     follows = result.tracking
     if follows is not None:
         rows = [

@@ -25,6 +25,7 @@ from mckibben.documents.signals import Command, ForceOverTime, Reference
 from mckibben.documents.strict import Id, Strict
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import si
+from mckibben.simulation.drive.parts import WALL_HEAT_TRANSFER
 
 LONGEST = 600.0  # s, of a run
 
@@ -37,6 +38,9 @@ Stiffness = Annotated[float, QuantityField("N/m", "500 N/m", at_least=0.0, at_mo
 LeverRatio = Annotated[float, QuantityField("1", "0.5", above=1e-3, at_most=1e3)]
 PulleyRadius = Annotated[float, QuantityField("m", "20 mm", above=1e-4, at_most=10.0)]
 Exponent = Annotated[float, QuantityField("1", "1.2", at_least=1.0, at_most=1.4)]
+HeatTransfer = Annotated[float, QuantityField("W/(m^2*K)", "100 W/(m^2*K)", at_least=0.0, at_most=1e5)]
+Restitution = Annotated[float, QuantityField("1", "0.3", at_least=0.0, at_most=0.9)]
+Position = Annotated[float, QuantityField("m", "20 mm", at_least=-10.0, at_most=10.0)]
 Duration = Annotated[float, QuantityField("s", "4 s", above=0.0, at_most=LONGEST)]
 LagTime = Annotated[float, QuantityField("s", "50 ms", above=1e-5, at_most=100.0)]
 Ambient = Annotated[float, QuantityField("Pa", "1013.25 hPa", at_least=1e4, at_most=1e6)]
@@ -152,7 +156,16 @@ class ControllerInput(Strict):
 class GasInput(Strict):
     """The air and its surroundings."""
 
-    polytropic_exponent: Exponent = Field(1.2, description="1 isothermal, 1.4 adiabatic.")
+    polytropic_exponent: Exponent | None = Field(
+        None,
+        description="1 isothermal, 1.4 adiabatic. Default: none; the gas then has a temperature that follows "
+        "from the energy balance with heat exchange, and its mass is conserved.",
+    )
+    wall_heat_transfer: HeatTransfer = Field(
+        WALL_HEAT_TRANSFER,
+        description="Heat transfer coefficient between the gas in the muscle and its wall, for the energy "
+        "balance. 0 is adiabatic. Not verified: 20 to 60 at rest, several hundred during a fast fill.",
+    )
     temperature: Temperature = Field(293.15, description="Temperature of the supply and the surroundings.")
     ambient_pressure: Ambient = Field(101_325.0, description="Absolute pressure of the surroundings.")
     dead_volume: Volume = Field(
@@ -166,6 +179,19 @@ class StopsInput(Strict):
     min_contraction: Contraction = Field(0.0, description="The load rests here without pressure.")
     max_contraction: Contraction | None = Field(
         None, description="Default: the limit of the muscle preset, else 25 %."
+    )
+    restitution: Restitution = Field(
+        0.0, description="Share of the speed with which the load rebounds from a stop; 0 = it does not."
+    )
+
+
+class StartInput(Strict):
+    """Where the load is at t = 0."""
+
+    position: Position | None = Field(
+        None,
+        description="Position of the load, positive = muscle shorter; released there at t = 0. Default: "
+        "where it rests at the start pressure; on the lower end stop where it would rest anywhere.",
     )
 
 
@@ -200,6 +226,7 @@ class DriveDocument(Strict):
     stops: StopsInput = Field(default_factory=lambda: StopsInput.model_validate({}))
     duration: Duration = Field(4.0, description="Length of the run.")
     start_pressure: Pressure = Field(0.0, description="Gauge pressure in the muscle at t = 0.")
+    start: StartInput = Field(default_factory=lambda: StartInput.model_validate({}))
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from mckibben.physics import gas, ops
+from mckibben.physics.drive_terms import DriveStructure
 from mckibben.physics.flow_path import flow_path
 from mckibben.physics.model import Model, State
 from mckibben.physics.muscle import Muscle
@@ -25,9 +26,18 @@ class Motion(NamedTuple):
 
 
 class Side(NamedTuple):
-    """Results for one muscle: tension [N] (never negative), volume with dead volumes [m^3], and others."""
+    """Results for one muscle.
+
+    Attributes:
+        force: tension [N], never negative; 0 when slack.
+        resting_tension: tension without friction of the moment, unclipped [N].
+        distance: of the fittings [m].
+        volume: with dead volumes [m^3].
+    """
 
     force: Value
+    resting_tension: Value
+    distance: Value
     volume: Value
     temperature: Value
     gauge: Value
@@ -39,9 +49,12 @@ class Side(NamedTuple):
     readings: dict[str, Value]
 
 
-def heated(*, model: Model) -> bool:
-    """Whether the gas exchanges heat: the chamber then obeys the energy balance, with its mass as a state."""
-    return model.has("heat")
+def with_energy_balance(*, structure: DriveStructure, model: Model) -> bool:
+    """Whether the chamber obeys the energy balance, with its gas mass as a state.
+
+    That is so unless the drive states a polytropic exponent and no effect exchanges heat.
+    """
+    return not structure.polytropic or model.has("heat")
 
 
 def sign_of(*, velocity: Value) -> Value:
@@ -51,8 +64,8 @@ def sign_of(*, velocity: Value) -> Value:
 
 def muscle_side(
     *,
-    tube: bool,
-    regulator: bool,
+    structure: DriveStructure,
+    slack: Value,
     model: Model,
     muscle: Muscle,
     values: Mapping[str, Mapping[str, Value]],
@@ -64,7 +77,8 @@ def muscle_side(
     """The equations of one muscle.
 
     Args:
-        tube, regulator: see `mckibben.physics.drive_terms.DriveStructure`.
+        structure: tube, regulator and closure of the gas.
+        slack: the switch that is 1 while the muscle hangs slack.
         model, values: effects, their parameters and states.
         muscle: geometry.
         constants: constants of the drive, by name.
@@ -75,25 +89,29 @@ def muscle_side(
     pressure, ambient = states["pressure"], constants["ambient_temperature"]
     gauge = pressure - constants["ambient_pressure"]
     stroke = motion.start + motion.sense * motion.coordinate
-    velocity = -motion.sense * motion.rate
-    moving: dict[str, Any] = {
+    distance, length = muscle.nominal_length - stroke, states["length"]
+    still: dict[str, Any] = {
         "muscle": muscle,
-        "length": muscle.nominal_length - stroke,
+        "length": length,
         "pressure": gauge,
-        "velocity": velocity,
-        "direction": sign_of(velocity=velocity),
+        "velocity": 0.0,
+        "direction": 0.0,
         "temperature": ambient,
     }
-    state = model.at(**{**moving, "values": values})
+    resting = model.at(**still, values=values).tension
+    velocity = -motion.sense * motion.rate - slack * resting / constants["slack_damping"]
+    moving = {**still, "velocity": velocity, "direction": sign_of(velocity=velocity)}
+    state = model.at(**moving, values=values)
     # Series compliance: one Newton step from the rigid rig.
-    yielding = 1.0 - state.compliance * motion.sense * state.tension.diff(motion.coordinate)
-    force = ops.positive_part(state.tension / yielding)
+    yielding = 1.0 + state.compliance * state.tension.diff(length)
+    force = (1.0 - slack) * ops.positive_part(state.tension / yielding)
     volume = state.volume + constants["fitting_volume"] + model.sum("extra_volume", values, {})
-    keeps_heat = heated(model=model)
-    temperature = pressure * volume / (states["gas_mass"] * gas.GAS_CONSTANT) if keeps_heat else ambient
+    balanced = with_energy_balance(structure=structure, model=model)
+    temperature = pressure * volume / (states["gas_mass"] * gas.GAS_CONSTANT) if balanced else ambient
     flows = flow_path(
-        tube=tube,
-        regulator=regulator,
+        tube=structure.tube,
+        regulator=structure.regulator,
+        tube_exponent=constants["polytropic_exponent"] if structure.polytropic else 1.0,
         model=model,
         values=values,
         c=constants,
@@ -108,24 +126,34 @@ def muscle_side(
     }
     leak = model.sum("leakage", values, around)
     inflow = flows["into_muscle"] - leak
-    if keeps_heat:
+    if balanced:
         exponent: Value = gas.HEAT_CAPACITY_RATIO
         warmed = {**moving, "diameter": state.diameter, "ambient_temperature": ambient}
-        heat = model.sum("heat", values, {**warmed, "gas_temperature": temperature})
+        if model.has("heat"):
+            heat = model.sum("heat", values, {**warmed, "gas_temperature": temperature})
+        else:
+            heat = gas.wall_heat_flow(
+                coefficient=constants["wall_heat_transfer"],
+                diameter=state.diameter,
+                length=length,
+                gas_temperature=temperature,
+                wall_temperature=ambient,
+            )
         entering = ops.positive_part(flows["into_muscle"]) * ambient
         leaving = (ops.positive_part(-flows["into_muscle"]) + leak) * temperature
         supply = (exponent - 1.0) * (heat + gas.HEAT_CAPACITY_P * (entering - leaving))
     else:
         exponent = constants["polytropic_exponent"]
         supply = exponent * gas.GAS_CONSTANT * temperature * inflow
-    work = exponent * pressure * volume.diff(motion.coordinate) * motion.rate
+    work = exponent * pressure * volume.diff(length) * velocity
     pressure_rate = (supply - work) / (volume + exponent * pressure * volume.diff(pressure))
     rates = {
+        "length": velocity,
         "pressure": pressure_rate,
         "supplied": flows["supply"],
         "vented": flows["exhaust"] + leak,
         **flows["rates"],
-        **({"gas_mass": inflow} if keeps_heat else {}),
+        **({"gas_mass": inflow} if balanced else {}),
     }
     instant = _readings(model, muscle, values, gauge=gauge, force=force, stroke=stroke)
     drive = {
@@ -153,6 +181,8 @@ def muscle_side(
     readings = {name: model.chain(name, value, values, {}, name="reading") for name, value in instant.items()}
     return Side(
         force=force,
+        resting_tension=resting,
+        distance=distance,
         volume=volume,
         temperature=temperature,
         gauge=gauge,

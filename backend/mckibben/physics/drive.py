@@ -1,13 +1,21 @@
 r"""A drive as one symbolic model: supply, valve, tube, muscle, load and any choice of effects.
 
 .. math::
-   \dot p\,(V + n p\,\partial_p V) &= n R T\,\dot m - n p\,\partial_s V\,\dot s \\
-   M \ddot s &= r^2 F - r\,(m g\sin\psi + F_{ext} + F_{guide}) - k s - F_{stop}
+   M \ddot s &= r^2 F - r\,(m g\sin\psi + F_{ext} + F_{guide}) - k s \\
+   \dot p\,(V + \gamma p\,\partial_p V) &= (\gamma - 1)\,(\dot Q + c_p T_0 \dot m_{in} -
+   c_p T \dot m_{out}) - \gamma p\,\partial_l V\,\dot l, \quad T = p V / (m R)
 
 with the stroke s of the muscle (positive = shorter), the lever ratio r (muscle stroke per load stroke) and
-the volume V and tension F of `mckibben.physics.model`. The tension is never negative: with a slack muscle the
-load moves freely, and the volume is still that at the distance of the fittings. With a heat flow the chamber
-obeys the energy balance with exponent 1.4 and T = pV/(mR) instead.
+the volume V and tension F of `mckibben.physics.model` at the length l of the muscle. A document may state a
+polytropic exponent n instead of the energy balance: n in place of gamma, and n R T_0 m' in place of the heat
+and enthalpy flows.
+
+**End stops** are rigid. A switch holds the load on a stop while the net force presses it there; the
+integrator finds impact and release as events.
+
+**A slack muscle** cannot push. Its length is then not the distance d of the fittings but the length at which
+it carries no tension: :math:`\dot l = \dot d - F_0/c` with the tension F_0 at rest and a small damping c.
+While it is taut, l = d. Slack is a switch as well.
 
 In an antagonist pair the first muscle contracts by s0 + s and the second by s0 - s. The second has its own
 gas, and its tension acts against the first.
@@ -21,23 +29,25 @@ from collections.abc import Mapping
 
 import symengine as se
 
-from mckibben.physics import ops
-from mckibben.physics.chamber import Motion, heated, muscle_side, sign_of
+from mckibben.physics.chamber import Motion, Side, muscle_side, sign_of, with_energy_balance
 from mckibben.physics.drive_terms import (
     CONSTANTS,
     COUNTER,
     COUNTER_OUTPUTS,
+    GUARD_STIFFNESS,
+    HIGH_STOP,
     INPUTS,
+    LEAST_GUARD,
+    LOW_STOP,
     OUTPUTS,
+    SLACK,
     DriveStructure,
     StateInfo,
+    Switch,
 )
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import GEOMETRY, Muscle
 from mckibben.physics.ops import Value
-
-# Depth over which the damping of a stop sets in [m], so that the force of an impact has no jump.
-_STOP_ONSET = 1e-6
 
 
 class DriveModel:
@@ -49,6 +59,7 @@ class DriveModel:
         parameters: constants of a run: `CONSTANTS`, geometry, "effect.parameter"; name -> symbol.
         inputs: name -> symbol of `INPUTS`.
         rates: d/dt of the states.
+        switches: what is 0 or 1 during a step.
         outputs: expressions of ``output_names``: `OUTPUTS`, of a pair `COUNTER_OUTPUTS` too.
     """
 
@@ -77,6 +88,7 @@ class DriveModel:
         self.parameters = {**constants, **geometry, **numbers}
         self.inputs = {name: se.Symbol(f"u_{name}") for name in INPUTS}
         self._constants, self._numbers = constants, numbers
+        self.switches: list[Switch] = []
         rates, outputs = self._equations(structure, model, Muscle(**geometry))
         self.rates = [se.sympify(rates[state.name]) for state in self.states]
         self.outputs = [se.sympify(outputs[name]) for name in self.output_names]
@@ -87,15 +99,17 @@ class DriveModel:
         y, u, c = self.symbols, self.inputs, self._constants
         passed = y["clock"] - u["begin"]
         external = u["external_force"] + u["external_force_slope"] * passed
-        sides = []
+        sides: list[Side] = []
+        slack: list[Switch] = []
         for suffix, sense, opening in (("", 1.0, "opening"), (COUNTER, -1.0, "counter_opening")):
             if suffix and not structure.pair:
                 continue
             own = {name.removesuffix(suffix): symbol for name, symbol in y.items() if name.endswith(suffix)}
+            hanging = se.Symbol(f"w_{SLACK}{suffix}")
             sides.append(
                 muscle_side(
-                    tube=structure.tube,
-                    regulator=structure.regulator,
+                    structure=structure,
+                    slack=hanging,
                     model=model,
                     muscle=muscle,
                     values=self._values(model, own),
@@ -105,10 +119,18 @@ class DriveModel:
                     command=u[opening] + u[f"{opening}_slope"] * passed,
                 )
             )
+            excess = GUARD_STIFFNESS * (own["length"] - sides[-1].distance)
+            guard = hanging * excess + (1.0 - hanging) * sides[-1].resting_tension
+            name = f"{SLACK}{suffix}"
+            slack.append(Switch(name, hanging, guard, LEAST_GUARD, follows=f"length{suffix}"))
         main = sides[0]
         pull = main.force - (sides[1].force if structure.pair else 0.0)
         values = self._values(model, y)
-        acceleration, depth = self._motion(model, muscle, values, pull, external)
+        net, inertia = self._net_force(model, muscle, values, pull, external)
+        stops = stop_switches(constants=c, stroke=y["stroke"], net_force=net)
+        self.switches = [*stops, *slack]
+        low, high = (switch.symbol for switch in stops)
+        acceleration = (1.0 - low - high) * net / inertia
         rates = {"clock": 1.0, "stroke": y["speed"], "speed": acceleration, **main.rates}
         outputs = {
             "acceleration": acceleration,
@@ -122,7 +144,8 @@ class DriveModel:
             "gas_temperature": main.temperature,
             "volume": main.volume,
             "diameter": main.state.diameter,
-            "penetration": depth,
+            "contact": high - low,
+            "net_force": net,
             "external_force": external,
             **main.readings,
         }
@@ -140,7 +163,7 @@ class DriveModel:
             outputs |= dict(zip(COUNTER_OUTPUTS, figures, strict=True))
         return rates, outputs
 
-    def _motion(
+    def _net_force(
         self,
         model: Model,
         muscle: Muscle,
@@ -148,7 +171,7 @@ class DriveModel:
         pull: Value,
         external: Value,
     ) -> tuple[Value, Value]:
-        """Acceleration of the stroke [m/s^2], and compression of a stop [m]."""
+        """Force along the stroke without that of the stops [N], and the mass it moves [kg]."""
         c, stroke, speed = self._constants, self.symbols["stroke"], self.symbols["speed"]
         factor = model.product("load_factor", values, {})
         inertia = factor * c["mass"] + c["own_mass"] + model.sum("inertia", values, {"muscle": muscle})
@@ -157,8 +180,7 @@ class DriveModel:
         )
         lever = c["lever_ratio"]
         resisting = factor * (c["mass"] * c["gravity"] + external) + guide
-        stop, depth = end_stops(constants=c, stroke=stroke, speed=speed)
-        return (lever**2 * pull - lever * resisting - c["spring"] * stroke - stop) / inertia, depth
+        return lever**2 * pull - lever * resisting - c["spring"] * stroke, inertia
 
     def _values(self, model: Model, states: Mapping[str, Value]) -> dict[str, dict[str, Value]]:
         """Parameters and states of each effect."""
@@ -170,28 +192,27 @@ class DriveModel:
 
 
 def _side_states(structure: DriveStructure, model: Model, suffix: str) -> list[StateInfo]:
-    states = [StateInfo("pressure", None, 1e5)]
+    states = [StateInfo("length", None, 0.1), StateInfo("pressure", None, 1e5)]
     if structure.tube:
         states.append(StateInfo("tube_pressure", None, 1e5))
     if structure.regulator:
         states.append(StateInfo("regulator_pressure", None, 1e5))
-    if heated(model=model):
+    if with_energy_balance(structure=structure, model=model):
         states.append(StateInfo("gas_mass", None, 1e-3))
     for effect in model.effects:
         states += [StateInfo(f"{effect.id}.{s.name}", s.initial, s.scale, s.settled) for s in effect.states]
     return [StateInfo(f"{s.name}{suffix}", s.initial, s.scale, s.settled) for s in states]
 
 
-def end_stops(*, constants: Mapping[str, Value], stroke: Value, speed: Value) -> tuple[Value, Value]:
-    """Force of the end stops on the stroke [N], and their compression [m]; they never pull."""
-    above = ops.positive_part(stroke - constants["stop_high"])
-    below = ops.positive_part(constants["stop_low"] - stroke)
-    high = ops.positive_part(
-        constants["stop_stiffness"] * above
-        + constants["stop_damping"] * speed * ops.minimum(above / _STOP_ONSET, 1.0)
-    )
-    low = ops.positive_part(
-        constants["stop_stiffness"] * below
-        - constants["stop_damping"] * speed * ops.minimum(below / _STOP_ONSET, 1.0)
-    )
-    return high - low, above + below
+def stop_switches(*, constants: Mapping[str, Value], stroke: Value, net_force: Value) -> list[Switch]:
+    """The lower and the upper end stop; each holds the load while the net force presses it there."""
+    stops = []
+    for name, ahead, pressing in (
+        (LOW_STOP, stroke - constants["stop_low"], -net_force),
+        (HIGH_STOP, constants["stop_high"] - stroke, net_force),
+    ):
+        holds = se.Symbol(f"w_{name}")
+        guard = holds * pressing + (1.0 - holds) * GUARD_STIFFNESS * ahead
+        stop = "stop_low" if name == LOW_STOP else "stop_high"
+        stops.append(Switch(name, holds, guard, LEAST_GUARD, stop=stop))
+    return stops

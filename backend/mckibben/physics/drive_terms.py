@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from mckibben.physics.effect import Effect
 
@@ -22,6 +23,7 @@ CONSTANTS = (
     "tube_ratio",
     "fitting_volume",
     "polytropic_exponent",
+    "wall_heat_transfer",
     "mass",
     "own_mass",
     "gravity",
@@ -30,8 +32,7 @@ CONSTANTS = (
     "precontraction",
     "stop_low",
     "stop_high",
-    "stop_stiffness",
-    "stop_damping",
+    "slack_damping",
 )
 # Constants of a segment: command and external force change linearly from their values at ``begin``.
 INPUTS = (
@@ -56,12 +57,15 @@ OUTPUTS = (
     "gas_temperature",
     "volume",
     "diameter",
-    "penetration",
+    "contact",
+    "net_force",
     "external_force",
     "pressure_reading",
     "force_reading",
     "stroke_reading",
 )
+# Switches: 0 or 1 during a step. A stop that holds the load, and a muscle that hangs slack.
+LOW_STOP, HIGH_STOP, SLACK = "low_stop", "high_stop", "slack"
 # Additional outputs for the second muscle of a pair; its states have the suffix as well.
 COUNTER = "@counter"
 COUNTER_OUTPUTS = tuple(
@@ -78,12 +82,14 @@ class DriveStructure:
         tube: whether the pressure in the tube is a state.
         regulator: whether a pressure regulator feeds the muscle instead of a valve.
         pair: whether a second muscle with its own valve pulls against the first (an antagonist pair).
+        polytropic: whether the gas follows a stated polytropic exponent instead of the energy balance.
     """
 
     effects: tuple[Effect, ...]
     tube: bool = False
     regulator: bool = False
     pair: bool = False
+    polytropic: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,3 +103,33 @@ class StateInfo:
     initial: float | None
     scale: float
     settled: bool = False
+
+
+# Guards of lengths are multiplied by this stiffness, so that all guards are forces [N/m].
+GUARD_STIFFNESS = 1e4
+# Guards above minus this are rounding errors [N]; of a length 1 nm.
+LEAST_GUARD = 1e-5
+
+
+@dataclass(frozen=True, slots=True)
+class Switch:
+    """A condition that is 0 or 1 during a step, and the guard that ends it.
+
+    While the guard is not negative the switch keeps its value. Where the guard falls below zero the switch
+    changes to the other value.
+
+    Attributes:
+        name: `LOW_STOP`, `HIGH_STOP` or `SLACK`; of the second muscle of a pair with `COUNTER`.
+        symbol: its symbol in the equations.
+        guard: expression of states, constants, inputs and switches.
+        least: guard values above minus this are rounding errors.
+        stop: for an end stop the name of its constant: where the load lands when the switch becomes 1.
+        follows: for a slack muscle the name of its length: set to the distance of the fittings at a change.
+    """
+
+    name: str
+    symbol: Any
+    guard: Any
+    least: float
+    stop: str | None = None
+    follows: str | None = None

@@ -12,8 +12,8 @@ import symengine as se
 
 from mckibben.physics import ops
 from mckibben.physics.chamber import sign_of
-from mckibben.physics.drive import end_stops
-from mckibben.physics.drive_terms import StateInfo
+from mckibben.physics.drive import stop_switches
+from mckibben.physics.drive_terms import StateInfo, Switch
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import GEOMETRY, Muscle
@@ -28,8 +28,6 @@ MOTION_CONSTANTS = (
     "lever_ratio",
     "stop_low",
     "stop_high",
-    "stop_stiffness",
-    "stop_damping",
 )
 
 
@@ -73,7 +71,7 @@ class DrivenModel:
             }
             for effect in model.effects
         }
-        rates, outputs = _equations(
+        rates, outputs, self.switches = _equations(
             model, Muscle(**geometry), values, constants, self.symbols, self.inputs, motion=motion
         )
         self.output_names = tuple(outputs)
@@ -87,7 +85,7 @@ def _reads(effect: Effect) -> bool:
 
 def _equations(
     model: Model, muscle: Muscle, values: Any, c: Any, y: Any, u: Any, *, motion: bool
-) -> tuple[dict[str, Any], dict[str, Any]]:
+) -> tuple[dict[str, Any], dict[str, Any], list[Switch]]:
     sensors = {
         name: model.reading(f"{name}_sensor", muscle=muscle, values=values)
         for name in ("pressure", "length", "force")
@@ -121,16 +119,18 @@ def _equations(
     force = ops.positive_part(pulled)
     rates: dict[str, Any] = {"clock": 1.0}
     stroke, speed = muscle.nominal_length - length, -velocity
+    switches: list[Switch] = []
     if motion:
         factor = model.product("load_factor", values, {})
         inertia = factor * c["mass"] + c["own_mass"] + model.sum("inertia", values, {"muscle": muscle})
         guide = model.sum("guide", values, {"stroke": stroke, "speed": speed, "direction": -direction})
         external = u["external_force"] + u["external_force_slope"] * passed
         lever = c["lever_ratio"]
-        stop, _ = end_stops(constants=c, stroke=stroke, speed=speed)
         resisting = factor * (c["mass"] * c["gravity"] + external) + guide
+        net = lever**2 * force - lever * resisting - c["spring"] * stroke
+        switches = stop_switches(constants=c, stroke=stroke, net_force=net)
         rates["stroke"] = speed
-        rates["speed"] = (lever**2 * force - lever * resisting - c["spring"] * stroke - stop) / inertia
+        rates["speed"] = (1.0 - switches[0].symbol - switches[1].symbol) * net / inertia
     reading = {
         "pressure_reading": pressure * sensors["pressure"].scale + sensors["pressure"].offset,
         "force_reading": sensors["force"].scale * force + sensors["force"].offset,
@@ -153,4 +153,4 @@ def _equations(
         "force": force,
         **{name: model.chain(name, value, values, {}, name="reading") for name, value in reading.items()},
     }
-    return rates, outputs
+    return rates, outputs, switches

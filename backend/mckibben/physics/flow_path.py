@@ -14,6 +14,7 @@ def flow_path(
     *,
     tube: bool,
     regulator: bool,
+    tube_exponent: Value,
     model: Model,
     values: Mapping[str, Mapping[str, Value]],
     c: Mapping[str, Value],
@@ -27,6 +28,8 @@ def flow_path(
         tube: whether the pressure in the tube is a state (``tube_pressure``).
         regulator: whether a pressure regulator feeds the muscle (state ``regulator_pressure``): its pressure
             follows the command with a first-order lag; the conductances are those of its fill and exhaust.
+        tube_exponent: polytropic exponent of the air in the tube; 1 where its wall keeps it at ambient
+            temperature.
         model, values: effects and their parameters.
         c: constants of the drive, by name.
         y: states of the drive, by name.
@@ -96,7 +99,7 @@ def flow_path(
             volume_rate=0.0,
             mass_flow=into - through,
             temperature=ambient,
-            polytropic_exponent=c["polytropic_exponent"],
+            polytropic_exponent=tube_exponent,
         )
         into = through
     return {

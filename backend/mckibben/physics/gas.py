@@ -92,3 +92,16 @@ def pressure_rate(
     """dp/dt = n/V (R T m_dot - p dV/dt) of a polytropic chamber [Pa/s], p absolute."""
     inflow = GAS_CONSTANT * temperature * mass_flow
     return polytropic_exponent / volume * (inflow - pressure * volume_rate)
+
+
+def wall_heat_flow(
+    *, coefficient: Value, diameter: Value, length: Value, gas_temperature: Value, wall_temperature: Value
+) -> Value:
+    """Heat flow from the wall into the gas of a cylinder with both ends, h (pi D L + pi D^2/2) (T_w - T) [W].
+
+    >>> round(float(wall_heat_flow(coefficient=30.0, diameter=0.02, length=0.3,
+    ...                            gas_temperature=333.0, wall_temperature=293.0)), 4)
+    -23.3734
+    """
+    area = ops.pi * diameter * (length + 0.5 * diameter)
+    return coefficient * area * (wall_temperature - gas_temperature)

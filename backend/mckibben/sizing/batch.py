@@ -87,7 +87,7 @@ class Bench:
     def compile(self, group: Group) -> None:
         """Compile the equations of a group in advance, so that no two threads do it at the same time."""
         compiled_drive(
-            DriveStructure(group.effects, group.tube.tube is not None, False, group.duty.pair), _LEVEL
+            DriveStructure(group.effects, tube=group.tube.tube is not None, pair=group.duty.pair), _LEVEL
         )
 
     def prepared(self, design: Design) -> Prepared:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mckibben.physics.drive_terms import COUNTER, INPUTS, OUTPUTS
+from mckibben.physics.drive_terms import COUNTER, HIGH_STOP, INPUTS, LOW_STOP
 from mckibben.physics.errors import InputError
 from mckibben.physics.gas import ANR_DENSITY
-from mckibben.simulation.drive.initial_state import start_of
+from mckibben.simulation.drive.events import Event, events_of
+from mckibben.simulation.drive.initial_state import Start, start_of
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.integrate.engine import CompiledDrive, integrate
 from mckibben.sizing.catalogue import Design
@@ -17,8 +18,8 @@ from mckibben.sizing.catalogue import Design
 ROWS_UP, ROWS_DOWN = 160, 120
 # Coarse, times within 0.1 %: a proposal is run again at the usual tolerance.
 _TOLERANCE = 1e-5
-#: Distance from a stop within which a load counts as resting on it [m]: the stop is elastic.
-ON_STOP = 2e-6
+#: Distance from a stop within which a load counts as resting on it [m].
+ON_STOP = 1e-8
 #: Last share of the fill in which the load must rest on the stop: a load that is too heavy swings back.
 HELD_SHARE = 0.25
 _HOLDS_BACK = 0.999  # largest friction as a share of the load: friction holds a load, it does not lift it
@@ -119,10 +120,13 @@ class Prepared:
         """
         line, compiled, size = self.timeline, self.compiled, self.compiled.size
         with np.errstate(all="ignore"):
+            start = self.start(parameters)
             solution = integrate(
                 compiled,
                 parameters=parameters,
-                start=self.start(parameters, inputs),
+                start=start.state,
+                switches=start.switches,
+                restitution=self.drive.restitution,
                 times=line.times,
                 inputs=inputs,
                 grid=line.grid,
@@ -133,16 +137,12 @@ class Prepared:
         if len(rows) < ROWS_UP or not np.isfinite(rows).all():
             return NOTHING
         names = [state.name for state in compiled.model.states]
-        low, high = self.drive.stops
-        stroke, speed = rows[:, names.index("stroke")], rows[:, names.index("speed")]
-        acceleration = rows[:, size + OUTPUTS.index("acceleration")]
-        up, down = slice(0, ROWS_UP), slice(ROWS_UP - 1, None)
-        time = _arrival(line.grid[up] - line.on, stroke[up], speed[up], acceleration[up], high)
-        back = None
-        if returns:
-            back = _arrival(
-                line.grid[down] - line.off, -stroke[down], -speed[down], -acceleration[down], -low
-            )
+        high = self.drive.stops[1]
+        stroke = rows[:, names.index("stroke")]
+        up = slice(0, ROWS_UP)
+        events = events_of(compiled, solution.events)
+        time = arrival(events, HIGH_STOP, line.on, line.off)
+        back = arrival(events, LOW_STOP, line.off, np.inf) if returns else None
         taken = [names.index(name) for name in ("supplied", f"supplied{COUNTER}") if name in names]
         air = float(np.sum(rows[-1, taken] - rows[0, taken])) * self.design.group.parallel
         force = rows[:, size + compiled.model.output_names.index("force")]
@@ -152,55 +152,25 @@ class Prepared:
             bool(np.min(stroke[up][-int(HELD_SHARE * ROWS_UP) :]) >= high - ON_STOP),
             air / ANR_DENSITY,
             float(force.max()),
-            float(np.max(stroke[up]) - low) / self.drive.load.lever_ratio,
+            float(np.max(stroke[up]) - self.drive.stops[0]) / self.drive.load.lever_ratio,
         )
 
-    def start(self, parameters: np.ndarray, inputs: np.ndarray) -> np.ndarray:
-        """States at the start: the load on its lower stop if it rests there, else in equilibrium.
+    def start(self, parameters: np.ndarray) -> Start:
+        """The load at rest before the run.
 
         A pair starts on the lower stop: its second muscle has pulled it there before the fill.
         """
-        compiled, line = self.compiled, self.timeline
-        before = line.before.copy()
+        before = self.timeline.before.copy()
         before[INPUTS.index("external_force")] = self.drive.load.force
-        names = [state.name for state in compiled.model.states]
-        plain = not any(state.settled for state in compiled.model.states) and "gas_mass" not in names
-        if not plain:
-            return start_of(self.drive, compiled, parameters, before)
-        absolute = self.drive.start_pressure + self.drive.ambient_pressure
-        start = np.array(
-            [absolute if state.initial is None else state.initial for state in compiled.model.states]
-        )
-        index, low = names.index("stroke"), self.drive.stops[0]
-        if self.drive.pair:
-            start[index] = low
-            return start
-        start[index] = low + 1e-6
-        packed = np.concatenate([start, parameters, before])
-        rate = compiled.size + OUTPUTS.index("acceleration")
-        table = dict(zip(compiled.model.parameters, parameters, strict=True))
-        pressed = -float(compiled.rates(packed)[rate]) * (table["mass"] + table["own_mass"])
-        if not pressed > 0.0:
-            return start_of(self.drive, compiled, parameters, before)
-        start[index] = low - pressed / table["stop_stiffness"]
-        return start
+        drive = self.drive
+        if drive.pair:
+            drive = replace(drive, start_position=drive.stops[0] / drive.load.lever_ratio)
+        return start_of(drive, self.compiled, parameters, before)
 
 
-def _arrival(
-    time: np.ndarray, travel: np.ndarray, speed: np.ndarray, acceleration: np.ndarray, end: float
-) -> float | None:
-    """First instant at the end of the travel, extrapolated at constant acceleration from the row before.
-
-    None when the end is not reached.
-    """
-    there = np.flatnonzero(travel >= end - 1e-9)
-    if not len(there):
-        return None
-    index = int(there[0])
-    if index == 0:
-        return 0.0
-    gap, v, a = end - travel[index - 1], speed[index - 1], acceleration[index - 1]
-    root = v * v + 2.0 * a * gap
-    width = float(time[index] - time[index - 1])
-    step = width if root < 0.0 or v + np.sqrt(root) <= 0.0 else float(2.0 * gap / (v + np.sqrt(root)))
-    return float(time[index - 1]) + min(step, width)
+def arrival(events: tuple[Event, ...], stop: str, begin: float, end: float) -> float | None:
+    """Time from ``begin`` to the first impact on a stop before ``end`` [s]; None without one."""
+    for event in events:
+        if event.switch == stop and event.speed and begin <= event.time < end:
+            return event.time - begin
+    return None

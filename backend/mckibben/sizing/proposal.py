@@ -7,16 +7,16 @@ from math import ceil
 
 import numpy as np
 
-from mckibben.physics.drive_terms import COUNTER
+from mckibben.physics.drive_terms import HIGH_STOP
 from mckibben.physics.gas import ANR_DENSITY
-from mckibben.simulation.drive.transient import Run, simulate
+from mckibben.simulation.drive.transient import dead_times, simulate
 from mckibben.simulation.outcome import Outcome
 from mckibben.simulation.timing.of_run import stops_of, time_step, trace_of
 from mckibben.simulation.timing.table import timing
 from mckibben.sizing.batch import Bench
 from mckibben.sizing.catalogue import Design, switch_on
 from mckibben.sizing.chance import Chance
-from mckibben.sizing.prepared import HELD_SHARE, ON_STOP, Figures
+from mckibben.sizing.prepared import HELD_SHARE, ON_STOP, Figures, arrival
 from mckibben.sizing.trial import Trial, judged
 
 _MILLIMETRE, _PRESSURE_STEP = 1e-3, 1e3
@@ -90,32 +90,31 @@ def _measured(design: Design, bench: Bench) -> Proposal | None:
     trace = trace_of(run)
     if trace is None:
         return None
-    low, high = stops_of(drive)
+    low, _ = stops_of(drive)
     table = timing(
         trace,
         fill=(on, off),
         exhaust=(off, drive.duration),
         mass=group.duty.mass / group.parallel,
-        stops=(low, high),
+        delays=dead_times(drive),
     )
     up, down = table.extend, table.retract
-    end = int(np.searchsorted(run.time, off))
-    begin = int(np.searchsorted(run.time, on))
-    late = int(np.searchsorted(run.time, off - HELD_SHARE * task.fill_time))
+    begin, late, end = np.searchsorted(trace.time, (on, off - HELD_SHARE * task.fill_time, off))
+    resting = trace.position[late : end + 1] >= stops_of(drive)[1] - ON_STOP
     # Without an impact the table means 95 % of the stroke; here it is the stop.
-    time = up.positioning_time if trace.contact[late : end + 1].any() else None
+    time = up.positioning_time if arrival(run.events, HIGH_STOP, on, off) is not None else None
     figures = Figures(
         time=time,
         time_down=down.positioning_time if trace.contact[-1] else None,
-        held=bool(np.min(run.states["stroke"][late : end + 1]) >= drive.stops[1] - ON_STOP),
-        air=_air(run, begin) * group.parallel,
+        held=bool(np.all(resting)),
+        air=float(trace.supplied[-1] - trace.supplied[begin]) / ANR_DENSITY * group.parallel,
         peak_force=float(np.max(run.outputs["force"])),
         reached=float(np.max(trace.position[begin : end + 1])) - low,
     )
     filled = slice(begin, end + 1)
     left = int(np.argmax(trace.position[filled] > low + 1e-5))
-    pressures = run.pressure[filled]
-    arrived = 0.0 if time is None else float(np.interp(on + time, run.time, run.pressure))
+    pressures = trace.pressure[filled]
+    arrived = 0.0 if time is None else float(np.interp(on + time, trace.time, trace.pressure))
     return Proposal(
         judged(design, figures, task),
         float(up.impact_energy or 0.0) * group.parallel,
@@ -124,9 +123,3 @@ def _measured(design: Design, bench: Bench) -> Proposal | None:
         float(pressures[left]),
         arrived,
     )
-
-
-def _air(run: Run, begin: int) -> float:
-    """Air that one muscle, or both muscles of a pair, take in a cycle, at ANR [m^3]."""
-    names = [name for name in ("supplied", f"supplied{COUNTER}") if name in run.states]
-    return sum(float(run.states[name][-1] - run.states[name][begin]) for name in names) / ANR_DENSITY

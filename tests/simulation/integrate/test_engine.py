@@ -32,6 +32,7 @@ def system(rates: dict[str, Any], outputs: dict[str, Any]) -> CompiledDrive:
         rates=[se.sympify(rate) for rate in rates.values()],
         outputs=[se.sympify(output) for output in outputs.values()],
         output_names=tuple(outputs),
+        switches=[],
     )
     return compile_system(model)
 
@@ -129,18 +130,21 @@ def test_what_leaves_all_bounds_diverges():
 def test_the_jacobian_is_the_derivative_of_the_rates(names, kind):
     structure = DriveStructure(tuple(STUDIO.catalogue[name] for name in names), **{kind: True})
     model, compiled = DriveModel(structure), compiled_drive(structure)
-    arguments = [*model.symbols.values(), *model.parameters.values(), *model.inputs.values()]
+    switches = [switch.symbol for switch in model.switches]
+    guards = [switch.guard for switch in model.switches]
+    arguments = [*model.symbols.values(), *model.parameters.values(), *model.inputs.values(), *switches]
     size = compiled.size
     whole = se.Matrix(model.rates).jacobian(se.Matrix(list(model.symbols.values())))
-    plain = se.Lambdify(arguments, [*model.rates, *model.outputs, *whole], cse=True)
-    packed = np.random.default_rng(5).uniform(0.5, 1.5, len(arguments))
-    expected = plain(packed)
-    assert compiled.rates(packed) == pytest.approx(expected[: size + compiled.width], rel=1e-9)
-    assert compiled.jacobian(packed)[:size] == pytest.approx(expected[:size], rel=1e-9)
-    scale = np.max(np.abs(expected[size + compiled.width :]))
-    assert compiled.jacobian(packed)[size:] == pytest.approx(
-        expected[size + compiled.width :], rel=1e-8, abs=1e-14 * scale
-    )
+    plain = se.Lambdify(arguments, [*model.rates, *model.outputs, *guards, *whole], cse=True)
+    row = np.random.default_rng(5).uniform(0.5, 1.5, len(arguments))
+    packed, state = row[: -len(switches)], row[-len(switches) :]
+    rates, outputs, guard, entries = np.split(plain(row), np.cumsum([size, compiled.width, len(guards)]))
+    assert compiled.rates(packed, state) == pytest.approx(rates, rel=1e-9)
+    assert compiled.outputs(packed, state) == pytest.approx(outputs, rel=1e-9)
+    assert compiled.guards(packed, state) == pytest.approx(guard, rel=1e-9)
+    assert compiled.jacobian(packed, state)[:size] == pytest.approx(rates, rel=1e-9)
+    scale = np.max(np.abs(entries))
+    assert compiled.jacobian(packed, state)[size:] == pytest.approx(entries, rel=1e-8, abs=1e-14 * scale)
 
 
 def test_every_level_computes_the_same():

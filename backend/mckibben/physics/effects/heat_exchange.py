@@ -1,10 +1,11 @@
-r"""Heat exchange between gas and wall, :math:`\dot Q = h\,\pi D L\,(T_w - T)`.
+r"""Heat exchange between gas and wall, :math:`\dot Q = h\,(\pi D L + \pi D^2/2)\,(T_w - T)`.
 
-With this effect the chamber obeys the energy balance: h = 0 is an adiabatic chamber (exponent 1.4), a large h
-an isothermal one, and in between the exponent follows from the speed. The wall stays at ambient temperature.
+With this effect the chamber obeys the energy balance with this coefficient: h = 0 is an adiabatic chamber
+(exponent 1.4), a large h an isothermal one, and in between the exponent follows from the speed. The wall
+stays at ambient temperature.
 """
 
-from mckibben.physics import ops
+from mckibben.physics import gas
 from mckibben.physics.effect import Effect, Example, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
@@ -13,12 +14,18 @@ from mckibben.physics.parameter import Parameter, Source
 def heat(
     *, length: Value, diameter: Value, gas_temperature: Value, ambient_temperature: Value, coefficient: Value
 ) -> Value:
-    """h pi D L (T_w - T) [W], positive into the gas."""
-    return coefficient * ops.pi * diameter * length * (ambient_temperature - gas_temperature)
+    """h (pi D L + pi D^2/2) (T_w - T) [W], positive into the gas."""
+    return gas.wall_heat_flow(
+        coefficient=coefficient,
+        diameter=diameter,
+        length=length,
+        gas_temperature=gas_temperature,
+        wall_temperature=ambient_temperature,
+    )
 
 
 _RANGE = Source("free to forced convection in small vessels, 20-50 W/(m2 K)", "E")
-_BY_HAND = Source("30 * pi * 0.02 * 0.3 * (293 - 333) W", "D")
+_BY_HAND = Source("30 * pi * 0.02 * (0.3 + 0.01) * (293 - 333) W", "D")
 
 EFFECT = Effect(
     title="Heat exchange with the wall",
@@ -26,7 +33,7 @@ EFFECT = Effect(
     type="dynamic",
     cause="Filling warms the gas and venting cools it, and the wall takes the difference away within a "
     "second or so. After a fast fill with the valve closed the pressure therefore drops again.",
-    equation=r"\dot Q = h\,\pi D L\,(T_w-T)",
+    equation=r"\dot Q = h\,(\pi D L + \tfrac{\pi}{2} D^2)\,(T_w-T)",
     parameters=(
         Parameter(
             "coefficient",
@@ -61,7 +68,7 @@ EFFECT = Effect(
     examples=(
         Example(
             "slot:heat",
-            -22.61946710584651,
+            -23.37344934270806,
             1e-12,
             _BY_HAND,
             {"coefficient": 30.0},

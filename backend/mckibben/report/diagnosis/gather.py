@@ -191,7 +191,7 @@ def _drive(question: ModelQuestion) -> Iterator[tuple[str, str]]:
     force = f"{load.force:.4g} N" if isinstance(load.force, float | int) else "a force over time"
     yield "Load", f"{load.mass:.4g} kg and {force}"
     yield "Fitting volume", f"{drive.fitting_volume * 1e6:.4g} cm³"
-    yield "Polytropic exponent", f"{drive.polytropic_exponent:.4g}"
+    yield "Air", drive.gas_closure
     yield "Start pressure", f"{(drive.start_pressure or 0.0) / 1e5:.4g} bar"
 
 

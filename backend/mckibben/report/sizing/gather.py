@@ -126,7 +126,7 @@ def _chosen(search: Searched, studio: Studio, rank: int, watch: Watch) -> Chosen
         spread=spread_of(proposal, task),
         effects=given.start.effects,
         figures=dict(effect_figures(proposal.design, studio, given.start.effects)),
-        gas=given.drive.polytropic_exponent,
+        gas=given.drive.gas_closure,
     )
 
 

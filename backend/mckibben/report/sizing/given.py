@@ -86,7 +86,7 @@ def _approximations(material: SizingMaterial) -> list[str]:
 
 
 def _of_drive(material: SizingMaterial, chosen: Chosen) -> list[str]:
-    found = [f"The polytropic exponent of the air is {chosen.gas:.3g} (1 isothermal, 1.4 adiabatic)."]
+    found = [f"Air: {chosen.gas}."]
     if chosen.count > 1:
         found.append(
             f"The {chosen.count} parallel muscles are taken as equal and loaded alike: the run is that of "

@@ -140,7 +140,7 @@ class Chosen:
         spread: of the specimens; None when none were asked for.
         effects: effect id -> its parameters in the run.
         figures: "effect.parameter" -> where the value comes from.
-        gas: polytropic exponent of the run.
+        gas: how the air in the muscle is modelled.
     """
 
     rank: int
@@ -155,7 +155,7 @@ class Chosen:
     spread: SpecimenSpread | None
     effects: Mapping[str, Mapping[str, float]]
     figures: Mapping[str, Figure]
-    gas: float
+    gas: str
 
 
 @dataclass(frozen=True)

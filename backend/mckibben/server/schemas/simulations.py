@@ -28,7 +28,7 @@ class SimulationRequest(Strict):
 _UNITS = {
     "average_speed": "m/s", "max_speed": "m/s", "end_speed": "m/s", "max_acceleration": "m/s^2",
     "min_acceleration": "m/s^2", "impact_energy": "J", "air_mass": "kg", "air_volume_anr": "m^3",
-    "choked_share": "1", "overshoot": "1",
+    "tube_air_mass": "kg", "choked_share": "1", "overshoot": "1",
 }  # fmt: skip
 PhaseFigures = Annotated[
     dict[str, float | None],
@@ -72,6 +72,14 @@ class Choked(Strict):
     begin: float = Field(alias="from", description="Start.", json_schema_extra={"unit": "s"})
     end: float = Field(alias="to", description="End.", json_schema_extra={"unit": "s"})
     side: Literal["fill", "exhaust"]
+
+
+class StartPosition(Strict):
+    """Where the run starts, and why."""
+
+    position: float = si_field("m", "Position of the load at t = 0.")
+    contraction: float = si_field("1", "Contraction of the muscle at t = 0.")
+    reason: str = Field(description="Why the run starts there, as a sentence.")
 
 
 class DriveLimits(Strict):
@@ -126,7 +134,12 @@ class SimulationAnswer(Strict):
     contraction: Series = si_field("1", "Contraction ratio of the muscle.")
     load_force: Series = si_field("N", "External force on the load.")
     temperature: Series = si_field("K", "Temperature of the gas in the muscle.")
-    contact: list[bool] = Field(description="Whether the load touches an end stop.")
+    contact: list[bool] = Field(description="Whether the load rests on an end stop.")
+    slack: list[bool] = Field(
+        description="Whether the muscle hangs slack: it is then longer than its fittings are apart."
+    )
+    start: StartPosition
+    gas: str = Field(description="How the air in the muscle is modelled.")
     readings: Readings | None = Field(description="Null if no effect changes the sensor readings.")
     joint: Joint | None = Field(description="Joint of an antagonist pair.")
     choked: list[Choked] = Field(

@@ -15,7 +15,7 @@ from mckibben.physics.drive_terms import INPUTS, OUTPUTS
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.pid import PidController, PidState
 from mckibben.simulation.command.segments import Segments
-from mckibben.simulation.drive.initial_state import start_of
+from mckibben.simulation.drive.initial_state import Start, start_of
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import (
     TOLERANCE,
@@ -26,8 +26,10 @@ from mckibben.simulation.drive.transient import (
     run_of,
 )
 from mckibben.simulation.integrate.engine import (
+    EVENT_WIDTH,
     FIRST_STEP,
     MAX_STEPS,
+    MOST_EVENTS,
     CompiledDrive,
     Outcome,
     Solution,
@@ -35,6 +37,7 @@ from mckibben.simulation.integrate.engine import (
     integrate,
     kernel,
     outcome_of,
+    switching_of,
 )
 from mckibben.simulation.outcome import Watch
 
@@ -53,7 +56,7 @@ class ControlLoop:
         controller: the controller.
         external: external force on the load over time.
         set_points: reference at every sample [m], shape (samples,).
-        start: states at rest.
+        start: states and switches at rest.
         grid: times of the rows.
         watch: may end it early.
     """
@@ -64,7 +67,7 @@ class ControlLoop:
     external: Segments
     set_points: np.ndarray
     parameters: np.ndarray
-    start: np.ndarray
+    start: Start
     grid: np.ndarray
     tolerance: float
     watch: Watch
@@ -124,9 +127,9 @@ def simulate_controlled(
         kernel.warm().join()
     began = time.perf_counter()
     by_kernel = engine != "lsoda" and kernel.ready() is not None
-    solution, switches = loop_in_kernel(loop) if by_kernel else loop_in_python(loop, engine)
-    command = Segments(np.append(switches[:, 0], drive.duration), switches[:, 1], np.zeros(len(switches)))
-    return run_of(drive, compiled, loop.grid, solution, command, time.perf_counter() - began)
+    solution, commands = loop_in_kernel(loop) if by_kernel else loop_in_python(loop, engine)
+    command = Segments(np.append(commands[:, 0], drive.duration), commands[:, 1], np.zeros(len(commands)))
+    return run_of(drive, compiled, loop.grid, loop.start, solution, command, time.perf_counter() - began)
 
 
 def loop_in_kernel(loop: ControlLoop) -> tuple[Solution, np.ndarray]:
@@ -148,9 +151,11 @@ def loop_in_kernel(loop: ControlLoop) -> tuple[Solution, np.ndarray]:
     )
     memory = np.array([*_first_memory(loop), 0.0, 0.0, FIRST_STEP])
     marks = np.array([0, 0, 1])
-    queue, switches = np.empty((samples, 2)), np.zeros((samples + 1, 2))
+    queue, commands = np.empty((samples, 2)), np.zeros((samples + 1, 2))
     rows = np.empty((len(loop.grid), compiled.size + compiled.width))
-    counts, state = np.zeros(3, np.int64), loop.start.copy()
+    counts, state, switches = np.zeros(4, np.int64), loop.start.state.copy(), loop.start.switches.copy()
+    events = np.zeros((MOST_EVENTS, EVENT_WIDTH))
+    switching = switching_of(compiled, compiled.stops(loop.parameters), drive.restitution)
     constants = compiled.codes.constants(loop.parameters)
     outcome = Outcome.COMPLETED
     for first in range(0, samples, _SAMPLES_AT_ONCE):
@@ -159,8 +164,11 @@ def loop_in_kernel(loop: ControlLoop) -> tuple[Solution, np.ndarray]:
             break
         status = kernels.sampled(
             *compiled.codes.given,
+            compiled.moved,
+            switching,
             constants,
             state,
+            switches,
             first,
             min(first + _SAMPLES_AT_ONCE, samples),
             figures,
@@ -170,20 +178,21 @@ def loop_in_kernel(loop: ControlLoop) -> tuple[Solution, np.ndarray]:
             memory,
             marks,
             queue,
-            switches,
+            commands,
             loop.grid,
             loop.tolerance,
             loop.tolerance * compiled.scales,
             rows,
+            events,
             counts,
             int(counts[0] + counts[1]) + MAX_STEPS,
         )
         outcome = outcome_of(status)
         if outcome is not Outcome.COMPLETED:
             break
-    steps, rejected, written = (int(count) for count in counts)
-    solution = Solution(rows[:written], state, outcome, steps, rejected, "rodas")
-    return solution, switches[: marks[2]]
+    steps, rejected, written, happened = (int(count) for count in counts)
+    solution = Solution(rows[:written], state, switches, events[:happened], outcome, steps, rejected, "rodas")
+    return solution, commands[: marks[2]]
 
 
 def loop_in_python(loop: ControlLoop, engine: str) -> tuple[Solution, np.ndarray]:
@@ -193,9 +202,10 @@ def loop_in_python(loop: ControlLoop, engine: str) -> tuple[Solution, np.ndarray
     memory = _first_memory(loop)
     pending: deque[tuple[float, float]] = deque()
     active = last_command = 0.0
-    state, first_step = loop.start, FIRST_STEP
+    state, switches, first_step = loop.start.state, loop.start.switches, FIRST_STEP
+    events = [np.empty((0, EVENT_WIDTH))]
     rows = [np.empty((0, compiled.size + compiled.width))]
-    switches, steps, rejected = [(0.0, active)], 0, 0
+    commands, steps, rejected = [(0.0, active)], 0, 0
     outcome = Outcome.COMPLETED
     for sample in range(samples):
         if ended := loop.watch.ended(sample / samples):
@@ -212,7 +222,7 @@ def loop_in_python(loop: ControlLoop, engine: str) -> tuple[Solution, np.ndarray
         while now < end and outcome is Outcome.COMPLETED:
             while pending and pending[0][0] <= now:
                 active = pending.popleft()[1]
-                switches.append((now, active))
+                commands.append((now, active))
             limits = [end, *external.times[external.times > now][:1]]
             stop = float(min([*limits, pending[0][0]] if pending else limits))
             upper = np.searchsorted(grid, stop, side="right" if stop >= drive.duration else "left")
@@ -221,6 +231,8 @@ def loop_in_python(loop: ControlLoop, engine: str) -> tuple[Solution, np.ndarray
                 compiled,
                 parameters=loop.parameters,
                 start=state,
+                switches=switches,
+                restitution=drive.restitution,
                 times=np.array([now, stop]),
                 inputs=_inputs(active, drive.counter(active), external, now),
                 grid=grid[lower:upper],
@@ -229,16 +241,21 @@ def loop_in_python(loop: ControlLoop, engine: str) -> tuple[Solution, np.ndarray
                 first_step=first_step,
             )
             rows.append(solution.rows)
+            events.append(solution.events)
+            switches = solution.switches
             steps, rejected = steps + solution.steps, rejected + solution.rejected
             state, now, outcome, first_step = solution.end, stop, solution.outcome, solution.next_step
         if outcome is not Outcome.COMPLETED:
             break
     name = "lsoda" if engine == "lsoda" else "rodas"
-    return Solution(np.concatenate(rows), state, outcome, steps, rejected, name), np.array(switches)
+    solution = Solution(
+        np.concatenate(rows), state, switches, np.concatenate(events), outcome, steps, rejected, name
+    )
+    return solution, np.array(commands)
 
 
 def _first_memory(loop: ControlLoop) -> PidState:
-    return loop.controller.start(measurement=_measured(loop, loop.start))
+    return loop.controller.start(measurement=_measured(loop, loop.start.state))
 
 
 def _inputs(opening: float, counter: float, external: Segments, now: float) -> np.ndarray:
@@ -258,5 +275,5 @@ def _inputs(opening: float, counter: float, external: Segments, now: float) -> n
 def _measured(loop: ControlLoop, state: np.ndarray) -> float:
     """Sensor reading of the load's stroke [m]; it does not depend on the inputs of the run."""
     packed = np.concatenate([state, loop.parameters, np.zeros(len(INPUTS))])
-    reading = float(loop.compiled.rates(packed)[loop.compiled.size + _MEASURED])
+    reading = float(loop.compiled.outputs(packed)[_MEASURED])
     return reading / loop.drive.load.lever_ratio

@@ -99,8 +99,9 @@ def driven_motion(
     }
     names = [state.name for state in compiled.model.states]
     start = np.array([state.initial or 0.0 for state in compiled.model.states])
-    start[names.index("clock")], start[names.index("stroke")] = time[0], stroke
-    outputs = _run(compiled, table, inputs, start, time, tolerance)
+    low, high = drive.stops
+    start[names.index("clock")], start[names.index("stroke")] = time[0], min(max(stroke, low), high)
+    outputs = _run(compiled, table, inputs, start, time, tolerance, drive.restitution)
     outputs["force_reading"] = skewed(drive.model, time, outputs["force_reading"])
     return {name: outputs[name] for name in ("stroke_reading", "force_reading", "stroke", "speed")}
 
@@ -112,6 +113,7 @@ def _run(
     start: np.ndarray,
     time: np.ndarray,
     tolerance: float,
+    restitution: float = 0.0,
 ) -> dict[str, np.ndarray]:
     model = compiled.model
     parameters = np.array([table[name] for name in model.parameters])
@@ -126,6 +128,7 @@ def _run(
         inputs=packed_inputs,
         grid=np.ascontiguousarray(time, dtype=float),
         tolerance=tolerance,
+        restitution=restitution,
     )
     if solution.outcome is not Outcome.COMPLETED:
         raise InputError(

@@ -1,19 +1,50 @@
-"""The start of a run: the rest position, computed from the compiled equations."""
+"""The start of a run: where the load rests and why, computed from the compiled equations."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
 
 import numpy as np
 
 from mckibben.physics import gas
 from mckibben.physics.braid import volume as braid_volume
-from mckibben.physics.drive_terms import COUNTER, OUTPUTS
+from mckibben.physics.drive_terms import COUNTER, HIGH_STOP, LOW_STOP, SLACK
 from mckibben.physics.errors import InputError
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.integrate.engine import CompiledDrive
 
+# Net force that counts as none [N].
+_BALANCED = 1e-6
 
-def start_of(drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inputs: np.ndarray) -> np.ndarray:
-    """The states at rest: the load in equilibrium between muscle, gravity and stops at the start pressure.
+
+class Rest(Enum):
+    """Why a run starts where it does; the value is a sentence for the user."""
+
+    BALANCED = "in equilibrium of muscle and load at the start pressure"
+    LOW_STOP = "on the lower end stop, where the load rests at the start pressure"
+    HIGH_STOP = "on the upper end stop, where the muscle holds the load at the start pressure"
+    ANYWHERE = (
+        "on the lower end stop: without pressure the load would rest anywhere; start.position says otherwise"
+    )
+    STATED = "at the stated start.position"
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """States and switches at the start, stroke of the muscle [m], and why."""
+
+    state: np.ndarray
+    switches: np.ndarray
+    stroke: float
+    why: Rest
+
+
+def start_of(drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inputs: np.ndarray) -> Start:
+    """The states at the start: at rest, in equilibrium or on a stop, or at the stated position.
+
+    Where the load could rest anywhere (a vented muscle, no force on the load) it starts on its lower stop.
 
     Args:
         drive: the drive.
@@ -22,55 +53,138 @@ def start_of(drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inpu
         inputs: inputs before the run, shape (inputs,).
 
     Raises:
-        InputError: no equilibrium short of the braid lock (the load tears the muscle off its lower stop).
+        InputError: the load stretches the muscle beyond its braid lock, or the stated position is not between
+            the stops.
     """
-    absolute = drive.start_pressure + drive.ambient_pressure
-    initial = {
-        "stroke": 0.0,
-        "pressure": absolute,
-        "tube_pressure": absolute,
-        "regulator_pressure": absolute,
-        "gas_mass": 0.0,
-    }
-    start = np.array(
-        [
-            initial[state.name.removesuffix(COUNTER)] if state.initial is None else state.initial
-            for state in compiled.model.states
-        ]
-    )
-    names = [state.name for state in compiled.model.states]
-    acceleration = compiled.size + OUTPUTS.index("acceleration")
-    packed = np.concatenate([start, parameters, inputs])
-    masses = [index for index, name in enumerate(names) if name.removesuffix(COUNTER) == "gas_mass"]
-    specific = absolute / (gas.GAS_CONSTANT * drive.temperature)
-    rough = float(braid_volume(braid=drive.muscle.braid, length=drive.muscle.nominal_length))
-    packed[masses] = specific * rough
+    search = _Search(drive, compiled, parameters, inputs)
+    low, high = drive.stops
+    if drive.start_position is not None:
+        stroke, why = _stated(drive), Rest.STATED
+    else:
+        stroke, why = _rest(drive, search.net_force)
+    net = search.net_force(stroke)
+    switches = np.zeros(len(compiled.model.switches))
+    for index, switch in enumerate(compiled.model.switches):
+        if switch.name == LOW_STOP:
+            switches[index] = float(stroke <= low and net <= _BALANCED)
+        elif switch.name == HIGH_STOP:
+            switches[index] = float(stroke >= high and net >= 0.0)
+    start = search.settled(switches)
+    settle(compiled, start, parameters, inputs)
+    return Start(start, switches, stroke, why)
 
-    def push(stroke: float) -> float:
-        packed[names.index("stroke")] = stroke
-        return float(compiled.rates(packed)[acceleration])
 
-    rest = drive.muscle.nominal_length
-    longest = rest * (1.0 - drive.precontraction) - drive.model.longest  # the stroke at the braid lock
-    low = max(drive.stops[0] - 0.01 * rest, longest)
-    high = drive.stops[1] + 0.01 * rest
-    if not push(low) >= 0.0 >= push(high):
+def _stated(drive: Drive) -> float:
+    lever = drive.load.lever_ratio
+    low, high = drive.stops
+    stroke = (drive.start_position or 0.0) * lever
+    if not low - 1e-12 <= stroke <= high + 1e-12:
         raise InputError(
-            "the load has no rest position between the end stops at the start pressure",
-            field="load",
-            hint="lower the mass or the external force, or set stops.min_contraction",
+            f"{stroke / lever * 1e3:.4g} mm is not between the end stops at {low / lever * 1e3:.4g} mm and "
+            f"{high / lever * 1e3:.4g} mm",
+            field="start.position",
         )
+    return min(max(stroke, low), high)
+
+
+def _rest(drive: Drive, net_force: Callable[[float], float]) -> tuple[float, Rest]:
+    """The stroke at rest, and why; the net force does not increase with the stroke."""
+    low, high = drive.stops
+    rest = drive.muscle.nominal_length
+    lock = rest * (1.0 - drive.precontraction) - drive.model.longest  # the stroke at the braid lock
+    lowest = max(low, lock)
+    below = net_force(lowest)
+    if below < -_BALANCED:
+        if low < lock:
+            raise InputError(
+                "the load stretches the muscle beyond its braid lock at the start pressure",
+                field="load",
+                hint="lower the mass or the external force, or set stops.min_contraction",
+            )
+        return low, Rest.LOW_STOP
+    if below <= _BALANCED:
+        return lowest, Rest.ANYWHERE if net_force(high) >= -_BALANCED else Rest.BALANCED
+    if net_force(high) > _BALANCED:
+        return high, Rest.HIGH_STOP
+
     from scipy.optimize import root_scalar
 
-    start[names.index("stroke")] = packed[names.index("stroke")] = float(
-        root_scalar(push, bracket=(low, high), xtol=1e-14).root
-    )
-    outputs = compiled.rates(packed)[compiled.size :]
-    for index in masses:
-        output = "volume" + names[index].removeprefix("gas_mass")
-        start[index] = specific * float(outputs[compiled.model.output_names.index(output)])
-    settle(compiled, start, parameters, inputs)
-    return start
+    found = root_scalar(lambda x: net_force(x) - _BALANCED, bracket=(lowest, high), xtol=1e-14)
+    return float(found.root), Rest.BALANCED
+
+
+class _Search:
+    """The compiled equations at rest, as functions of the stroke."""
+
+    def __init__(
+        self, drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inputs: np.ndarray
+    ) -> None:
+        self.drive, self.compiled = drive, compiled
+        absolute = drive.start_pressure + drive.ambient_pressure
+        initial: dict[str, float] = dict.fromkeys(
+            ("pressure", "tube_pressure", "regulator_pressure"), absolute
+        )
+        self.names = [state.name for state in compiled.model.states]
+        self.specific = absolute / (gas.GAS_CONSTANT * drive.temperature)
+        rough = float(braid_volume(braid=drive.muscle.braid, length=drive.muscle.nominal_length))
+        self.packed = compiled.prepared(np.concatenate([np.zeros(compiled.size), parameters, inputs]))
+        for index, state in enumerate(compiled.model.states):
+            start = initial.get(state.name.removesuffix(COUNTER), 0.0)
+            self.packed[index] = start if state.initial is None else state.initial
+        for index in self._places("gas_mass"):
+            self.packed[index] = self.specific * rough
+        self.stroke = self.names.index("stroke")
+        table = dict(zip(compiled.model.parameters, parameters, strict=True))
+        #: Distance of the fittings at stroke 0 [m].
+        self.middle = float(table["nominal_length"] - table["precontraction"])
+        self.lengths = self._places("length")
+        self.net = compiled.model.output_names.index("net_force")
+        self.slack = [
+            index for index, switch in enumerate(compiled.model.switches) if switch.name.startswith(SLACK)
+        ]
+
+    def _places(self, name: str) -> list[int]:
+        return [index for index, full in enumerate(self.names) if full.removesuffix(COUNTER) == name]
+
+    def net_force(self, stroke: float) -> float:
+        """Force along the stroke without that of the stops [N]."""
+        self.packed[self.stroke] = stroke
+        for place, sense in zip(self.lengths, (1.0, -1.0), strict=False):
+            self.packed[place] = self.middle - sense * stroke
+        return float(self.compiled.codes.outputs(self.packed)[self.net])
+
+    def settled(self, switches: np.ndarray) -> np.ndarray:
+        """The states where `net_force` was asked last; sets the switches of slack muscles."""
+        for place, number in zip(self.lengths, self.slack, strict=True):
+            if self._tension(number) < 0.0:
+                switches[number] = 1.0
+                self.packed[place] = self._free_length(place, number)
+        outputs = self.compiled.codes.outputs(self.packed)
+        for index in self._places("gas_mass"):
+            name = "volume" + self.names[index].removeprefix("gas_mass")
+            volume = float(outputs[self.compiled.model.output_names.index(name)])
+            self.packed[index] = self.specific * volume
+        return self.packed[: self.compiled.size].copy()
+
+    def _tension(self, number: int) -> float:
+        """Tension at rest of the muscle that this switch belongs to [N]; the switches are 0 here."""
+        return float(self.compiled.codes.guards(self.packed)[number])
+
+    def _free_length(self, place: int, number: int) -> float:
+        """Length at which a slack muscle carries no tension [m]."""
+        from scipy.optimize import root_scalar
+
+        def tension(length: float) -> float:
+            self.packed[place] = length
+            return self._tension(number)
+
+        short, longest = float(self.packed[place]), self.drive.model.longest
+        long = min(self.drive.muscle.nominal_length, longest)
+        if not (long > short and tension(long) >= 0.0):
+            long = longest
+        if not (long > short and tension(long) >= 0.0):
+            return short
+        return float(root_scalar(tension, bracket=(short, long), xtol=1e-14).root)
 
 
 def settle(compiled: CompiledDrive, start: np.ndarray, parameters: np.ndarray, inputs: np.ndarray) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field
-from math import sin, sqrt
+from math import sin
 
 import numpy as np
 
@@ -14,16 +14,16 @@ from mckibben.physics.model import Model
 from mckibben.physics.muscle import GEOMETRY
 from mckibben.simulation.command.segments import Segments, delayed, merged
 from mckibben.simulation.command.signals import Signal
-from mckibben.simulation.drive.initial_state import start_of
+from mckibben.simulation.drive.events import Event, events_of
+from mckibben.simulation.drive.initial_state import Start, start_of
 from mckibben.simulation.drive.parts import Drive, Regulator
 from mckibben.simulation.integrate.engine import CompiledDrive, Outcome, Solution, compiled_drive, integrate
 from mckibben.simulation.outcome import Watch
 from mckibben.simulation.statics.model import StaticModel
 
 GRAVITY = 9.80665  # m/s2
-# End stops: natural frequency of the load on them [rad/s]; critically damped, so an impact does not bounce.
-_STOP_FREQUENCY = 2000.0
-_STOP_GIVE = 5e-5  # m; the blocked force presses a stop in by at most this, even under a light load
+# A slack muscle takes its free length within about this time [s].
+_SLACK_TIME = 5e-5
 _LIGHTEST = 1e-3  # kg; least moving mass: without mass there is no equation of motion
 # At 1e-5 a step may jump over the moment at which a load leaves its stop (0.4 mm in paper-ramp).
 TOLERANCE = 1e-6
@@ -36,6 +36,8 @@ class Run:
     Attributes:
         states: state name -> values.
         outputs: name of `OUTPUTS` -> values.
+        events: impacts on the end stops and changes of contact and slack, in order.
+        start: where the run started, and why.
         outcome: how the run ended; a run that ended early has fewer rows.
         command: the command after all dead times.
         wall_seconds: computing time of the integration [s].
@@ -44,6 +46,8 @@ class Run:
     time: np.ndarray
     states: dict[str, np.ndarray]
     outputs: dict[str, np.ndarray]
+    events: tuple[Event, ...]
+    start: Start
     outcome: Outcome
     command: Segments
     drive: Drive
@@ -61,14 +65,12 @@ class Run:
 def constants_of(drive: Drive) -> dict[str, float]:
     """The constants of a run by the names of the model's parameters."""
     load, tube, rest = drive.load, drive.tube_in_use, drive.muscle.nominal_length
-    mass = max(load.mass + drive.own_mass, _LIGHTEST)
     blocked = ideal.force(braid=drive.muscle.braid, pressure=drive.supply_pressure, length=rest)
-    stop = max(mass * _STOP_FREQUENCY**2, float(blocked) / _STOP_GIVE)
     conductance, ratio, tube_volume = 1.0, 0.5, 1.0
     if tube is not None:
         conductance = float(gas.tube_conductance(diameter=tube.inside_diameter, length=tube.length))
         ratio = float(gas.tube_critical_ratio(diameter=tube.inside_diameter, length=tube.length))
-        tube_volume = np.pi / 4.0 * tube.inside_diameter**2 * tube.length
+        tube_volume = tube.volume
     regulator = drive.regulator or Regulator(1.0, 1.0)
     table = {
         "supply_pressure": drive.supply_pressure + drive.ambient_pressure,
@@ -84,7 +86,8 @@ def constants_of(drive: Drive) -> dict[str, float]:
         "tube_conductance": conductance,
         "tube_ratio": ratio,
         "fitting_volume": drive.fitting_volume,
-        "polytropic_exponent": drive.polytropic_exponent,
+        "polytropic_exponent": drive.polytropic_exponent or 1.0,
+        "wall_heat_transfer": drive.wall_heat_transfer,
         "mass": load.mass,
         "own_mass": max(drive.own_mass, _LIGHTEST - load.mass),
         "gravity": GRAVITY * sin(load.inclination),
@@ -93,8 +96,7 @@ def constants_of(drive: Drive) -> dict[str, float]:
         "precontraction": drive.precontraction * rest,
         "stop_low": drive.stops[0],
         "stop_high": drive.stops[1],
-        "stop_stiffness": stop,
-        "stop_damping": 2.0 * sqrt(mass * stop),
+        "slack_damping": max(float(blocked) / (0.25 * rest), 1.0) * _SLACK_TIME,
     }
     assert set(table) == set(CONSTANTS)  # noqa: S101 - a constant without a value is a programming error
     table |= {name: float(getattr(drive.muscle, name)) for name in GEOMETRY}
@@ -186,7 +188,9 @@ def simulate(
     solution = integrate(
         compiled,
         parameters=parameters,
-        start=start,
+        start=start.state,
+        switches=start.switches,
+        restitution=drive.restitution,
         times=times,
         inputs=inputs,
         grid=grid,
@@ -194,13 +198,14 @@ def simulate(
         engine=engine,
         watch=watch,
     )
-    return run_of(drive, compiled, grid, solution, command, time.perf_counter() - began)
+    return run_of(drive, compiled, grid, start, solution, command, time.perf_counter() - began)
 
 
 def run_of(
     drive: Drive,
     compiled: CompiledDrive,
     grid: np.ndarray,
+    start: Start,
     solution: Solution,
     command: Segments,
     wall_seconds: float,
@@ -215,6 +220,8 @@ def run_of(
         time=time_axis,
         states={state.name: solution.rows[:, index] for index, state in enumerate(compiled.model.states)},
         outputs=outputs,
+        events=events_of(compiled, solution.events),
+        start=start,
         outcome=solution.outcome,
         command=command,
         drive=drive,

@@ -7,13 +7,20 @@ background, then cached on disk); until then the same compiled functions run und
 from __future__ import annotations
 
 import threading
-import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
+from mckibben.simulation.integrate.lsoda import by_lsoda
+from mckibben.simulation.integrate.problem import (
+    EVENT_WIDTH,
+    FIRST_STEP,
+    MOST_EVENTS,
+    Problem,
+    Solution,
+    switching_of,
+)
 from mckibben.simulation.integrate.system import (
     CompiledDrive,
     compile_system,
@@ -23,10 +30,13 @@ from mckibben.simulation.integrate.system import (
 from mckibben.simulation.outcome import Outcome, Watch
 
 __all__ = [
+    "EVENT_WIDTH",
     "FIRST_STEP",
     "MAX_STEPS",
+    "MOST_EVENTS",
     "CompiledDrive",
     "Outcome",
+    "Problem",
     "Solution",
     "compile_system",
     "compiled_drive",
@@ -34,10 +44,10 @@ __all__ = [
     "integrate",
     "kernel",
     "outcome_of",
+    "switching_of",
 ]
 
 MAX_STEPS = 400_000
-FIRST_STEP = 1e-4  # s
 
 
 class Kernels(NamedTuple):
@@ -79,27 +89,6 @@ class _Kernel:
 kernel = _Kernel()
 
 
-class _EndedError(Exception):
-    """Aborts an integrator that has no way to stop it."""
-
-    def __init__(self, outcome: Outcome) -> None:
-        super().__init__(outcome.label)
-        self.outcome = outcome
-
-
-@dataclass(frozen=True)
-class Solution:
-    """Rows of states and outputs on the grid, the end state, step counts, outcome, and the next step size."""
-
-    rows: np.ndarray
-    end: np.ndarray
-    outcome: Outcome
-    steps: int
-    rejected: int
-    engine: str
-    next_step: float = FIRST_STEP
-
-
 def integrate(
     drive: CompiledDrive,
     *,
@@ -112,6 +101,8 @@ def integrate(
     engine: str = "auto",
     watch: Watch | None = None,
     first_step: float = FIRST_STEP,
+    switches: np.ndarray | None = None,
+    restitution: float = 0.0,
 ) -> Solution:
     """Integrate from ``times[0]`` to ``times[-1]``, segment by segment.
 
@@ -126,99 +117,62 @@ def integrate(
         engine: "rodas", "lsoda", or "auto" for the first that is ready.
         watch: may end LSODA early; the kernel has a limit of steps instead.
         first_step: first step that the kernel tries [s].
+        switches: at ``times[0]``; default 0.
+        restitution: share of the speed that an impact on an end stop leaves, in the opposite direction.
     """
     kernels = kernel.ready() if engine == "auto" else None
     if engine == "rodas":
         kernel.warm().join()
         kernels = kernel.ready()
-    absolute = tolerance * drive.scales
-    constants = drive.codes.constants(parameters)
+    began = np.zeros(len(drive.model.switches)) if switches is None else np.array(switches, dtype=float)
+    problem = Problem(
+        drive=drive,
+        constants=drive.codes.constants(parameters),
+        stops=drive.stops(parameters),
+        restitution=restitution,
+        state=start.copy(),
+        switches=began,
+        times=times,
+        inputs=inputs,
+        grid=grid,
+        tolerance=tolerance,
+    )
     if kernels is None:
-        return _lsoda(drive, constants, start, times, inputs, grid, tolerance, absolute, watch or Watch())
-    rows = np.empty((len(grid), drive.size + drive.width))
-    counts = np.zeros(3, np.int64)
-    end, step = start.copy(), np.array([first_step])
+        return by_lsoda(problem, watch or Watch())
+    rows, events = problem.empty_rows(), np.zeros((MOST_EVENTS, EVENT_WIDTH))
+    counts, step = np.zeros(4, np.int64), np.array([first_step])
     status = kernels.free(
         *drive.codes.given,
-        constants,
-        end,
+        drive.moved,
+        problem.switching,
+        problem.constants,
+        problem.state,
+        problem.switches,
         times,
         inputs,
         step,
         grid,
         tolerance,
-        absolute,
+        problem.absolute,
         rows,
+        events,
         counts,
         MAX_STEPS,
     )
-    steps, rejected, written = (int(count) for count in counts)
-    return Solution(rows[:written], end, outcome_of(status), steps, rejected, "rodas", float(step[0]))
+    steps, rejected, written, happened = (int(count) for count in counts)
+    return Solution(
+        rows[:written],
+        problem.state,
+        problem.switches,
+        events[:happened],
+        outcome_of(status),
+        steps,
+        rejected,
+        "rodas",
+        float(step[0]),
+    )
 
 
 def outcome_of(status: int) -> Outcome:
     """The outcome that corresponds to a status of the kernel."""
     return {0: Outcome.COMPLETED, 2: Outcome.STUCK}.get(int(status), Outcome.DIVERGED)
-
-
-def _lsoda(
-    drive: CompiledDrive,
-    constants: np.ndarray,
-    start: np.ndarray,
-    times: np.ndarray,
-    inputs: np.ndarray,
-    grid: np.ndarray,
-    tolerance: float,
-    absolute: np.ndarray,
-    watch: Watch,
-) -> Solution:
-    from scipy.integrate import solve_ivp
-
-    size, width = drive.size, drive.width
-    rows = np.full((len(grid), size + width), np.nan)
-    state, steps, written = start.copy(), 0, 0
-    packed = np.concatenate([start, constants, np.zeros(inputs.shape[1])])
-
-    def rates(now: float, y: np.ndarray) -> np.ndarray:
-        if ended := watch.ended(now / times[-1]):
-            raise _EndedError(ended)
-        packed[:size] = y
-        return drive.codes.rates(packed)[:size]
-
-    def jacobian(_time: float, y: np.ndarray) -> np.ndarray:
-        packed[:size] = y
-        return drive.dense(drive.codes.jacobian(packed))
-
-    for segment, segment_inputs in enumerate(inputs):
-        begin, finish = times[segment], times[segment + 1]
-        if not finish > begin:
-            continue
-        packed[size + len(constants) :] = segment_inputs
-        last = segment == len(inputs) - 1
-        stop = np.searchsorted(grid, finish, side="right" if last else "left")
-        wanted = grid[written:stop]
-        try:
-            # LSODA warns of failures that its result reports as well.
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
-                found = solve_ivp(
-                    rates,
-                    (begin, finish),
-                    state,
-                    method="LSODA",
-                    jac=jacobian,
-                    t_eval=np.union1d(wanted, finish),
-                    rtol=tolerance,
-                    atol=absolute,
-                )
-        except _EndedError as end:
-            return Solution(rows[:written], state, end.outcome, steps, 0, "lsoda")
-        steps += len(found.t)
-        if not found.success or not np.all(np.isfinite(found.y)):
-            return Solution(rows[:written], state, Outcome.DIVERGED, steps, 0, "lsoda")
-        for row, y in enumerate(found.y.T[: len(wanted)], written):
-            packed[:size] = y
-            rows[row, :size], rows[row, size:] = y, drive.codes.rates(packed)[size:]
-        written += len(wanted)
-        state = found.y[:, -1]
-    return Solution(rows[:written], state, Outcome.COMPLETED, steps, 0, "lsoda")

@@ -45,19 +45,26 @@ _PLAN = (
     "Tuple((uint64[::1],uint64[::1],uint64[::1],uint64[:,::1],uint64[::1],uint64[:,::1],uint64[:,::1],"
     "uint64[:,::1]))"
 )
-_MODEL = f"UniTuple(int64,2),{_PLAN},int64,int64,float64[::1],float64[::1]"
-_RESULT = "float64[::1],float64,float64[::1],float64[:,::1],int64[::1],int64"
+_SWITCHING = "UniTuple(float64[::1],4)"
+_MODEL = (
+    f"UniTuple(int64,4),{_PLAN},int64,int64,UniTuple(int64,2),{_SWITCHING},float64[::1],float64[::1],"
+    "float64[::1]"
+)
+_RESULT = "float64[::1],float64,float64[::1],float64[:,::1],float64[:,::1],int64[::1],int64"
 
 
 @njit(f"int64({_MODEL},float64[::1],float64[:,::1],float64[::1],{_RESULT})", cache=True, nogil=True)
 @_stamped
 def rodas4(
-    pointers: tuple[int, int],
+    functions: tuple[int, int, int, int],
     plan: Any,
     positions: int,
     clock: int,
+    moved: tuple[int, int],
+    switching: Any,
     constants: np.ndarray,
     state: np.ndarray,
+    switches: np.ndarray,
     times: np.ndarray,
     inputs: np.ndarray,
     first_step: np.ndarray,
@@ -65,32 +72,40 @@ def rodas4(
     rtol: float,
     atol: np.ndarray,
     out: np.ndarray,
+    events: np.ndarray,
     counts: np.ndarray,
     max_steps: int,
 ) -> int:
     """Integrate segment by segment and write states and outputs on a grid.
 
     Args:
-        pointers: addresses of the functions ``rates`` and ``jacobian``.
+        functions: addresses of ``rates``, ``jacobian``, ``outputs`` and ``guards``.
         plan, positions: see `mckibben.simulation.integrate.elimination.Plan`.
         clock: number of the state that is time.
+        moved: numbers of the states stroke and speed, which end stops act on; -1 without stops.
+        switching: of each switch the least guard and the stroke of its end stop (NaN: none); the coefficient
+            of restitution, the speed below which the load does not rebound [m/s] and the stiffness of guards
+            of lengths [N/m]; and of each switch the number of the length that follows (-1: none).
         constants: arguments of the functions between states and inputs.
         state: start, overwritten with the end.
+        switches: start, overwritten with the end.
         times: segment boundaries, one more than segments, ascending; no step crosses one.
         inputs: constants of each segment, shape (segments, inputs).
         first_step: first step to try, shape (1,); overwritten with the next step to try.
         grid: ascending times between the first and the last boundary, at which ``out`` is written.
         rtol, atol: error per step: weighted root mean square below 1; ``atol`` has one entry per state.
         out: shape (grid, states + outputs).
-        counts: accepted steps, rejected steps and grid rows written; incremented in place.
+        events: rows (instant, number of the switch, its new value, speed and acceleration before an impact);
+            further events are counted, not written.
+        counts: accepted steps, rejected steps, grid rows written and events; incremented in place.
         max_steps: give up after this many accepted and rejected steps.
 
     Returns:
         a `Status`.
     """
     n, fixed = state.shape[0], constants.shape[0]
-    packed = packed_for(n, constants, inputs.shape[1])
-    buffers = buffers_of(n, out.shape[1], positions, plan)
+    packed = packed_for(n, constants, inputs.shape[1], switches.shape[0])
+    buffers = buffers_of(n, out.shape[1], positions, plan, switches.shape[0])
     span = np.zeros(3)
     span[2] = first_step[0]
     state[clock] = times[0]
@@ -100,8 +115,8 @@ def rodas4(
         for i in range(inputs.shape[1]):
             packed[n + fixed + i] = inputs[segment, i]
         status = advance(
-            pointers, plan, positions, clock, packed, state, span, grid, grid.shape[0], rtol, atol, out,
-            counts, max_steps, buffers,
+            functions, plan, positions, clock, moved, switching, packed, state, switches, span, grid,
+            grid.shape[0], rtol, atol, out, events, counts, max_steps, buffers,
         )  # fmt: skip
         if status != 0:
             break
@@ -118,12 +133,15 @@ _LOOP = (
 @njit(f"int64({_MODEL},{_LOOP},{_RESULT})", cache=True, nogil=True)
 @_stamped
 def rodas4_sampled(
-    pointers: tuple[int, int],
+    functions: tuple[int, int, int, int],
     plan: Any,
     positions: int,
     clock: int,
+    moved: tuple[int, int],
+    switching: Any,
     constants: np.ndarray,
     state: np.ndarray,
+    switches: np.ndarray,
     first: int,
     stop: int,
     loop: np.ndarray,
@@ -133,11 +151,12 @@ def rodas4_sampled(
     memory: np.ndarray,
     marks: np.ndarray,
     queue: np.ndarray,
-    switches: np.ndarray,
+    commands: np.ndarray,
     grid: np.ndarray,
     rtol: float,
     atol: np.ndarray,
     out: np.ndarray,
+    events: np.ndarray,
     counts: np.ndarray,
     max_steps: int,
 ) -> int:
@@ -153,18 +172,18 @@ def rodas4_sampled(
             and begin; the last entry is the number of inputs.
         signals: set point of every sample; times, start values and slopes of the external force.
         memory: integral, rate, last measurement, last command, active command, next step to try.
-        marks: first and last + 1 of the pending commands, number of switches so far.
+        marks: first and last + 1 of the pending commands, number of ``commands`` so far.
         queue: pending commands, rows (instant, command); one row per sample.
-        switches: commands that became active, rows (instant, command); one row more than samples.
+        commands: commands that became active, rows (instant, command); one row more than samples.
 
-    The other arguments are those of `rodas4`; memory, marks, queue and switches persist between calls.
+    The other arguments are those of `rodas4`; memory, marks, queue, commands and switches persist.
     """
     duration, opening_time, closing_time, lever, counter, counter_slope = loop
     set_points, force_times, forces, force_slopes = signals
     n, fixed, width = state.shape[0], constants.shape[0], out.shape[1]
     period, at = gains[4], n + fixed
-    packed = packed_for(n, constants, places[6])
-    buffers = buffers_of(n, width, positions, plan)
+    packed = packed_for(n, constants, places[6], switches.shape[0])
+    buffers = buffers_of(n, width, positions, plan, switches.shape[0])
     values = buffers[4]
     span = np.zeros(3)
     piece = upper = 0
@@ -173,8 +192,8 @@ def rodas4_sampled(
         for i in range(n):
             packed[i] = state[i]
         packed[at:] = 0.0
-        call(pointers[0], values.ctypes.data, packed.ctypes.data)
-        measured = values[n + places[0]] / lever
+        call(functions[2], values.ctypes.data, packed.ctypes.data)
+        measured = values[places[0]] / lever
         command, memory[0], memory[1] = _pid_step(
             set_points[sample], measured, memory[0], memory[1], memory[2], *gains
         )
@@ -187,7 +206,7 @@ def rodas4_sampled(
         while now < end:
             while marks[0] < marks[1] and queue[marks[0], 0] <= now:
                 memory[4] = queue[marks[0], 1]
-                switches[marks[2], 0], switches[marks[2], 1] = now, memory[4]
+                commands[marks[2], 0], commands[marks[2], 1] = now, memory[4]
                 marks[0] += 1
                 marks[2] += 1
             while piece < forces.shape[0] - 1 and force_times[piece + 1] <= now:
@@ -204,8 +223,8 @@ def rodas4_sampled(
             packed[at + places[5]] = now
             span[0], span[1], span[2] = now, limit, memory[5]
             status = advance(
-                pointers, plan, positions, clock, packed, state, span, grid, upper, rtol, atol, out, counts,
-                max_steps, buffers,
+                functions, plan, positions, clock, moved, switching, packed, state, switches, span, grid,
+                upper, rtol, atol, out, events, counts, max_steps, buffers,
             )  # fmt: skip
             memory[5] = span[2]
             if status != 0:

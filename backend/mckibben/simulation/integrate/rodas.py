@@ -1,11 +1,15 @@
 """The step of the kernel: Rodas4, a stiff Rosenbrock method, over two compiled functions.
 
 It holds no physics, so numba compiles it once per installation, whatever is simulated. A model is passed as
-the addresses of two functions of states, constants and inputs, ``rates`` (-> rates and outputs) and
-``jacobian`` (-> rates, nonzero entries of the Jacobian, derivatives by time), and as the plan of its linear
-systems (`mckibben.simulation.integrate.elimination`). Inputs are constant within a segment; switching
-instants are segment ends, so no step crosses a jump. One state is the clock: it is known in advance and not
-part of the linear systems.
+the addresses of four functions of states, constants, inputs and switches: ``rates``, ``jacobian`` (-> rates,
+nonzero entries of the Jacobian, derivatives by time, guards), ``outputs`` and ``guards``; and as the plan of
+its linear systems (`mckibben.simulation.integrate.elimination`). Inputs are constant within a segment;
+switching instants are segment ends, so no step crosses a jump. One state is the clock: it is known in advance
+and not part of the linear systems.
+
+A switch is 0 or 1. It changes where its guard falls below zero: the step is then repeated up to that instant,
+so no step crosses such a change either. A switch that is an end stop also takes the speed, or turns it round
+with a coefficient of restitution.
 
 Method: Rodas4 of Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.7: six stages, order
 4 with an embedded order 3, L-stable, dense output of order 3.
@@ -92,20 +96,130 @@ def _solve(a: np.ndarray, plan: Any, vector: np.ndarray) -> None:
         vector[rows[k, 0]] = total * a[rows[k, 3]]
 
 
+@njit(inline="always", error_model="numpy")
+def _interpolated(i: int, s: float, start: np.ndarray, end: np.ndarray, u: np.ndarray) -> float:
+    """Dense output of a state at the share s of a step."""
+    first = second = 0.0
+    for j in range(5):
+        first += _D2[j] * u[i, j]
+        second += _D3[j] * u[i, j]
+    return start[i] * (1.0 - s) + s * (end[i] + (1.0 - s) * (first + s * second))
+
+
+@njit(error_model="numpy")
+def _guard_at(
+    guards: int, s: float, t: float, h: float, k: int, clock: int, packed: np.ndarray, values: np.ndarray,
+    start: np.ndarray, end: np.ndarray, u: np.ndarray,
+) -> float:  # fmt: skip
+    """Guard of switch k at the share s of a step."""
+    for i in range(start.shape[0]):
+        packed[i] = _interpolated(i, s, start, end, u)
+    packed[clock] = t + s * h
+    call(guards, values.ctypes.data, packed.ctypes.data)
+    return values[k]
+
+
+@njit(error_model="numpy")
+def _crossing(
+    guards: int, upper: float, t: float, h: float, k: int, least: float, clock: int, packed: np.ndarray,
+    values: np.ndarray, start: np.ndarray, end: np.ndarray, u: np.ndarray,
+) -> float:  # fmt: skip
+    """Share of a step at which guard k falls below -least; it is above at 0 and below at ``upper``.
+
+    Regula falsi of the Illinois kind.
+    """
+    low, high = 0.0, upper
+    at_low = _guard_at(guards, low, t, h, k, clock, packed, values, start, end, u) + least
+    at_high = _guard_at(guards, high, t, h, k, clock, packed, values, start, end, u) + least
+    if at_low <= 0.0:
+        return 0.0
+    side = 0
+    for _ in range(60):
+        if high - low < 1e-12 or not at_high < 0.0:
+            break
+        middle = (low * at_high - high * at_low) / (at_high - at_low)
+        value = _guard_at(guards, middle, t, h, k, clock, packed, values, start, end, u) + least
+        if abs(value) <= 0.5 * least:
+            return middle
+        if value < 0.0:
+            high, at_high = middle, value
+            if side == -1:
+                at_low *= 0.5
+            side = -1
+        else:
+            low, at_low = middle, value
+            if side == 1:
+                at_high *= 0.5
+            side = 1
+    return high
+
+
+@njit(error_model="numpy")
+def _turning(i: int, start: np.ndarray, end: np.ndarray, u: np.ndarray) -> float:
+    """Share of a step at which a speed that changes its sign is zero."""
+    low, high = 0.0, 1.0
+    for _ in range(30):
+        middle = 0.5 * (low + high)
+        if _interpolated(i, middle, start, end, u) * start[i] > 0.0:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+@njit(error_model="numpy")
+def _switch(
+    k: int, t: float, rates: np.ndarray, guards: int, moved: tuple[int, int], switching: Any,
+    packed: np.ndarray, guarded: np.ndarray, state: np.ndarray, switches: np.ndarray, events: np.ndarray,
+    counts: np.ndarray,
+) -> None:  # fmt: skip
+    """Change switch k; an end stop stops the load or throws it back. ``rates`` are those before."""
+    _, stops, bounce, follows = switching
+    speed = acceleration = 0.0
+    to = 1.0 - switches[k]
+    if to == 1.0 and stops[k] == stops[k]:
+        speed, acceleration = state[moved[1]], rates[moved[1]]
+        state[moved[0]] = stops[k]
+        state[moved[1]] = 0.0
+        if bounce[0] * abs(speed) > bounce[1]:
+            state[moved[1]] = -bounce[0] * speed
+            to = 0.0
+    if follows[k] >= 0.0:
+        # The guard of a switch that is 1 is the distance to be closed, times a stiffness.
+        for i in range(state.shape[0]):
+            packed[i] = state[i]
+        first = packed.shape[0] - switches.shape[0]
+        for i in range(switches.shape[0]):
+            packed[first + i] = switches[i]
+        packed[first + k] = 1.0
+        call(guards, guarded.ctypes.data, packed.ctypes.data)
+        state[int(follows[k])] -= guarded[k] / bounce[2]
+    switches[k] = to
+    if counts[3] < events.shape[0]:
+        row = counts[3]
+        events[row, 0], events[row, 1], events[row, 2] = t, float(k), to
+        events[row, 3], events[row, 4] = speed, acceleration
+    counts[3] += 1
+
+
 @njit(error_model="numpy", fastmath={"contract"})
 def advance(
-    pointers: tuple[int, int],
+    functions: tuple[int, int, int, int],
     plan: Any,
     positions: int,
     clock: int,
+    moved: tuple[int, int],
+    switching: Any,
     packed: np.ndarray,
     state: np.ndarray,
+    switches: np.ndarray,
     span: np.ndarray,
     grid: np.ndarray,
     last_row: int,
     rtol: float,
     atol: np.ndarray,
     out: np.ndarray,
+    events: np.ndarray,
     counts: np.ndarray,
     max_steps: int,
     buffers: Any,
@@ -117,30 +231,58 @@ def advance(
     Writes the rows of the grid in between, from row ``counts[2]`` to ``last_row`` - 1; see
     `mckibben.simulation.integrate.kernels.rodas4`.
     """
-    rates, jacobian = pointers
+    rates, jacobian, outputs, guards = functions
     places, timed, diagonal, _, _, _, _, _ = plan
-    u, trial, residual, matrix, values, both, dense = buffers
+    least, stops, _, _ = switching
+    u, trial, residual, matrix, values, guarded, whole, next_whole, dense = buffers
     n, width, entries = state.shape[0], out.shape[1], places.shape[0]
-    at_packed, at_values, at_both = packed.ctypes.data, values.ctypes.data, both.ctypes.data
-    at_out = out.ctypes.data
+    kinds, first_switch = switches.shape[0], packed.shape[0] - switches.shape[0]
+    first_guard = n + entries + timed.shape[0]
+    at_packed, at_values, at_whole = packed.ctypes.data, values.ctypes.data, whole.ctypes.data
+    at_next, at_out = next_whole.ctypes.data, out.ctypes.data
     t, end, h = span
-    row, fresh, last_failed = counts[2], True, False
+    row, fresh, last_failed, landing, last_wanted = counts[2], True, False, -1, h
     while t < end:
         if counts[0] + counts[1] >= max_steps:
             return 2
+        if fresh:
+            # Inputs or switches have changed: a guard may be violated at once.
+            for _ in range(2 * kinds + 1):
+                for i in range(n):
+                    packed[i] = state[i]
+                for i in range(kinds):
+                    packed[first_switch + i] = switches[i]
+                call(jacobian, at_whole, at_packed)
+                changed = False
+                for k in range(kinds):
+                    if whole[first_guard + k] < -least[k]:
+                        _switch(
+                            k,
+                            t,
+                            whole,
+                            guards,
+                            moved,
+                            switching,
+                            packed,
+                            guarded,
+                            state,
+                            switches,
+                            events,
+                            counts,
+                        )
+                        changed = True
+                        break
+                if not changed:
+                    break
+            fresh = False
         wanted = h
         last = t + 1.0000001 * h >= end
         if last:
             h = end - t
-        if fresh:
-            for i in range(n):
-                packed[i] = state[i]
-            call(jacobian, at_both, at_packed)
-            fresh = False
         inverse = 1.0 / h
         matrix[:] = 0.0
         for i in range(entries):
-            matrix[places[i]] = -both[n + i]
+            matrix[places[i]] = -whole[n + i]
         for i in range(diagonal.shape[0]):
             matrix[diagonal[i]] += inverse / _GAMMA
         matrix[positions - 1] = 1.0
@@ -148,7 +290,7 @@ def advance(
         for k in range(6):
             if k == 0:
                 for i in range(n):
-                    residual[i] = both[i]
+                    residual[i] = whole[i]
             else:
                 for i in range(n):
                     total = state[i]
@@ -163,7 +305,7 @@ def advance(
                         total += _C[k, j] * u[i, j]
                     residual[i] = values[i] + total * inverse
             for i in range(timed.shape[0]):
-                residual[timed[i]] += _DELTA[k] * h * both[n + entries + i]
+                residual[timed[i]] += _DELTA[k] * h * whole[n + entries + i]
             residual[clock] = 0.0
             _solve(matrix, plan, residual)
             for i in range(n):
@@ -180,12 +322,53 @@ def advance(
         if error > 1.0:
             counts[1] += 1
             last_failed = True
+            landing = -1
             h *= factor
             if h < 1e-13 * max(1.0, abs(t)):
                 return 3 if error >= 1e10 else 1
             continue
-        counts[0] += 1
         reached = end if last else t + h
+        trial[clock] = reached
+        for i in range(n):
+            packed[i] = trial[i]
+        call(jacobian, at_next, at_packed)
+        if landing < 0:
+            share = 2.0
+            for k in range(kinds):
+                upper = 1.0 if next_whole[first_guard + k] < -least[k] else 0.0
+                free = upper == 0.0 and switches[k] == 0.0 and stops[k] == stops[k]
+                if free and state[moved[1]] * trial[moved[1]] < 0.0:
+                    # A load that turns round within the step may have touched the stop.
+                    turn = _turning(moved[1], state, trial, u)
+                    at = _guard_at(guards, turn, t, h, k, clock, packed, guarded, state, trial, u)
+                    upper = turn if at < -least[k] else 0.0
+                if upper > 0.0:
+                    at = _crossing(guards, upper, t, h, k, least[k], clock, packed, guarded, state, trial, u)
+                    if at < share:
+                        share, landing = at, k
+            if landing >= 0:
+                counts[1] += 1
+                if share * h > 1e-13 * max(1.0, abs(t)):
+                    h *= share
+                    last_wanted = wanted
+                    continue
+                _switch(
+                    landing,
+                    t,
+                    whole,
+                    guards,
+                    moved,
+                    switching,
+                    packed,
+                    guarded,
+                    state,
+                    switches,
+                    events,
+                    counts,
+                )
+                landing, fresh = -1, True
+                continue
+        counts[0] += 1
         if row < last_row and grid[row] <= reached:
             for i in range(n):
                 dense[0, i] = dense[1, i] = 0.0
@@ -198,36 +381,58 @@ def advance(
                     bent = dense[0, i] + s * dense[1, i]
                     packed[i] = state[i] * (1.0 - s) + s * (trial[i] + (1.0 - s) * bent)
                 packed[clock] = grid[row]
-                # Rates and outputs are written to the row; the states then overwrite the rates.
-                call(rates, at_out + 8 * width * row, at_packed)
                 for i in range(n):
                     out[row, i] = packed[i]
+                call(outputs, at_out + 8 * (width * row + n), at_packed)
                 row += 1
             counts[2] = row
         t = reached
         for i in range(n):
             state[i] = trial[i]
-        state[clock] = t
-        h *= min(factor, 1.0) if last_failed else factor
-        if last and not last_failed:
-            h = max(h, wanted)
-        last_failed, fresh = False, True
+        if landing >= 0:
+            _switch(
+                landing,
+                t,
+                next_whole,
+                guards,
+                moved,
+                switching,
+                packed,
+                guarded,
+                state,
+                switches,
+                events,
+                counts,
+            )
+            landing, fresh = -1, True
+            h = last_wanted
+        else:
+            for i in range(whole.shape[0]):
+                whole[i] = next_whole[i]
+            h *= min(factor, 1.0) if last_failed else factor
+            if last and not last_failed:
+                h = max(h, wanted)
+        last_failed = False
     span[2] = h
     return 0
 
 
 @njit(error_model="numpy")
-def buffers_of(n: int, width: int, positions: int, plan: Any) -> Any:
-    """Work arrays: stages, trial, right side, matrix, rates and outputs, Jacobian, dense output."""
-    both = np.zeros(n + plan[0].shape[0] + plan[1].shape[0])
+def buffers_of(n: int, width: int, positions: int, plan: Any, kinds: int) -> Any:
+    """Work arrays: stages, trial, right side, matrix, rates, guards, two Jacobians, dense output."""
+    entries = n + plan[0].shape[0] + plan[1].shape[0] + kinds
     stages, dense = np.zeros((n, 6)), np.zeros((2, n))
-    return stages, np.zeros(n), np.zeros(n), np.zeros(positions), np.zeros(width), both, dense
+    values, guarded = np.zeros(width), np.zeros(kinds + 1)
+    return (
+        stages, np.zeros(n), np.zeros(n), np.zeros(positions), values, guarded, np.zeros(entries),
+        np.zeros(entries), dense,
+    )  # fmt: skip
 
 
 @njit(error_model="numpy")
-def packed_for(n: int, constants: np.ndarray, inputs: int) -> np.ndarray:
+def packed_for(n: int, constants: np.ndarray, inputs: int, kinds: int) -> np.ndarray:
     """Argument array of the functions, with the constants filled in."""
-    packed = np.zeros(n + constants.shape[0] + inputs)
+    packed = np.zeros(n + constants.shape[0] + inputs + kinds)
     for i in range(constants.shape[0]):
         packed[n + i] = constants[i]
     return packed

@@ -23,12 +23,15 @@ _CLOCK = "clock"
 
 @dataclass(frozen=True)
 class Codes:
-    """The functions of a system; their arguments are the states, the run's constants and a segment's inputs.
+    """The functions of a system; their arguments are states, constants of the run, inputs and switches.
 
     Attributes:
         constants: parameters -> constants of a run: all subexpressions that do not vary.
-        rates: -> rates and outputs.
-        jacobian: -> rates, the entries of ``entries`` and the derivatives by time of the rates ``timed``.
+        rates: -> rates.
+        outputs: -> outputs.
+        guards: -> guards of the switches.
+        jacobian: -> rates, the entries of ``entries``, the derivatives by time of the rates ``timed``, and
+            the guards.
         entries: (row, column) of the nonzero entries of the Jacobian; shape (entries, 2).
         timed: rates that depend on time.
         plan: elimination for ``entries``.
@@ -37,6 +40,8 @@ class Codes:
 
     constants: Function
     rates: Function
+    outputs: Function
+    guards: Function
     jacobian: Function
     entries: np.ndarray
     timed: np.ndarray
@@ -46,7 +51,8 @@ class Codes:
     @cached_property
     def given(self) -> tuple[Any, ...]:
         """The first arguments of the kernel."""
-        addresses = (self.rates.address, self.jacobian.address)
+        functions = (self.rates, self.jacobian, self.outputs, self.guards)
+        addresses = tuple(function.address for function in functions)
         plan = self.plan
         lists = (plan.places, self.timed, plan.diagonal, plan.pivots, plan.lower, plan.updates, plan.rows)
         # Unsigned: numba then does not look for negative positions.
@@ -78,13 +84,51 @@ class CompiledDrive:
         """Number of states."""
         return len(self.model.states)
 
-    def rates(self, packed: np.ndarray) -> np.ndarray:
-        """Rates and outputs of packed states, parameters and inputs."""
-        return self.codes.rates(self._prepared(packed))
+    @cached_property
+    def moved(self) -> tuple[int, int]:
+        """Numbers of the states stroke and speed, which end stops act on; -1 without stops."""
+        if not any(switch.stop for switch in self.model.switches):
+            return -1, -1
+        names = [state.name for state in self.model.states]
+        return names.index("stroke"), names.index("speed")
 
-    def jacobian(self, packed: np.ndarray) -> np.ndarray:
+    @cached_property
+    def least(self) -> np.ndarray:
+        """Least guard of each switch."""
+        return np.array([switch.least for switch in self.model.switches])
+
+    def stops(self, parameters: np.ndarray) -> np.ndarray:
+        """Stroke of the end stop of each switch [m], NaN for other switches."""
+        return np.array(
+            [np.nan if place is None else parameters[place] for place in self._stop_places], dtype=float
+        )
+
+    @cached_property
+    def follows(self) -> np.ndarray:
+        """Number of the length that follows each switch, -1 for none."""
+        names = [state.name for state in self.model.states]
+        return np.array([names.index(s.follows) if s.follows else -1.0 for s in self.model.switches], float)
+
+    @cached_property
+    def _stop_places(self) -> tuple[int | None, ...]:
+        names = list(self.model.parameters)
+        return tuple(names.index(s.stop) if s.stop else None for s in self.model.switches)
+
+    def rates(self, packed: np.ndarray, switches: np.ndarray | None = None) -> np.ndarray:
+        """Rates of packed states, parameters and inputs; switches are 0 unless stated."""
+        return self.codes.rates(self.prepared(packed, switches))
+
+    def outputs(self, packed: np.ndarray, switches: np.ndarray | None = None) -> np.ndarray:
+        """Outputs of packed states, parameters and inputs."""
+        return self.codes.outputs(self.prepared(packed, switches))
+
+    def guards(self, packed: np.ndarray, switches: np.ndarray | None = None) -> np.ndarray:
+        """Guards of the switches."""
+        return self.codes.guards(self.prepared(packed, switches))
+
+    def jacobian(self, packed: np.ndarray, switches: np.ndarray | None = None) -> np.ndarray:
         """Rates, then the whole Jacobian by rows, of packed states, parameters and inputs."""
-        entries = self.codes.jacobian(self._prepared(packed))
+        entries = self.codes.jacobian(self.prepared(packed, switches))
         return np.concatenate([entries[: self.size], self.dense(entries).ravel()])
 
     def dense(self, values: np.ndarray) -> np.ndarray:
@@ -92,13 +136,17 @@ class CompiledDrive:
         matrix = np.zeros((self.size, self.size))
         entries, timed = self.codes.entries, self.codes.timed
         matrix[entries[:, 0], entries[:, 1]] = values[self.size : self.size + len(entries)]
-        matrix[timed, self.codes.clock] = values[self.size + len(entries) :]
+        after = self.size + len(entries)
+        matrix[timed, self.codes.clock] = values[after : after + len(timed)]
         return matrix
 
-    def _prepared(self, packed: np.ndarray) -> np.ndarray:
+    def prepared(self, packed: np.ndarray, switches: np.ndarray | None = None) -> np.ndarray:
+        """Arguments of the codes from packed states, parameters and inputs."""
         row = np.asarray(packed, dtype=np.float64)
         stop = self.size + len(self.model.parameters)
-        return np.concatenate([row[: self.size], self.codes.constants(row[self.size : stop]), row[stop:]])
+        state = np.zeros(len(self.model.switches)) if switches is None else switches
+        constants = self.codes.constants(row[self.size : stop])
+        return np.concatenate([row[: self.size], constants, row[stop:], state])
 
 
 @lru_cache(maxsize=128)
@@ -132,8 +180,11 @@ def compile_system(model: DriveModel | DrivenModel, level: int = 0) -> CompiledD
     states = list(model.symbols.values())
     clock = [state.name for state in model.states].index(_CLOCK)
     invariants = Invariants(model.parameters.values())
-    results = invariants.without([*model.rates, *model.outputs])
+    guards = [switch.guard for switch in model.switches]
+    results = invariants.without([*model.rates, *model.outputs, *guards])
     rates = results[: len(states)]
+    outputs = results[len(states) : len(results) - len(guards)]
+    guards = results[len(results) - len(guards) :]
     # Skip derivatives by symbols that a rate does not contain: they would not always simplify to 0.
     free_symbols_of = [rate.free_symbols for rate in rates]
     positions = [(row, column) for row in range(len(rates)) for column in range(len(states))]
@@ -142,12 +193,15 @@ def compile_system(model: DriveModel | DrivenModel, level: int = 0) -> CompiledD
     derivatives = [rates[i].diff(states[j]) for i, j in entries]
     derivatives += [rates[i].diff(states[clock]) for i in timed]
     parameters = list(model.parameters.values())
-    arguments = [*states, *invariants.values.values(), *model.inputs.values()]
+    switches = [switch.symbol for switch in model.switches]
+    arguments = [*states, *invariants.values.values(), *model.inputs.values(), *switches]
     codes = machine_code(
         {
             "constants": (parameters, list(invariants.values)),
-            "rates": (arguments, results),
-            "jacobian": (arguments, [*rates, *derivatives]),
+            "rates": (arguments, rates),
+            "outputs": (arguments, outputs),
+            "guards": (arguments, guards),
+            "jacobian": (arguments, [*rates, *derivatives, *guards]),
         },
         level=level,
     )
@@ -156,6 +210,8 @@ def compile_system(model: DriveModel | DrivenModel, level: int = 0) -> CompiledD
         Codes(
             codes["constants"],
             codes["rates"],
+            codes["outputs"],
+            codes["guards"],
             codes["jacobian"],
             np.array(entries, np.int64).reshape(-1, 2),
             np.array(timed, np.int64),

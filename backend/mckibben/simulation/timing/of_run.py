@@ -8,17 +8,20 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from mckibben.physics.drive_terms import COUNTER, HIGH_STOP
+from mckibben.physics.gas import GAS_CONSTANT as _R
 from mckibben.physics.model import Model
 from mckibben.simulation.command.segments import Interval, Segments, phases
+from mckibben.simulation.drive.events import Event
 from mckibben.simulation.drive.parts import Drive
-from mckibben.simulation.drive.transient import Run
+from mckibben.simulation.drive.transient import Run, dead_times
 from mckibben.simulation.timing.table import TimingTable, timing
-from mckibben.simulation.timing.trace import Trace
+from mckibben.simulation.timing.trace import Impact, Trace
 from mckibben.simulation.timing.tracking import Tracking, tracking
 
 Array = np.ndarray
 
-# The timing table is computed on a grid at least this fine; impacts are located between two of its rows.
+# The timing table is computed on a grid at least this fine.
 _FINEST, _FEWEST, _MOST = 1e-3, 2000, 20_000
 _FILL, _EXHAUST = 1, 2
 _FEWEST_TRACKED = 4  # least number of rows for tracking figures
@@ -60,8 +63,21 @@ def grid_of(*, duration: float, begin: float, end: float, points: int) -> Grid:
 
 
 def trace_of(run: Run) -> Trace | None:
-    """The run in coordinates of the load; None when fewer than two rows are finite."""
-    out, lever = run.outputs, run.drive.load.lever_ratio
+    """The run in coordinates of the load; None when fewer than two rows are finite.
+
+    At each impact there are two more rows, before and after it.
+    """
+    out, lever, drive = run.outputs, run.drive.load.lever_ratio, run.drive
+    suffixes = ("", COUNTER) if drive.pair else ("",)
+
+    def total(name: str) -> Array:
+        return np.sum([run.states[f"{name}{suffix}"] for suffix in suffixes], axis=0)
+
+    tube, charge = tube_charge_of(run), None
+    if drive.polytropic_exponent is not None and "gas_mass" not in run.states:
+        charge = tube.copy()
+        for suffix in suffixes:
+            charge += run.states[f"pressure{suffix}"] * out[f"volume{suffix}"] / (_R * drive.temperature)
     columns = {
         "time": run.time,
         "position": run.states["stroke"] / lever,
@@ -70,16 +86,67 @@ def trace_of(run: Run) -> Trace | None:
         "pressure": run.pressure,
         "force": out["force"],
         "mass_flow": out["mass_flow"],
-        "contact": out["penetration"] > 0.0,
+        "contact": out["contact"] != 0.0,
         "choked": _choked_side(run),
-        "supply_mass_flow": out["supply_flow"],
-        "exhaust_mass_flow": out["exhaust_flow"],
+        "supply_mass_flow": np.sum([out[f"supply_flow{suffix}"] for suffix in suffixes], axis=0),
+        "exhaust_mass_flow": np.sum([out[f"exhaust_flow{suffix}"] for suffix in suffixes], axis=0),
+        "supplied": total("supplied"),
+        "vented": total("vented"),
+        "tube_charge": tube,
+        **({} if charge is None else {"charge": charge}),
     }
     usable = np.all([np.isfinite(column) for column in columns.values()], axis=0)
     count = int(np.argmin(usable)) if not usable.all() else len(usable)
     if count < 2:
         return None
-    return Trace(**{name: column[:count] for name, column in columns.items()})
+    columns = {name: column[:count] for name, column in columns.items()}
+    hits = [event for event in run.events if event.speed and event.time < columns["time"][-1]]
+    for event in hits:
+        columns = _with_impact(columns, event, run)
+    impacts = tuple(Impact(event.time, stop_of(drive, event) / lever, event.speed / lever) for event in hits)
+    return Trace(**columns, impacts=impacts)
+
+
+def stop_of(drive: Drive, event: Event) -> float:
+    """Stroke of the stop of an impact [m]."""
+    return drive.stops[event.switch == HIGH_STOP]
+
+
+def tube_charge_of(run: Run) -> Array:
+    """Air in the tubes [kg]."""
+    tube, states = run.drive.tube_in_use, run.states
+    pressures = [states[name] for name in ("tube_pressure", f"tube_pressure{COUNTER}") if name in states]
+    if tube is None or not pressures:
+        return np.zeros(len(run.time))
+    return np.sum(pressures, axis=0) * tube.volume / (_R * run.drive.temperature)
+
+
+def _with_impact(columns: dict[str, Array], event: Event, run: Run) -> dict[str, Array]:
+    """The columns with the rows just before and just after an impact."""
+    lever = run.drive.load.lever_ratio
+    time = columns["time"]
+    row = int(np.searchsorted(time, event.time, side="left"))
+    if row < len(time) and time[row] == event.time:  # the row of this instant is that before the impact
+        columns = {name: np.delete(column, row) for name, column in columns.items()}
+        time = columns["time"]
+    if not 0 < row < len(time):
+        return columns
+    after = np.nextafter(event.time, np.inf)
+    rebound = 0.0 if event.begins else -run.drive.restitution * event.speed
+    known = {
+        "time": (event.time, after),
+        "position": (stop_of(run.drive, event) / lever,) * 2,
+        "velocity": (event.speed / lever, rebound / lever),
+        "acceleration": (event.acceleration / lever, columns["acceleration"][row]),
+        "contact": (False, bool(columns["contact"][row])),
+        "choked": (columns["choked"][row - 1],) * 2,
+    }
+    share = (event.time - time[row - 1]) / (time[row] - time[row - 1])
+    new = {}
+    for name, column in columns.items():
+        between = column[row - 1] * (1.0 - share) + column[row] * share
+        new[name] = np.insert(column, row, known.get(name, (between, between)))
+    return new
 
 
 def stops_of(drive: Drive) -> Interval:
@@ -119,7 +186,7 @@ def timing_of(drive: Drive, trace: Trace | None) -> TimingTable:
     if trace is None:
         return TimingTable.missing("the run ended before this phase")
     fill, exhaust = phases_of(drive)
-    return timing(trace, fill=fill, exhaust=exhaust, mass=moving_mass(drive), stops=stops_of(drive))
+    return timing(trace, fill=fill, exhaust=exhaust, mass=moving_mass(drive), delays=dead_times(drive))
 
 
 def tracking_of(run: Run, trace: Trace | None) -> Tracking | None:
@@ -127,7 +194,7 @@ def tracking_of(run: Run, trace: Trace | None) -> Tracking | None:
     reference = run.drive.reference
     if reference is None or trace is None or len(trace.time) < _FEWEST_TRACKED:
         return None
-    return tracking(trace.time, reference.value(run.time)[: len(trace.time)], trace.position)
+    return tracking(trace.time, reference.value(trace.time), trace.position)
 
 
 def choked_intervals(time: Array, side: Array) -> list[ChokedInterval]:

@@ -13,14 +13,15 @@ the stroke of the phase: to the stop it ends on, else to where it ends, or the d
 - average_speed: S / positioning_time. end_speed: ds/dt at the impact, or without one at positioning_time.
 - max_speed, max_speed_at: largest ds/dt, including the instant before the impact.
 - max_acceleration, min_acceleration: largest and smallest second derivative of the position, positive =
-  towards shorter in both phases. Impacts are excluded: samples in contact with a stop and their neighbours
-  do not count.
+  towards shorter in both phases: a fall has a negative one. Impacts, and a load at rest on a stop, do not
+  count.
 - impact_energy: m v^2/2 of the first impact; 0 without one.
 - pressure_rise_time, pressure_delay_time: 10-90 % and 50 % of the pressure step of the phase (end minus
   start); pressure_settling_time: from here on within 1 % of that step around the end value.
-- air_mass: air taken from the supply (fill), let out to the atmosphere (exhaust); air_volume_anr: that at
-  ANR.
-- choked_share: share of the phase in which the flow of the valve is choked.
+- air_mass: air taken from the supply (fill), let out to the atmosphere (exhaust), with that for the tube;
+  air_volume_anr: that at ANR; tube_air_mass: the part for the tube. With a stated polytropic exponent, which
+  does not conserve mass, from the states at begin and end of the phase at ambient temperature.
+- choked_share: share of that air which passes the valve while its flow is choked.
 - overshoot: largest s beyond S, as a share of S.
 
 A figure that does not exist is None; ``notes`` says why under "extend.<figure>".
@@ -43,7 +44,7 @@ MOTION_FIGURES = (
     "end_speed", "impact_energy", "overshoot",
 )  # fmt: skip
 PRESSURE_FIGURES = ("pressure_rise_time", "pressure_delay_time", "pressure_settling_time")
-AIR_FIGURES = ("air_mass", "air_volume_anr", "choked_share")
+AIR_FIGURES = ("air_mass", "air_volume_anr", "tube_air_mass", "choked_share")
 FIGURES = (*MOTION_FIGURES, *PRESSURE_FIGURES, *AIR_FIGURES)
 
 #: Travel [m] and pressure change [Pa] below these count as none.
@@ -78,6 +79,7 @@ class PhaseFigures:
     pressure_settling_time: float | None = None
     air_mass: float | None = None
     air_volume_anr: float | None = None
+    tube_air_mass: float | None = None
     choked_share: float | None = None
 
 
@@ -106,9 +108,9 @@ def timing(
     fill: Interval | None,
     exhaust: Interval | None,
     mass: float | None = None,
-    stops: Interval | None = None,
     stroke: float | None = None,
     band: float = 0.05,
+    delays: tuple[float, float] = (0.0, 0.0),
 ) -> TimingTable:
     """Figures of both phases.
 
@@ -116,9 +118,10 @@ def timing(
         trace: the run.
         fill, exhaust: start and end of the phases by the command [s], see `phases`; None when there is none.
         mass: moving mass, for the impact energy [kg].
-        stops: lower and upper stop as positions [m]; with them the impact is located between two samples.
         stroke: demanded stroke of the fill [m]; figures for a stroke that is not reached are None.
         band: settling band as a share of the stroke.
+        delays: dead times of the valve for opening and closing [s]; so long the flow of the phase before goes
+            on.
     """
     notes: dict[str, str] = {}
     table: dict[str, PhaseFigures] = {}
@@ -129,9 +132,10 @@ def timing(
             figures: dict[str, float | None] = dict.fromkeys(FIGURES)
             reasons = dict.fromkeys(FIGURES, why)
         else:
-            phase = _Phase(window, sign, stops, stroke if sign > 0.0 else None, band)
+            phase = _Phase(window, sign, stroke if sign > 0.0 else None, band)
             figures, reasons = phase.motion(mass)
-            for part, why in (phase.step(), phase.air()):
+            late = delays[1] if sign > 0.0 else delays[0]
+            for part, why in (phase.step(), air(trace, interval or (0.0, 0.0), sign, late)):
                 figures |= part
                 reasons |= why
         table[name] = PhaseFigures(**figures)
@@ -145,28 +149,16 @@ Figures = tuple[dict[str, float | None], dict[str, str]]
 class _Phase:
     """One phase: time from its switching instant, travel in its direction."""
 
-    def __init__(
-        self, window: Trace, sign: float, stops: Interval | None, demanded: float | None, band: float
-    ) -> None:
+    def __init__(self, window: Trace, sign: float, demanded: float | None, band: float) -> None:
         self.window, self.sign, self.band = window, sign, band
         self.time = window.time - window.time[0]
         self.contact, position = window.contact, window.position
-        start, end = float(position[0]), float(position[-1])
-        if stops is not None:  # a loaded stop deflects: the undeflected stop is the end of the stroke
-            start = min(stops, key=lambda stop: abs(stop - start)) if self.contact[0] else start
-            end = min(stops, key=lambda stop: abs(stop - end)) if self.contact[-1] else end
-        self.travel = sign * (position - start)
+        self.travel = sign * (position - float(position[0]))
         self.speed, self.acceleration = sign * window.velocity, sign * window.acceleration
-        self.reached = sign * (end - start)
+        self.reached = float(self.travel[-1])
         self.demanded = demanded is not None
         self.stroke = self.reached if demanded is None else demanded
         self.last = float(self.time[-1])
-        self.hit = -1  # the sample before the impact
-        self.wall: float | None = None  # travel to the stop ahead, where it is known
-        if stops is not None:
-            self.wall = (max(stops) if sign > 0.0 else -min(stops)) - sign * start
-        elif self.contact[-1] and self.reached > 0.5 * self.travel.max():
-            self.wall = self.reached
 
     def motion(self, mass: float | None) -> Figures:
         """Figures of position, speed and acceleration."""
@@ -202,7 +194,7 @@ class _Phase:
                 figures["average_speed"] = stroke / arrival
             if arrival is not None:
                 figures["end_speed"] = float(np.interp(arrival, self.time, self.speed))
-            figures["overshoot"] = max(0.0, float(self.travel[~self.contact].max()) / stroke - 1.0)
+            figures["overshoot"] = max(0.0, float(self.travel.max()) / stroke - 1.0)
             why = "still moving at the end of the phase"
             if self.demanded:
                 best = 1e3 * float(self.travel.max())
@@ -235,51 +227,26 @@ class _Phase:
         why = {"pressure_settling_time": "the pressure still changes at the end of the phase"}
         return figures, why if settled is None else {}
 
-    def air(self) -> Figures:
-        """Figures of the air."""
-        flow = self.window.supply_mass_flow if self.sign > 0.0 else self.window.exhaust_mass_flow
-        mass = float(np.trapezoid(flow, self.time))
-        choked = float(np.trapezoid((self.window.choked != 0) * 1.0, self.time)) / self.last
-        return dict(zip(AIR_FIGURES, (mass, mass / ANR_DENSITY, choked), strict=True)), {}
-
     def _extremes(
         self, figures: dict[str, float | None], notes: dict[str, str], impact: tuple[float, float] | None
     ) -> None:
-        """Largest speed and accelerations, without the samples that belong to a stop."""
+        """Largest speed and accelerations, without a load at rest on a stop."""
         free = np.flatnonzero(~self.contact)
         best = free[np.argmax(self.speed[free])]
-        at, speed = float(self.time[best]), float(self.speed[best])
-        if impact is not None and impact[1] > speed:
-            at, speed = impact
-        figures |= {"max_speed": max(speed, 0.0), "max_speed_at": at}
-        near = self.contact.copy()
-        near[1:] |= self.contact[:-1]
-        near[:-1] |= self.contact[1:]
-        away, values = np.flatnonzero(~near), self.window.acceleration
+        figures |= {"max_speed": max(float(self.speed[best]), 0.0), "max_speed_at": float(self.time[best])}
+        values = self.window.acceleration
         for name, pick in (("max_acceleration", np.argmax), ("min_acceleration", np.argmin)):
-            if len(away):
-                index = away[pick(values[away])]
-                figures |= {name: float(values[index]), f"{name}_at": float(self.time[index])}
-                if impact is not None:
-                    notes[name] = "without the impact: samples on a stop and next to it do not count"
-            else:
-                notes |= dict.fromkeys((name, f"{name}_at"), "no sample is away from the stops")
+            index = free[pick(values[free])]
+            figures |= {name: float(values[index]), f"{name}_at": float(self.time[index])}
+            if impact is not None:
+                notes[name] = "without the impact"
 
     def _impact(self) -> tuple[float, float] | None:
-        """Instant and speed of the first impact on the stop at the end of the stroke."""
-        far = self.travel[1:] > 0.5 * self.travel.max()
-        impacts = ~self.contact[:-1] & self.contact[1:] & far
-        width = np.diff(self.time)
-        if self.wall is not None:  # a bounce between two samples: flying on would have passed the stop
-            flown = self.travel[:-1] + width * (self.speed[:-1] + 0.5 * width * self.acceleration[:-1])
-            through = (self.travel[:-1] < self.wall) & (flown >= self.wall)
-            impacts |= far & through & (self.speed[:-1] > 0.0) & (self.speed[1:] <= 0.0)
-        if not impacts.any():
-            return None
-        self.hit = before = int(np.argmax(impacts))
-        at = self._between(before, float(self.travel[before + 1]) if self.wall is None else self.wall)
-        speed = self.speed[before] + self.acceleration[before] * (at - self.time[before])
-        return at, max(float(speed), 0.0)
+        """Instant and speed of the first impact on the stop ahead."""
+        for impact in self.window.impacts:
+            if self.sign * impact.velocity > 0.0:
+                return impact.time - float(self.window.time[0]), self.sign * impact.velocity
+        return None
 
     def _first(self, level: float) -> float | None:
         """First instant at which the travel reaches the level."""
@@ -289,22 +256,17 @@ class _Phase:
         return 0.0 if reached[0] == 0 else self._between(int(reached[0]) - 1, level)
 
     def _between(self, index: int, level: float) -> float:
-        """Instant between two samples at which the travel is at the level: cubic, before a stop ballistic."""
+        """Instant between two samples at which the travel is at the level, by the cubic through both."""
         pairs = (self.time, self.travel, self.speed)
         (t0, t1), (s0, s1), (v0, v1) = (column[index : index + 2].tolist() for column in pairs)
-        width, bend = t1 - t0, float(self.acceleration[index])
-        # Into a stop the speed jumps: use the state before it only.
-        flying = index == self.hit or bool(not self.contact[index] and self.contact[index + 1])
-        rising = flying or s1 >= s0
+        width = t1 - t0
+        rising = s1 >= s0
         low, high = 0.0, 1.0
         for _ in range(50):
             u = 0.5 * (low + high)
             w = 1.0 - u
-            if flying:
-                here = s0 + u * width * (v0 + 0.5 * u * width * bend)
-            else:
-                here = w * w * (s0 * (1.0 + 2.0 * u) + u * width * v0)
-                here += u * u * (s1 * (1.0 + 2.0 * w) - w * width * v1)
+            here = w * w * (s0 * (1.0 + 2.0 * u) + u * width * v0)
+            here += u * u * (s1 * (1.0 + 2.0 * w) - w * width * v1)
             if (here < level) == rising:
                 low = u
             else:
@@ -327,3 +289,37 @@ class _Phase:
         at = float(np.interp(level, values[pair], self.time[pair])) if linear else self._between(index, level)
         under_way = at > (1.0 - _STILL_MOVING) * self.last
         return None if under_way and not self.contact[-1] else at
+
+
+def air(trace: Trace, interval: Interval, sign: float, late: float) -> Figures:
+    """Figures of the air of a phase, whose flow goes on for ``late`` [s] after its command."""
+    begin = interval[0]
+    end = min(interval[1] + late, float(trace.time[-1]))
+
+    def change(column: Array) -> float:
+        first, last = np.interp([begin, end], trace.time, column)
+        return float(last - first)
+
+    name, flow = ("supplied", trace.supply_mass_flow) if sign > 0.0 else ("vented", trace.exhaust_mass_flow)
+    notes: dict[str, str] = {}
+    if trace.charge is None:
+        mass = change(getattr(trace, name))
+    else:  # what leaks meanwhile counts too
+        mass = sign * change(trace.charge) + change(trace.vented if sign > 0.0 else trace.supplied)
+        notes["air_mass"] = (
+            "from begin and end of the phase at ambient temperature: a stated polytropic exponent does not "
+            "conserve the mass of the air"
+        )
+    passed = (trace.time >= begin) & (trace.time <= end)
+    flowing, time = np.where(passed, flow, 0.0), trace.time
+    whole = float(np.trapezoid(flowing, time))
+    choked = float(np.trapezoid(flowing * (trace.choked != 0), time))
+    figures = {
+        "air_mass": mass,
+        "air_volume_anr": mass / ANR_DENSITY,
+        "tube_air_mass": sign * change(trace.tube_charge),
+        "choked_share": choked / whole if whole > 0.0 else None,
+    }
+    if figures["choked_share"] is None:
+        notes["choked_share"] = "no air flows"
+    return figures, notes

@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import Field, dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Impact:
+    """An impact on an end stop: instant [s], position of the stop [m], velocity before it [m/s]."""
+
+    time: float
+    position: float
+    velocity: float
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -24,6 +34,11 @@ class Trace:
         choked: whether, or on which side, the valve is choked; 0 = not.
         supply_mass_flow: from the supply [kg/s]; default: the flow into the muscle.
         exhaust_mass_flow: to the atmosphere, positive [kg/s]; default: the flow out of the muscle.
+        supplied, vented: integrals of these flows [kg]; default: by the trapezoidal rule.
+        charge: air in muscle and tube if the air rested at ambient temperature [kg]; None where the gas has a
+            temperature of its own and the integrals are right.
+        tube_charge: the part of the air that is in the tube [kg]; default 0.
+        impacts: in order of time. At each the trace has two rows, before and after it.
 
     Raises:
         ValueError: columns of different length, fewer than two rows, time not ascending, nan or inf.
@@ -40,6 +55,11 @@ class Trace:
     choked: NDArray[np.int_] = None  # type: ignore[assignment]
     supply_mass_flow: Array = None  # type: ignore[assignment]
     exhaust_mass_flow: Array = None  # type: ignore[assignment]
+    supplied: Array = None  # type: ignore[assignment]
+    vented: Array = None  # type: ignore[assignment]
+    charge: Array | None = None
+    tube_charge: Array = None  # type: ignore[assignment]
+    impacts: tuple[Impact, ...] = ()
 
     def __post_init__(self) -> None:
         flow = np.asarray(self.mass_flow, dtype=np.float64)
@@ -48,10 +68,15 @@ class Trace:
             "choked": np.zeros(len(self.time), dtype=int),
             "supply_mass_flow": np.maximum(flow, 0.0),
             "exhaust_mass_flow": np.maximum(-flow, 0.0),
+            "tube_charge": np.zeros(len(self.time)),
         }
         kinds = {"contact": np.bool_, "choked": np.int_}
-        for item in fields(self):
+        for item in _columns(self):
             stated = getattr(self, item.name)
+            if stated is None and item.name in ("supplied", "vented"):
+                rate = self.supply_mass_flow if item.name == "supplied" else self.exhaust_mass_flow
+                steps = 0.5 * np.diff(self.time) * (rate[1:] + rate[:-1])
+                stated = np.concatenate([[0.0], np.cumsum(steps)])
             column = np.asarray(absent[item.name] if stated is None else stated)
             column = column.astype(kinds.get(item.name, np.float64))
             if column.shape != (len(self.time),) or not np.isfinite(column).all():
@@ -69,8 +94,15 @@ class Trace:
         times = np.concatenate([[start], self.time[inner], [end]])
         row = np.clip(np.searchsorted(self.time, times, side="right") - 1, 0, len(self.time) - 1)
         columns = {}
-        for item in fields(self):
+        for item in _columns(self):
             column = getattr(self, item.name)
             whole = column.dtype != np.float64
             columns[item.name] = column[row] if whole else np.interp(times, self.time, column)
-        return replace(self, **columns)
+        impacts = tuple(impact for impact in self.impacts if start < impact.time < end)
+        return replace(self, **columns, impacts=impacts)
+
+
+def _columns(trace: Trace) -> list[Field[Any]]:
+    """The fields that are columns of this trace."""
+    absent = {"impacts", *(("charge",) if trace.charge is None else ())}
+    return [item for item in fields(trace) if item.name not in absent]

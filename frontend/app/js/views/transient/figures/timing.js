@@ -58,7 +58,8 @@ export const FIGURES = [
     ],
   ]],
   ["Air", [
-    ["air_mass", "Air mass", "air", "Taken from the supply, or let out to the surroundings."],
+    ["air_mass", "Air mass", "air", "Taken from the supply, or let out to the surroundings; with the tube."],
+    ["tube_air_mass", "Tube air mass", "air", "The part of the air mass that fills the tube."],
     [
       "air_volume_anr",
       "Air volume",
@@ -69,7 +70,7 @@ export const FIGURES = [
       "choked_share",
       "Valve choked",
       "ratio",
-      "Share of the time in which the flow does not depend on the pressure downstream of the valve.",
+      "Share of this air that passes the valve while its flow does not depend on the pressure downstream.",
     ],
   ]],
 ];

@@ -1,0 +1,38 @@
+"""Events of a run: impacts on the end stops, loads that leave them, muscles that hang slack."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mckibben.simulation.integrate.engine import CompiledDrive
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """A change of a switch.
+
+    Attributes:
+        time: instant [s].
+        switch: `mckibben.physics.drive_terms.LOW_STOP`, `HIGH_STOP` or `SLACK`, of the second muscle of a
+            pair with `COUNTER`.
+        begins: whether the contact, or the slack, begins; of an impact with rebound False.
+        speed: of the stroke before an impact [m/s], positive = shortening; 0 without an impact.
+        acceleration: of the stroke before an impact [m/s^2].
+    """
+
+    time: float
+    switch: str
+    begins: bool
+    speed: float = 0.0
+    acceleration: float = 0.0
+
+
+def events_of(compiled: CompiledDrive, rows: np.ndarray) -> tuple[Event, ...]:
+    """The events of a solution."""
+    names = [switch.name for switch in compiled.model.switches]
+    return tuple(
+        Event(float(time), names[int(number)], bool(value), float(speed), float(acceleration))
+        for time, number, value, speed, acceleration in rows
+    )

@@ -1,0 +1,158 @@
+"""The same run by scipy's LSODA: serves until the kernel is compiled, and checks it."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+
+import numpy as np
+
+from mckibben.physics.drive_terms import GUARD_STIFFNESS
+from mckibben.simulation.integrate.problem import EVENT_WIDTH, SLOWEST_REBOUND, Problem, Solution
+from mckibben.simulation.outcome import Outcome, Watch
+
+_MOST_CHANGES = 10_000  # switches that change more often in one run make it chatter
+
+
+class _EndedError(Exception):
+    """Aborts an integrator that has no way to stop it."""
+
+    def __init__(self, outcome: Outcome) -> None:
+        super().__init__(outcome.label)
+        self.outcome = outcome
+
+
+class _Run:
+    """One run: state, switches, rows and events so far."""
+
+    def __init__(self, problem: Problem, watch: Watch) -> None:
+        self.problem, self.watch = problem, watch
+        self.codes, self.size = problem.drive.codes, problem.drive.size
+        kinds, inputs = len(problem.switches), problem.inputs.shape[1]
+        self.packed = np.concatenate([problem.state, problem.constants, np.zeros(inputs + kinds)])
+        self.first_input, self.first_switch = self.size + len(problem.constants), len(self.packed) - kinds
+        self.rows = np.full((len(problem.grid), self.size + problem.drive.width), np.nan)
+        self.events: list[tuple[float, int, float, float, float]] = []
+        self.steps = self.written = 0
+
+    def solution(self, outcome: Outcome) -> Solution:
+        """What is known so far."""
+        events = np.array(self.events).reshape(-1, EVENT_WIDTH)
+        problem, rows = self.problem, self.rows[: self.written]
+        return Solution(rows, problem.state, problem.switches, events, outcome, self.steps, 0, "lsoda")
+
+    def at(self, y: np.ndarray) -> np.ndarray:
+        """Arguments of the codes."""
+        self.packed[: self.size] = y
+        self.packed[self.first_switch :] = self.problem.switches
+        return self.packed
+
+    def rates(self, now: float, y: np.ndarray) -> np.ndarray:
+        if ended := self.watch.ended(now / self.problem.times[-1]):
+            raise _EndedError(ended)
+        return self.codes.rates(self.at(y))
+
+    def jacobian(self, _time: float, y: np.ndarray) -> np.ndarray:
+        return self.problem.drive.dense(self.codes.jacobian(self.at(y)))
+
+    def guard(self, number: int) -> Callable[[float, np.ndarray], float]:
+        """Guard of a switch as an event of solve_ivp."""
+        least = self.problem.drive.least[number]
+
+        def value(_time: float, y: np.ndarray) -> float:
+            return float(self.codes.guards(self.at(y))[number] + least)
+
+        value.terminal, value.direction = True, -1.0  # type: ignore[attr-defined]
+        return value
+
+    def change(self, number: int, now: float) -> None:
+        """Change a switch; an end stop stops the load or throws it back."""
+        problem = self.problem
+        to, speed, acceleration = 1.0 - problem.switches[number], 0.0, 0.0
+        stop = problem.stops[number]
+        if to == 1.0 and not np.isnan(stop):
+            stroke_place, speed_place = problem.drive.moved
+            speed = float(problem.state[speed_place])
+            acceleration = float(self.codes.rates(self.at(problem.state))[speed_place])
+            problem.state[stroke_place], problem.state[speed_place] = stop, 0.0
+            if problem.restitution * abs(speed) > SLOWEST_REBOUND:
+                problem.state[speed_place] = -problem.restitution * speed
+                to = 0.0
+        place = int(problem.drive.follows[number])
+        if place >= 0:
+            # The guard of a switch that is 1 is the distance to be closed, times a stiffness.
+            arguments = self.at(problem.state)
+            arguments[self.first_switch + number] = 1.0
+            problem.state[place] -= self.codes.guards(arguments)[number] / GUARD_STIFFNESS
+        problem.switches[number] = to
+        self.events.append((now, number, to, speed, acceleration))
+
+    def settle(self, now: float) -> None:
+        """Change the switches whose guards are violated."""
+        least = self.problem.drive.least
+        for _ in range(2 * len(least) + 1):
+            wrong = np.flatnonzero(self.codes.guards(self.at(self.problem.state)) < -least)
+            if not len(wrong):
+                return
+            self.change(int(wrong[0]), now)
+
+
+def by_lsoda(problem: Problem, watch: Watch) -> Solution:
+    """Integrate a problem segment by segment, and within it from event to event."""
+    run = _Run(problem, watch)
+    for segment, inputs in enumerate(problem.inputs):
+        begin, finish = float(problem.times[segment]), float(problem.times[segment + 1])
+        last = segment == len(problem.inputs) - 1
+        run.packed[run.first_input : run.first_switch] = inputs
+        while begin < finish:
+            if len(run.events) > _MOST_CHANGES:
+                return run.solution(Outcome.STUCK)
+            try:
+                begin, ended = _piece(run, begin, finish, last=last)
+            except _EndedError as end:
+                return run.solution(end.outcome)
+            if ended is not None:
+                return run.solution(ended)
+    return run.solution(Outcome.COMPLETED)
+
+
+def _piece(run: _Run, begin: float, finish: float, *, last: bool) -> tuple[float, Outcome | None]:
+    """Integrate to the next event or to ``finish``; returns the instant reached, and why the run must end."""
+    from scipy.integrate import solve_ivp
+
+    problem = run.problem
+    run.settle(begin)
+    stop = np.searchsorted(problem.grid, finish, side="right" if last else "left")
+    wanted = problem.grid[run.written : stop]
+    # LSODA warns of failures that its result reports as well.
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        found = solve_ivp(
+            run.rates,
+            (begin, finish),
+            problem.state,
+            method="LSODA",
+            jac=run.jacobian,
+            t_eval=np.union1d(wanted, finish),
+            rtol=problem.tolerance,
+            atol=problem.absolute,
+            events=[run.guard(number) for number in range(len(problem.switches))] or None,
+        )
+    run.steps += len(found.t)
+    # Without a row before the first event, ``y`` is an empty list.
+    states = np.reshape(found.y, (run.size, len(found.t))).T
+    if not found.success or not np.all(np.isfinite(states)):
+        return begin, Outcome.DIVERGED
+    count = int(np.searchsorted(wanted, found.t[-1], side="right")) if len(found.t) else 0
+    for y in states[:count]:
+        run.rows[run.written, : run.size] = y
+        run.rows[run.written, run.size :] = run.codes.outputs(run.at(y))
+        run.written += 1
+    if found.status != 1:
+        problem.state[:] = states[-1]
+        return finish, None
+    number = next(index for index, times in enumerate(found.t_events) if len(times))
+    at = float(found.t_events[number][0])
+    problem.state[:] = found.y_events[number][0]
+    run.change(number, at)
+    return at, None

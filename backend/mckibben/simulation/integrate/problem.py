@@ -1,0 +1,89 @@
+"""What an integrator is given, and what it returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mckibben.physics.drive_terms import GUARD_STIFFNESS
+from mckibben.simulation.integrate.system import CompiledDrive
+from mckibben.simulation.outcome import Outcome
+
+FIRST_STEP = 1e-4  # s
+SLOWEST_REBOUND = 1e-3  # m/s; an impact that would leave less leaves the load at rest on its stop
+MOST_EVENTS = 256  # events of a run that are kept
+EVENT_WIDTH = 5  # see `Solution.events`
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Problem:
+    """A run for an integrator.
+
+    Attributes:
+        drive: the compiled structure.
+        constants: of the run, as the codes take them.
+        stops: stroke of the end stop of each switch [m], NaN for others.
+        restitution: share of the speed that an impact on an end stop leaves, in the opposite direction.
+        state, switches: at the start; integrators overwrite them.
+        times: segment boundaries.
+        inputs: of each segment.
+        grid: times of the rows.
+        tolerance: relative error per step.
+    """
+
+    drive: CompiledDrive
+    constants: np.ndarray
+    stops: np.ndarray
+    restitution: float
+    state: np.ndarray
+    switches: np.ndarray
+    times: np.ndarray
+    inputs: np.ndarray
+    grid: np.ndarray
+    tolerance: float
+
+    @property
+    def switching(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """The argument of the kernel."""
+        return switching_of(self.drive, self.stops, self.restitution)
+
+    @property
+    def absolute(self) -> np.ndarray:
+        """Absolute error per step of each state."""
+        return self.tolerance * self.drive.scales
+
+    def empty_rows(self) -> np.ndarray:
+        """Rows to write."""
+        return np.empty((len(self.grid), self.drive.size + self.drive.width))
+
+
+def switching_of(
+    drive: CompiledDrive, stops: np.ndarray, restitution: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """``switching`` of `mckibben.simulation.integrate.kernels.rodas4`."""
+    return drive.least, stops, np.array([restitution, SLOWEST_REBOUND, GUARD_STIFFNESS]), drive.follows
+
+
+@dataclass(frozen=True)
+class Solution:
+    """Rows of states and outputs on the grid, and how the run went.
+
+    Attributes:
+        rows: shape (rows, states + outputs).
+        end, switches: states and switches at the end.
+        events: changes of switches and impacts, rows (instant, number of the switch, its new value, speed
+            and acceleration before an impact).
+        outcome, steps, rejected, engine: how the run went.
+        next_step: step to try next [s].
+    """
+
+    rows: np.ndarray
+    end: np.ndarray
+    switches: np.ndarray
+    events: np.ndarray
+    outcome: Outcome
+    steps: int
+    rejected: int
+    engine: str
+    next_step: float = FIRST_STEP

@@ -1,0 +1,114 @@
+"""scipy's Radau at 1e-10 over a drive's compiled equations, with its own treatment of contact and slack."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from mckibben.simulation.drive.initial_state import Start
+from mckibben.simulation.drive.parts import Drive
+from mckibben.simulation.drive.transient import parameters_of, segments_of
+from mckibben.simulation.integrate.engine import CompiledDrive, compiled_drive
+
+RTOL = 1e-10
+
+
+class EventRadau:
+    """A run from event to event; ``state`` and ``switches`` are those reached so far."""
+
+    def __init__(self, drive: Drive, start: Start) -> None:
+        self.compiled: CompiledDrive = compiled_drive(drive.structure)
+        self.parameters = parameters_of(drive, self.compiled)
+        self.state, self.switches = start.state.copy(), start.switches.copy()
+        self.names = [state.name for state in self.compiled.model.states]
+        self.scale = np.array([state.scale for state in self.compiled.model.states])
+        self.kinds = self.compiled.model.switches
+        self.bounce = drive.restitution
+        self.low, self.high = drive.stops
+        self.middle = drive.muscle.nominal_length * (1.0 - drive.precontraction)
+
+    def arguments(self, y: np.ndarray, inputs: np.ndarray) -> np.ndarray:
+        return self.compiled.prepared(np.concatenate([y, self.parameters, inputs]), self.switches)
+
+    def outputs(self, inputs: np.ndarray) -> np.ndarray:
+        return self.compiled.codes.outputs(self.arguments(self.state, inputs))
+
+    def advance(self, begin: float, end: float, inputs: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+        """States at the wanted instants between begin and end, at constant inputs."""
+        found = [np.empty((0, self.compiled.size))]
+        while begin < end:
+            self._settle(inputs)
+            packed = self.arguments(self.state, inputs)
+            size = self.compiled.size
+
+            def rates(_t, y, packed=packed, size=size):
+                packed[:size] = y
+                return self.compiled.codes.rates(packed)
+
+            def jacobian(_t, y, packed=packed, size=size):
+                packed[:size] = y
+                return self.compiled.dense(self.compiled.codes.jacobian(packed))
+
+            def guard(k, packed=packed, size=size):
+                def value(_t, y):
+                    packed[:size] = y
+                    return self.compiled.codes.guards(packed)[k] + self.kinds[k].least
+
+                value.terminal, value.direction = True, -1.0
+                return value
+
+            solution = solve_ivp(
+                rates,
+                (begin, end),
+                self.state,
+                "Radau",
+                jac=jacobian,
+                rtol=RTOL,
+                atol=RTOL * self.scale,
+                dense_output=True,
+                events=[guard(k) for k in range(len(self.kinds))],
+            )
+            assert solution.success, solution.message
+            reached = solution.t[-1]
+            inside = wanted[(wanted >= begin) & ((wanted < reached) | (reached == end))]
+            if len(inside):
+                found.append(solution.sol(np.clip(inside, begin, reached)).T)
+            wanted, begin, self.state = wanted[len(inside) :], reached, solution.y[:, -1]
+            if solution.status == 1:
+                self._change(next(k for k, times in enumerate(solution.t_events) if len(times)))
+        return np.concatenate(found)
+
+    def _settle(self, inputs: np.ndarray) -> None:
+        for _ in range(20):
+            guards = self.compiled.codes.guards(self.arguments(self.state, inputs))
+            wrong = [k for k, kind in enumerate(self.kinds) if guards[k] < -kind.least]
+            if not wrong:
+                return
+            self._change(wrong[0])
+
+    def _change(self, k: int) -> None:
+        name = self.kinds[k].name
+        if self.switches[k] == 0.0 and name.endswith("stop"):
+            stroke, speed = self.names.index("stroke"), self.names.index("speed")
+            self.state[stroke] = self.low if name == "low_stop" else self.high
+            self.state[speed] *= -self.bounce
+            if abs(self.state[speed]) > 1e-3:
+                return
+            self.state[speed] = 0.0
+        self.switches[k] = 1.0 - self.switches[k]
+        if name.startswith("slack"):  # the muscle is as long as its fittings are apart
+            sense = -1.0 if name.endswith("@counter") else 1.0
+            length = self.names.index(name.replace("slack", "length"))
+            self.state[length] = self.middle - sense * self.state[self.names.index("stroke")]
+
+
+def strokes(drive: Drive, start: Start, time: np.ndarray) -> np.ndarray:
+    """Strokes of a free run at the times."""
+    run = EventRadau(drive, start)
+    times, inputs, _ = segments_of(drive)
+    found = []
+    for segment, given in enumerate(inputs):
+        begin, end = times[segment], times[segment + 1]
+        rows = (time >= begin) & ((time < end) | (segment == len(inputs) - 1))
+        found.append(run.advance(begin, end, given, time[rows]))
+    return np.concatenate(found)[:, run.names.index("stroke")]
