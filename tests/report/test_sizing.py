@@ -87,7 +87,7 @@ def test_a_task_tells_what_is_given_and_names_what_is_open() -> None:
     ]
     section = task_section(material(entries=entries))
     assert cells(section) == [["Moved mass", "20\xa0kg", "Moved mass."]]
-    assert "Not part of the task: time for the way back." in section
+    assert "Not stated: time for the return." in section
 
 
 def test_margins_are_drawn_to_scale_and_the_nearest_is_named() -> None:
@@ -114,7 +114,7 @@ def test_a_probability_says_what_it_is_a_share_of() -> None:
     proposal = Picked(probability=0.9, probability_error=0.03, specimens=100)
     section = uncertainty_section(Picked(proposal=proposal, spread=spread))  # pyright: ignore[reportArgumentType]
     words = text_of(section).replace("\xa0", " ")
-    assert "90 % of 100 simulated specimens do the task" in words
+    assert "90 % of 100 simulated specimens fulfil the task" in words
     assert "between 84 and 96 %" in words  # two standard errors
     assert "± 0.80 % of the length" in words  # two standard deviations of the shift
     assert "no failure rate" in words
@@ -146,6 +146,6 @@ def test_a_report_without_a_drive_is_well_formed_and_takes_texts_as_texts() -> N
     assert "script" not in {element.tag for element in root.iter()}
     assert root.findtext("head/title") == f"{NASTY} – sizing report"
     assert ["".join(h.itertext()) for h in root.iter("h2")] == [
-        "1 Result", "2 Task", "3 What does not do the task", "4 Assumptions", "5 To repeat it",
+        "1 Result", "2 Task", "3 Rejected parts", "4 Assumptions", "5 How to reproduce",
     ]  # fmt: skip
     assert "ab" * 32 in page

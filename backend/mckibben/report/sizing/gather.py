@@ -1,4 +1,4 @@
-"""The report of a sizing: the search once more, the run of one proposal, what is known of its parts."""
+"""Collects the content of a sizing report: the search, the run of one proposal, its parts."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.timing.of_run import grid_of
 from mckibben.sizing.catalogue import switch_on
 
-# Rows of the run: a stroke of some milliseconds is to be seen in a run of some seconds.
+# Time step [s] and number of rows: resolves a stroke of milliseconds in a run of seconds.
 _STEP, _FEWEST, _MOST = 2.5e-4, 2000, 20_000
 _TASK_FILE, _DRIVE_FILE = "task.json", "drive.json"
 
@@ -42,8 +42,8 @@ def prepare_report(
     Args:
         document: the task.
         studio: presets and effects.
-        proposal: rank of the drive that is written down, 1 the best.
-        title: "" for that of the task, else what it is about.
+        proposal: rank of the drive that is reported, 1 is the best.
+        title: "" to use the title of the task or, without one, its summary.
 
     Raises:
         InputError: the task cannot be used; its field begins with ``task``.
@@ -69,10 +69,10 @@ def report_of(
     if search.found.outcome is not Outcome.COMPLETED:
         raise InputError(f"there is nothing to report: {result.message}", field="task")
     count = len(result.proposals)
-    if 0 < count < proposal:  # a task that nothing does has a report too
-        there = "is 1 proposal" if count == 1 else f"are {count} proposals"
+    if 0 < count < proposal:  # a task without a proposal has a report too
+        number = "is 1 proposal" if count == 1 else f"are {count} proposals"
         most = "1" if count == 1 else f"1 to {count}"
-        raise InputError(f"there {there}", field="proposal", hint=most)
+        raise InputError(f"there {number}", field="proposal", hint=most)
     chosen = _chosen(search, studio, proposal, watch or Watch()) if count else None
     about = about_task(document)
     task = canonical(task_document(document))
@@ -106,12 +106,12 @@ def report_of(
 def _chosen(search: Searched, studio: Studio, rank: int, watch: Watch) -> Chosen:
     proposal, answer = search.found.proposals[rank - 1], search.result.proposals[rank - 1]
     task, group = search.question.task, proposal.design.group
-    given = drive_of(read_document(answer.drive, "the drive of the proposal"), studio)
-    duration = given.drive.duration
+    drive_model = drive_of(read_document(answer.drive, "the drive of the proposal"), studio)
+    duration = drive_model.drive.duration
     points = min(max(ceil(duration / _STEP), _FEWEST), _MOST) + 1
     grid = grid_of(duration=duration, begin=0.0, end=duration, points=points)
-    # By the kernel as in the search, so that both show the same digits.
-    run = result_of(given, grid, run_drive(given, grid, watch, "rodas"))
+    # The solver of the search, so that the figures agree to the last digit.
+    run = result_of(drive_model, grid, run_drive(drive_model, grid, watch, "rodas"))
     on = switch_on(task, group.duty)
     return Chosen(
         rank=rank,
@@ -124,22 +124,22 @@ def _chosen(search: Searched, studio: Studio, rank: int, watch: Watch) -> Chosen
         margins=margins_of(proposal, task),
         parts=parts_of(proposal.design, studio),
         spread=spread_of(proposal, task),
-        effects=given.start.effects,
-        figures=dict(effect_figures(proposal.design, studio, given.start.effects)),
-        gas=given.drive.polytropic_exponent,
+        effects=drive_model.start.effects,
+        figures=dict(effect_figures(proposal.design, studio, drive_model.start.effects)),
+        gas=drive_model.drive.polytropic_exponent,
     )
 
 
 def task_document(document: SizingTask) -> dict[str, Any]:
-    """The task with everything that was assumed, in SI; reading it again gives the same search."""
+    """The task in SI with all assumed values; reading it again gives the same search."""
     whole = document.model_dump(mode="json", by_alias=True, exclude_none=True)
-    if document.load.pair is not None:  # a pair takes no other field of the load
+    if document.load.pair is not None:  # a pair allows no other field of the load
         whole["load"] = {"pair": whole["load"]["pair"]}
     return whole
 
 
 def canonical(content: object) -> str:
-    """JSON with sorted keys and no blanks: what the hashes are taken of."""
+    """JSON with sorted keys and without spaces, for hashing."""
     plain = json.loads(to_json(content))
     return json.dumps(plain, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
 
@@ -150,10 +150,10 @@ def _command(files: Mapping[str, str], chosen: Chosen | None, proposal: int) -> 
     notes = []
     if chosen is not None:
         lines.append(f"mckibben simulate {_DRIVE_FILE}")
-        own = [part.id for part in chosen.parts if part.origin == "user"]
-        if own:
+        user_presets = [part.id for part in chosen.parts if part.origin == "user"]
+        if user_presets:
             notes.append(
-                f"Presets of your own are needed too (--presets): {', '.join(map(shlex.quote, own))}."
+                f"Also needs your own presets (--presets): {', '.join(map(shlex.quote, user_presets))}."
             )
     shown = {name: json.dumps(json.loads(text), indent=2, ensure_ascii=False) for name, text in files.items()}
     return Command(lines, shown, notes)

@@ -1,4 +1,4 @@
-"""The task as it was given, what was assumed besides, and what the computation leaves out."""
+"""The task as stated, assumed values, and simplifications of the computation."""
 
 from __future__ import annotations
 
@@ -9,50 +9,50 @@ from mckibben.report.html import Child, Html, html
 from mckibben.report.sizing.material import Chosen, Entry, SizingMaterial
 from mckibben.report.sizing.words import entry_value, field_name
 
-_WHOLE = frozenset({"load.force_over_stroke"})  # what the run makes of it belongs to the task
+_FULL_DESCRIPTION = frozenset({"load.force_over_stroke"})  # it says how the run uses the force
 
 
 def task_section(material: SizingMaterial) -> Html:
-    """What the task says."""
+    """The stated fields of the task."""
     rows = [
         [field_name(entry.path), entry_value(entry), _meaning(entry)]
         for entry in material.entries
-        if entry.given
+        if entry.stated
     ]
-    open_ = [entry for entry in material.entries if not entry.given and entry.value is None]
+    not_stated = [entry for entry in material.entries if not entry.stated and entry.value is None]
     parts: list[Child] = [
-        table([Head("Given"), Head("Value"), Head("What it is")], rows),
+        table([Head("Stated"), Head("Value"), Head("Meaning")], rows),
     ]
-    if open_:
-        names = ", ".join(field_name(entry.path).lower() for entry in open_)
-        parts.append(paragraph(f"Not part of the task: {names}.", note=True))
+    if not_stated:
+        names = ", ".join(field_name(entry.path).lower() for entry in not_stated)
+        parts.append(paragraph(f"Not stated: {names}.", note=True))
     return html(parts)
 
 
 def _meaning(entry: Entry) -> str:
-    """The description without the reason for the usual value."""
-    if entry.path in _WHOLE:
+    """The description without the reason for the default value."""
+    if entry.path in _FULL_DESCRIPTION:
         return entry.about
     first = re.split(r"(?<=[.])\s", entry.about, maxsplit=1)[0]
     return "" if ":" in first else first
 
 
 def assumptions_section(material: SizingMaterial) -> Html:
-    """What was assumed because the task does not say it, and what the computation leaves out."""
+    """Default values the task does not state, and simplifications of the computation."""
     rows = [
         [field_name(entry.path), entry_value(entry), entry.about]
         for entry in material.entries
-        if not entry.given and entry.value is not None
+        if not entry.stated and entry.value is not None
     ]
     columns = [
         Head("Assumed"),
         Head("Value"),
-        Head("What it is, and why this value", wide=True),
+        Head("Meaning, and reason for the value", wide=True),
     ]
     parts: list[Child] = [
-        heading("What the task does not say"),
-        table(columns, rows) if rows else paragraph("The task says everything."),
-        heading("What the computation approximates"),
+        heading("Values the task does not state"),
+        table(columns, rows) if rows else paragraph("None: the task states every value."),
+        heading("Simplifications"),
         bullets(_approximations(material)),
     ]
     return html(parts)
@@ -60,43 +60,43 @@ def assumptions_section(material: SizingMaterial) -> Html:
 
 def _approximations(material: SizingMaterial) -> list[str]:
     chosen = material.chosen
-    found = [
-        "Forces at rest come from the static model with the muscle's own effects; "
-        "hysteresis and friction are not in it, they enter the specimens of the probability only.",
+    lines = [
+        "Static forces come from the static model with the effects of the muscle, without hysteresis and "
+        "friction; these only affect the specimens of the probability.",
         "Times come from a run of the drive: choked and subsonic flow through valve and tube, polytropic "
-        "gas, a rigid load between two end stops. The valve fills or vents with its whole flow; nothing "
-        "slows the load before the stop.",
-        "The mass of the muscle, the volume of fittings and silencers and their resistance are not counted.",
-        "Creep, relaxation, temperature in operation, wear and ageing are left out.",
-        "The length of the end fittings counts only as far as the task states it.",
-        "The life is general knowledge, not a maker's curve: 10⁷ load cycles without load, 10⁵ at the full "
-        "force or contraction that the maker allows, by powers of ten between.",
+        "gas, a rigid load between two end stops. The valve fills or vents with full flow; nothing "
+        "slows the load down before the stop.",
+        "The mass of the muscle and the volume and resistance of fittings and silencers are neglected.",
+        "Creep, relaxation, warming in operation, wear and ageing are neglected.",
+        "The length of the end fittings counts only if the task states it.",
+        "The life is an estimate from general knowledge, not a curve of the maker: 10⁷ load cycles without "
+        "load, 10⁵ at the largest force or contraction the maker allows, logarithmic in between.",
     ]
     if material.profile[0]:
-        found.insert(
+        lines.insert(
             1,
-            "The force over the stroke enters the figures at rest as it is. The run, and with it all times, "
-            "the air and the probability, take the lowest straight line that is nowhere below it and does "
-            "not fall: they are on the safe side for the force, not exact.",
+            "Static figures use the force over the stroke as stated. The run, and so all times, the air and "
+            "the probability, use the lowest straight line that is nowhere below it and does not fall: "
+            "conservative, not exact.",
         )
     if chosen is None:
-        return found
-    found += _of_drive(material, chosen)
-    return found
+        return lines
+    lines += _of_drive(material, chosen)
+    return lines
 
 
 def _of_drive(material: SizingMaterial, chosen: Chosen) -> list[str]:
-    found = [f"The polytropic exponent of the air is {chosen.gas:.3g} (1 isothermal, 1.4 adiabatic)."]
+    lines = [f"The polytropic exponent of the air is {chosen.gas:.3g} (1 isothermal, 1.4 adiabatic)."]
     if chosen.count > 1:
-        found.append(
-            f"The {chosen.count} parallel muscles are taken as equal and loaded alike: the run is that of "
-            "one with its share of the load and of the valve's flow. Unequal muscles carry unequal shares."
+        lines.append(
+            f"The {chosen.count} parallel muscles are assumed equal and equally loaded: one is simulated "
+            "with its share of the load and of the valve's flow. Unequal muscles carry unequal shares."
         )
     if material.pair:
-        found += [
-            "Both muscles of the pair are at their nominal length at the far end of their swing. The run "
-            "first fills the second muscle, then swings; the reserve at rest counts the empty second "
-            "muscle, in the run its air still vents.",
-            "The stiffness is that with the second muscle empty.",
+        lines += [
+            "Each muscle of the pair has its nominal length at one end of the swing. The run first fills the "
+            "second muscle, then swings; the static reserve assumes the second muscle is empty, in the run "
+            "it is still venting.",
+            "The stiffness is for an empty second muscle.",
         ]
-    return found
+    return lines
