@@ -117,8 +117,8 @@ def test_a_probability_says_what_it_is_a_share_of() -> None:
     assert "90 % of 100 simulated specimens fulfil the task" in words
     assert "between 84 and 96 %" in words  # two standard errors
     assert "± 0.80 % of the length" in words  # two standard deviations of the shift
-    assert "no failure rate" in words
-    assert "not known of this muscle" in words
+    assert "not a failure rate" in words
+    assert "unknown for this muscle" in words
     none = uncertainty_section(Picked(proposal=proposal, spread=None))  # pyright: ignore[reportArgumentType]
     assert "is not known" in none
 

@@ -108,7 +108,7 @@ def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], Diagno
                 freed=question.freed,
                 noise=question.noise,
                 watch=watch,
-                found=tell,
+                on_candidate=tell,
             )
         except CancelledError as stop:
             raise InputError(

@@ -16,7 +16,7 @@ from mckibben.simulation.timing.table import timing
 from mckibben.sizing.batch import Bench
 from mckibben.sizing.catalogue import Design, switch_on
 from mckibben.sizing.chance import Chance
-from mckibben.sizing.prepared import HELD_SHARE, ON_STOP, Figures
+from mckibben.sizing.prepared import HOLD_SHARE, ON_STOP, Figures
 from mckibben.sizing.trial import Trial, judged
 
 _MILLIMETRE, _PRESSURE_STEP = 1e-3, 1e3
@@ -68,7 +68,7 @@ def propose(trial: Trial, bench: Bench) -> Proposal | Trial:
         candidate = _measured(Design(design.group, length, pressure), bench)
         if candidate is None:
             continue
-        if candidate.trial.does:
+        if candidate.trial.keeps_limits:
             return candidate
         measured = candidate.trial
     return measured
@@ -78,7 +78,7 @@ def _measured(design: Design, bench: Bench) -> Proposal | None:
     """A design run on the fine grid, whether it does the task or not; None when the run fails."""
     task, group = bench.task, design.group
     drive = group.drive(task, design.length, design.pressure)
-    bench.counted()
+    bench.count_run()
     step = time_step(drive.duration)
     grid = np.linspace(0.0, drive.duration, ceil(drive.duration / step) + 1)
     with np.errstate(all="ignore"):
@@ -101,13 +101,13 @@ def _measured(design: Design, bench: Bench) -> Proposal | None:
     up, down = table.extend, table.retract
     end = int(np.searchsorted(run.time, off))
     begin = int(np.searchsorted(run.time, on))
-    late = int(np.searchsorted(run.time, off - HELD_SHARE * task.fill_time))
+    late = int(np.searchsorted(run.time, off - HOLD_SHARE * task.fill_time))
     # Without an impact the table means 95 % of the stroke; here it is the stop.
     time = up.positioning_time if trace.contact[late : end + 1].any() else None
     figures = Figures(
         time=time,
         time_down=down.positioning_time if trace.contact[-1] else None,
-        held=bool(np.min(run.states["stroke"][late : end + 1]) >= drive.stops[1] - ON_STOP),
+        holds=bool(np.min(run.states["stroke"][late : end + 1]) >= drive.stops[1] - ON_STOP),
         air=_air(run, begin) * group.parallel,
         peak_force=float(np.max(run.outputs["force"])),
         reached=float(np.max(trace.position[begin : end + 1])) - low,

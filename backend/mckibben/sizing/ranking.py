@@ -79,7 +79,7 @@ def _reason(proposal: Proposal, best: dict[str, float]) -> str:
     if aims["air"] > best["air"] * 1.05:
         texts.append(f"{aims['air'] / best['air']:.2g} times the least air")
     if proposal.chance is not None:
-        texts.append(f"does the task with {proposal.chance.probability * 100:.0f} % probability")
+        texts.append(f"fulfils the task with {proposal.chance.probability * 100:.0f} % probability")
     margin = proposal.trial.margins[proposal.trial.binding]
     texts.append(f"nearest limit: {proposal.trial.binding.replace('_', ' ')}, {margin * 100:.2g} % left")
     return "; ".join(texts)

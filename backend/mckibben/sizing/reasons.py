@@ -14,7 +14,7 @@ _BAR = 1e5
 
 
 def length_text(length: float) -> str:
-    """A length as people of the field write it: whole millimetres."""
+    """A length in whole millimetres."""
     return f"{length * 1e3:.0f} mm"
 
 
@@ -155,7 +155,7 @@ def slow_remedy(trial: Trial | None, task: Task, binding: str, works: bool) -> s
 
 
 def temperature_text(part: MusclePart, task: Task) -> str | None:
-    """Why the muscle does not stand the ambient temperature; None when it does."""
+    """Why the ambient temperature rules the muscle out; None if it does not."""
     low, high = part.coldest, part.hottest
     if (low is None or task.temperature >= low) and (high is None or task.temperature <= high):
         return None

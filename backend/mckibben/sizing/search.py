@@ -112,7 +112,7 @@ class _Search:
         sizing.rejected = at_rest_rejections(sheets, self.catalogue, task, set())
         candidates, failed = self._prune(sheets)
         candidates = self._likely(candidates)
-        self._look(_PRUNED)
+        self._check_end(_PRUNED)
         good, slow = self._try(candidates)
         sizing.explored = good
         failed += slow
@@ -132,7 +132,7 @@ class _Search:
         sizing.proposals = ranked(proposals, task)[: task.max_proposals]
         sizing.proposals = self._with_chances(sizing.proposals)
 
-    def _look(self, share: float) -> None:
+    def _check_end(self, share: float) -> None:
         ended = self.bench.watch.ended(share)
         if ended is not None:
             raise EndedError(ended)
@@ -185,7 +185,7 @@ class _Search:
         again = [
             (candidate, index)
             for candidate, trials in ran.items()
-            if not any(trial.does for trial in trials)
+            if not any(trial.keeps_limits for trial in trials)
             and min(trial.excess() for trial in trials) <= _SECOND_LOOK
             for index in _second_choice(candidate)
         ]
@@ -194,9 +194,9 @@ class _Search:
         good: list[Trial] = []
         slow: list[tuple[Group, Trial | None]] = []
         for candidate, trials in ran.items():
-            doing = [trial for trial in trials if trial.does]
-            if doing:
-                good.append(min(doing, key=lambda trial: trial.cost()))
+            good_trials = [trial for trial in trials if trial.keeps_limits]
+            if good_trials:
+                good.append(min(good_trials, key=lambda trial: trial.cost()))
             else:
                 slow.append((candidate.group, min(trials, key=lambda trial: trial.cost())))
         return good, slow

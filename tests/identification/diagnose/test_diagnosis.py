@@ -337,7 +337,9 @@ def test_progress_and_candidates_are_told():
             shares.append(share)
             return super().ended(share)
 
-    found = diagnosis(cycles(coulomb, noise=1.0, each=20), watch=Told(time_limit=1e3), found=told.append)
+    found = diagnosis(
+        cycles(coulomb, noise=1.0, each=20), watch=Told(time_limit=1e3), on_candidate=told.append
+    )
     assert shares == sorted(shares)
     assert shares[0] >= 0.0
     assert shares[-1] <= 1.0

@@ -127,7 +127,7 @@ def _proposals(material: SizingMaterial, chosen: Chosen) -> Html:
 
 def _reason(item: ProposedDrive) -> str:
     """The reason without the probability, which has its own column."""
-    return "; ".join(part for part in item.reason.split("; ") if not part.startswith("does the task"))
+    return "; ".join(part for part in item.reason.split("; ") if not part.startswith("fulfils the task"))
 
 
 def _likely(item: ProposedDrive) -> Child:
