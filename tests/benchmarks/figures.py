@@ -14,7 +14,7 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from mckibben.documents.start_model import GivenMuscle
+from mckibben.documents.start_model import StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.identification.fit.comparison import compare
 from mckibben.measurement.points import find_preset
@@ -82,7 +82,7 @@ def _sizing_curves(studio: Studio) -> Table:
         *columns, title="Presets against the maker's sizing curves, 0-25 %, RMS of the 6 bar blocked force"
     )
     for size, full_scale in FULL_SCALE.items():
-        start = studio.start_model(GivenMuscle(preset=f"DMSP-{size}"), None)
+        start = studio.start_model(StatedMuscle(preset=f"DMSP-{size}"), None)
         model = studio.static_model(start)
         curve = studio.library.get("curves", f"musclesim-{size}")
         data, used = curve.si_columns(), curve.used

@@ -12,7 +12,7 @@ import pytest
 
 from mckibben.application.size import RejectedParts, SizingResult
 from mckibben.report.sizing import Command, Entry, Margin, SizingMaterial, SpecimenSpread, sizing_report
-from mckibben.report.sizing.given import task_section
+from mckibben.report.sizing.inputs import task_section
 from mckibben.report.sizing.others import rejected_section
 from mckibben.report.sizing.safety import margins_section, uncertainty_section
 from mckibben.report.sizing.words import entry_value

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from mckibben.documents.start_model import GivenMuscle, StartModel
+from mckibben.documents.start_model import StartModel, StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.identification.predict import Predictor, predictor_of
 from mckibben.identification.predict.fit_model import FitModel, free_geometry
@@ -134,7 +134,7 @@ def question_of(
 def with_model(
     question: ModelQuestion,
     studio: Studio,
-    muscle: GivenMuscle,
+    muscle: StatedMuscle,
     effects: Mapping[str, Mapping[str, float | str]],
     *,
     freed: Sequence[str] = (),

@@ -15,7 +15,7 @@ from mckibben.application.muscle_summary import (
     limit_notices,
     start_notices,
 )
-from mckibben.documents.drive_reading import GivenDrive
+from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
@@ -56,7 +56,7 @@ class SimulationQuestion:
         engine: "rodas", "lsoda", or "auto" (rodas as soon as its kernel is compiled).
     """
 
-    given: GivenDrive
+    given: AnnotatedDrive
     points: int = POINTS
     begin: float | None = None
     end: float | None = None
@@ -198,7 +198,7 @@ def simulate(question: SimulationQuestion, watch: Watch | None = None) -> Simula
     return prepare(question)(watch or Watch())
 
 
-def run_drive(given: GivenDrive, grid: Grid, watch: Watch | None = None, engine: str = "auto") -> Run:
+def run_drive(given: AnnotatedDrive, grid: Grid, watch: Watch | None = None, engine: str = "auto") -> Run:
     """The run on the fine grid; with a controller it waits for the compiled kernel."""
     with np.errstate(all="ignore"):  # a diverging run ends with an outcome, not with warnings
         if given.drive.controller is not None:
@@ -206,7 +206,7 @@ def run_drive(given: GivenDrive, grid: Grid, watch: Watch | None = None, engine:
         return run_by_command(given.drive, grid=grid.time, watch=watch, engine=engine)
 
 
-def result_of(given: GivenDrive, grid: Grid, run: Run) -> SimulationResult:
+def result_of(given: AnnotatedDrive, grid: Grid, run: Run) -> SimulationResult:
     """The complete result of a run."""
     drive, out, states = run.drive, run.outputs, run.states
     rows = grid.rows[grid.rows < len(run.time)]
@@ -264,7 +264,7 @@ def result_of(given: GivenDrive, grid: Grid, run: Run) -> SimulationResult:
     )
 
 
-def _bounds(given: GivenDrive) -> DriveBounds:
+def _bounds(given: AnnotatedDrive) -> DriveBounds:
     limits, (low, high) = given.drive.model.limits, stops_of(given.drive)
     return DriveBounds(
         max_pressure=limits.max_pressure,
@@ -318,7 +318,7 @@ def _joint(run: Run, rows: Array) -> JointMotion | None:
     )
 
 
-def _part_notices(given: GivenDrive) -> list[Notice]:
+def _part_notices(given: AnnotatedDrive) -> list[Notice]:
     why = "from general knowledge or estimated, not read in a source"
     notices = [
         Notice("unverified", f"{part}: {', '.join(names)} {why}", "valve")

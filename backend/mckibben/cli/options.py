@@ -218,7 +218,7 @@ def _is_file(muscle: str, studio: Studio) -> bool:
 
 def _start_of_file(studio: Studio, path: Path, effects: Effects | None) -> StartModel:
     """A muscle by geometry, or a whole preset file."""
-    from mckibben.documents.start_model import GivenMuscle, preset_facts, start_model
+    from mckibben.documents.start_model import StatedMuscle, preset_facts, start_model
     from mckibben.presets import MusclePreset
     from mckibben.presets.reading import BadDocumentError, parse, read_file
 
@@ -235,7 +235,7 @@ def _start_of_file(studio: Studio, path: Path, effects: Effects | None) -> Start
     preset.adopt("user", studio.effect_table)
     facts = preset_facts(preset, studio.catalogue)
     try:
-        return _usable(studio, start_model(GivenMuscle(), effects, preset=facts, catalogue=studio.catalogue))
+        return _usable(studio, start_model(StatedMuscle(), effects, preset=facts, catalogue=studio.catalogue))
     except InputError as error:
         raise _at(str(path), error.field, error.message, error.hint) from error
 
@@ -249,12 +249,12 @@ def _usable(studio: Studio, start: StartModel) -> StartModel:
 def _start_of_input(studio: Studio, document: object, effects: Effects | None, source: str) -> StartModel:
     from pydantic import ValidationError
 
-    from mckibben.documents.convert import given_muscle
+    from mckibben.documents.convert import stated_muscle
     from mckibben.documents.muscle import MuscleInput
     from mckibben.documents.problems import first_problem
 
     try:
-        given = given_muscle(MuscleInput.model_validate(document))
+        given = stated_muscle(MuscleInput.model_validate(document))
         return _usable(studio, studio.start_model(given, effects))
     except ValidationError as error:
         problem = first_problem(error.errors(), MuscleInput, document, "the muscle")

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from mckibben.documents.convert import given_muscle
+from mckibben.documents.convert import stated_muscle
 from mckibben.documents.drive import ControllerInput, DriveDocument
 from mckibben.documents.drive_parts import (
     TYPICAL_TUBE,
@@ -36,7 +36,7 @@ _SHORTEST = 0.1  # shortest possible muscle, share of its nominal length
 
 
 @dataclass(frozen=True)
-class GivenDrive:
+class AnnotatedDrive:
     """A drive ready to run, with notes for the user.
 
     Attributes:
@@ -52,7 +52,7 @@ class GivenDrive:
     notes: Mapping[str, str]
 
 
-def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False) -> GivenDrive:
+def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False) -> AnnotatedDrive:
     """The drive described by a document.
 
     Args:
@@ -73,7 +73,7 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
     assert tube_preset is None or isinstance(tube_preset, TubePreset)  # noqa: S101
     parts = [part for part in (valve_preset, tube_preset, *fittings) if part is not None]
 
-    start = studio.start_model(given_muscle(document.muscle), document.effects)
+    start = studio.start_model(stated_muscle(document.muscle), document.effects)
     if document.effects is None:
         preset_effects = {
             name: studio.catalogue[name].defaults | values
@@ -113,7 +113,7 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
         for part in parts
         if (names := unverified_of(part, with_effects=document.effects is None))
     }
-    return GivenDrive(drive, start, unverified, notes)
+    return AnnotatedDrive(drive, start, unverified, notes)
 
 
 def _preset(studio: Studio, kind: str, preset_id: str | None, field: str) -> Part | None:

@@ -39,7 +39,7 @@ _MARKS = {
 
 
 @dataclass(frozen=True, slots=True)
-class GivenMuscle:
+class StatedMuscle:
     """A muscle as given by the caller; values in SI, None where not given."""
 
     preset: str | None = None
@@ -145,7 +145,7 @@ def _optional(quantity: Quantity | None, unit: str) -> float | None:
 
 
 def start_model(
-    given: GivenMuscle,
+    given: StatedMuscle,
     effects: Mapping[str, Mapping[str, float | str]] | None,
     *,
     preset: PresetFacts | None,
@@ -178,7 +178,7 @@ def start_model(
     return _complete_model(StartModel(muscle, chosen, preset, given.rhombus, known, term), given)
 
 
-def _complete_model(start: StartModel, given: GivenMuscle) -> StartModel:
+def _complete_model(start: StartModel, given: StatedMuscle) -> StartModel:
     """The model with typical values in the fields that its effects need and that are not stated.
 
     A stated 0 is kept, and the model rejects it.
@@ -190,7 +190,7 @@ def _complete_model(start: StartModel, given: GivenMuscle) -> StartModel:
     return replace(start, muscle=start.muscle.assuming(assumed), assumed=assumed)
 
 
-def _muscle(given: GivenMuscle, base: Muscle | None) -> Muscle:
+def _muscle(given: StatedMuscle, base: Muscle | None) -> Muscle:
     forms = [form for form, marks in _MARKS.items() if any(_has(given, mark) for mark in marks)]
     if len(forms) > 1:
         raise InputError(
@@ -209,15 +209,15 @@ def _muscle(given: GivenMuscle, base: Muscle | None) -> Muscle:
     return _by_thread(given, base, length)
 
 
-def _first_given(given: GivenMuscle, names: tuple[str, ...]) -> str:
+def _first_given(given: StatedMuscle, names: tuple[str, ...]) -> str:
     return next(name for name in names if _has(given, name))
 
 
-def _has(given: GivenMuscle, name: str) -> bool:
+def _has(given: StatedMuscle, name: str) -> bool:
     return getattr(given, name) is not None
 
 
-def _by_diameter(given: GivenMuscle, base: Muscle | None, length: float) -> Muscle:
+def _by_diameter(given: StatedMuscle, base: Muscle | None, length: float) -> Muscle:
     """The muscle from the braid diameter at the braid angle; without it from the bore."""
     if base is None:
         wall = given.wall_thickness or 0.0
@@ -245,7 +245,7 @@ def _by_diameter(given: GivenMuscle, base: Muscle | None, length: float) -> Musc
     return Muscle(length, braid, angle, wall, bore)
 
 
-def _by_thread(given: GivenMuscle, base: Muscle | None, length: float) -> Muscle:
+def _by_thread(given: StatedMuscle, base: Muscle | None, length: float) -> Muscle:
     if given.rhombus is not None:
         braid = braid_from_rhombus(**given.rhombus._asdict())
     else:

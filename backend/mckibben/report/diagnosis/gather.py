@@ -15,7 +15,7 @@ from mckibben.application.diagnosis_result import DiagnosisResult
 from mckibben.application.json_text import to_json
 from mckibben.application.measurements import summary_of
 from mckibben.application.model_question import ModelQuestion, with_model
-from mckibben.documents.start_model import GivenMuscle, PresetFacts
+from mckibben.documents.start_model import PresetFacts, StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.identification.predict.fit_model import LOAD
 from mckibben.measurement.points import Points
@@ -202,7 +202,7 @@ def _proposed(question: ModelQuestion, studio: Studio, diagnosis: DiagnosisResul
     if not diagnosis.verdict.effects:
         return None
     model = diagnosis.model
-    muscle = replace(GivenMuscle(), **model.muscle)
+    muscle = replace(StatedMuscle(), **model.muscle)
     other = with_model(question, studio, muscle, model.effects, freed=tuple(diagnosis.freed))
     # A load missing in the measurement is not stored in the model, so it is fitted again.
     fit_load = LOAD in diagnosis.parameters.get("geometry", {})

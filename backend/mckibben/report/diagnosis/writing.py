@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from mckibben.report.command import command_section
 from mckibben.report.diagnosis.errors import error_scale, error_table, where_it_fails
-from mckibben.report.diagnosis.given import assumptions_section, data_section, muscle_section
+from mckibben.report.diagnosis.inputs import assumptions_section, data_section, muscle_section
 from mckibben.report.diagnosis.material import DiagnosisMaterial
 from mckibben.report.diagnosis.model import correlations, model_cards
 from mckibben.report.diagnosis.pictures import pictures

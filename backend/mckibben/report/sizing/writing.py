@@ -9,7 +9,7 @@ from mckibben.report.document import Head, Section, document, paragraph, table
 from mckibben.report.html import Html, html, tag
 from mckibben.report.sizing.curves import curves_section
 from mckibben.report.sizing.equations import equations_section
-from mckibben.report.sizing.given import assumptions_section, task_section
+from mckibben.report.sizing.inputs import assumptions_section, task_section
 from mckibben.report.sizing.material import SizingMaterial
 from mckibben.report.sizing.motion import motion_section
 from mckibben.report.sizing.others import alternatives_section, rejected_section

@@ -11,7 +11,7 @@ from mckibben.application.inverse import (
     PressureForStroke,
     WorkingRange,
 )
-from mckibben.documents.convert import given_muscle
+from mckibben.documents.convert import stated_muscle
 from mckibben.documents.studio import Studio
 from mckibben.server.schemas.inverse import (
     ContractionQuestion,
@@ -29,7 +29,7 @@ def inverse_question(body: Body, studio: Studio) -> InverseQuestion:
     Raises:
         InputError: an unknown preset, effect or parameter, or no complete muscle.
     """
-    start = studio.start_model(given_muscle(body.muscle), body.effects)
+    start = studio.start_model(stated_muscle(body.muscle), body.effects)
     direction, temperature = body.direction, body.temperature
     match body:
         case PressureQuestion():
