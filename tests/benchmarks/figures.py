@@ -16,11 +16,11 @@ from rich.table import Table
 
 from mckibben.documents.start_model import StatedMuscle
 from mckibben.documents.studio import Studio
-from mckibben.identification.fit.comparison import compare
 from mckibben.measurement.points import find_preset
 from mckibben.physics.ideal import blocked_force
 from mckibben.physics.muscle import Muscle
 from mckibben.resources import presets_folder
+from tests.identification.comparing import compare
 
 # The 6 bar blocked force of the maker's curves [N], by size.
 FULL_SCALE = {"10": 473.3, "20": 1515.0, "40": 6203.0}

@@ -32,7 +32,7 @@ def material(**changes: Any) -> SizingMaterial:
     """Of a task that nothing does."""
     given: dict[str, Any] = {
         "title": "A title", "made": datetime(2026, 1, 2, tzinfo=UTC), "versions": {"mckibben": "1"},
-        "about": "Lift 1 kg", "entries": [], "pair": False, "profile": ((), ()), "considered": {},
+        "about": "Lift 1 kg", "entries": [], "pair": False, "profile": ((), ()),
         "result": NOTHING,
         "chosen": None, "catalogue": {}, "hashes": {"task.json": "ab" * 32},
         "command": Command(["mckibben size task.json"], {"task.json": "{}"}),
@@ -120,7 +120,7 @@ def test_a_probability_says_what_it_is_a_share_of() -> None:
     assert "not a failure rate" in words
     assert "unknown for this muscle" in words
     none = uncertainty_section(Picked(proposal=proposal, spread=None))  # pyright: ignore[reportArgumentType]
-    assert "is not known" in none
+    assert "is unknown" in none
 
 
 def test_rejections_of_the_same_muscles_are_told_once_and_counted() -> None:

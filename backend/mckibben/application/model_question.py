@@ -84,7 +84,7 @@ class ModelQuestion:
 
     def effect_document(self, fit_model: FitModel) -> EffectDocument:
         """The effects of a model in the form of a request, a custom term with its text."""
-        document: EffectDocument = {name: dict(own) for name, own in fit_model.values.items()}
+        document: EffectDocument = {name: dict(values) for name, values in fit_model.values.items()}
         if CUSTOM in document and self.start.term is not None:
             document[CUSTOM] = {TERM: self.start.term, **document[CUSTOM]}
         return document

@@ -78,7 +78,7 @@ def _write(result: DiagnosisResult) -> None:
     write_table(title, ["after adding", "RMS error", "left-out groups"], rows)
     write_table(
         "One effect alone",
-        ["effect", "RMS error", "gain", "cannot be told from"],
+        ["effect", "RMS error", "gain", "indistinguishable from"],
         [
             [c.effect, shown(c.rmse), f"{c.gain_percent:.1f} %", ", ".join(c.twins)]
             for c in result.candidates[:_SHOWN]
@@ -88,7 +88,7 @@ def _write(result: DiagnosisResult) -> None:
     remark(result.verdict.sentence)
     for experiment in result.verdict.experiments:
         first, second = experiment.pair
-        remark(f"to tell {first} from {second}: {experiment.declared or experiment.protocol}")
+        remark(f"to distinguish {first} from {second}: {experiment.declared or experiment.protocol}")
     if result.verdict.proposed_term is not None:
         remark(f"proposed term: {result.verdict.proposed_term.formula}")
     for message in result.messages:

@@ -35,7 +35,7 @@ DataFiles = Annotated[
 Ideal = Annotated[bool, typer.Option("--ideal", help="The ideal model: no effects.")]
 EffectIds = Annotated[
     list[str] | None,
-    typer.Option("--effect", metavar="ID", help="Use it instead of the preset's own effects; repeatable."),
+    typer.Option("--effect", metavar="ID", help="Use it instead of the effects of the preset; repeatable."),
 ]
 Free = Annotated[
     list[str] | None,
@@ -254,8 +254,8 @@ def _start_of_input(studio: Studio, document: object, effects: Effects | None, s
     from mckibben.documents.problems import first_problem
 
     try:
-        given = stated_muscle(MuscleInput.model_validate(document))
-        return _usable(studio, studio.start_model(given, effects))
+        muscle = stated_muscle(MuscleInput.model_validate(document))
+        return _usable(studio, studio.start_model(muscle, effects))
     except ValidationError as error:
         problem = first_problem(error.errors(), MuscleInput, document, "the muscle")
         raise _at(source, problem.field, problem.message, problem.hint) from error

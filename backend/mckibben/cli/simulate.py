@@ -80,8 +80,8 @@ def run(studio: Studio, *, drive: str, out: Path | None, as_json: bool) -> None:
     """
     document = _document(drive, studio)
     try:
-        given = drive_of(document, studio)
-        result = simulate(SimulationQuestion(given, engine=_engine(given)))
+        annotated = drive_of(document, studio)
+        result = simulate(SimulationQuestion(annotated, engine=_engine(annotated)))
     except InputError as error:
         raise InputError(f"{drive}: {located(error.field, error.message)}", hint=error.hint) from error
     if out is not None:
@@ -96,9 +96,9 @@ def run(studio: Studio, *, drive: str, out: Path | None, as_json: bool) -> None:
         remark(f"{result.outcome}: {result.message}")
 
 
-def _engine(given: AnnotatedDrive) -> str:
+def _engine(annotated: AnnotatedDrive) -> str:
     """The engine for a drive: loading the kernel takes 0.6 s, longer than LSODA for a few segments."""
-    return "lsoda" if len(segments_of(given.drive)[0]) <= _FEW_SEGMENTS else "rodas"
+    return "lsoda" if len(segments_of(annotated.drive)[0]) <= _FEW_SEGMENTS else "rodas"
 
 
 def _document(name: str, studio: Studio) -> DriveDocument:

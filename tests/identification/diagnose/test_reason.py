@@ -45,14 +45,12 @@ def test_growth_with_pressure_takes_a_range_of_it():
     assert traits_of(NOISE, two).pressure_power is None
 
 
-def test_the_share_of_the_mean():
-    assert traits_of(np.full(ROWS, -3.0), {}).constant == pytest.approx(1.0)
-    assert traits_of(2.0 + NOISE, {}).constant == pytest.approx(0.8, abs=0.02)
-    assert traits_of(np.zeros(ROWS), VARIABLES) == ResidualTraits(None, None, 0.0)
+def test_a_residual_of_zero_has_no_features():
+    assert traits_of(np.zeros(ROWS), VARIABLES) == ResidualTraits(None, None)
 
 
 def test_a_sentence_names_what_agrees_and_what_does_not():
-    odd = ResidualTraits(odd=0.8, pressure_power=1.0, constant=0.0)
+    odd = ResidualTraits(odd=0.8, pressure_power=1.0)
     text = why(CATALOGUE["pressure_friction"], odd, gain=0.42)
     assert text.startswith(CATALOGUE["pressure_friction"].title)
     assert "changes sign with the direction of motion" in text
@@ -69,9 +67,9 @@ def test_a_sentence_names_what_agrees_and_what_does_not():
 @pytest.mark.parametrize("name", sorted(CATALOGUE))
 def test_every_effect_has_a_sentence(name):
     for found in (
-        ResidualTraits(None, None, 0.0),
-        ResidualTraits(0.0, 0.0, 1.0),
-        ResidualTraits(0.9, 2.2, 0.0),
+        ResidualTraits(None, None),
+        ResidualTraits(0.0, 0.0),
+        ResidualTraits(0.9, 2.2),
     ):
         text = why(CATALOGUE[name], found, gain=0.5)
         assert text.startswith(CATALOGUE[name].title)

@@ -87,7 +87,6 @@ class Diagnosis:
         noise: of the scaled residual; None when it cannot be estimated.
         noise_how: how it was obtained.
         where: the start model's residual over each variable.
-        seen: features of the root's residual.
         candidates: single additions, the best first.
         path: steps to the best model; each adds the effect that lowers the error most.
         best: the best model.
@@ -108,7 +107,6 @@ class Diagnosis:
     noise: float | None
     noise_how: str
     where: tuple[Profile, ...]
-    seen: ResidualTraits
     candidates: tuple[SingleAddition, ...]
     path: tuple[PathStep, ...]
     best: FittedModel
@@ -265,7 +263,6 @@ def _diagnose(
         noise=fitter.noise,
         noise_how=how,
         where=tuple(where),
-        seen=before,
         candidates=tuple(ranked),
         path=path,
         best=best,

@@ -19,19 +19,17 @@ class ResidualTraits:
     Attributes:
         odd: share of its mean square that changes sign with the direction of motion; None when unknown.
         pressure_power: exponent n of a fit of its size to P^n; None without a range of pressures.
-        constant: share of the mean in its mean square.
     """
 
     odd: float | None
     pressure_power: float | None
-    constant: float
 
 
 def traits_of(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> ResidualTraits:
-    """Parity, growth with pressure and offset of a residual."""
+    """Parity of a residual and its growth with pressure."""
     whole = float(np.mean(residual**2))
     if not whole > 0.0:
-        return ResidualTraits(None, None, 0.0)
+        return ResidualTraits(None, None)
     odd = None
     direction = variables.get("direction")
     if direction is not None and np.any(direction > 0) and np.any(direction < 0):
@@ -50,7 +48,7 @@ def traits_of(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> Resi
                 sizes.append(0.5 * np.log(np.mean(residual[rows] ** 2) + 1e-30))
         if len(centres) >= 3:
             power = float(np.polyfit(centres, sizes, 1)[0])
-    return ResidualTraits(odd, power, float(np.mean(residual)) ** 2 / whole)
+    return ResidualTraits(odd, power)
 
 
 def why(effect: Effect, traits: ResidualTraits, *, gain: float) -> str:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from mckibben.application.compare import ComparisonResult
 from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.application.model_question import EffectDocument
 from mckibben.identification.fit.comparison import ParameterTable, ParameterValue
 from mckibben.physics.effect import Effect
 from mckibben.physics.parameter import Parameter
@@ -27,7 +27,7 @@ def model_cards(
     *,
     figures: Mapping[str, Figure] | None = None,
     added: Sequence[str] = (),
-    terms: Mapping[str, Any] | None = None,
+    terms: EffectDocument | None = None,
 ) -> Html:
     """Every effect with its equation and parameters.
 
@@ -54,7 +54,7 @@ def _card(
     material: DiagnosisMaterial,
     figures: Mapping[str, Figure],
     new: bool,
-    document: Mapping[str, Any],
+    document: Mapping[str, float | str],
 ) -> Html:
     effect = material.catalogue.get(name)
     declared = {p.name: p for p in effect.parameters} if effect else {}
@@ -83,7 +83,7 @@ def _card(
     )
 
 
-def _equation(effect: Effect, document: Mapping[str, Any]) -> Html:
+def _equation(effect: Effect, document: Mapping[str, float | str]) -> Html:
     term = document.get("term")
     if isinstance(term, str):  # a formula as the user typed it, not LaTeX
         return html("F = ", tag("code", term))

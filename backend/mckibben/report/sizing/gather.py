@@ -8,12 +8,10 @@ import shlex
 from collections.abc import Callable, Mapping
 from datetime import datetime
 from math import ceil
-from typing import Any
 
 from mckibben.application.json_text import to_json
 from mckibben.application.simulate import result_of, run_drive
 from mckibben.application.size import Searched, prepare_search, sizing_question
-from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
@@ -66,7 +64,7 @@ def report_of(
         InputError: there are fewer proposals, or the search did not complete.
     """
     result, document = search.result, search.question.document
-    if search.found.outcome is not Outcome.COMPLETED:
+    if search.sizing.outcome is not Outcome.COMPLETED:
         raise InputError(f"there is nothing to report: {result.message}", field="task")
     count = len(result.proposals)
     if 0 < count < proposal:  # a task without a proposal has a report too
@@ -75,7 +73,7 @@ def report_of(
         raise InputError(f"there {number}", field="proposal", hint=most)
     chosen = _chosen(search, studio, proposal, watch or Watch()) if count else None
     about = about_task(document)
-    task = canonical(task_document(document))
+    task = canonical(document.completed())
     files = {_TASK_FILE: task}
     if chosen is not None:
         files[_DRIVE_FILE] = canonical(chosen.proposal.drive)
@@ -94,7 +92,6 @@ def report_of(
             result=result,
             pair=search.question.task.pair is not None,
             profile=search.question.task.force_over_stroke,
-            considered=considered,
             chosen=chosen,
             catalogue=studio.catalogue,
             hashes={name: hashlib.sha256(text.encode()).hexdigest() for name, text in files.items()},
@@ -104,9 +101,9 @@ def report_of(
 
 
 def _chosen(search: Searched, studio: Studio, rank: int, watch: Watch) -> Chosen:
-    proposal, answer = search.found.proposals[rank - 1], search.result.proposals[rank - 1]
+    proposal, answer = search.sizing.proposals[rank - 1], search.result.proposals[rank - 1]
     task, group = search.question.task, proposal.design.group
-    drive_model = drive_of(read_document(answer.drive, "the drive of the proposal"), studio)
+    drive_model = drive_of(answer.drive, studio)
     duration = drive_model.drive.duration
     points = min(max(ceil(duration / _STEP), _FEWEST), _MOST) + 1
     grid = grid_of(duration=duration, begin=0.0, end=duration, points=points)
@@ -119,7 +116,6 @@ def _chosen(search: Searched, studio: Studio, rank: int, watch: Watch) -> Chosen
         run=run,
         fill=(on, on + task.fill_time),
         count=group.parallel,
-        lever=group.duty.lever_ratio,
         curves=curves_of(proposal, task),
         margins=margins_of(proposal, task),
         parts=parts_of(proposal.design, studio),
@@ -128,14 +124,6 @@ def _chosen(search: Searched, studio: Studio, rank: int, watch: Watch) -> Chosen
         figures=dict(effect_figures(proposal.design, studio, drive_model.start.effects)),
         gas=drive_model.drive.polytropic_exponent,
     )
-
-
-def task_document(document: SizingTask) -> dict[str, Any]:
-    """The task in SI with all assumed values; reading it again gives the same search."""
-    whole = document.model_dump(mode="json", by_alias=True, exclude_none=True)
-    if document.load.pair is not None:  # a pair allows no other field of the load
-        whole["load"] = {"pair": whole["load"]["pair"]}
-    return whole
 
 
 def canonical(content: object) -> str:

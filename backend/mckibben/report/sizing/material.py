@@ -142,7 +142,6 @@ class Chosen:
         run: its simulation.
         fill: when the valve starts and stops filling [s].
         count: muscles on one side; ``run`` simulates one of them.
-        lever: stroke of the muscle per stroke of the load.
         curves: of one muscle.
         margins: to each limit, the smallest first.
         parts: parts list.
@@ -157,7 +156,6 @@ class Chosen:
     run: SimulationResult
     fill: tuple[float, float]
     count: int
-    lever: float
     curves: ForceCurves
     margins: Sequence[Margin]
     parts: Sequence[Part]
@@ -180,7 +178,6 @@ class SizingMaterial:
         result: of the search.
         pair: whether the drive is an antagonist pair.
         profile: strokes [m] and forces [N] of a force over the stroke; empty without one.
-        considered: kind of part -> ids tried in the search.
         chosen: the reported proposal; None if there is none.
         catalogue: effect id -> declaration.
         hashes: file -> SHA-256 of its canonical JSON.
@@ -195,7 +192,6 @@ class SizingMaterial:
     result: SizingResult
     pair: bool
     profile: tuple[Sequence[float], Sequence[float]]
-    considered: Mapping[str, Sequence[str]]
     chosen: Chosen | None
     catalogue: Mapping[str, Effect]
     hashes: Mapping[str, str]

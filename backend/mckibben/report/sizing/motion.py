@@ -73,7 +73,7 @@ def motion_section(material: SizingMaterial, chosen: Chosen) -> Html:
         drawing = _drawing(material, chosen, phase)
         if drawing is not None:
             parts.append(figure_of(drawing, f"{phase.name}."))
-    if not chosen.proposal.drive["load"]["mass"]:
+    if not chosen.proposal.drive.load.mass:
         parts.append(
             paragraph(
                 mark("No mass is moved"), " in this task: speeds, accelerations and energies are those of a "
