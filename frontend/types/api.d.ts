@@ -669,13 +669,13 @@ export interface components {
     };
     /** Limits stated by the maker (null = not known), and the end stops. */
     DriveLimits: {
-      /** Gauge pressure. [Pa] */
+      /** Highest gauge pressure. [Pa] */
       max_pressure: number | null;
-      /** Force. [N] */
+      /** Highest force. [N] */
       max_force: number | null;
-      /** Contraction. [1] */
+      /** Highest contraction. [1] */
       max_contraction: number | null;
-      /** Stretch beyond the nominal length. [1] */
+      /** Highest stretch beyond the nominal length. [1] */
       max_pretension: number | null;
       /** Lower stop as a position of the load. [m] */
       position_min: number;

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
 from mckibben.application.muscle_summary import (
     GeometrySummary,
+    MakerLimits,
     Notice,
     geometry_of,
     limit_notices,
@@ -69,18 +70,14 @@ class CurvesQuestion:
 
 
 @dataclass(frozen=True, slots=True)
-class CurveLimits:
-    """Limits of the muscle, SI; None where the preset does not state them.
+class CurveLimits(MakerLimits):
+    """Limits of the muscle, SI.
 
     Attributes:
         ideal_max_contraction: contraction at which the ideal force is zero.
         braid_lock_force: ideal force of the fully stretched braid, per pressure.
     """
 
-    max_pressure: float | None
-    max_force: float | None
-    max_contraction: float | None
-    max_pretension: float | None
     ideal_max_contraction: float
     braid_lock_force: Array
 
@@ -168,7 +165,6 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
     # Volume, diameter and angle depend on the length only, unless an effect lets the pressure stretch the
     # braid; then they are those of the highest pressure.
     top = int(np.argmax(pressures))
-    limits = model.limits
     return CurvesResult(
         pressure=pressures,
         length=length,
@@ -181,10 +177,7 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
         diameter=columns.diameter[top],
         outer_diameter=columns.outer_diameter[top],
         limits=CurveLimits(
-            max_pressure=limits.max_pressure,
-            max_force=limits.max_force,
-            max_contraction=limits.max_contraction,
-            max_pretension=limits.max_pretension,
+            **asdict(model.limits),
             ideal_max_contraction=ideal_contraction(model),
             braid_lock_force=lock_forces(model, pressures),
         ),

@@ -26,6 +26,16 @@ class Notice:
 
 
 @dataclass(frozen=True, slots=True)
+class MakerLimits:
+    """Limits stated by the maker, SI, pressures gauge; None where not known."""
+
+    max_pressure: float | None
+    max_force: float | None
+    max_contraction: float | None
+    max_pretension: float | None
+
+
+@dataclass(frozen=True, slots=True)
 class Lattice:
     """The braid as a lattice of rhombi: side [m], number along and around the muscle."""
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
 from mckibben.application.curves import EffectSettings
 from mckibben.application.muscle_summary import (
     GeometrySummary,
+    MakerLimits,
     Notice,
     geometry_of,
     limit_notices,
@@ -91,13 +92,9 @@ class JointMotion:
 
 
 @dataclass(frozen=True, slots=True)
-class DriveBounds:
-    """Limits stated by the maker (None = not known), and positions of the load at the end stops; SI."""
+class DriveBounds(MakerLimits):
+    """Limits stated by the maker, and positions of the load at the end stops; SI."""
 
-    max_pressure: float | None
-    max_force: float | None
-    max_contraction: float | None
-    max_pretension: float | None
     position_min: float
     position_max: float
 
@@ -265,15 +262,8 @@ def result_of(annotated: AnnotatedDrive, grid: Grid, run: Run) -> SimulationResu
 
 
 def _bounds(annotated: AnnotatedDrive) -> DriveBounds:
-    limits, (low, high) = annotated.drive.model.limits, stops_of(annotated.drive)
-    return DriveBounds(
-        max_pressure=limits.max_pressure,
-        max_force=limits.max_force,
-        max_contraction=limits.max_contraction,
-        max_pretension=limits.max_pretension,
-        position_min=low,
-        position_max=high,
-    )
+    low, high = stops_of(annotated.drive)
+    return DriveBounds(**asdict(annotated.drive.model.limits), position_min=low, position_max=high)
 
 
 def _readings(run: Run, rows: Array) -> SensorReadings | None:

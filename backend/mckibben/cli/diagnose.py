@@ -8,7 +8,7 @@ from pathlib import Path
 from mckibben.application.diagnose import prepare
 from mckibben.application.diagnosis_result import DiagnosisResult
 from mckibben.cli.data import points_of
-from mckibben.cli.options import model_question
+from mckibben.cli.options import ModelOptions, model_question
 from mckibben.cli.output import (
     error_unit,
     figure,
@@ -28,10 +28,7 @@ def run(
     studio: Studio,
     *,
     files: Sequence[str],
-    muscle: str,
-    ideal: bool,
-    effects: Sequence[str],
-    drive: str,
+    model: ModelOptions,
     free: Sequence[str],
     noise: float | None,
     as_json: bool,
@@ -43,9 +40,7 @@ def run(
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
     points = points_of(files, studio)
-    question = model_question(
-        studio, points, muscle=muscle, ideal=ideal, effects=effects, drive=drive, free=free, noise=noise
-    )
+    question = model_question(studio, points, model, free=free, noise=noise)
     work = prepare(question, studio)
     with progress("trying effects") as watch:
         result = work(watch)

@@ -7,6 +7,7 @@ from typing import assert_never
 from mckibben.application.inverse import (
     ContractionForForce,
     InverseQuestion,
+    MuscleCondition,
     PressureForForce,
     PressureForStroke,
     WorkingRange,
@@ -30,27 +31,15 @@ def inverse_question(body: Body, studio: Studio) -> InverseQuestion:
         InputError: an unknown preset, effect or parameter, or no complete muscle.
     """
     start = studio.start_model(stated_muscle(body.muscle), body.effects)
-    direction, temperature = body.direction, body.temperature
+    condition = MuscleCondition(start, body.direction, body.temperature)
     match body:
-        case PressureQuestion():
-            return PressureForForce(
-                start=start, direction=direction, temperature=temperature,
-                force=body.force, length=body.length, contraction=body.contraction,
-            )  # fmt: skip
-        case ContractionQuestion():
-            return ContractionForForce(
-                start=start, direction=direction, temperature=temperature,
-                force=body.force, pressure=body.pressure,
-            )  # fmt: skip
-        case WorkingRangeQuestion():
-            return WorkingRange(
-                start=start, direction=direction, temperature=temperature,
-                load=body.load, pressure=body.pressure, preload=body.preload,
-            )  # fmt: skip
-        case StrokePressureQuestion():
-            return PressureForStroke(
-                start=start, direction=direction, temperature=temperature,
-                load=body.load, stroke=body.stroke,
-            )  # fmt: skip
+        case PressureQuestion(force=force, length=length, contraction=contraction):
+            return PressureForForce(condition=condition, force=force, length=length, contraction=contraction)
+        case ContractionQuestion(force=force, pressure=pressure):
+            return ContractionForForce(condition=condition, force=force, pressure=pressure)
+        case WorkingRangeQuestion(load=load, pressure=pressure, preload=preload):
+            return WorkingRange(condition=condition, load=load, pressure=pressure, preload=preload)
+        case StrokePressureQuestion(load=load, stroke=stroke):
+            return PressureForStroke(condition=condition, load=load, stroke=stroke)
         case _:
             assert_never(body)

@@ -9,7 +9,7 @@ from pydantic import Field
 from mckibben.documents.muscle import EffectsInput, MuscleInput
 from mckibben.documents.quantity import Contraction, Length, Load, Pressure, Temperature, Volume
 from mckibben.documents.strict import Series, Strict, si_field
-from mckibben.server.schemas.common import Flag
+from mckibben.server.schemas.common import Flag, MakerLimits
 
 Direction = Annotated[
     Literal[-1, 0, 1],
@@ -48,13 +48,9 @@ class CurvesRequest(CurvesOptions):
     effects: EffectsInput | None = None
 
 
-class CurveLimits(Strict):
+class CurveLimits(MakerLimits):
     """Limits of the muscle; null where the preset does not state one."""
 
-    max_pressure: float | None = si_field("Pa", "Highest gauge pressure.")
-    max_force: float | None = si_field("N", "Highest force.")
-    max_contraction: float | None = si_field("1", "Highest contraction.")
-    max_pretension: float | None = si_field("1", "Highest stretch beyond the nominal length.")
     ideal_max_contraction: float = si_field("1", "Contraction at which the ideal force is zero.")
     braid_lock_force: Series = si_field("N", "Ideal force of the fully stretched braid, per pressure.")
 
