@@ -759,7 +759,7 @@ export interface components {
       /** Expected difference, in standard deviations of one reading. */
       separation: number;
     };
-    /** A simulated design that does the task; coarse figures, for a plot of the alternatives. */
+    /** A simulated design that fulfils the task; coarse figures, for a plot of the alternatives. */
     ExploredDesign: {
       muscle: string;
       /** Nominal length of each muscle. [m] */
@@ -1435,7 +1435,7 @@ export interface components {
       /** Why the column cannot be used as its header states. */
       why: string | null;
     };
-    /** A drive that does the task. Figures are per muscle unless stated otherwise. */
+    /** A drive that fulfils the task. Figures are per muscle unless stated otherwise. */
     ProposalAnswer: {
       /** Id of the preset. */
       muscle: string;
@@ -1489,7 +1489,7 @@ export interface components {
       diameter: number;
       /** Load cycles; an estimate, not verified. [1] */
       life: number;
-      /** Probability that a built drive does the task; null without specimens. [1] */
+      /** Probability that a built drive fulfils the task; null without specimens. [1] */
       probability: number | null;
       /** Its standard error. [1] */
       probability_error: number | null;
@@ -1746,11 +1746,11 @@ export interface components {
     };
     /** Proposals, best first, and rejected candidates with reasons; SI, pressures gauge. */
     SizingAnswer: {
-      /** Best first; empty if no candidate does the task. */
+      /** Best first; empty if no candidate fulfils the task. */
       proposals: components["schemas"]["ProposalAnswer"][];
       /** Nearest first. */
       rejected: components["schemas"]["RejectedAnswer"][];
-      /** The best design of each choice of parts that does the task. */
+      /** The best design of each choice of parts that fulfils the task. */
       explored: components["schemas"]["ExploredDesign"][];
       /** Combinations of muscle, length, number, pressure, valve and tube within the limits. */
       combinations: number;

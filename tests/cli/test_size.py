@@ -39,7 +39,7 @@ def test_nothing_found_is_an_answer(run: Run) -> None:
     task = write("task.json", IMPOSSIBLE)
     code, out, err = run("size", task)
     assert code == 0
-    assert "nothing in the catalogue does this" in out
+    assert "no drive in the catalogue fulfils this task" in out
     assert "times the load" in err
     assert json.loads(run("size", task, "--json")[1])["proposals"] == []
 

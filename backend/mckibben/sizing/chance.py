@@ -17,7 +17,7 @@ _CHUNK = 25  # specimens a thread takes at a time
 
 @dataclass(frozen=True, slots=True)
 class Chance:
-    """Share of the specimens that do the task, its standard error, and the number of specimens."""
+    """Share of the specimens that fulfil the task, its standard error, and the number of specimens."""
 
     probability: float
     error: float
@@ -25,7 +25,7 @@ class Chance:
 
 
 def chance(bench: Bench, design: Design, share: tuple[float, float], specimens: int) -> Chance:
-    """The probability that a design does the task.
+    """The probability that a design fulfils the task.
 
     Args:
         bench: runs the designs of the task.

@@ -24,7 +24,7 @@ _MILLIMETRE, _PRESSURE_STEP = 1e-3, 1e3
 
 @dataclass(frozen=True, eq=False)
 class Proposal:
-    """A drive that does the task.
+    """A drive that fulfils the task.
 
     Attributes:
         trial: design, statics and figures of the run.
@@ -32,7 +32,7 @@ class Proposal:
         end_speed: speed of the load there [m/s].
         pressure_start, pressure_end: in the muscle when the load leaves its stop, and on arrival [Pa].
         max_speed: largest speed of the load [m/s].
-        chance: probability that it does the task; None when no specimens were requested.
+        chance: probability that it fulfils the task; None when no specimens were requested.
         reason: explanation of its rank.
         front: whether it is on the Pareto front: no other design is better in every aim.
     """
@@ -75,7 +75,7 @@ def propose(trial: Trial, bench: Bench) -> Proposal | Trial:
 
 
 def _measured(design: Design, bench: Bench) -> Proposal | None:
-    """A design run on the fine grid, whether it does the task or not; None when the run fails."""
+    """A design run on the fine grid, whether it fulfils the task or not; None when the run fails."""
     task, group = bench.task, design.group
     drive = group.drive(task, design.length, design.pressure)
     bench.count_run()

@@ -17,9 +17,9 @@ _SURE = 0.95  # probabilities above this form one class
 def ranked(proposals: list[Proposal], task: Task) -> list[Proposal]:
     """Best first, with the front and reasons filled in.
 
-    Whatever the task ranks by, a drive that probably fails comes after one that probably does the task: the
-    first key is the probability in classes of 5 % up to 95 %, the second what the task ranks by. If that is
-    the probability, the first key is the probability itself and the second the air.
+    Whatever the task ranks by, a drive that probably fails comes after one that probably fulfils the task:
+    the first key is the probability in classes of 5 % up to 95 %, the second what the task ranks by. If that
+    is the probability, the first key is the probability itself and the second the air.
     """
 
     def order(proposal: Proposal) -> tuple[float, float]:

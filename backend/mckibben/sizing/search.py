@@ -37,7 +37,7 @@ class Sizing:
     Attributes:
         proposals: best first.
         rejected: the rejected candidates, nearest first.
-        explored: the best trial of each group that does the task.
+        explored: the best trial of each group that fulfils the task.
         combinations: designs within the limits of length, pressure and contraction, times valves and tubes.
         pruned: number of them that the closed form ruled out.
         simulated: number of transient runs, without those of specimens.
@@ -179,7 +179,7 @@ class _Search:
         return sound[times[sound] <= wanted]
 
     def _try(self, candidates: list[DesignCandidate]) -> tuple[list[Trial], list[tuple[Group, Trial | None]]]:
-        """The best trial of each group that does the task, and the nearest trial of each other group."""
+        """The best trial of each group that fulfils the task, and the nearest trial of each other group."""
         first = [(candidate, index) for candidate in candidates for index in _first_choice(candidate)]
         ran = self._run(first, (_PRUNED, 0.8 * _TRIED))
         again = [

@@ -1,4 +1,4 @@
-"""A simulated design: whether it does the task, its margin to each limit, and its cost."""
+"""A simulated design: whether it fulfils the task, its margin to each limit, and its cost."""
 
 from __future__ import annotations
 
