@@ -55,7 +55,7 @@ class GeometrySummary:
         inside_diameter: bore [m].
         wall_thickness: [m]; 0 when it is not known.
         thread_length, turns: of one thread [m], [-].
-        rhombus: the lattice, if the muscle was given in this form.
+        rhombus: the lattice, if the muscle was stated in this form.
     """
 
     braid_diameter: float

@@ -305,8 +305,8 @@ def _notes(proposal: Proposal, task: Task, document: SizingTask) -> list[str]:
         )
     if group.duty.pair:
         notes.append(
-            "Both muscles are at their nominal length at the far end of the swing; the run first fills the "
-            "second muscle, then swings."
+            "Each muscle has its nominal length at one end of the swing. The run first fills the second "
+            "muscle, then swings."
         )
     if document.load.force_over_stroke is not None:
         notes.append("The simulation uses a straight line above the force over the stroke.")

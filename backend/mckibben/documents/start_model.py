@@ -101,7 +101,7 @@ class StartModel:
 
     @property
     def limits(self) -> MuscleLimits:
-        """Limits stated by the maker; none for a muscle given by geometry."""
+        """Limits stated by the maker; none for a muscle stated by its geometry."""
         return MuscleLimits() if self.preset is None else self.preset.limits
 
 

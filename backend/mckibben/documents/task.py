@@ -193,7 +193,7 @@ _EXAMPLES: list[JsonValue] = [
 
 
 class SizingTask(Strict):
-    """A task; only the load, and a stroke or a pair, must be given. Plain numbers are in SI units."""
+    """A task; only the load, and a stroke or a pair, are required. Plain numbers are in SI units."""
 
     model_config = ConfigDict(json_schema_extra={"examples": _EXAMPLES})
 

@@ -38,7 +38,7 @@ class CurvesOptions(Strict):
         None, description="End of the range; null: the largest free contraction."
     )
     load: Load | None = Field(None, description="Constant load, for the operating points.")
-    fixed_length: Length | None = Field(None, description="Length held fixed, for force over pressure.")
+    fixed_length: Length | None = Field(None, description="Fixed length, for force over pressure.")
 
 
 class CurvesRequest(CurvesOptions):
@@ -83,10 +83,10 @@ class MuscleGeometry(Strict):
     braid_angle: float = si_field("rad", "Angle between thread and axis.")
     nominal_length: float = si_field("m", "Length at rest.")
     inside_diameter: float = si_field("m", "Bore.")
-    wall_thickness: float = si_field("m", "Wall of the bladder; 0 when not given.")
+    wall_thickness: float = si_field("m", "Wall of the bladder; 0 when not stated.")
     thread_length: float = si_field("m", "Length of one thread.")
     turns: float = si_field("1", "Turns of one thread.")
-    rhombus: RhombusAnswer | None = Field(description="The lattice, when the muscle was given by it.")
+    rhombus: RhombusAnswer | None = Field(description="The lattice, when the muscle was stated in this form.")
 
 
 class ModelAnswer(Strict):
@@ -96,7 +96,7 @@ class ModelAnswer(Strict):
 
 
 class OverPressureBranch(Strict):
-    """Position over pressure in one direction of motion; null where the load cannot be held."""
+    """Position over pressure in one direction of motion; null where the muscle cannot carry the load."""
 
     contraction: Series = si_field("1", "Contraction at the load.")
     length: Series = si_field("m", "Length at the load.")
