@@ -1,9 +1,9 @@
 """Detection of rows with a faulty sensor: saturated at an end of its range, or stuck.
 
 A run of identical values alone is no evidence: a constant pressure, a set point, rest and coarse rounding
-cause it too. There are two criteria. Missing noise: if a sensor is noisy elsewhere, a long run without noise is a
-fault. An abrupt stop: the signal changes at a constant rate, then suddenly not at all, while other channels
-continue to change.
+cause it too. There are two criteria. Missing noise: if a sensor is noisy elsewhere, a long run without noise
+is a fault. An abrupt stop: the signal changes at a constant rate, then suddenly not at all, while other
+channels continue to change.
 """
 
 from __future__ import annotations
