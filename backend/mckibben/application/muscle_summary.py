@@ -94,6 +94,12 @@ def limit_notices(flags: Iterable[LimitFlag]) -> list[Notice]:
     return [Notice(str(flag.code), flag.message, flag.field) for flag in unique.values()]
 
 
+def unverified_notice(figures: str, field: str) -> Notice:
+    """Notice that these figures of a preset were not read in a source; ``figures``: "PRESET: name, name"."""
+    why = "from general knowledge or estimated, not read in a source"
+    return Notice("unverified", f"{figures} {why}", field)
+
+
 def start_notices(start: StartModel) -> list[Notice]:
     """Notices about the muscle.
 
@@ -104,9 +110,7 @@ def start_notices(start: StartModel) -> list[Notice]:
     if preset is None:
         return notices
     if preset.unverified:
-        why = "from general knowledge or estimated, not read in a source"
-        message = f"{preset.id}: {', '.join(preset.unverified)} {why}"
-        notices.append(Notice("unverified", message, "muscle.preset"))
+        notices.append(unverified_notice(f"{preset.id}: {', '.join(preset.unverified)}", "muscle.preset"))
     length, bound, word = start.muscle.nominal_length, None, ""
     if preset.shortest is not None and length < preset.shortest * (1.0 - 1e-9):
         bound, word = preset.shortest, "shorter"

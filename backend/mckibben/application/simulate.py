@@ -15,6 +15,7 @@ from mckibben.application.muscle_summary import (
     geometry_of,
     limit_notices,
     start_notices,
+    unverified_notice,
 )
 from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.physics.drive_terms import COUNTER
@@ -309,9 +310,8 @@ def _joint(run: Run, rows: Array) -> JointMotion | None:
 
 
 def _part_notices(annotated: AnnotatedDrive) -> list[Notice]:
-    why = "from general knowledge or estimated, not read in a source"
     notices = [
-        Notice("unverified", f"{part}: {', '.join(names)} {why}", "valve")
+        unverified_notice(f"{part}: {', '.join(names)}", "valve")
         for part, names in annotated.unverified.items()
     ]
     if (text := annotated.drive.tube_assumption) is not None:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from mckibben.application.drive_of_design import drive_document
-from mckibben.application.muscle_summary import Notice
+from mckibben.application.muscle_summary import Notice, unverified_notice
 from mckibben.application.task_reading import catalogue_of, task_of
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.studio import Studio
@@ -347,8 +347,7 @@ def _explored(trial: Trial, front: bool) -> ExploredDrive:
 
 def _notices(proposals: list[ProposedDrive], document: SizingTask) -> list[Notice]:
     parts = dict.fromkeys(text for proposal in proposals for text in proposal.unverified)
-    why = "from general knowledge or estimated, not read in a source"
-    notices = [Notice("unverified", f"{text} {why}", "catalogue") for text in parts]
+    notices = [unverified_notice(text, "catalogue") for text in parts]
     if document.limits.life is not None:
         text = "the life is an estimate between 100 000 and 10 million cycles; no maker's curve is known"
         notices.append(Notice("unverified", text, "limits.life"))
