@@ -125,14 +125,14 @@ def slow_text(trial: Trial | None, task: Task) -> str:
         case "time":
             return f"{at} takes {figures.time:.3g} s for the stroke; {task.time:.3g} s is required"
         case "time_down" if figures.time_down is None:
-            return f"{at} does not come back within {task.vent_time:.3g} s"
+            return f"{at} does not return within {task.vent_time:.3g} s"
         case "time_down":
-            return f"{at} takes {figures.time_down:.3g} s back; {task.time_down:.3g} s is required"
+            return f"{at} takes {figures.time_down:.3g} s for the return; {task.time_down:.3g} s is required"
         case "cycle_time" if figures.time_down is None:
-            return f"{at} does not come back within {task.vent_time:.3g} s"
+            return f"{at} does not return within {task.vent_time:.3g} s"
         case "cycle_time":
             both = figures.time + (figures.time_down or 0.0)
-            return f"{at} takes {both:.3g} s up and down; {task.cycle_time:.3g} s is required"
+            return f"{at} takes {both:.3g} s for stroke and return; {task.cycle_time:.3g} s is required"
         case "force_limit":
             return f"{at} peaks at {figures.peak_force:.4g} N while it moves, above what the maker allows"
         case _:
