@@ -193,7 +193,7 @@ export interface components {
       /** Null: the drive's. */
       muscle?: components["schemas"]["MuscleInput"] | null;
       effects?: { [key: string]: { [key: string]: number | string } } | null;
-      /** Valve, tube, supply and load of transient measurements with a command channel; the measured command replaces the one given here. */
+      /** Valve, tube, supply and load of transient measurements with a command channel; the measured command replaces the one stated here. */
       drive?: components["schemas"]["DriveDocument"] | null;
       /** One measurement to fit to. */
       measurement?: string | null;
@@ -227,7 +227,7 @@ export interface components {
       x_pressure: (number | null)[];
       /** dL/dt of each point. [m/s] */
       velocity: (number | null)[];
-      /** -1 shortening, 1 lengthening, 0 held or unknown. */
+      /** -1 shortening, 1 lengthening, 0 at rest or unknown. */
       direction: (number | null)[];
       /** Measured. */
       measured: (number | null)[];
@@ -245,7 +245,7 @@ export interface components {
       /** Sign of dL/dt, for friction: -1 filling (shortening), 1 venting, 0 none. */
       direction?: -1 | 0 | 1;
       question: "contraction";
-      /** The force held. [N] */
+      /** The force of the muscle. [N] */
       force: number | string;
       /** [Pa] */
       pressure: number | string;
@@ -466,7 +466,7 @@ export interface components {
       contraction_to?: number | string | null;
       /** Constant load, for the operating points. [N] */
       load?: number | string | null;
-      /** Length held fixed, for force over pressure. [m] */
+      /** Fixed length, for force over pressure. [m] */
       fixed_length?: number | string | null;
       muscle: components["schemas"]["MuscleInput"];
       effects?: { [key: string]: { [key: string]: number | string } } | null;
@@ -505,7 +505,7 @@ export interface components {
       parameters: { [key: string]: { [key: string]: components["schemas"]["FittedParameter"] } };
       correlations: components["schemas"]["Correlation"][];
       geometry: components["schemas"]["MuscleGeometry"];
-      /** Muscle and effects; can be given to a comparison as a drive. */
+      /** Muscle and effects; a comparison takes them as a drive. */
       model: { [key: string]: unknown };
       freed: string[];
       /** Effects of the catalogue that were not tried, with the reason. */
@@ -517,7 +517,7 @@ export interface components {
       /** Null: the drive's. */
       muscle?: components["schemas"]["MuscleInput"] | null;
       effects?: { [key: string]: { [key: string]: number | string } } | null;
-      /** Valve, tube, supply and load of transient measurements with a command channel; the measured command replaces the one given here. */
+      /** Valve, tube, supply and load of transient measurements with a command channel; the measured command replaces the one stated here. */
       drive?: components["schemas"]["DriveDocument"] | null;
       /** One measurement to fit to. */
       measurement?: string | null;
@@ -670,13 +670,13 @@ export interface components {
     };
     /** Limits stated by the maker (null = not known), and the end stops. */
     DriveLimits: {
-      /** Gauge pressure. [Pa] */
+      /** Highest gauge pressure. [Pa] */
       max_pressure: number | null;
-      /** Force. [N] */
+      /** Highest force. [N] */
       max_force: number | null;
-      /** Contraction. [1] */
+      /** Highest contraction. [1] */
       max_contraction: number | null;
-      /** Stretch beyond the nominal length. [1] */
+      /** Highest stretch beyond the nominal length. [1] */
       max_pretension: number | null;
       /** Lower stop as a position of the load. [m] */
       position_min: number;
@@ -760,7 +760,7 @@ export interface components {
       /** Expected difference, in standard deviations of one reading. */
       separation: number;
     };
-    /** A simulated design that does the task; coarse figures, for a plot of the alternatives. */
+    /** A simulated design that fulfils the task; coarse figures, for a plot of the alternatives. */
     ExploredDesign: {
       muscle: string;
       /** Nominal length of each muscle. [m] */
@@ -1058,15 +1058,15 @@ export interface components {
     };
     /** A measurement as it was read. */
     MeasurementAnswer: {
-      /** SHA-256 of the file's content (and of the mapping, if one was given). */
+      /** SHA-256 of the file's content (and of the mapping, if there is one). */
       id: string;
       /** Name of the file. */
       name: string;
       /** isobaric, isometric, isotonic, diameter, transient or static. */
       kind: string;
-      /** Detected from the data, not given in the file. */
+      /** Detected from the data, not stated in the file. */
       kind_detected: boolean;
-      /** Why this kind was detected; empty when it was given. */
+      /** Why this kind was detected; empty when it was stated. */
       kind_reason: string;
       rows: number;
       /** Rows with a usable measurement. */
@@ -1096,15 +1096,15 @@ export interface components {
     };
     /** A measurement with its data. */
     MeasurementDetail: {
-      /** SHA-256 of the file's content (and of the mapping, if one was given). */
+      /** SHA-256 of the file's content (and of the mapping, if there is one). */
       id: string;
       /** Name of the file. */
       name: string;
       /** isobaric, isometric, isotonic, diameter, transient or static. */
       kind: string;
-      /** Detected from the data, not given in the file. */
+      /** Detected from the data, not stated in the file. */
       kind_detected: boolean;
-      /** Why this kind was detected; empty when it was given. */
+      /** Why this kind was detected; empty when it was stated. */
       kind_reason: string;
       rows: number;
       /** Rows with a usable measurement. */
@@ -1125,7 +1125,7 @@ export interface components {
       segments: components["schemas"]["Segmentation"];
       /** Remarks on the file. */
       messages: string[];
-      /** Channel -> values in SI; 'slack' marks rows without pulling force, 'usable' those with a usable measurement, 'sweep' and 'cycle' number them, 'motion' is -1 shortening, +1 lengthening, 0 held. */
+      /** Channel -> values in SI; 'slack' marks rows without pulling force, 'usable' those with a usable measurement, 'sweep' and 'cycle' number them, 'motion' is -1 shortening, +1 lengthening, 0 at rest. */
       columns: { [key: string]: (number | boolean | null)[] };
     };
     /** Published measured points; ``slack`` marks rows where the muscle did not pull (not a measured zero). */
@@ -1205,16 +1205,16 @@ export interface components {
       nominal_length: number;
       /** Bore. [m] */
       inside_diameter: number;
-      /** Wall of the bladder; 0 when not given. [m] */
+      /** Wall of the bladder; 0 when not stated. [m] */
       wall_thickness: number;
       /** Length of one thread. [m] */
       thread_length: number;
       /** Turns of one thread. [1] */
       turns: number;
-      /** The lattice, when the muscle was given by it. */
+      /** The lattice, when the muscle was stated in this form. */
       rhombus: components["schemas"]["RhombusAnswer"] | null;
     };
-    /** A preset id, or a length with exactly one of: diameter and angle, thread length and turns, rhombus. With a preset, the fields given override its values. */
+    /** A preset id, or a length with exactly one of: diameter and angle, thread length and turns, rhombus. With a preset, the stated fields override its values. */
     MuscleInput: {
       preset?: string | null;
       /** Length between the fittings at rest. [m] */
@@ -1309,7 +1309,7 @@ export interface components {
       fixed_length: number | null;
       force_at_fixed_length: components["schemas"]["ForceAtLength"] | null;
     };
-    /** Position over pressure in one direction of motion; null where the load cannot be held. */
+    /** Position over pressure in one direction of motion; null where the muscle cannot carry the load. */
     OverPressureBranch: {
       /** Contraction at the load. [1] */
       contraction: (number | null)[];
@@ -1404,7 +1404,7 @@ export interface components {
       kind: string | null;
       kind_detected: boolean;
       kind_reason: string;
-      /** Conditions found or given, SI. */
+      /** Conditions in the file or in the mapping, SI. */
       conditions: { [key: string]: string | number | null };
       /** Conditions to ask for. */
       missing: components["schemas"]["MissingCondition"][];
@@ -1438,7 +1438,7 @@ export interface components {
       /** Why the column cannot be used as its header states. */
       why: string | null;
     };
-    /** A drive that does the task. Figures are per muscle unless stated otherwise. */
+    /** A drive that fulfils the task. Figures are per muscle unless stated otherwise. */
     ProposalAnswer: {
       /** Id of the preset. */
       muscle: string;
@@ -1492,7 +1492,7 @@ export interface components {
       diameter: number;
       /** Load cycles; an estimate, not verified. [1] */
       life: number;
-      /** Probability that a built drive does the task; null without specimens. [1] */
+      /** Probability that a built drive fulfils the task; null without specimens. [1] */
       probability: number | null;
       /** Its standard error. [1] */
       probability_error: number | null;
@@ -1573,7 +1573,7 @@ export interface components {
       /** Null: the drive's. */
       muscle?: components["schemas"]["MuscleInput"] | null;
       effects?: { [key: string]: { [key: string]: number | string } } | null;
-      /** Valve, tube, supply and load of transient measurements with a command channel; the measured command replaces the one given here. */
+      /** Valve, tube, supply and load of transient measurements with a command channel; the measured command replaces the one stated here. */
       drive?: components["schemas"]["DriveDocument"] | null;
       /** One measurement to fit to. */
       measurement?: string | null;
@@ -1611,9 +1611,9 @@ export interface components {
     /** The hidden effects, compared with the user's diagnosis. */
     RevealAnswer: {
       hidden: components["schemas"]["Hidden"][];
-      /** For each hidden effect: whether it is among the given ones. */
+      /** For each hidden effect: whether the user named it. */
       found: boolean[];
-      /** Given effects that are neither hidden nor of the start model. */
+      /** Effects of the user that are neither hidden nor of the start model. */
       surplus: string[];
       text: string;
     };
@@ -1754,11 +1754,11 @@ export interface components {
     };
     /** Proposals, best first, and rejected candidates with reasons; SI, pressures gauge. */
     SizingAnswer: {
-      /** Best first; empty if no candidate does the task. */
+      /** Best first; empty if no candidate fulfils the task. */
       proposals: components["schemas"]["ProposalAnswer"][];
       /** Nearest first. */
       rejected: components["schemas"]["RejectedAnswer"][];
-      /** The best design of each choice of parts that does the task. */
+      /** The best design of each choice of parts that fulfils the task. */
       explored: components["schemas"]["ExploredDesign"][];
       /** Combinations of muscle, length, number, pressure, valve and tube within the limits. */
       combinations: number;
@@ -1784,7 +1784,7 @@ export interface components {
       /** Empty = title of the task, or a summary of it. */
       title?: string;
     };
-    /** A task; only the load, and a stroke or a pair, must be given. Plain numbers are in SI units. */
+    /** A task; only the load, and a stroke or a pair, are required. Plain numbers are in SI units. */
     SizingTask: {
       /** Version of the document. */
       schema?: 1;

@@ -85,7 +85,7 @@ def diagnosed(case: Case) -> Line:
 
 def subject_and_start(case: Case, studio: Any) -> tuple[Any, Any]:
     """What a user would give of a case: measurement, muscle or drive, start model."""
-    from mckibben.documents.convert import given_muscle
+    from mckibben.documents.convert import stated_muscle
     from mckibben.documents.drive_files import read_document
     from mckibben.documents.drive_reading import drive_of
     from mckibben.documents.muscle import MuscleInput
@@ -101,7 +101,7 @@ def subject_and_start(case: Case, studio: Any) -> tuple[Any, Any]:
         drive = drive_of(read_document(document, "the drive"), studio).drive
         model = drive.model
     else:
-        start = studio.start_model(given_muscle(MuscleInput.model_validate(case.muscle)), case.effects)
+        start = studio.start_model(stated_muscle(MuscleInput.model_validate(case.muscle)), case.effects)
         drive, model = None, studio.static_model(start)
     fit_model = FitModel(model.muscle, model.effects, model.values)
     return predictor_of(measurement, fit_model.muscle, drive), fit_model

@@ -14,13 +14,13 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from mckibben.documents.start_model import GivenMuscle
+from mckibben.documents.start_model import StatedMuscle
 from mckibben.documents.studio import Studio
-from mckibben.identification.fit.comparison import compare
 from mckibben.measurement.points import find_preset
 from mckibben.physics.ideal import blocked_force
 from mckibben.physics.muscle import Muscle
 from mckibben.resources import presets_folder
+from tests.identification.comparing import compare
 
 # The 6 bar blocked force of the maker's curves [N], by size.
 FULL_SCALE = {"10": 473.3, "20": 1515.0, "40": 6203.0}
@@ -82,7 +82,7 @@ def _sizing_curves(studio: Studio) -> Table:
         *columns, title="Presets against the maker's sizing curves, 0-25 %, RMS of the 6 bar blocked force"
     )
     for size, full_scale in FULL_SCALE.items():
-        start = studio.start_model(GivenMuscle(preset=f"DMSP-{size}"), None)
+        start = studio.start_model(StatedMuscle(preset=f"DMSP-{size}"), None)
         model = studio.static_model(start)
         curve = studio.library.get("curves", f"musclesim-{size}")
         data, used = curve.si_columns(), curve.used

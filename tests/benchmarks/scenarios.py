@@ -14,7 +14,7 @@ import numpy as np
 
 from mckibben.application.simulate import SimulationResult, result_of, run_drive
 from mckibben.documents.drive_files import preset_document
-from mckibben.documents.drive_reading import GivenDrive, drive_of
+from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
 from mckibben.documents.studio import Studio
 from mckibben.presets import DrivePreset
 from mckibben.resources import presets_folder
@@ -34,7 +34,7 @@ class Scenario:
     """A scenario that has been run."""
 
     preset: DrivePreset
-    given: GivenDrive
+    given: AnnotatedDrive
     run: Run
     result: SimulationResult
 

@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 from mckibben import __version__, cli
-from mckibben.cli.options import start_model
+from mckibben.cli.options import ModelOptions, start_model
 from mckibben.cli.serve import _bind, _link
 from mckibben.documents.studio import Studio
 from mckibben.resources import presets_folder
@@ -430,7 +430,7 @@ def test_what_is_sent_to_a_running_server_is_kept_in_its_folder(server: RunningS
 def test_a_file_named_like_a_preset_does_not_hide_it(tmp_path: Path) -> None:
     write("DMSP-20", "{}")
     studio = Studio(presets=presets_folder())
-    assert start_model(studio, "DMSP-20", ideal=False, effects=[]).preset is not None
+    assert start_model(studio, ModelOptions("DMSP-20")).preset is not None
 
 
 def test_the_start_is_fast_because_nothing_heavy_is_imported() -> None:

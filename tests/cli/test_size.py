@@ -39,7 +39,7 @@ def test_nothing_found_is_an_answer(run: Run) -> None:
     task = write("task.json", IMPOSSIBLE)
     code, out, err = run("size", task)
     assert code == 0
-    assert "nothing in the catalogue does this" in out
+    assert "no drive in the catalogue fulfils this task" in out
     assert "times the load" in err
     assert json.loads(run("size", task, "--json")[1])["proposals"] == []
 
@@ -88,7 +88,7 @@ def test_nothing_found_is_written_down_too(run: Run) -> None:
     code, out, _ = run("size", write("task.json", IMPOSSIBLE), "--report", "r.html", "--json")
     assert code == 0
     assert json.loads(out)["proposals"] == []
-    assert "Nothing in the catalogue does this task" in Path("r.html").read_text("utf-8")
+    assert "No drive in the catalogue fulfils this task" in Path("r.html").read_text("utf-8")
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from mckibben.documents.drive_files import preset_document, read_document
-from mckibben.documents.drive_reading import GivenDrive, drive_of
+from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
 from mckibben.presets import PresetLibrary
@@ -45,10 +45,10 @@ def studio() -> Studio:
 
 
 @pytest.fixture
-def read(studio: Studio) -> Callable[..., GivenDrive]:
+def read(studio: Studio) -> Callable[..., AnnotatedDrive]:
     """The drive of the example with parts replaced; None takes a part away."""
 
-    def given(**changes: Any) -> GivenDrive:
+    def given(**changes: Any) -> AnnotatedDrive:
         document = copy.deepcopy(EXAMPLE)
         for name, value in changes.items():
             document.pop(name, None)
@@ -59,7 +59,7 @@ def read(studio: Studio) -> Callable[..., GivenDrive]:
     return given
 
 
-def test_the_example_means_this_in_si(read: Callable[..., GivenDrive]) -> None:
+def test_the_example_means_this_in_si(read: Callable[..., AnnotatedDrive]) -> None:
     drive = read().drive
     assert drive.muscle.nominal_length == 0.8
     assert drive.model.values["viscous_damping"]["coefficient"] == 120.0
@@ -74,7 +74,7 @@ def test_the_example_means_this_in_si(read: Callable[..., GivenDrive]) -> None:
     assert (drive.min_contraction, drive.max_contraction) == (0.0, 0.25)
 
 
-def test_a_tube_may_be_stated_left_out_or_excluded(read: Callable[..., GivenDrive]) -> None:
+def test_a_tube_may_be_stated_left_out_or_excluded(read: Callable[..., AnnotatedDrive]) -> None:
     assert read().drive.assumed_tube is None
     left_out = read(tube=None).drive
     assert left_out.tube is None
@@ -85,7 +85,7 @@ def test_a_tube_may_be_stated_left_out_or_excluded(read: Callable[..., GivenDriv
 
 
 def test_outside_a_pulse_a_valve_exhausts_and_a_regulator_gives_no_pressure(
-    read: Callable[..., GivenDrive],
+    read: Callable[..., AnnotatedDrive],
 ) -> None:
     assert list(read().drive.command.segments(4.0).start_values) == [1.0, -1.0]
     regulated = read(regulator={"range": "6 bar", "time": "50 ms"}).drive
@@ -94,7 +94,7 @@ def test_outside_a_pulse_a_valve_exhausts_and_a_regulator_gives_no_pressure(
     assert (regulated.regulator.range, regulated.regulator.time) == (6e5, 0.05)
 
 
-def test_a_regulator_preset_brings_its_range(read: Callable[..., GivenDrive]) -> None:
+def test_a_regulator_preset_brings_its_range(read: Callable[..., AnnotatedDrive]) -> None:
     drive = read(valve={"preset": "VPPM-6"}).drive
     assert drive.regulator is not None
     assert drive.regulator.range == 6e5
@@ -103,7 +103,7 @@ def test_a_regulator_preset_brings_its_range(read: Callable[..., GivenDrive]) ->
     assert (faster.regulator.range, faster.regulator.time) == (6e5, 0.02)
 
 
-def test_a_controller_gives_the_command_instead(read: Callable[..., GivenDrive]) -> None:
+def test_a_controller_gives_the_command_instead(read: Callable[..., AnnotatedDrive]) -> None:
     given = read(controller=CONTROLLER)
     assert given.drive.controller is not None
     assert given.drive.controller.kp == pytest.approx(20.0)  # percent per mm in 1/m
@@ -117,7 +117,7 @@ def test_a_controller_gives_the_command_instead(read: Callable[..., GivenDrive])
     assert alone.notes == {}
 
 
-def test_valve_by_value(read: Callable[..., GivenDrive]) -> None:
+def test_valve_by_value(read: Callable[..., AnnotatedDrive]) -> None:
     valve = read(valve={"sonic_conductance": "1.2 l/(s*bar)", "critical_pressure_ratio": 0.2}).drive.valve
     assert valve.fill_conductance == valve.exhaust_conductance == pytest.approx(1.2e-8)
     assert valve.fill_ratio == valve.exhaust_ratio == 0.2
@@ -131,7 +131,7 @@ def test_valve_by_value(read: Callable[..., GivenDrive]) -> None:
 
 
 def test_effects_of_the_presets_hold_only_when_the_document_names_none(
-    read: Callable[..., GivenDrive],
+    read: Callable[..., AnnotatedDrive],
 ) -> None:
     with_presets = read(effects=None)
     assert set(with_presets.start.effects) >= {"bladder_elasticity", "prestress", "valve_delay"}
@@ -140,12 +140,12 @@ def test_effects_of_the_presets_hold_only_when_the_document_names_none(
     assert read(effects={}).start.effects == {}
 
 
-def test_fittings_and_dead_volume_add_up(read: Callable[..., GivenDrive]) -> None:
+def test_fittings_and_dead_volume_add_up(read: Callable[..., AnnotatedDrive]) -> None:
     drive = read(fittings=["QS-4", "QS-6"], gas={"dead_volume": "10 cm^3"}).drive
     assert drive.fitting_volume == pytest.approx(13e-6)
 
 
-def test_loads(read: Callable[..., GivenDrive]) -> None:
+def test_loads(read: Callable[..., AnnotatedDrive]) -> None:
     assert read(load={"mass": 1.0, "arrangement": "horizontal"}).drive.load.inclination == 0.0
     inclined = read(load={"mass": 1.0, "arrangement": "inclined", "inclination": "30 deg"}).drive.load
     assert inclined.inclination == pytest.approx(radians(30.0))
@@ -216,7 +216,7 @@ REFUSED = {
     [("antagonist", "an antagonist load"), ("inclined", "an inclined load"), ("hanging", "a hanging load")],
 )
 def test_arrangements_have_the_right_article(
-    read: Callable[..., GivenDrive], arrangement: str, words: str
+    read: Callable[..., AnnotatedDrive], arrangement: str, words: str
 ) -> None:
     load = {"arrangement": arrangement, "lever_ratio": 0.5}
     own = {"antagonist": {"pulley_radius": "20 mm"}, "inclined": {"inclination": "30 deg"}}
@@ -225,7 +225,7 @@ def test_arrangements_have_the_right_article(
 
 
 @pytest.mark.parametrize("name", REFUSED)
-def test_what_is_refused_and_where(read: Callable[..., GivenDrive], name: str) -> None:
+def test_what_is_refused_and_where(read: Callable[..., AnnotatedDrive], name: str) -> None:
     changes, field, hint = REFUSED[name]
     with pytest.raises(InputError) as caught:
         read(**changes)

@@ -91,7 +91,7 @@ def test_from_the_empty_page_to_the_printed_report(page: Page, tmp_path: Path) -
     act(lambda: enter(page, "Mass", "18 kg"))
     act(lambda: enter(page, "Stroke", "5 cm"))
     act(lambda: searched(page))
-    expect(page.locator(".chosen-drive")).to_contain_text("probability that the real drive does the task")
+    expect(page.locator(".chosen-drive")).to_contain_text("probability that the real drive fulfils the task")
     drive = page.locator(".chosen-drive h3").first.inner_text()
     time = number(fact(page, "Time for the stroke"))
 

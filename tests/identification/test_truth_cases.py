@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mckibben.documents.convert import given_muscle
+from mckibben.documents.convert import stated_muscle
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.muscle import MuscleInput
@@ -84,7 +84,7 @@ def test_files_read_as_what_was_measured(cases: list[Case]):
         ((file, text),) = made.files.items()
         measurement = read_measurement(text.encode(), file)
         assert measurement.kind == made.kind, made.id
-        muscle = STUDIO.start_model(given_muscle(MuscleInput.model_validate(made.muscle)), {}).muscle
+        muscle = STUDIO.start_model(stated_muscle(MuscleInput.model_validate(made.muscle)), {}).muscle
         assert measurement.rows == made.rows
         for channel, values in made.measured.items():
             read = lengths(measurement, muscle.nominal_length) if channel == "length" else None
@@ -117,7 +117,7 @@ def test_an_ideal_muscle_has_the_ideal_force_but_for_the_noise(cases: list[Case]
             continue
         ((file, text),) = made.files.items()
         measurement = read_measurement(text.encode(), file)
-        muscle = STUDIO.start_model(given_muscle(MuscleInput.model_validate(made.muscle)), {}).muscle
+        muscle = STUDIO.start_model(stated_muscle(MuscleInput.model_validate(made.muscle)), {}).muscle
         lam = lengths(measurement, muscle.nominal_length) / muscle.nominal_length
         t = muscle.braid_angle
         ideal = measurement.columns["pressure"] * pi * muscle.braid_diameter**2 / 4

@@ -47,9 +47,9 @@ def test_the_fit_is_that_of_all_rows(rows: int) -> None:
     whole = loops()
     few = reduced(whole, rows)
     assert 0.95 * rows <= few.measurement.rows <= 1.1 * rows + 50
-    assert few.weights.sum() == whole.rows
+    assert few.counts.sum() == whole.rows
     all_values, all_errors = fitted(whole, np.ones(whole.rows))
-    values, errors = fitted(few.measurement, few.weights)
+    values, errors = fitted(few.measurement, few.counts)
     np.testing.assert_allclose((values - all_values) / all_errors, 0.0, atol=0.1)
     np.testing.assert_allclose(errors / all_errors, 1.0, atol=0.02)
 
@@ -59,7 +59,7 @@ def test_unusable_rows_are_gone_and_nothing_crosses_them() -> None:
     bad = whole.excluded_rows["force saturated"]
     assert bad.any()
     few = reduced(whole)
-    assert few.weights.sum() == np.count_nonzero(whole.usable)
+    assert few.counts.sum() == np.count_nonzero(whole.usable)
     assert few.measurement.usable.all()
     times = few.measurement.columns["time"]
     assert (np.diff(times) > 0.0).all()
@@ -98,7 +98,7 @@ def test_edges_of_a_transient_stay_where_they_are() -> None:
     assert np.count_nonzero(edge) > 30 * 39
     up = 1.0 - np.exp(-since / rise)
     true = 5e5 * np.where(taken["command"] > 0.0, up, 1.0 - up)
-    error = (taken["pressure"] - true)[edge] / (200.0 / np.sqrt(few.weights[edge]))
+    error = (taken["pressure"] - true)[edge] / (200.0 / np.sqrt(few.counts[edge]))
     assert np.sqrt(np.mean(error**2)) < 1.5
 
 
@@ -106,12 +106,12 @@ def test_a_small_measurement_is_left_as_it_is() -> None:
     whole = loops(2000)
     few = reduced(whole)
     assert few.measurement is whole
-    assert (few.weights == 1.0).all()
+    assert (few.counts == 1.0).all()
     assert few.message == ""
 
 
 def test_it_says_what_was_done() -> None:
     few = reduced(loops())
-    assert "weighted by their number, instead of 100000 rows" in few.message
+    assert "all with the same weight, instead of 100000 rows" in few.message
     assert few.message in few.measurement.messages
     assert few.measurement.id != loops().id

@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import quad
 
 from mckibben.physics import ideal
-from mckibben.physics.braid import Braid, braid_from_diameter, volume
+from mckibben.physics.braid import braid_from_diameter, volume
 
 D0, THETA0, L0, P = 0.010, radians(25.0), 0.100, 0.6e6
 BRAID = braid_from_diameter(diameter=D0, braid_angle=THETA0, length=L0)
@@ -131,36 +131,6 @@ def test_force_vanishes_and_changes_sign_at_the_zero_force_length() -> None:
     assert ideal.force(braid=BRAID, pressure=P, length=SHORTEST * 1.001) > 0.0
     assert ideal.force(braid=BRAID, pressure=P, length=SHORTEST * 0.999) < 0.0
     assert ideal.force(braid=BRAID, pressure=0.0, length=L0) == 0.0
-
-
-def test_equation_20_has_no_value_where_19_is_its_limit() -> None:
-    """k = 6 L F/(3 L^2 - b^2) is 0/0 at L_min; beside it both agree."""
-    for offset in (1e-3, -1e-3, 1e-6):
-        length = SHORTEST * (1.0 + offset)
-        force = ideal.force(braid=BRAID, pressure=P, length=length)
-        got = ideal.stiffness_from_force(braid=BRAID, force=force, length=length)
-        assert got == pytest.approx(ideal.stiffness(braid=BRAID, pressure=P, length=length), rel=1e-12)
-    # Lengths whose 3 L^2 is b^2 to the last bit.
-    lengths = np.linspace(1.0, 2.0, 1001)
-    braid = Braid(np.sqrt(3.0) * lengths, 1.0)
-    exact = 3.0 * lengths**2 == braid.thread_length**2
-    assert exact.any()
-    with np.errstate(invalid="ignore", divide="ignore"):
-        got = ideal.stiffness_from_force(braid=braid, force=np.zeros(1001), length=lengths)
-    assert np.isnan(got[exact]).all()
-    assert np.isfinite(ideal.stiffness(braid=braid, pressure=P, length=lengths)).all()
-
-
-def test_secant_stiffness() -> None:
-    """(F - 0)/(L - L_min), eq. 25, and the tangent where both points meet."""
-    for length in (0.07, 0.09, 0.105):
-        secant = ideal.force(braid=BRAID, pressure=P, length=length) / (length - SHORTEST)
-        assert ideal.secant_stiffness(braid=BRAID, pressure=P, length=length) == pytest.approx(
-            secant, rel=1e-11
-        )
-    limit = ideal.secant_stiffness(braid=BRAID, pressure=P, length=SHORTEST)
-    assert limit == pytest.approx(ideal.stiffness(braid=BRAID, pressure=P, length=SHORTEST), rel=1e-14)
-    assert limit == pytest.approx(8283.44, abs=5e-3)
 
 
 @pytest.mark.parametrize("exponent", [1.0, 1.4])

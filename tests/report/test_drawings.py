@@ -128,7 +128,7 @@ def test_a_stack_shares_its_axis() -> None:
 def test_a_long_legend_names_first_and_last_and_counts_the_rest() -> None:
     marks = [Line([0, 1], [k, k], f"series {k}") for k in range(30)]
     words = texts(chart(X, Y, marks, title="t"))
-    assert {"series 0", "series 29", "and 18 between"} <= set(words)
+    assert {"series 0", "series 29", "and 18 more"} <= set(words)
 
 
 def test_colours_of_a_family_differ() -> None:

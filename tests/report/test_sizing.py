@@ -12,7 +12,7 @@ import pytest
 
 from mckibben.application.size import RejectedParts, SizingResult
 from mckibben.report.sizing import Command, Entry, Margin, SizingMaterial, SpecimenSpread, sizing_report
-from mckibben.report.sizing.given import task_section
+from mckibben.report.sizing.inputs import task_section
 from mckibben.report.sizing.others import rejected_section
 from mckibben.report.sizing.safety import margins_section, uncertainty_section
 from mckibben.report.sizing.words import entry_value
@@ -32,7 +32,7 @@ def material(**changes: Any) -> SizingMaterial:
     """Of a task that nothing does."""
     given: dict[str, Any] = {
         "title": "A title", "made": datetime(2026, 1, 2, tzinfo=UTC), "versions": {"mckibben": "1"},
-        "about": "Lift 1 kg", "entries": [], "pair": False, "profile": ((), ()), "considered": {},
+        "about": "Lift 1 kg", "entries": [], "pair": False, "profile": ((), ()),
         "result": NOTHING,
         "chosen": None, "catalogue": {}, "hashes": {"task.json": "ab" * 32},
         "command": Command(["mckibben size task.json"], {"task.json": "{}"}),
@@ -87,7 +87,7 @@ def test_a_task_tells_what_is_given_and_names_what_is_open() -> None:
     ]
     section = task_section(material(entries=entries))
     assert cells(section) == [["Moved mass", "20\xa0kg", "Moved mass."]]
-    assert "Not part of the task: time for the way back." in section
+    assert "Not stated: time for the return." in section
 
 
 def test_margins_are_drawn_to_scale_and_the_nearest_is_named() -> None:
@@ -114,13 +114,13 @@ def test_a_probability_says_what_it_is_a_share_of() -> None:
     proposal = Picked(probability=0.9, probability_error=0.03, specimens=100)
     section = uncertainty_section(Picked(proposal=proposal, spread=spread))  # pyright: ignore[reportArgumentType]
     words = text_of(section).replace("\xa0", " ")
-    assert "90 % of 100 simulated specimens do the task" in words
+    assert "90 % of 100 simulated specimens fulfil the task" in words
     assert "between 84 and 96 %" in words  # two standard errors
     assert "± 0.80 % of the length" in words  # two standard deviations of the shift
-    assert "no failure rate" in words
-    assert "not known of this muscle" in words
+    assert "not a failure rate" in words
+    assert "unknown for this muscle" in words
     none = uncertainty_section(Picked(proposal=proposal, spread=None))  # pyright: ignore[reportArgumentType]
-    assert "is not known" in none
+    assert "is unknown" in none
 
 
 def test_rejections_of_the_same_muscles_are_told_once_and_counted() -> None:
@@ -146,6 +146,6 @@ def test_a_report_without_a_drive_is_well_formed_and_takes_texts_as_texts() -> N
     assert "script" not in {element.tag for element in root.iter()}
     assert root.findtext("head/title") == f"{NASTY} – sizing report"
     assert ["".join(h.itertext()) for h in root.iter("h2")] == [
-        "1 Result", "2 Task", "3 What does not do the task", "4 Assumptions", "5 To repeat it",
+        "1 Result", "2 Task", "3 Rejected parts", "4 Assumptions", "5 How to reproduce",
     ]  # fmt: skip
     assert "ab" * 32 in page

@@ -93,11 +93,11 @@ def test_figures_are_those_of_the_comparison(diagnosed: tuple[str, dict, dict]) 
     assert exact(rows["RMS error"][0][0]) == pytest.approx(comparison["rmse"], rel=1e-12)
     share = exact(rows["… of the largest measured value"][0][0])
     assert 100 * share == pytest.approx(comparison["nrmse_percent"], rel=1e-12)
-    assert exact(rows["mean of the residual"][0][0]) == pytest.approx(comparison["residual_mean"])
+    assert exact(rows["Mean of the residual"][0][0]) == pytest.approx(comparison["residual_mean"])
     shown = "".join(rows["RMS error"][0][0].itertext())
     assert float(shown.split()[0]) == pytest.approx(comparison["rmse"], rel=1e-3)
     assert comparison["excluded"] == {"slack": 66}
-    assert rows["rows used"][0][0].text == "60 of 126"
+    assert rows["Rows used"][0][0].text == "60 of 126"
     assert "Rows left out: 66 slack." in text
     assert comparison["sentences"][-1] in text
     for profile in comparison["where"]:

@@ -44,8 +44,8 @@ BESIDE: dict[str, Any] = {
 }
 WHOLE = [
     "Result", "Task", "Parts list", "Curves and operating points", "Motion", "Margins", "Uncertainty",
-    "Alternatives", "What does not do the task", "Assumptions", "Figures and their grades", "Equations",
-    "To repeat it",
+    "Alternatives", "Rejected parts", "Assumptions", "Figures and their grades", "Equations",
+    "How to reproduce",
 ]  # fmt: skip
 
 
@@ -111,7 +111,7 @@ def test_operating_points_follow_from_weight_and_measured_curve(lifted: tuple[st
     best, rows = answer["proposals"][0], tables(text)
     assert best["muscle"] == "DMSP-20"
     assert best["parallel"] == 1
-    begin, end = rows["Force that the muscle must have"][0]
+    begin, end = rows["Force demanded of the muscle"][0]
     assert exact(begin) == exact(end) == pytest.approx(20.0 * GRAVITY)
     contraction = exact(rows["Contraction"][0][1])
     assert contraction == pytest.approx(0.06 / best["nominal_length"])
@@ -128,7 +128,7 @@ def test_the_needed_pressure_holds_the_load_on_the_curves(
 ) -> None:
     text, answer = lifted
     best, rows = answer["proposals"][0], tables(text)
-    needed = exact(rows["Pressure that just carries it, at rest"][0][1])
+    needed = exact(rows["Pressure that just carries the load, at rest"][0][1])
     assert needed == pytest.approx(best["needed_pressure"])
     end = best["contraction"]
     body = {
@@ -147,14 +147,14 @@ def test_timing_is_that_of_the_run_of_the_drive(
         rows, best = tables(text), answer["proposals"][0]
         run = post(shared_client, "/api/simulations", {"drive": best["drive"], "points": 2}).json()
         for name, figure in (
-            ("Positioning time (arrival on the stop)", "positioning_time"),
+            ("Positioning time (arrival at the stop)", "positioning_time"),
             ("Delay time (50 % of the stroke)", "delay_time"),
             ("Rise time (10 to 90 % of the stroke)", "rise_time"),
             ("Largest speed", "max_speed"),
         ):
             for cell, phase in zip(rows[name][0], ("extend", "retract"), strict=True):
                 assert exact(cell) == pytest.approx(run["timing"][phase][figure], rel=2e-3), (name, phase)
-        energy = exact(rows["Energy on the stop"][0][0])
+        energy = exact(rows["Energy at the stop"][0][0])
         mass = run["geometry"] and best["drive"]["load"]["mass"]
         assert energy == pytest.approx(0.5 * mass * best["end_speed"] ** 2, rel=5e-3)
 
@@ -177,7 +177,7 @@ def test_margins_are_shares_of_the_limits(lifted: tuple[str, dict]) -> None:
 def test_probability_alternatives_and_rejections_are_those_of_the_answer(lifted: tuple[str, dict]) -> None:
     text, answer = lifted
     best, rows = answer["proposals"][0], tables(text)
-    assert f"{100 * best['probability']:.3g} % of 20 simulated specimens do the task" in text
+    assert f"{100 * best['probability']:.3g} % of 20 simulated specimens fulfil the task" in text
     error = math.sqrt(max(best["probability"] * (1 - best["probability"]), 1 / 20) / 20)
     assert f"Standard error {100 * error:.2g} %" in text
     for rank, item in enumerate(answer["proposals"], 1):
@@ -188,7 +188,7 @@ def test_probability_alternatives_and_rejections_are_those_of_the_answer(lifted:
             [item["pressure"], item["time"], item["air_volume_anr"]]
         )
     told = {item["muscle"] for item in answer["rejected"]}
-    section = text[text.index("What does not do the task") : text.index("What the computation approx")]
+    section = text[text.index("Rejected parts") : text.index("Simplifications")]
     for muscle in told:
         assert muscle in section
     assert answer["rejected"][0]["why"] in section
@@ -228,10 +228,10 @@ def test_what_was_given_and_what_was_assumed_is_told(lifted: tuple[str, dict]) -
     assert words(rows["Ambient temperature"][0][0]) == "20\xa0°C"
     assert words(rows["Tolerance of the supply pressure"][0][0]) == "3\xa0%"
     task = text[text.index("2 Task") : text.index("3 Parts list")]
-    assumed = text[text.index("What the task does not say") :]
+    assumed = text[text.index("Values the task does not state") :]
     assert "Ambient temperature" not in task
     assert "Ambient temperature" in assumed
-    assert "PUN-H-4x0.75" in words(rows["Tubes that may be used"][0][0])
+    assert "PUN-H-4x0.75" in words(rows["Tubes to try"][0][0])
 
 
 def test_a_pair_has_two_muscles_valves_and_an_angle(swung: tuple[str, dict]) -> None:
@@ -240,8 +240,8 @@ def test_a_pair_has_two_muscles_valves_and_an_angle(swung: tuple[str, dict]) -> 
     for kind in ("Muscle", "Valve", "Tube"):
         (number,) = {first for first, cells in _rows(text) if words(cells[0]).startswith(f"{kind} ")}
         assert number == "2"
-    resisting = [exact(cell) for cell in rows["… of it against the empty second muscle"][0]]
-    demand = [exact(cell) for cell in rows["Force that one muscle must have"][0]]
+    resisting = [exact(cell) for cell in rows["… of which to stretch the empty second muscle"][0]]
+    demand = [exact(cell) for cell in rows["Force demanded of one muscle"][0]]
     for force, second in zip(demand, resisting, strict=True):
         assert force - second == pytest.approx(2.0 / 0.03)
     contraction = exact(rows["Contraction"][0][1])
@@ -257,11 +257,11 @@ def test_parallel_muscles_share_the_load_and_the_run_takes_a_straight_line(share
     assert best["parallel"] == 2
     text = report(shared_client, {"task": BESIDE})
     rows = tables(text)
-    demand = [exact(cell) for cell in rows["Force that one muscle must have"][0]]
+    demand = [exact(cell) for cell in rows["Force demanded of one muscle"][0]]
     assert demand == pytest.approx([(35.0 * GRAVITY + 40.0) / 2, 35.0 * GRAVITY / 2])
     assert "load in the run" in text
     assert "the lowest straight line that is nowhere below it" in text
-    assert exact(rows["Energy on the stop"][0][0]) == pytest.approx(
+    assert exact(rows["Energy at the stop"][0][0]) == pytest.approx(
         0.5 * 35.0 * best["end_speed"] ** 2, rel=5e-3
     )
     used = max(best["contraction"] / 0.25, demand[0] / 630.0)
@@ -285,14 +285,14 @@ NONE = {"specimens": 0}
             {"load": {"mass": "9 kg", "counterweight": "4 kg", "lever_ratio": 0.5}, "stroke": "40 mm"},
             ["9 kg with 4 kg of counterweight"],
         ),
-        ({"load": {"pair": {"angle": "40 deg"}}}, ["ample", "Both muscles of the pair", ">free<"]),
+        ({"load": {"pair": {"angle": "40 deg"}}}, ["ample", "Each muscle of the pair", ">free<"]),
         (
             {"load": {"mass": "5 kg"}, "stroke": "20 mm", "catalogue": {**FEW, "tube_length": 0}},
-            ["the valve sits on the muscle", "No tube"],
+            ["the valve is mounted on the muscle", "No tube"],
         ),
         (
             {"load": {"mass": "5 kg"}, "stroke": "20 mm", "ambient_temperature": "90 degC"},
-            ["Nothing in the catalogue does this task", "another place for it"],
+            ["No drive in the catalogue fulfils this task", "another place for it"],
         ),
     ],
     ids=["untimed", "spring", "lever", "free pair", "no tube", "too hot"],
@@ -337,18 +337,18 @@ def test_nothing_found_is_a_report_too(shared_client: TestClient) -> None:
         assert headings(text) == [
             "Result",
             "Task",
-            "What does not do the task",
+            "Rejected parts",
             "Assumptions",
-            "To repeat it",
+            "How to reproduce",
         ]
-        assert "Nothing in the catalogue does this task" in text
+        assert "No drive in the catalogue fulfils this task" in text
         answer = post(shared_client, "/api/sizings", IMPOSSIBLE).json()
         for item in answer["rejected"]:
             assert item["why"] in text
     near = {**TASK, "load": {"mass": "20 kg"}, "supply_pressure": "1 bar"}
     rejected = post(shared_client, "/api/sizings", near).json()["rejected"]
     text = report(shared_client, {"task": near})
-    assert f"It would do with {rejected[0]['would_work_if']}" in text
+    assert f"It would work with {rejected[0]['would_work_if']}" in text
 
 
 def test_titles_are_shown_and_never_run(shared_client: TestClient) -> None:

@@ -8,11 +8,12 @@ from typing import Any
 import pytest
 
 from mckibben.application.json_text import to_json
-from mckibben.application.size import size, sizing_question
+from mckibben.application.size import prepare, sizing_question
 from mckibben.application.task_reading import catalogue_of, task_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.resources import presets_folder
+from mckibben.simulation.outcome import Watch
 from mckibben.sizing import PartsCatalogue, Task
 
 LIFT: dict[str, Any] = {
@@ -40,4 +41,4 @@ def understood(document: dict[str, Any], studio: Studio) -> tuple[Task, PartsCat
 
 def sized(document: dict[str, Any], studio: Studio) -> dict[str, Any]:
     """The answer to a task, as JSON tells it."""
-    return json.loads(to_json(size(sizing_question(SizingTask.model_validate(document), studio))))
+    return json.loads(to_json(prepare(sizing_question(SizingTask.model_validate(document), studio))(Watch())))

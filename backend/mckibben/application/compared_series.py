@@ -11,7 +11,7 @@ from mckibben.identification.fit.comparison import Comparison
 
 MAX_POINTS_PER_SERIES = 400
 MAX_SERIES = 200
-_HELD = 0.03  # share of its mean; a quantity that changes by less is held
+_CONSTANT = 0.03  # share of its mean; a quantity that changes by less is constant
 
 Array = NDArray[np.float64]
 
@@ -24,7 +24,7 @@ class ComparedSeries:
         label: in words, e.g. "3 bar".
         channel, unit: the predicted channel and its SI unit.
         use: "fit" or "validation".
-        pressure: of the series, if it is held.
+        pressure: of the series, if it is constant.
         x_pressure: pressure of each point.
         velocity: dL/dt; NaN where not known.
         direction: sign of dL/dt; NaN where not known.
@@ -47,9 +47,9 @@ class ComparedSeries:
     residual: Array
 
 
-def series_of(found: Comparison, use: str) -> tuple[list[ComparedSeries], bool]:
+def series_of(comparison: Comparison, use: str) -> tuple[list[ComparedSeries], bool]:
     """One curve per channel and group of rows, thinned for the screen; and whether any was thinned."""
-    predictor, rest = found.predictor, found.fit_model.muscle.nominal_length
+    predictor, rest = comparison.predictor, comparison.fit_model.muscle.nominal_length
     inputs = predictor.inputs
     count = len(predictor.measured)
     unknown = np.full(count, np.nan)
@@ -69,8 +69,8 @@ def series_of(found: Comparison, use: str) -> tuple[list[ComparedSeries], bool]:
             labels, thinned = labels[:MAX_SERIES], True
         for number, label in enumerate(labels, 1):
             rows = inside[predictor.groups[inside] == label]
-            held = _held(pressure[rows])
-            name = _label(number, held, _held(length[rows]), timed=predictor.kind == "transient")
+            level = _constant_level(pressure[rows])
+            name = _label(number, level, _constant_level(length[rows]), timed=predictor.kind == "transient")
             if len(rows) > MAX_POINTS_PER_SERIES:
                 rows, thinned = rows[np.linspace(0, len(rows) - 1, MAX_POINTS_PER_SERIES).astype(int)], True
             series.append(
@@ -79,7 +79,7 @@ def series_of(found: Comparison, use: str) -> tuple[list[ComparedSeries], bool]:
                     channel=channel.name,
                     unit=channel.unit,
                     use=use,
-                    pressure=held,
+                    pressure=level,
                     time=inputs["time"][rows] if "time" in inputs else None,
                     contraction=1.0 - length[rows] / rest,
                     length=length[rows],
@@ -87,17 +87,17 @@ def series_of(found: Comparison, use: str) -> tuple[list[ComparedSeries], bool]:
                     velocity=inputs.get("velocity", unknown)[rows],
                     direction=inputs.get("direction", unknown)[rows],
                     measured=predictor.measured[rows],
-                    predicted=found.predicted[rows],
-                    residual=found.residual[rows],
+                    predicted=comparison.predicted[rows],
+                    residual=comparison.residual[rows],
                 )
             )
     return series, thinned
 
 
-def _held(values: Array) -> float | None:
+def _constant_level(values: Array) -> float | None:
     """The level of a constant quantity, else None."""
     level = float(np.mean(values))
-    return level if np.ptp(values) <= _HELD * abs(level) else None
+    return level if np.ptp(values) <= _CONSTANT * abs(level) else None
 
 
 def _label(number: int, pressure: float | None, length: float | None, *, timed: bool) -> str:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
 from mckibben.application.muscle_summary import (
     GeometrySummary,
+    MakerLimits,
     Notice,
     geometry_of,
     limit_notices,
@@ -69,18 +70,14 @@ class CurvesQuestion:
 
 
 @dataclass(frozen=True, slots=True)
-class CurveLimits:
-    """Limits of the muscle, SI; None where the preset does not state them.
+class CurveLimits(MakerLimits):
+    """Limits of the muscle, SI.
 
     Attributes:
         ideal_max_contraction: contraction at which the ideal force is zero.
         braid_lock_force: ideal force of the fully stretched braid, per pressure.
     """
 
-    max_pressure: float | None
-    max_force: float | None
-    max_contraction: float | None
-    max_pretension: float | None
     ideal_max_contraction: float
     braid_lock_force: Array
 
@@ -148,8 +145,8 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
     model = studio.static_model(start)
     pressures = np.array(question.pressures)
     grid = np.linspace(0.0, float(np.max(pressures)), _OVER_PRESSURE_POINTS)
-    held = held_contractions(model, pressures, grid, question.load, conditions)
-    contraction = _range(question, model, held.free)
+    under_load = held_contractions(model, pressures, grid, question.load, conditions)
+    contraction = _range(question, model, under_load.free)
     length = model.muscle.nominal_length * (1.0 - contraction)
     columns = model.curves(
         pressures,
@@ -163,12 +160,11 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
     points: list[OperatingPoint] = []
     crossed = [flag for p in question.pressures for flag in model.limits.flags(pressure=p)]
     if question.load is not None:
-        points, flags = operating_points(model, pressures, question.load, held.loaded, conditions)
+        points, flags = operating_points(model, pressures, question.load, under_load.loaded, conditions)
         crossed += flags
     # Volume, diameter and angle depend on the length only, unless an effect lets the pressure stretch the
     # braid; then they are those of the highest pressure.
     top = int(np.argmax(pressures))
-    limits = model.limits
     return CurvesResult(
         pressure=pressures,
         length=length,
@@ -181,17 +177,14 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
         diameter=columns.diameter[top],
         outer_diameter=columns.outer_diameter[top],
         limits=CurveLimits(
-            max_pressure=limits.max_pressure,
-            max_force=limits.max_force,
-            max_contraction=limits.max_contraction,
-            max_pretension=limits.max_pretension,
+            **asdict(model.limits),
             ideal_max_contraction=ideal_contraction(model),
             braid_lock_force=lock_forces(model, pressures),
         ),
-        characteristics=characteristics(model, pressures, held.free, conditions),
+        characteristics=characteristics(model, pressures, under_load.free, conditions),
         geometry=geometry_of(start),
         model=EffectSettings(model.values),
-        over_pressure=_over_pressure(question, model, grid, held),
+        over_pressure=_over_pressure(question, model, grid, under_load),
         operating_points=points,
         flags=[*start_notices(start), *limit_notices(crossed)],
     )
@@ -232,7 +225,7 @@ def _range(question: CurvesQuestion, model: StaticModel, free: Array) -> Array:
 
 
 def _over_pressure(
-    question: CurvesQuestion, model: StaticModel, grid: Array, held: HeldContractions
+    question: CurvesQuestion, model: StaticModel, grid: Array, under_load: HeldContractions
 ) -> OverPressure | None:
     load, fixed = question.load, question.fixed_length
     if load is None and fixed is None:
@@ -245,7 +238,7 @@ def _over_pressure(
     if load is not None:
         filling, venting = (
             pressure_branch(model, grid, contraction, direction=direction, temperature=temperature)
-            for contraction, direction in ((held.filling, FILLING), (held.venting, VENTING))
+            for contraction, direction in ((under_load.filling, FILLING), (under_load.venting, VENTING))
         )
     return OverPressure(grid, load, filling, venting, fixed, forces)
 

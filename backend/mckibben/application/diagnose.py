@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mckibben.application.compare import ModelDocument
 from mckibben.application.diagnosis_result import (
@@ -57,8 +55,6 @@ _CURVE = 200  # points of the curve of a proposed term
 #: A diagnosis that takes longer is stopped [s].
 TIME_LIMIT = 300.0
 
-Array = NDArray[np.float64]
-
 
 @dataclass(frozen=True)
 class _Data:
@@ -95,12 +91,12 @@ def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], Diagno
     catalogue = {**studio.catalogue, **question.start.catalogue}
 
     def work(watch: Watch) -> DiagnosisResult:
-        def tell(candidate: SingleAddition) -> None:
+        def report_candidate(candidate: SingleAddition) -> None:
             if watch.found is not None:
                 watch.found(_candidate(question, candidate, catalogue))
 
         try:
-            found = search_effects(
+            diagnosis = search_effects(
                 data.predictor,
                 start,
                 catalogue=catalogue,
@@ -108,7 +104,7 @@ def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], Diagno
                 freed=question.freed,
                 noise=question.noise,
                 watch=watch,
-                found=tell,
+                on_candidate=report_candidate,
             )
         except CancelledError as stop:
             raise InputError(
@@ -116,7 +112,7 @@ def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], Diagno
                 hint="use fewer rows or effects",
                 code="stopped",
             ) from stop
-        return _result(question, data, found, catalogue)
+        return _result(question, data, diagnosis, catalogue)
 
     return work
 
@@ -140,9 +136,9 @@ def _data(question: ModelQuestion) -> _Data:
 
 
 def _result(
-    question: ModelQuestion, data: _Data, found: Diagnosis, catalogue: Mapping[str, Effect]
+    question: ModelQuestion, data: _Data, diagnosis: Diagnosis, catalogue: Mapping[str, Effect]
 ) -> DiagnosisResult:
-    predictor, best, start = found.predictor, found.best, question.start
+    predictor, best, start = diagnosis.predictor, diagnosis.best, question.start
     full_scale = float(np.max(np.abs(predictor.measured / predictor.scale)))
     muscle = best.fit_model.muscle
     return DiagnosisResult(
@@ -153,14 +149,14 @@ def _result(
         predicted=predictor.predicted,
         unit=predictor.unit,
         baseline=Baseline(
-            rmse=found.start.rmse,
-            nrmse_percent=100.0 * found.start.rmse / full_scale if full_scale else None,
-            holdout_rmse=found.start.holdout_rmse,
+            rmse=diagnosis.start.rmse,
+            nrmse_percent=100.0 * diagnosis.start.rmse / full_scale if full_scale else None,
+            holdout_rmse=diagnosis.start.holdout_rmse,
         ),
-        noise_floor=NoiseFloor(found.noise, found.noise_how),
+        noise_floor=NoiseFloor(diagnosis.noise, diagnosis.noise_how),
         channels=channel_misfits(predictor, best.residual * predictor.scale),
-        where=list(found.where),
-        candidates=[_candidate(question, candidate, catalogue) for candidate in found.candidates],
+        where=list(diagnosis.where),
+        candidates=[_candidate(question, candidate, catalogue) for candidate in diagnosis.candidates],
         path=[
             PathPoint(
                 added=step.added,
@@ -169,19 +165,19 @@ def _result(
                 model=_model(question, step.fitted_model),
                 freed=sorted(step.fitted_model.freed),
             )
-            for step in found.path
+            for step in diagnosis.path
         ],
-        verdict=_verdict(question, found, catalogue),
-        parameters=parameter_table(best.fit_model, found.fit),
-        correlations=correlations_of(found.fit),
+        verdict=_verdict(question, diagnosis, catalogue),
+        parameters=parameter_table(best.fit_model, diagnosis.fit),
+        correlations=correlations_of(diagnosis.fit),
         geometry=geometry_of(start, muscle),
         model=DiagnosedModel(
             muscle={name: float(value) for name, value in muscle._asdict().items() if value},
             effects=question.effect_document(best.fit_model),
         ),
         freed=sorted(best.freed),
-        not_tried=list(found.not_tried),
-        messages=[*question.points.measurement.messages, *data.notes, *found.messages],
+        not_tried=list(diagnosis.not_tried),
+        messages=[*question.points.measurement.messages, *data.notes, *diagnosis.messages],
     )
 
 
@@ -189,31 +185,31 @@ def _model(question: ModelQuestion, fitted: FittedModel) -> ModelDocument:
     return ModelDocument(question.effect_document(fitted.fit_model))
 
 
-def _verdict(question: ModelQuestion, found: Diagnosis, catalogue: Mapping[str, Effect]) -> Verdict:
+def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[str, Effect]) -> Verdict:
     titles = {name: effect.title for name, effect in catalogue.items()}
-    nexts = [proposal.sentence(titles) for proposal in found.proposals]
+    nexts = [proposal.sentence(titles) for proposal in diagnosis.proposals]
     return Verdict(
-        status=found.status,
-        title=title_of(found.status, added=bool(found.added)),
-        effects=list(found.added),
-        indistinguishable=groups_of(found),
-        unexplained_share=found.structure.share,
-        unexplained_in=[name for name, _ in found.structure.variables],
-        proposed_term=_term(question, found),
+        status=diagnosis.status,
+        title=title_of(diagnosis.status, added=bool(diagnosis.added)),
+        effects=list(diagnosis.added),
+        indistinguishable=groups_of(diagnosis),
+        unexplained_share=diagnosis.structure.share,
+        unexplained_in=[name for name, _ in diagnosis.structure.variables],
+        proposed_term=_term(question, diagnosis),
         next_measurement="; ".join(nexts[:3]) or None,
         experiments=[
             ExperimentProposal([p.first, p.second], p.declared, p.protocol, p.separation)
-            for p in found.proposals
+            for p in diagnosis.proposals
         ],
-        sentence=sentence_of(found, titles),
+        sentence=sentence_of(diagnosis, titles),
     )
 
 
-def groups_of(found: Diagnosis) -> list[list[str]]:
+def groups_of(diagnosis: Diagnosis) -> list[list[str]]:
     """Groups of effects that the data cannot distinguish: each added effect with its alternatives."""
     groups = []
-    for added in found.added:
-        others = [other.effect for other in found.alternatives if other.of == added]
+    for added in diagnosis.added:
+        others = [other.effect for other in diagnosis.alternatives if other.of == added]
         if others:
             groups.append([added, *others])
     return groups
@@ -257,18 +253,18 @@ def _parameters(fitted: FittedModel, effect: Effect) -> dict[str, ParameterValue
     return values
 
 
-def _term(question: ModelQuestion, found: Diagnosis) -> TermProposal | None:
+def _term(question: ModelQuestion, diagnosis: Diagnosis) -> TermProposal | None:
     """The proposed term, a model with it, and a curve over its most important variable."""
-    term = found.term
+    term = diagnosis.term
     if term is None:
         return None
-    effects = question.effect_document(found.best.fit_model)
+    effects = question.effect_document(diagnosis.best.fit_model)
     formula, coefficients = term.formula, dict(term.coefficients)
     if CUSTOM in effects:  # a model has only one custom term: the new one is added to it
         formula, coefficients = _joined(effects[CUSTOM], formula, coefficients)
-    variables = variables_of(found.predictor, found.best.fit_model.muscle.nominal_length)
+    variables = variables_of(diagnosis.predictor, diagnosis.best.fit_model.muscle.nominal_length)
     name = next(
-        (n for n, _ in found.structure.variables if n in SYMBOLS.values()),
+        (n for n, _ in diagnosis.structure.variables if n in SYMBOLS.values()),
         next(n for n in SYMBOLS.values() if n in variables),
     )
     x = variables[name]
@@ -279,12 +275,12 @@ def _term(question: ModelQuestion, found: Diagnosis) -> TermProposal | None:
         coefficients=coefficients,
         share=term.share,
         model=ModelDocument({**effects, CUSTOM: {TERM: formula, **coefficients}}),
-        curve=TermCurve(name, x[rows], term.values[rows], found.best.residual[rows]),
+        curve=TermCurve(name, x[rows], term.values[rows], diagnosis.best.residual[rows]),
     )
 
 
 def _joined(
-    old: Mapping[str, Any], formula: str, coefficients: Mapping[str, float]
+    old: Mapping[str, float | str], formula: str, coefficients: Mapping[str, float]
 ) -> tuple[str, dict[str, float]]:
     """The sum of a custom term and a proposed one; the coefficients of the proposed one are renamed."""
     renamed = {name: f"d{name[1:]}" for name in coefficients}

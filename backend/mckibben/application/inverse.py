@@ -17,8 +17,8 @@ _LONGEST_STROKE = 0.95  # largest stroke accepted, share of the nominal length
 _SHORTEST = 0.05  # shortest length accepted, share of the nominal length
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _About:
+@dataclass(frozen=True, slots=True)
+class MuscleCondition:
     """The muscle, the direction of motion (sign of dL/dt, for friction) and the temperature [K]."""
 
     start: StartModel
@@ -27,43 +27,47 @@ class _About:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PressureForForce(_About):
+class PressureForForce:
     """Which pressure gives this force [N] at this length [m] or contraction? Exactly one of them is given."""
 
     NAME: ClassVar = "pressure"
 
+    condition: MuscleCondition
     force: float
     length: float | None = None
     contraction: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ContractionForForce(_About):
+class ContractionForForce:
     """How far is the muscle contracted at this force [N] and gauge pressure [Pa]?"""
 
     NAME: ClassVar = "contraction"
 
+    condition: MuscleCondition
     force: float
     pressure: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class WorkingRange(_About):
+class WorkingRange:
     """Which stroke from the preload [N] without pressure to the load [N] at the highest pressure [Pa]?"""
 
     NAME: ClassVar = "working_range"
 
+    condition: MuscleCondition
     load: float
     pressure: float
     preload: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PressureForStroke(_About):
+class PressureForStroke:
     """Which pressure lifts this load [N] by this stroke [m] from the nominal length?"""
 
     NAME: ClassVar = "stroke_pressure"
 
+    condition: MuscleCondition
     load: float
     stroke: float
 
@@ -95,58 +99,38 @@ def answer(question: InverseQuestion, studio: Studio) -> InverseFinding:
     Raises:
         InputError: invalid muscle, effect or question; names the field of the question.
     """
-    solution = _ask(question, studio.static_model(question.start))
+    start = question.condition.start
+    solution = _solve(question, studio.static_model(start))
     return InverseFinding(
         question=question.NAME,
         value=solution.value,
         unit=solution.unit,
         details=solution.details,
-        flags=[*start_notices(question.start), *limit_notices(solution.flags)],
+        flags=[*start_notices(start), *limit_notices(solution.flags)],
     )
 
 
-def _ask(question: InverseQuestion, model: StaticModel) -> inverse.InverseResult:
-    temperature = question.temperature
+def _solve(question: InverseQuestion, model: StaticModel) -> inverse.InverseResult:
+    temperature = question.condition.temperature
+    moving = {"direction": question.condition.direction, "temperature": temperature}
     match question:
-        case PressureForForce():
-            return inverse.pressure_for_force(
-                model,
-                force=question.force,
-                length=_length(question, model),
-                direction=question.direction,
-                temperature=temperature,
-            )
-        case ContractionForForce():
-            return inverse.contraction_for_force(
-                model,
-                force=question.force,
-                pressure=question.pressure,
-                direction=question.direction,
-                temperature=temperature,
-            )
-        case WorkingRange():
+        case PressureForForce(force=force):
+            return inverse.pressure_for_force(model, force=force, length=_length(question, model), **moving)
+        case ContractionForForce(force=force, pressure=pressure):
+            return inverse.contraction_for_force(model, force=force, pressure=pressure, **moving)
+        case WorkingRange(load=load, pressure=pressure, preload=preload):  # fills and vents by definition
             return inverse.working_range(
-                model,
-                load=question.load,
-                pressure=question.pressure,
-                preload=question.preload,
-                temperature=temperature,
+                model, load=load, pressure=pressure, preload=preload, temperature=temperature
             )
-        case PressureForStroke():
+        case PressureForStroke(load=load, stroke=stroke):
             rest = model.muscle.nominal_length
-            if question.stroke >= _LONGEST_STROKE * rest:
+            if stroke >= _LONGEST_STROKE * rest:
                 raise InputError(
-                    f"no muscle of {rest * 1e3:.4g} mm makes a stroke of {question.stroke * 1e3:.4g} mm",
+                    f"no muscle of {rest * 1e3:.4g} mm makes a stroke of {stroke * 1e3:.4g} mm",
                     field="stroke",
                     hint="muscles contract by up to about a quarter of their length",
                 )
-            return inverse.stroke_pressure(
-                model,
-                load=question.load,
-                stroke=question.stroke,
-                direction=question.direction,
-                temperature=temperature,
-            )
+            return inverse.stroke_pressure(model, load=load, stroke=stroke, **moving)
         case _:
             assert_never(question)
 

@@ -1,4 +1,4 @@
-"""Results as JSON text: dataclasses by the names of their fields, numpy arrays, enums.
+"""Results as JSON text: dataclasses by the names of their fields, documents, numpy arrays, enums.
 
 A dataclass may declare ``JSON_KEYS``, field -> keys, for a key that cannot be the name of a field ("from"),
 or for an older name of a field that is kept for one version.
@@ -12,6 +12,8 @@ from functools import cache
 
 import numpy as np
 import orjson
+
+from mckibben.documents.json_document import HasDocument
 
 _OPTIONS = orjson.OPT_SERIALIZE_NUMPY | orjson.OPT_PASSTHROUGH_DATACLASS
 _AT_ONCE = 500_000  # numbers of an array; one call for more would hold the interpreter for too long
@@ -27,6 +29,8 @@ def _keys(kind: type) -> tuple[tuple[str, str], ...]:
 
 def _plain(value: object) -> object:
     """Conversion of values that orjson does not support."""
+    if isinstance(value, HasDocument):
+        return value.to_document()
     if is_dataclass(value):
         return {key: _in_pieces(getattr(value, name)) for key, name in _keys(type(value))}
     if isinstance(value, np.ndarray):  # not contiguous

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from mckibben.documents.start_model import GivenMuscle, StartModel
+from mckibben.documents.start_model import StartModel, StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.identification.predict import Predictor, predictor_of
 from mckibben.identification.predict.fit_model import FitModel, free_geometry
@@ -84,7 +84,7 @@ class ModelQuestion:
 
     def effect_document(self, fit_model: FitModel) -> EffectDocument:
         """The effects of a model in the form of a request, a custom term with its text."""
-        document: EffectDocument = {name: dict(own) for name, own in fit_model.values.items()}
+        document: EffectDocument = {name: dict(values) for name, values in fit_model.values.items()}
         if CUSTOM in document and self.start.term is not None:
             document[CUSTOM] = {TERM: self.start.term, **document[CUSTOM]}
         return document
@@ -134,7 +134,7 @@ def question_of(
 def with_model(
     question: ModelQuestion,
     studio: Studio,
-    muscle: GivenMuscle,
+    muscle: StatedMuscle,
     effects: Mapping[str, Mapping[str, float | str]],
     *,
     freed: Sequence[str] = (),

@@ -26,6 +26,16 @@ class Notice:
 
 
 @dataclass(frozen=True, slots=True)
+class MakerLimits:
+    """Limits stated by the maker, SI, pressures gauge; None where not known."""
+
+    max_pressure: float | None
+    max_force: float | None
+    max_contraction: float | None
+    max_pretension: float | None
+
+
+@dataclass(frozen=True, slots=True)
 class Lattice:
     """The braid as a lattice of rhombi: side [m], number along and around the muscle."""
 
@@ -45,7 +55,7 @@ class GeometrySummary:
         inside_diameter: bore [m].
         wall_thickness: [m]; 0 when it is not known.
         thread_length, turns: of one thread [m], [-].
-        rhombus: the lattice, if the muscle was given in this form.
+        rhombus: the lattice, if the muscle was stated in this form.
     """
 
     braid_diameter: float
@@ -84,6 +94,12 @@ def limit_notices(flags: Iterable[LimitFlag]) -> list[Notice]:
     return [Notice(str(flag.code), flag.message, flag.field) for flag in unique.values()]
 
 
+def unverified_notice(figures: str, field: str) -> Notice:
+    """Notice that these figures of a preset were not read in a source; ``figures``: "PRESET: name, name"."""
+    why = "from general knowledge or estimated, not read in a source"
+    return Notice("unverified", f"{figures} {why}", field)
+
+
 def start_notices(start: StartModel) -> list[Notice]:
     """Notices about the muscle.
 
@@ -94,9 +110,7 @@ def start_notices(start: StartModel) -> list[Notice]:
     if preset is None:
         return notices
     if preset.unverified:
-        why = "from general knowledge or estimated, not read in a source"
-        message = f"{preset.id}: {', '.join(preset.unverified)} {why}"
-        notices.append(Notice("unverified", message, "muscle.preset"))
+        notices.append(unverified_notice(f"{preset.id}: {', '.join(preset.unverified)}", "muscle.preset"))
     length, bound, word = start.muscle.nominal_length, None, ""
     if preset.shortest is not None and length < preset.shortest * (1.0 - 1e-9):
         bound, word = preset.shortest, "shorter"

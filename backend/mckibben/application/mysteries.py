@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import cast
 
+from mckibben.documents.json_document import JsonDocument
 from mckibben.presets import MysteryPreset, PresetLibrary
 
 
@@ -17,9 +18,9 @@ class MysterySummary:
     title: str
     story: str
     kind: str
-    muscle: Mapping[str, Any] | None
-    drive: Mapping[str, Any] | None
-    effects: Mapping[str, Any]
+    muscle: JsonDocument
+    drive: JsonDocument | None
+    effects: Mapping[str, Mapping[str, float]]
     measurement: str
 
 
@@ -53,8 +54,8 @@ def _summary(preset: MysteryPreset) -> MysterySummary:
         title=preset.title,
         story=preset.story,
         kind=preset.measurement_kind,
-        muscle=preset.muscle,
-        drive=preset.drive,
+        muscle=JsonDocument(preset.muscle),
+        drive=None if preset.drive is None else JsonDocument(preset.drive),
         effects=preset.effects,
         measurement=preset.id,
     )

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
 from mckibben.application.curves import EffectSettings
 from mckibben.application.muscle_summary import (
     GeometrySummary,
+    MakerLimits,
     Notice,
     geometry_of,
     limit_notices,
     start_notices,
+    unverified_notice,
 )
-from mckibben.documents.drive_reading import GivenDrive
+from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
@@ -51,13 +53,13 @@ class SimulationQuestion:
     """A drive, and the part of its run to return.
 
     Attributes:
-        given: the drive with notes on its parts.
+        annotated: the drive with notes on its parts.
         points: rows of the result, at least two.
         begin, end: times of the first and last row [s]; None = the whole run.
         engine: "rodas", "lsoda", or "auto" (rodas as soon as its kernel is compiled).
     """
 
-    given: GivenDrive
+    annotated: AnnotatedDrive
     points: int = POINTS
     begin: float | None = None
     end: float | None = None
@@ -101,13 +103,9 @@ class StartPosition:
 
 
 @dataclass(frozen=True, slots=True)
-class DriveBounds:
-    """Limits stated by the maker (None = not known), and positions of the load at the end stops; SI."""
+class DriveBounds(MakerLimits):
+    """Limits stated by the maker, and positions of the load at the end stops; SI."""
 
-    max_pressure: float | None
-    max_force: float | None
-    max_contraction: float | None
-    max_pretension: float | None
     position_min: float
     position_max: float
 
@@ -187,7 +185,7 @@ def prepare(question: SimulationQuestion) -> Callable[[Watch], SimulationResult]
     Raises:
         InputError: the rows do not lie within the run; field "from" or "to".
     """
-    duration = question.given.drive.duration
+    duration = question.annotated.drive.duration
     begin = 0.0 if question.begin is None else question.begin
     end = duration if question.end is None else question.end
     if not 0.0 <= begin < end <= duration:
@@ -199,8 +197,8 @@ def prepare(question: SimulationQuestion) -> Callable[[Watch], SimulationResult]
     grid = grid_of(duration=duration, begin=begin, end=end, points=question.points)
 
     def work(watch: Watch) -> SimulationResult:
-        run = run_drive(question.given, grid, watch, question.engine)
-        return result_of(question.given, grid, run)
+        run = run_drive(question.annotated, grid, watch, question.engine)
+        return result_of(question.annotated, grid, run)
 
     return work
 
@@ -214,15 +212,15 @@ def simulate(question: SimulationQuestion, watch: Watch | None = None) -> Simula
     return prepare(question)(watch or Watch())
 
 
-def run_drive(given: GivenDrive, grid: Grid, watch: Watch | None = None, engine: str = "auto") -> Run:
+def run_drive(annotated: AnnotatedDrive, grid: Grid, watch: Watch | None = None, engine: str = "auto") -> Run:
     """The run on the fine grid; with a controller it waits for the compiled kernel."""
     with np.errstate(all="ignore"):  # a diverging run ends with an outcome, not with warnings
-        if given.drive.controller is not None:
-            return simulate_controlled(given.drive, grid=grid.time, watch=watch)
-        return run_by_command(given.drive, grid=grid.time, watch=watch, engine=engine)
+        if annotated.drive.controller is not None:
+            return simulate_controlled(annotated.drive, grid=grid.time, watch=watch)
+        return run_by_command(annotated.drive, grid=grid.time, watch=watch, engine=engine)
 
 
-def result_of(given: GivenDrive, grid: Grid, run: Run) -> SimulationResult:
+def result_of(annotated: AnnotatedDrive, grid: Grid, run: Run) -> SimulationResult:
     """The complete result of a run."""
     drive, out, states = run.drive, run.outputs, run.states
     rows = grid.rows[grid.rows < len(run.time)]
@@ -236,7 +234,7 @@ def result_of(given: GivenDrive, grid: Grid, run: Run) -> SimulationResult:
     def gauge(name: str) -> Array | None:
         return states[name][rows] - drive.ambient_pressure if name in states else None
 
-    notes = dict(given.notes) | {f"timing.{name}": why for name, why in table.notes.items()}
+    notes = dict(annotated.notes) | {f"timing.{name}": why for name, why in table.notes.items()}
     if follows is not None:
         notes |= {f"tracking.{name}": why for name, why in follows.notes.items()}
     return SimulationResult(
@@ -276,25 +274,18 @@ def result_of(given: GivenDrive, grid: Grid, run: Run) -> SimulationResult:
         wall_ms=run.wall_seconds * 1e3,
         engine=run.engine,
         steps=run.steps,
-        flags=[*start_notices(given.start), *_part_notices(given), *limit_notices(_crossed(run))],
+        flags=[*start_notices(annotated.start), *_part_notices(annotated), *limit_notices(_crossed(run))],
         notes=notes,
-        limits=_bounds(given),
-        geometry=geometry_of(given.start),
+        limits=_bounds(annotated),
+        geometry=geometry_of(annotated.start),
         model=EffectSettings(drive.model.values),
         duration=drive.duration,
     )
 
 
-def _bounds(given: GivenDrive) -> DriveBounds:
-    limits, (low, high) = given.drive.model.limits, stops_of(given.drive)
-    return DriveBounds(
-        max_pressure=limits.max_pressure,
-        max_force=limits.max_force,
-        max_contraction=limits.max_contraction,
-        max_pretension=limits.max_pretension,
-        position_min=low,
-        position_max=high,
-    )
+def _bounds(annotated: AnnotatedDrive) -> DriveBounds:
+    low, high = stops_of(annotated.drive)
+    return DriveBounds(**asdict(annotated.drive.model.limits), position_min=low, position_max=high)
 
 
 def _readings(run: Run, rows: Array) -> SensorReadings | None:
@@ -339,13 +330,12 @@ def _joint(run: Run, rows: Array) -> JointMotion | None:
     )
 
 
-def _part_notices(given: GivenDrive) -> list[Notice]:
-    why = "from general knowledge or estimated, not read in a source"
+def _part_notices(annotated: AnnotatedDrive) -> list[Notice]:
     notices = [
-        Notice("unverified", f"{part}: {', '.join(names)} {why}", "valve")
-        for part, names in given.unverified.items()
+        unverified_notice(f"{part}: {', '.join(names)}", "valve")
+        for part, names in annotated.unverified.items()
     ]
-    if (text := given.drive.tube_assumption) is not None:
+    if (text := annotated.drive.tube_assumption) is not None:
         notices.append(Notice("assumed", text, "tube"))
     return notices
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 from mckibben.application.drive_of_design import drive_document
-from mckibben.application.muscle_summary import Notice
+from mckibben.application.muscle_summary import Notice, unverified_notice
 from mckibben.application.task_reading import catalogue_of, task_of
+from mckibben.documents.drive import DriveDocument
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.simulation.outcome import Outcome, Watch
@@ -112,7 +112,7 @@ class ProposedDrive:
     front: bool
     notes: list[str]
     unverified: list[str]
-    drive: dict[str, Any]
+    drive: DriveDocument
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,7 +188,7 @@ class Searched:
     """A question, the outcome of the search, and the result."""
 
     question: SizingQuestion
-    found: Sizing
+    sizing: Sizing
     result: SizingResult
 
 
@@ -207,8 +207,8 @@ def prepare_search(question: SizingQuestion) -> Callable[[Watch], Searched]:
     def work(watch: Watch) -> Searched:
         watch.time_limit = max(watch.time_limit, _TIME_LIMIT)
         began = time.perf_counter()
-        found = search_designs(question.task, question.catalogue, watch)
-        return Searched(question, found, _result(found, question, (time.perf_counter() - began) * 1e3))
+        sizing = search_designs(question.task, question.catalogue, watch)
+        return Searched(question, sizing, _result(sizing, question, (time.perf_counter() - began) * 1e3))
 
     return work
 
@@ -219,41 +219,37 @@ def prepare(question: SizingQuestion) -> Callable[[Watch], SizingResult]:
     return lambda watch: search(watch).result
 
 
-def size(question: SizingQuestion, watch: Watch | None = None) -> SizingResult:
-    """Search for drives."""
-    return prepare(question)(watch or Watch())
-
-
-def _result(found: Sizing, question: SizingQuestion, wall_ms: float) -> SizingResult:
-    proposals = [_proposal(proposal, question) for proposal in found.proposals]
-    front = front_of(found.explored)
+def _result(sizing: Sizing, question: SizingQuestion, wall_ms: float) -> SizingResult:
+    proposals = [_proposal(proposal, question) for proposal in sizing.proposals]
+    front = front_of(sizing.explored)
     return SizingResult(
         proposals=proposals,
-        rejected=[_rejected(item) for item in found.rejected],
-        explored=[_explored(trial, on) for trial, on in zip(found.explored, front, strict=True)],
-        combinations=found.combinations,
-        pruned=found.pruned,
-        simulated=found.simulated,
+        rejected=[_rejected(item) for item in sizing.rejected],
+        explored=[_explored(trial, on) for trial, on in zip(sizing.explored, front, strict=True)],
+        combinations=sizing.combinations,
+        pruned=sizing.pruned,
+        simulated=sizing.simulated,
         specimens=sum(proposal.specimens for proposal in proposals),
-        outcome=found.outcome.label,
-        message=_MESSAGES.get(found.outcome) or _untried(found),
+        outcome=sizing.outcome.label,
+        message=_MESSAGES.get(sizing.outcome) or _untried(sizing),
         flags=_notices(proposals, question.document),
         wall_ms=wall_ms,
     )
 
 
-def _untried(found: Sizing) -> str | None:
-    if not found.untried:
+def _untried(sizing: Sizing) -> str | None:
+    if not sizing.untried:
         return None
     return (
-        f"{found.untried} choices of parts that need more air and space were not simulated; name fewer parts."
+        f"{sizing.untried} choices of parts that need more air and space were not simulated; "
+        "name fewer parts."
     )
 
 
 def _proposal(proposal: Proposal, question: SizingQuestion) -> ProposedDrive:
     task = question.task
     trial, design, rest = proposal.trial, proposal.design, proposal.trial.rest
-    group, figures, likely = design.group, trial.figures, proposal.chance
+    group, figures, chance = design.group, trial.figures, proposal.chance
     tube = group.tube.tube
     return ProposedDrive(
         muscle=group.muscle.id,
@@ -282,9 +278,9 @@ def _proposal(proposal: Proposal, question: SizingQuestion) -> ProposedDrive:
         installed_length=design.length + task.limits.end_fittings,
         diameter=float(rest.diameter[0]),
         life=float(rest.life[0]),
-        probability=None if likely is None else likely.probability,
-        probability_error=None if likely is None else likely.error,
-        specimens=0 if likely is None else likely.specimens,
+        probability=None if chance is None else chance.probability,
+        probability_error=None if chance is None else chance.error,
+        specimens=0 if chance is None else chance.specimens,
         margins=trial.margins,
         binding=trial.binding,
         reason=proposal.reason,
@@ -309,8 +305,8 @@ def _notes(proposal: Proposal, task: Task, document: SizingTask) -> list[str]:
         )
     if group.duty.pair:
         notes.append(
-            "Both muscles are at their nominal length at the far end of the swing; the run first fills the "
-            "second muscle, then swings."
+            "Each muscle has its nominal length at one end of the swing. The run first fills the second "
+            "muscle, then swings."
         )
     if document.load.force_over_stroke is not None:
         notes.append("The simulation uses a straight line above the force over the stroke.")
@@ -351,8 +347,7 @@ def _explored(trial: Trial, front: bool) -> ExploredDrive:
 
 def _notices(proposals: list[ProposedDrive], document: SizingTask) -> list[Notice]:
     parts = dict.fromkeys(text for proposal in proposals for text in proposal.unverified)
-    why = "from general knowledge or estimated, not read in a source"
-    notices = [Notice("unverified", f"{text} {why}", "catalogue") for text in parts]
+    notices = [unverified_notice(text, "catalogue") for text in parts]
     if document.limits.life is not None:
         text = "the life is an estimate between 100 000 and 10 million cycles; no maker's curve is known"
         notices.append(Notice("unverified", text, "limits.life"))

@@ -24,7 +24,7 @@ from mckibben.sizing import (
 )
 from mckibben.sizing.catalogue import CataloguePart, Values
 
-Found = TypeVar("Found", bound=CataloguePart)
+PartT = TypeVar("PartT", bound=CataloguePart)
 
 _LEAST_TUBE = 0.05  # m; the formulas are not valid for shorter tubes
 # Range of lengths of a muscle whose maker states none [m].
@@ -86,8 +86,8 @@ def _pair(load: TaskLoad) -> Pair:
             field=f"load.{name}",
             hint="give its inertia and torque in load.pair",
         )
-    given = load.pair
-    return Pair(given.angle, given.torque, given.inertia, given.pulley_radius)
+    pair = load.pair
+    return Pair(pair.angle, pair.torque, pair.inertia, pair.pulley_radius)
 
 
 def _profile(load: TaskLoad) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -131,9 +131,9 @@ def _parts(
     studio: Studio,
     kind: str,
     names: Sequence[str] | None,
-    convert: Callable[[Preset], Found],
+    convert: Callable[[Preset], PartT],
     usual: Callable[[Preset], bool],
-) -> tuple[Found, ...]:
+) -> tuple[PartT, ...]:
     if names is None:
         return tuple(convert(preset) for preset in studio.library.list(kind) if usual(preset))
     if not names:
@@ -142,7 +142,7 @@ def _parts(
             field=f"catalogue.{kind}",
             hint="name at least one, or omit the list",
         )
-    parts: dict[str, Found] = {}
+    parts: dict[str, PartT] = {}
     for index, name in enumerate(names):
         field = f"catalogue.{kind}.{index}"
         try:

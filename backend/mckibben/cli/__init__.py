@@ -22,6 +22,7 @@ from mckibben.cli.options import (
     EffectsFolders,
     Free,
     Ideal,
+    ModelOptions,
     MuscleText,
     PresetsFolder,
     located,
@@ -104,9 +105,7 @@ def curves(
 
     run(
         open_studio(presets, effects, data),
-        muscle=muscle,
-        ideal=ideal,
-        effects=effect or [],
+        model=ModelOptions(muscle, ideal, effect or ()),
         pressure=pressure,
         as_json=as_json,
     )
@@ -133,10 +132,7 @@ def compare(
     run(
         open_studio(presets, effects, data),
         files=files,
-        muscle=muscle,
-        ideal=ideal,
-        effects=effect or [],
-        drive=drive,
+        model=ModelOptions(muscle, ideal, effect or (), drive),
         fit=fit,
         free=free or [],
         as_json=as_json,
@@ -172,10 +168,7 @@ def diagnose(
     run(
         open_studio(presets, effects, data),
         files=files,
-        muscle=muscle,
-        ideal=ideal,
-        effects=effect or [],
-        drive=drive,
+        model=ModelOptions(muscle, ideal, effect or (), drive),
         free=free or [],
         noise=noise,
         as_json=as_json,

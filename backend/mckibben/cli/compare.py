@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from mckibben.application.compare import ComparisonResult, compare
 from mckibben.cli.data import points_of
-from mckibben.cli.options import model_question
+from mckibben.cli.options import ModelOptions, model_question
 from mckibben.cli.output import (
     error_unit,
     figure,
@@ -23,10 +23,7 @@ def run(
     studio: Studio,
     *,
     files: Sequence[str],
-    muscle: str,
-    ideal: bool,
-    effects: Sequence[str],
-    drive: str,
+    model: ModelOptions,
     fit: bool,
     free: Sequence[str],
     as_json: bool,
@@ -37,9 +34,7 @@ def run(
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
     points = points_of(files, studio)
-    question = model_question(
-        studio, points, muscle=muscle, ideal=ideal, effects=effects, drive=drive, free=free
-    )
+    question = model_question(studio, points, model, free=free)
     result = compare(question, fit=fit)
     if as_json:
         write_json(result)

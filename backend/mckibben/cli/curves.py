@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from mckibben.application.curves import CurvesQuestion, CurvesResult, curves
-from mckibben.cli.options import start_model
+from mckibben.cli.options import ModelOptions, start_model
 from mckibben.cli.output import figure, remark, write_json, write_table
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
@@ -21,9 +20,7 @@ _TABLE_ROWS = 11
 def run(
     studio: Studio,
     *,
-    muscle: str,
-    ideal: bool,
-    effects: Sequence[str],
+    model: ModelOptions,
     pressure: str | None,
     as_json: bool,
 ) -> None:
@@ -32,7 +29,7 @@ def run(
     Raises:
         InputError: an option cannot be used.
     """
-    start = start_model(studio, muscle, ideal=ideal, effects=effects)
+    start = start_model(studio, model)
     question = CurvesQuestion(start)
     if pressure is not None:
         question = replace(question, pressures=_pressures(pressure))
@@ -40,7 +37,7 @@ def run(
     if as_json:
         write_json(result)
         return
-    _write_tables(muscle, result)
+    _write_tables(model.muscle, result)
     for notice in result.flags:
         remark(notice.message)
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from mckibben.application.diagnose import prepare
 from mckibben.application.diagnosis_result import DiagnosisResult
 from mckibben.cli.data import points_of
-from mckibben.cli.options import model_question
+from mckibben.cli.options import ModelOptions, model_question
 from mckibben.cli.output import (
     error_unit,
     figure,
@@ -28,10 +28,7 @@ def run(
     studio: Studio,
     *,
     files: Sequence[str],
-    muscle: str,
-    ideal: bool,
-    effects: Sequence[str],
-    drive: str,
+    model: ModelOptions,
     free: Sequence[str],
     noise: float | None,
     as_json: bool,
@@ -43,9 +40,7 @@ def run(
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
     points = points_of(files, studio)
-    question = model_question(
-        studio, points, muscle=muscle, ideal=ideal, effects=effects, drive=drive, free=free, noise=noise
-    )
+    question = model_question(studio, points, model, free=free, noise=noise)
     work = prepare(question, studio)
     with progress("trying effects") as watch:
         result = work(watch)
@@ -78,7 +73,7 @@ def _write(result: DiagnosisResult) -> None:
     write_table(title, ["after adding", "RMS error", "left-out groups"], rows)
     write_table(
         "One effect alone",
-        ["effect", "RMS error", "gain", "cannot be told from"],
+        ["effect", "RMS error", "gain", "indistinguishable from"],
         [
             [c.effect, shown(c.rmse), f"{c.gain_percent:.1f} %", ", ".join(c.twins)]
             for c in result.candidates[:_SHOWN]
@@ -88,7 +83,7 @@ def _write(result: DiagnosisResult) -> None:
     remark(result.verdict.sentence)
     for experiment in result.verdict.experiments:
         first, second = experiment.pair
-        remark(f"to tell {first} from {second}: {experiment.declared or experiment.protocol}")
+        remark(f"to distinguish {first} from {second}: {experiment.declared or experiment.protocol}")
     if result.verdict.proposed_term is not None:
         remark(f"proposed term: {result.verdict.proposed_term.formula}")
     for message in result.messages:

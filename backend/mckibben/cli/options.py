@@ -35,7 +35,7 @@ DataFiles = Annotated[
 Ideal = Annotated[bool, typer.Option("--ideal", help="The ideal model: no effects.")]
 EffectIds = Annotated[
     list[str] | None,
-    typer.Option("--effect", metavar="ID", help="Use it instead of the preset's own effects; repeatable."),
+    typer.Option("--effect", metavar="ID", help="Use it instead of the effects of the preset; repeatable."),
 ]
 Free = Annotated[
     list[str] | None,
@@ -55,6 +55,23 @@ DataFolder = Annotated[
 
 
 Effects = dict[str, dict[str, float | str]]
+
+
+@dataclass(frozen=True, slots=True)
+class ModelOptions:
+    """The options that name a model.
+
+    Attributes:
+        muscle: of ``--muscle``, "" without it.
+        ideal: ``--ideal``: no effects.
+        effects: ids of ``--effect``.
+        drive: path of ``--drive``, "" without it; its muscle and effects are used where the others name none.
+    """
+
+    muscle: str
+    ideal: bool = False
+    effects: Sequence[str] = ()
+    drive: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,37 +114,26 @@ def open_studio(presets: Path | None, effects: Sequence[Path] | None, data: Path
     return studio
 
 
-def start_model(
-    studio: Studio,
-    muscle: str,
-    *,
-    ideal: bool,
-    effects: Sequence[str],
-    drive: str = "",
-    named: str = "",
-) -> StartModel:
-    """The muscle of ``--muscle`` with the effects of ``--ideal`` or ``--effect``.
-
-    What the options do not name comes from the drive document: muscle and effects. The last choice is the
-    muscle that a measurement names.
+def start_model(studio: Studio, options: ModelOptions, *, named: str = "") -> StartModel:
+    """The muscle and effects of the options; without a muscle, the one that a measurement names.
 
     Raises:
         InputError: names the file or option, what is wrong and what would be right.
     """
-    if ideal and effects:
+    if options.ideal and options.effects:
         raise InputError("--ideal and --effect exclude each other", hint="use one of them")
-    for effect in effects:
+    for effect in options.effects:
         if effect not in studio.catalogue:
             raise InputError(
                 f"--effect {effect}: there is no such effect", hint=did_you_mean(effect, studio.catalogue)
             )
-    document = _drive_document(drive) if drive else {}
-    chosen: Effects | None = {} if ideal else {effect: {} for effect in effects} or None
+    document = _drive_document(options.drive) if options.drive else {}
+    chosen: Effects | None = {} if options.ideal else {effect: {} for effect in options.effects} or None
     if chosen is None and "effects" in document:
         chosen = cast(Effects, document["effects"])
-    if not muscle and "muscle" in document:
-        return _start_of_input(studio, document["muscle"], chosen, drive)
-    muscle = muscle or named
+    if not options.muscle and "muscle" in document:
+        return _start_of_input(studio, document["muscle"], chosen, options.drive)
+    muscle = options.muscle or named
     name, separator, length = muscle.partition(":")
     if not name:
         raise InputError("--muscle is missing", hint="e.g. --muscle DMSP-20:300mm")
@@ -142,11 +148,8 @@ def start_model(
 def model_question(
     studio: Studio,
     points: Points,
+    options: ModelOptions,
     *,
-    muscle: str,
-    ideal: bool,
-    effects: Sequence[str],
-    drive: str,
     free: Sequence[str],
     noise: float | None = None,
 ) -> ModelQuestion:
@@ -165,9 +168,11 @@ def model_question(
             raise InputError(f"--free {name}: there is no such geometry", hint=did_you_mean(name, GEOMETRY))
     measurement = points.measurement
     named = str(measurement.conditions.get("muscle", ""))
-    start = start_model(studio, muscle, ideal=ideal, effects=effects, drive=drive, named=named)
-    stated_drive = _drive_of(studio, drive, start) if drive and measurement.kind == "transient" else None
-    return question_of(start, studio, points, drive=stated_drive, free=tuple(free), noise=noise)
+    start = start_model(studio, options, named=named)
+    drive = None
+    if options.drive and measurement.kind == "transient":
+        drive = _drive_of(studio, options.drive, start)
+    return question_of(start, studio, points, drive=drive, free=tuple(free), noise=noise)
 
 
 def _drive_of(studio: Studio, path: str, start: StartModel) -> Drive | None:
@@ -218,7 +223,7 @@ def _is_file(muscle: str, studio: Studio) -> bool:
 
 def _start_of_file(studio: Studio, path: Path, effects: Effects | None) -> StartModel:
     """A muscle by geometry, or a whole preset file."""
-    from mckibben.documents.start_model import GivenMuscle, preset_facts, start_model
+    from mckibben.documents.start_model import StatedMuscle, preset_facts, start_model
     from mckibben.presets import MusclePreset
     from mckibben.presets.reading import BadDocumentError, parse, read_file
 
@@ -235,7 +240,7 @@ def _start_of_file(studio: Studio, path: Path, effects: Effects | None) -> Start
     preset.adopt("user", studio.effect_table)
     facts = preset_facts(preset, studio.catalogue)
     try:
-        return _usable(studio, start_model(GivenMuscle(), effects, preset=facts, catalogue=studio.catalogue))
+        return _usable(studio, start_model(StatedMuscle(), effects, preset=facts, catalogue=studio.catalogue))
     except InputError as error:
         raise _at(str(path), error.field, error.message, error.hint) from error
 
@@ -249,13 +254,13 @@ def _usable(studio: Studio, start: StartModel) -> StartModel:
 def _start_of_input(studio: Studio, document: object, effects: Effects | None, source: str) -> StartModel:
     from pydantic import ValidationError
 
-    from mckibben.documents.convert import given_muscle
+    from mckibben.documents.convert import stated_muscle
     from mckibben.documents.muscle import MuscleInput
     from mckibben.documents.problems import first_problem
 
     try:
-        given = given_muscle(MuscleInput.model_validate(document))
-        return _usable(studio, studio.start_model(given, effects))
+        muscle = stated_muscle(MuscleInput.model_validate(document))
+        return _usable(studio, studio.start_model(muscle, effects))
     except ValidationError as error:
         problem = first_problem(error.errors(), MuscleInput, document, "the muscle")
         raise _at(source, problem.field, problem.message, problem.hint) from error

@@ -99,8 +99,8 @@ def write_parameters(parameters: ParameterTable) -> None:
             item.unit,
             "at its bound" if item.at_bound else "",
         ]
-        for effect, own in parameters.items()
-        for name, item in own.items()
+        for effect, values in parameters.items()
+        for name, item in values.items()
     ]
     if rows:
         write_table("Parameters", ["parameter", "value", "± standard error", "unit", ""], rows)

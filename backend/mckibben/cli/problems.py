@@ -22,13 +22,13 @@ def tell_problems(studio: Studio, user_presets: Path | None) -> None:
     for problem in studio.catalogue.problems:
         typer.echo(f"effect file {problem.file} is not used: {problem.message}", err=True)
     for file, problems in groupby(studio.library.problems(), key=lambda problem: problem.file):
-        own = file.removeprefix("user/")
-        path = file if own == file or user_presets is None else user_presets / own
-        found = list(problems)
-        for problem in found[:_SHOWN]:
+        name = file.removeprefix("user/")
+        path = file if name == file or user_presets is None else user_presets / name
+        listed = list(problems)
+        for problem in listed[:_SHOWN]:
             known = not problem.field or problem.field in problem.message.replace("'", "")
             said = problem.message if known else f"{problem.field}: {problem.message}"
             hint = f" ({problem.hint.rstrip('.')})" if problem.hint else ""
             typer.echo(" ".join(f"preset file {path} is not used: {said}{hint}".split()), err=True)
-        if more := len(found[_SHOWN:]):
+        if more := len(listed[_SHOWN:]):
             typer.echo(f"preset file {path}: and {more} more", err=True)

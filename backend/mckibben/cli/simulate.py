@@ -14,7 +14,7 @@ from mckibben.cli.options import located
 from mckibben.cli.output import figure, remark, write_json, write_table
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_files import preset_document, read_document
-from mckibben.documents.drive_reading import GivenDrive, drive_of
+from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.presets import DrivePreset
@@ -81,8 +81,8 @@ def run(studio: Studio, *, drive: str, out: Path | None, as_json: bool) -> None:
     """
     document = _document(drive, studio)
     try:
-        given = drive_of(document, studio)
-        result = simulate(SimulationQuestion(given, engine=_engine(given)))
+        annotated = drive_of(document, studio)
+        result = simulate(SimulationQuestion(annotated, engine=_engine(annotated)))
     except InputError as error:
         raise InputError(f"{drive}: {located(error.field, error.message)}", hint=error.hint) from error
     if out is not None:
@@ -97,9 +97,9 @@ def run(studio: Studio, *, drive: str, out: Path | None, as_json: bool) -> None:
         remark(f"{result.outcome}: {result.message}")
 
 
-def _engine(given: GivenDrive) -> str:
+def _engine(annotated: AnnotatedDrive) -> str:
     """The engine for a drive: loading the kernel takes 0.6 s, longer than LSODA for a few segments."""
-    return "lsoda" if len(segments_of(given.drive)[0]) <= _FEW_SEGMENTS else "rodas"
+    return "lsoda" if len(segments_of(annotated.drive)[0]) <= _FEW_SEGMENTS else "rodas"
 
 
 def _document(name: str, studio: Studio) -> DriveDocument:

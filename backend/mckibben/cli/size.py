@@ -133,7 +133,7 @@ def _write_tables(name: str, result: SizingResult) -> None:
     if rows:
         write_table(f"{name}: drives, best first ({counted})", header, rows)
     else:
-        write_table(f"{name}: nothing in the catalogue does this ({counted})", ["no drive"], [])
+        write_table(f"{name}: no drive in the catalogue fulfils this task ({counted})", ["no drive"], [])
     shown = result.rejected[:_REJECTED_SHOWN]
     for item in shown:
         remark(f"– {item.why} [{item.binding.replace('_', ' ')}]; it would work with {item.would_work_if}")

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from mckibben.documents.muscle import MuscleInput
-from mckibben.documents.start_model import GivenMuscle
+from mckibben.documents.start_model import StatedMuscle
 from mckibben.physics.braid import Rhombus
 
 
-def given_muscle(muscle: MuscleInput) -> GivenMuscle:
+def stated_muscle(muscle: MuscleInput) -> StatedMuscle:
     """The muscle of a request as a plain object."""
     lattice = muscle.rhombus
-    return GivenMuscle(
+    return StatedMuscle(
         preset=muscle.preset,
         nominal_length=muscle.nominal_length,
         inside_diameter=muscle.inside_diameter,

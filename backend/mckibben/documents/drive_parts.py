@@ -49,19 +49,19 @@ def _first(*values: float | None) -> float | None:
     return next((value for value in values if value is not None), None)
 
 
-def valve_of(given: ValveInput, preset: ValvePreset | None) -> Valve:
+def valve_of(valve: ValveInput, preset: ValvePreset | None) -> Valve:
     """Conductances and critical ratios of filling and venting; stated values override those of the preset."""
     ratio = _first(
-        given.critical_pressure_ratio, _figure(preset, "critical_pressure_ratio", "1"), _DEFAULT_RATIO
+        valve.critical_pressure_ratio, _figure(preset, "critical_pressure_ratio", "1"), _DEFAULT_RATIO
     )
     assert ratio is not None  # noqa: S101 - the default is not None
-    fill = given.sonic_conductance
-    if given.nominal_flow is not None:
+    fill = valve.sonic_conductance
+    if valve.nominal_flow is not None:
         if fill is not None:
             raise InputError(
                 "give the sonic conductance or the nominal flow, not both", field="valve.nominal_flow"
             )
-        fill = float(gas.conductance_of_nominal_flow(nominal_flow=given.nominal_flow, critical_ratio=ratio))
+        fill = float(gas.conductance_of_nominal_flow(nominal_flow=valve.nominal_flow, critical_ratio=ratio))
     by_value = fill is not None
     fill = _first(fill, _figure(preset, "sonic_conductance", "m^3/(s*Pa)"))
     if fill is None:
@@ -73,22 +73,22 @@ def valve_of(given: ValveInput, preset: ValvePreset | None) -> Valve:
         )
     # A stated flow is that of both directions; the exhaust flow of the preset belongs to its own fill flow.
     of_preset = None if by_value else _figure(preset, "exhaust_conductance", "m^3/(s*Pa)")
-    exhaust = _first(given.exhaust_conductance, of_preset, fill)
-    exhaust_ratio = _first(given.exhaust_critical_pressure_ratio, ratio)
+    exhaust = _first(valve.exhaust_conductance, of_preset, fill)
+    exhaust_ratio = _first(valve.exhaust_critical_pressure_ratio, ratio)
     assert exhaust is not None  # noqa: S101 - fill is not
     assert exhaust_ratio is not None  # noqa: S101 - ratio is not
     return Valve(fill, exhaust, ratio, exhaust_ratio)
 
 
-def regulator_of(given: RegulatorInput | None, preset: ValvePreset | None) -> Regulator | None:
+def regulator_of(regulator: RegulatorInput | None, preset: ValvePreset | None) -> Regulator | None:
     """Range and time constant of the regulator; None for a plain valve."""
-    own = None if preset is None else preset.regulator
-    if given is None and own is None:
+    preset_regulator = None if preset is None else preset.regulator
+    if regulator is None and preset_regulator is None:
         return None
     values: dict[str, float] = {}
     for name, unit, example in (("range", "Pa", "6 bar"), ("time", "s", "50 ms")):
-        of_preset = None if own is None else getattr(own, name).si(unit)
-        value = _first(None if given is None else getattr(given, name), of_preset)
+        of_preset = None if preset_regulator is None else getattr(preset_regulator, name).si(unit)
+        value = _first(None if regulator is None else getattr(regulator, name), of_preset)
         if value is None:
             raise InputError(
                 f"regulator.{name} is missing", field=f"regulator.{name}", hint=f"e.g. '{example}'"
@@ -101,12 +101,12 @@ def regulator_of(given: RegulatorInput | None, preset: ValvePreset | None) -> Re
 TYPICAL_TUBE = Tube(inside_diameter=4e-3, length=1.0)
 
 
-def tube_of(given: TubeInput | None, preset: TubePreset | None) -> Tube | None:
+def tube_of(tube: TubeInput | None, preset: TubePreset | None) -> Tube | None:
     """Bore and length; None without a tube."""
-    if given is None:
+    if tube is None:
         return None
-    inside = _first(given.inside_diameter, _figure(preset, "inside_diameter", "m"))
-    length = _first(given.length, _figure(preset, "reference_length", "m"))
+    inside = _first(tube.inside_diameter, _figure(preset, "inside_diameter", "m"))
+    length = _first(tube.length, _figure(preset, "reference_length", "m"))
     for name, value, example in (("inside_diameter", inside, "4 mm"), ("length", length, "1 m")):
         if value is None:
             raise InputError(f"tube.{name} is missing", field=f"tube.{name}", hint=f"e.g. '{example}'")
@@ -126,49 +126,49 @@ def port_volume_of(fittings: Sequence[Part | None]) -> float:
     return sum(_figure(fitting, "port_volume", "m^3") or 0.0 for fitting in fittings)
 
 
-def load_of(given: LoadInput) -> Load:
+def load_of(load: LoadInput) -> Load:
     """The load; its arrangement sets the inclination or requires a lever."""
-    fixed = {"hanging": radians(90.0), "horizontal": 0.0}
-    if given.arrangement == "antagonist":
-        if given.pulley_radius is None:
+    implied = {"hanging": radians(90.0), "horizontal": 0.0}
+    if load.arrangement == "antagonist":
+        if load.pulley_radius is None:
             raise InputError("load.pulley_radius is missing", field="load.pulley_radius", hint="e.g. '20 mm'")
         # A pulley turns about its centre: without an inclination there is no torque by weight.
-        given = given.model_copy(update={"inclination": given.inclination or 0.0})
-    elif given.pulley_radius is not None or given.precontraction is not None:
-        name = "pulley_radius" if given.pulley_radius is not None else "precontraction"
+        load = load.model_copy(update={"inclination": load.inclination or 0.0})
+    elif load.pulley_radius is not None or load.precontraction is not None:
+        name = "pulley_radius" if load.pulley_radius is not None else "precontraction"
         raise InputError(
             f"only an antagonist pair has a {name.replace('_', ' ')}",
             field=f"load.{name}",
             hint='"arrangement": "antagonist"',
         )
-    inclination, arrangement = given.inclination, given.arrangement
-    if arrangement in fixed:
-        if inclination is not None and abs(inclination - fixed[arrangement]) > 1e-3:
+    inclination, arrangement = load.inclination, load.arrangement
+    if arrangement in implied:
+        if inclination is not None and abs(inclination - implied[arrangement]) > 1e-3:
             raise InputError(
-                f"a {arrangement} load has an inclination of {fixed[arrangement] * 180 / pi:.0f}°, "
+                f"a {arrangement} load has an inclination of {implied[arrangement] * 180 / pi:.0f}°, "
                 f"not {inclination * 180 / pi:.4g}°",
                 field="load.inclination",
                 hint='omit one of them, or give "arrangement": "inclined"',
             )
-        inclination = fixed[arrangement]
+        inclination = implied[arrangement]
     elif arrangement == "inclined" and inclination is None:
         raise InputError("load.inclination is missing", field="load.inclination", hint="e.g. '30 deg'")
-    if arrangement == "lever" and given.lever_ratio is None:
+    if arrangement == "lever" and load.lever_ratio is None:
         raise InputError("load.lever_ratio is missing", field="load.lever_ratio", hint="e.g. 0.5")
-    if arrangement not in ("lever", None) and given.lever_ratio not in (None, 1.0):
+    if arrangement not in ("lever", None) and load.lever_ratio not in (None, 1.0):
         article = "an" if arrangement[0] in "aeiou" else "a"
         raise InputError(
             f"{article} {arrangement} load has no lever",
             field="load.lever_ratio",
             hint='"arrangement": "lever"',
         )
-    force = given.force
+    force = load.force
     if isinstance(force, Mapping):
         force = signal_from(force, unit="N", field="load.force")
     return Load(
-        mass=given.mass,
+        mass=load.mass,
         inclination=radians(90.0) if inclination is None else inclination,
         force=force,
-        spring=given.spring,
-        lever_ratio=given.lever_ratio or 1.0,
+        spring=load.spring,
+        lever_ratio=load.lever_ratio or 1.0,
     )

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import NamedTuple
 
-from mckibben.documents.convert import given_muscle
+from mckibben.documents.convert import stated_muscle
 from mckibben.documents.drive import ControllerInput, DriveDocument
 from mckibben.documents.drive_parts import (
     TYPICAL_TUBE,
@@ -36,7 +36,7 @@ _SHORTEST = 0.1  # shortest possible muscle, share of its nominal length
 
 
 @dataclass(frozen=True)
-class GivenDrive:
+class AnnotatedDrive:
     """A drive ready to run, with notes for the user.
 
     Attributes:
@@ -52,7 +52,7 @@ class GivenDrive:
     notes: Mapping[str, str]
 
 
-def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False) -> GivenDrive:
+def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False) -> AnnotatedDrive:
     """The drive described by a document.
 
     Args:
@@ -73,7 +73,7 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
     assert tube_preset is None or isinstance(tube_preset, TubePreset)  # noqa: S101
     parts = [part for part in (valve_preset, tube_preset, *fittings) if part is not None]
 
-    start = studio.start_model(given_muscle(document.muscle), document.effects)
+    start = studio.start_model(stated_muscle(document.muscle), document.effects)
     if document.effects is None:
         preset_effects = {
             name: studio.catalogue[name].defaults | values
@@ -105,7 +105,7 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
         fitting_volume=document.gas.dead_volume + port_volume_of(fittings),
         polytropic_exponent=document.gas.polytropic_exponent,
         wall_heat_transfer=document.gas.wall_heat_transfer,
-        **_pair(document, lowest, highest),
+        **_pair(document, lowest, highest)._asdict(),
         controller=controller,
         reference=reference,
         ambient_pressure=document.gas.ambient_pressure,
@@ -116,7 +116,7 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
         for part in parts
         if (names := unverified_of(part, with_effects=document.effects is None))
     }
-    return GivenDrive(drive, start, unverified, notes)
+    return AnnotatedDrive(drive, start, unverified, notes)
 
 
 def _preset(studio: Studio, kind: str, preset_id: str | None, field: str) -> Part | None:
@@ -152,8 +152,8 @@ def _command(
     return command, None, None, notes
 
 
-def _controller(given: ControllerInput, rest: float) -> tuple[PidController, Signal]:
-    values = given.model_dump(exclude_none=True)
+def _controller(controller: ControllerInput, rest: float) -> tuple[PidController, Signal]:
+    values = controller.model_dump(exclude_none=True)
     reference = signal_from(values.pop("reference"), unit="m", field="controller.reference")
     return controller_from(values, output_min=rest), reference
 
@@ -177,11 +177,19 @@ def _check_flow(valve: Valve, command: Signal, controller: PidController | None)
 _PRECONTRACTION = 0.1  # default of both muscles of a pair
 
 
-def _pair(document: DriveDocument, lowest: float, highest: float) -> dict[str, Any]:
-    """Arguments of a drive with an antagonist pair; empty for others."""
+class _PairSettings(NamedTuple):
+    """Arguments of `Drive` that only an antagonist pair has."""
+
+    pair: bool = False
+    precontraction: float = 0.0
+    pulley_radius: float | None = None
+
+
+def _pair(document: DriveDocument, lowest: float, highest: float) -> _PairSettings:
+    """Arguments of a drive that describe its antagonist pair, if it is one."""
     load = document.load
     if load.arrangement != "antagonist":
-        return {}
+        return _PairSettings()
     middle = _PRECONTRACTION if load.precontraction is None else load.precontraction
     if not lowest < middle < highest:
         raise InputError(
@@ -190,13 +198,13 @@ def _pair(document: DriveDocument, lowest: float, highest: float) -> dict[str, A
             field="load.precontraction",
             hint="e.g. '10 %'",
         )
-    return {"pair": True, "precontraction": middle, "pulley_radius": load.pulley_radius}
+    return _PairSettings(pair=True, precontraction=middle, pulley_radius=load.pulley_radius)
 
 
 def _stops(document: DriveDocument, model: StaticModel) -> tuple[float, float]:
     """End stops as contractions, within the possible range of the muscle."""
-    given = document.stops
-    lowest, highest = given.min_contraction, given.max_contraction
+    stops = document.stops
+    lowest, highest = stops.min_contraction, stops.max_contraction
     rest, longest = model.muscle.nominal_length, model.longest
     locked = 1.0 - longest / rest
     if lowest < locked:

@@ -21,7 +21,7 @@ class RhombusInput(Strict):
 class MuscleInput(Strict):
     """A preset id, or a length with exactly one of: diameter and angle, thread length and turns, rhombus.
 
-    With a preset, the fields given override its values.
+    With a preset, the stated fields override its values.
     """
 
     preset: Id | None = None

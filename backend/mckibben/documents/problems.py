@@ -61,7 +61,7 @@ def _annotations(annotation: Any) -> list[Any]:
     if origin is Annotated:
         return _annotations(get_args(annotation)[0])
     if origin in (Union, types.UnionType):
-        return [found for part in get_args(annotation) for found in _annotations(part)]
+        return [inner for part in get_args(annotation) for inner in _annotations(part)]
     return [annotation]
 
 

@@ -39,8 +39,8 @@ _MARKS = {
 
 
 @dataclass(frozen=True, slots=True)
-class GivenMuscle:
-    """A muscle as given by the caller; values in SI, None where not given."""
+class StatedMuscle:
+    """A muscle as stated by the caller; values in SI, None where not stated."""
 
     preset: str | None = None
     nominal_length: float | None = None
@@ -60,7 +60,7 @@ class PresetFacts:
     Attributes:
         id: id of the preset.
         muscle: geometry at rest.
-        effects: the preset's own effects with all their parameters.
+        effects: the effects of the preset with all their parameters.
         limits: limits stated by the maker.
         tolerance: geometry field -> largest change by a fit, in either direction.
         shortest, longest: range of nominal lengths that the maker sells, None where not known [m].
@@ -101,7 +101,7 @@ class StartModel:
 
     @property
     def limits(self) -> MuscleLimits:
-        """Limits stated by the maker; none for a muscle given by geometry."""
+        """Limits stated by the maker; none for a muscle stated by its geometry."""
         return MuscleLimits() if self.preset is None else self.preset.limits
 
 
@@ -118,7 +118,7 @@ def preset_facts(preset: MusclePreset, catalogue: EffectCatalogue) -> PresetFact
             wall_thickness=0.0 if wall is None else wall.si("m"),
             inside_diameter=geometry.inside_diameter.si("m"),
         ),
-        effects={name: catalogue[name].defaults | own for name, own in preset.effect_values().items()},
+        effects={name: catalogue[name].defaults | values for name, values in preset.effect_values().items()},
         limits=MuscleLimits(
             max_pressure=_optional(limits.max_pressure, "Pa"),
             max_force=_optional(limits.max_force, "N"),
@@ -145,7 +145,7 @@ def _optional(quantity: Quantity | None, unit: str) -> float | None:
 
 
 def start_model(
-    given: GivenMuscle,
+    stated: StatedMuscle,
     effects: Mapping[str, Mapping[str, float | str]] | None,
     *,
     preset: PresetFacts | None,
@@ -154,76 +154,76 @@ def start_model(
     """The muscle and effects described by a request.
 
     Args:
-        given: the muscle; fields given with a preset override its values.
+        stated: the muscle; fields stated with a preset override its values.
         effects: effect id -> parameters (SI numbers or texts with units); {} is the ideal model, None the
-            preset's own effects, or the ideal model without a preset.
-        preset: facts of the preset that ``given`` names.
+            effects of the preset, or the ideal model without a preset.
+        preset: facts of the preset that ``stated`` names.
         catalogue: the known effects.
 
     Raises:
         InputError: no geometry, an incomplete one or more than one form, an unknown effect or parameter, or a
             value with a wrong unit. Bounds are checked by the model.
     """
-    muscle = _muscle(given, None if preset is None else preset.muscle)
+    muscle = _muscle(stated, None if preset is None else preset.muscle)
     if effects is None:
-        own = {} if preset is None else preset.effects
-        return _complete_model(StartModel(muscle, own, preset, given.rhombus, catalogue), given)
+        preset_effects = {} if preset is None else preset.effects
+        return _complete_model(StartModel(muscle, preset_effects, preset, stated.rhombus, catalogue), stated)
     known: Mapping[str, Effect] = catalogue
     term = None
     if CUSTOM in effects and CUSTOM not in catalogue:
         effect, term = typed_effect(effects[CUSTOM])
         known = {**catalogue, CUSTOM: effect}
-        effects = {name: own if name != CUSTOM else effect.defaults for name, own in effects.items()}
+        effects = {name: values if name != CUSTOM else effect.defaults for name, values in effects.items()}
     chosen = {name: _effect_values(name, values, known) for name, values in effects.items()}
-    return _complete_model(StartModel(muscle, chosen, preset, given.rhombus, known, term), given)
+    return _complete_model(StartModel(muscle, chosen, preset, stated.rhombus, known, term), stated)
 
 
-def _complete_model(start: StartModel, given: GivenMuscle) -> StartModel:
+def _complete_model(start: StartModel, stated: StatedMuscle) -> StartModel:
     """The model with typical values in the fields that its effects need and that are not stated.
 
     A stated 0 is kept, and the model rejects it.
     """
     needed = dict.fromkeys(field for name in start.effects for field in start.catalogue[name].needs)
-    assumed = tuple(name for name in needed if getattr(start.muscle, name) == 0.0 and not _has(given, name))
+    assumed = tuple(name for name in needed if getattr(start.muscle, name) == 0.0 and not _has(stated, name))
     if not assumed:
         return start
     return replace(start, muscle=start.muscle.assuming(assumed), assumed=assumed)
 
 
-def _muscle(given: GivenMuscle, base: Muscle | None) -> Muscle:
-    forms = [form for form, marks in _MARKS.items() if any(_has(given, mark) for mark in marks)]
+def _muscle(stated: StatedMuscle, base: Muscle | None) -> Muscle:
+    forms = [form for form, marks in _MARKS.items() if any(_has(stated, mark) for mark in marks)]
     if len(forms) > 1:
         raise InputError(
             f"the muscle is given in {len(forms)} forms at once: {' and '.join(forms)}",
-            field=f"muscle.{_first_given(given, _MARKS[forms[1]])}",
+            field=f"muscle.{_first_stated(stated, _MARKS[forms[1]])}",
             hint="give braid_angle with a diameter, or thread_length with turns, or rhombus",
         )
     form = forms[0] if forms else "diameter and angle"
-    length = given.nominal_length if given.nominal_length is not None else base and base.nominal_length
+    length = stated.nominal_length if stated.nominal_length is not None else base and base.nominal_length
     if length is None:
         raise InputError(
             "the muscle has no length", field="muscle.nominal_length", hint='e.g. "nominal_length": "300 mm"'
         )
     if form == "diameter and angle":
-        return _by_diameter(given, base, length)
-    return _by_thread(given, base, length)
+        return _by_diameter(stated, base, length)
+    return _by_thread(stated, base, length)
 
 
-def _first_given(given: GivenMuscle, names: tuple[str, ...]) -> str:
-    return next(name for name in names if _has(given, name))
+def _first_stated(stated: StatedMuscle, names: tuple[str, ...]) -> str:
+    return next(name for name in names if _has(stated, name))
 
 
-def _has(given: GivenMuscle, name: str) -> bool:
-    return getattr(given, name) is not None
+def _has(stated: StatedMuscle, name: str) -> bool:
+    return getattr(stated, name) is not None
 
 
-def _by_diameter(given: GivenMuscle, base: Muscle | None, length: float) -> Muscle:
+def _by_diameter(stated: StatedMuscle, base: Muscle | None, length: float) -> Muscle:
     """The muscle from the braid diameter at the braid angle; without it from the bore."""
     if base is None:
-        wall = given.wall_thickness or 0.0
-        bore = given.inside_diameter
-        braid = given.braid_diameter if given.braid_diameter is not None else bore
-        if given.braid_angle is None:
+        wall = stated.wall_thickness or 0.0
+        bore = stated.inside_diameter
+        braid = stated.braid_diameter if stated.braid_diameter is not None else bore
+        if stated.braid_angle is None:
             raise InputError(
                 "the muscle has no geometry" if braid is None else "the muscle has no braid angle",
                 field="muscle" if braid is None else "muscle.braid_angle",
@@ -235,43 +235,43 @@ def _by_diameter(given: GivenMuscle, base: Muscle | None, length: float) -> Musc
                 field="muscle.inside_diameter",
                 hint='e.g. "inside_diameter": "20 mm"',
             )
-        return Muscle(length, braid, given.braid_angle, wall, bore if bore is not None else braid - wall)
-    wall = base.wall_thickness if given.wall_thickness is None else given.wall_thickness
-    bore = base.inside_diameter if given.inside_diameter is None else given.inside_diameter
+        return Muscle(length, braid, stated.braid_angle, wall, bore if bore is not None else braid - wall)
+    wall = base.wall_thickness if stated.wall_thickness is None else stated.wall_thickness
+    bore = base.inside_diameter if stated.inside_diameter is None else stated.inside_diameter
     # A wider bore or a thicker wall increases the braid diameter.
     follows = base.braid_diameter + (bore - base.inside_diameter) + (wall - base.wall_thickness)
-    braid = follows if given.braid_diameter is None else given.braid_diameter
-    angle = base.braid_angle if given.braid_angle is None else given.braid_angle
+    braid = follows if stated.braid_diameter is None else stated.braid_diameter
+    angle = base.braid_angle if stated.braid_angle is None else stated.braid_angle
     return Muscle(length, braid, angle, wall, bore)
 
 
-def _by_thread(given: GivenMuscle, base: Muscle | None, length: float) -> Muscle:
-    if given.rhombus is not None:
-        braid = braid_from_rhombus(**given.rhombus._asdict())
+def _by_thread(stated: StatedMuscle, base: Muscle | None, length: float) -> Muscle:
+    if stated.rhombus is not None:
+        braid = braid_from_rhombus(**stated.rhombus._asdict())
     else:
         for name, other in (("thread_length", "turns"), ("turns", "thread_length")):
-            if getattr(given, name) is None:
+            if getattr(stated, name) is None:
                 raise InputError(
                     f"{other} is given without {name}",
                     field=f"muscle.{name}",
                     hint="the thread form needs thread_length, turns and nominal_length",
                 )
-        braid = Braid(given.thread_length, given.turns)
+        braid = Braid(stated.thread_length, stated.turns)
     try:
         diameter, angle = rest_diameter_and_angle(braid=braid, length=length)
     except InputError as error:
         raise error.inside("muscle") from error
-    wall = given.wall_thickness
+    wall = stated.wall_thickness
     if wall is None:
         wall = base.wall_thickness if base is not None else 0.0
-    bore = given.inside_diameter if given.inside_diameter is not None else max(diameter - wall, 0.0)
+    bore = stated.inside_diameter if stated.inside_diameter is not None else max(diameter - wall, 0.0)
     return Muscle(length, diameter, angle, wall, bore)
 
 
 def _effect_values(
-    effect_id: str, given: Mapping[str, float | str], catalogue: Mapping[str, Effect]
+    effect_id: str, stated: Mapping[str, float | str], catalogue: Mapping[str, Effect]
 ) -> dict[str, float]:
-    """Every parameter of an effect in SI: the given ones, defaults for the rest."""
+    """Every parameter of an effect in SI: the stated ones, defaults for the rest."""
     path = f"effects.{effect_id}"
     if effect_id not in catalogue:
         raise InputError(
@@ -283,7 +283,7 @@ def _effect_values(
     effect = catalogue[effect_id]
     units = {parameter.name: parameter.unit for parameter in effect.parameters}
     values = dict(effect.defaults)
-    for name, value in given.items():
+    for name, value in stated.items():
         field = f"{path}.{name}"
         if name not in units:
             raise InputError(

@@ -12,6 +12,10 @@ class Strict(BaseModel):
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False, strict=True)
 
+    def to_document(self) -> dict[str, object]:
+        """The stated fields as JSON values; reading them again gives the same object."""
+        return self.model_dump(mode="json", by_alias=True, exclude_unset=True)
+
 
 def si_field(unit: str, description: str, **further: Any) -> Any:
     """A field of an answer whose numbers are in this SI unit."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
-from mckibben.documents.start_model import GivenMuscle, PresetFacts, StartModel, preset_facts, start_model
+from mckibben.documents.start_model import PresetFacts, StartModel, StatedMuscle, preset_facts, start_model
 from mckibben.physics.catalogue import EffectCatalogue, default_catalogue
 from mckibben.physics.errors import InputError
 from mckibben.presets import MusclePreset, PresetLibrary
@@ -37,7 +37,7 @@ class Studio:
         self._facts: dict[str, tuple[MusclePreset, PresetFacts]] = {}
 
     def start_model(
-        self, muscle: GivenMuscle, effects: Mapping[str, Mapping[str, float | str]] | None
+        self, muscle: StatedMuscle, effects: Mapping[str, Mapping[str, float | str]] | None
     ) -> StartModel:
         """The complete muscle and effects of a request; see `mckibben.documents.start_model.start_model`.
 

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import ConfigDict, Field, JsonValue
 
 from mckibben.documents.drive import Inclination, LeverRatio, Mass, PulleyRadius, Stiffness
+from mckibben.documents.json_document import JsonDocument
 from mckibben.documents.quantity import Diameter, Force, PositivePressure, QuantityField, Temperature
 from mckibben.documents.strict import Id, Strict
 
@@ -192,7 +193,7 @@ _EXAMPLES: list[JsonValue] = [
 
 
 class SizingTask(Strict):
-    """A task; only the load, and a stroke or a pair, must be given. Plain numbers are in SI units."""
+    """A task; only the load, and a stroke or a pair, are required. Plain numbers are in SI units."""
 
     model_config = ConfigDict(json_schema_extra={"examples": _EXAMPLES})
 
@@ -226,3 +227,10 @@ class SizingTask(Strict):
         "length and number of muscles. Drives that probably fail come last in any order.",
     )
     max_proposals: Annotated[int, Field(ge=1, le=30)] = Field(10, description="Most proposals. Default 10.")
+
+    def completed(self) -> JsonDocument:
+        """The task in SI with all assumed values; reading it again gives the same search."""
+        whole = self.model_dump(mode="json", by_alias=True, exclude_none=True)
+        if self.load.pair is not None:  # a pair allows no other field of the load
+            whole["load"] = {"pair": whole["load"]["pair"]}
+        return JsonDocument(whole)

@@ -40,10 +40,11 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
 
     1. time with a valve command: ``transient``.
     2. force, pressure and stroke: ``transient`` with time and a stated load mass; ``isotonic`` when the force
-       is held, or held run by run, and both others vary; ``isobaric``/``isometric`` when pressure/stroke is
-       held throughout. Otherwise the occupied 1 % steps of both ranges are counted: a filled grid without
-       time and direction is ``static`` (unless one axis is fine, >= 25 levels and 4 times the other); an axis
-       with at most half the steps of the other is the held one; without such an axis ``static``.
+       is constant, throughout or in each run, and both others vary; ``isobaric``/``isometric`` when
+       pressure/stroke is constant throughout. Otherwise the occupied 1 % steps of both ranges are counted: a
+       filled grid without time and direction is ``static`` (unless one axis is fine, >= 25 levels and 4 times
+       the other); an axis with at most half the steps of the other is the constant one; without such an axis
+       ``static``.
     3. diameter with pressure or stroke: ``diameter``.
     4. pressure and stroke: ``transient`` with time, else ``isotonic``.
     5. time with pressure or stroke: ``transient``.
@@ -76,35 +77,35 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
 
 
 def _force_kind(pressure: Array, stroke: Array, force: Array, *, swept: bool) -> tuple[str, str]:
-    if np.any(force) and not _held(pressure) and not _held_stroke(stroke):
-        if _held(force):
-            return "isotonic", "the force is held while pressure and stroke vary"
-        if runs := _held_runs(force, pressure, stroke):
-            return "isotonic", f"the force is held {runs} times while pressure and stroke vary"
-    if _held(pressure) != _held_stroke(stroke):
-        if _held(pressure):
-            return "isobaric", "the pressure is held throughout"
-        return "isometric", "the stroke is held throughout"
-    all_pressures, held_pressures = _steps(pressure)
-    all_strokes, held_strokes = _steps(stroke)
-    seen = f"{held_pressures} levels of pressure, {held_strokes} of stroke"
+    if np.any(force) and not _constant(pressure) and not _constant_stroke(stroke):
+        if _constant(force):
+            return "isotonic", "the force is constant while pressure and stroke vary"
+        if runs := _constant_runs(force, pressure, stroke):
+            return "isotonic", f"the force is constant in each of {runs} runs while pressure and stroke vary"
+    if _constant(pressure) != _constant_stroke(stroke):
+        if _constant(pressure):
+            return "isobaric", "the pressure is constant throughout"
+        return "isometric", "the stroke is constant throughout"
+    all_pressures, pressure_levels = _steps(pressure)
+    all_strokes, stroke_levels = _steps(stroke)
+    seen = f"{pressure_levels} levels of pressure, {stroke_levels} of stroke"
     if not swept and all_pressures * all_strokes <= 1.5 * len(force):
         few, many = sorted((all_pressures, all_strokes))
         if many < max(_MANY, 4 * few):
             return "static", f"a filled grid: {seen}"
-    if 2 * held_pressures <= held_strokes:
-        return "isobaric", f"few pressures are held: {seen}"
-    if 2 * held_strokes <= held_pressures:
-        return "isometric", f"few strokes are held: {seen}"
-    return "static", f"neither pressure nor stroke is held: {seen}"
+    if 2 * pressure_levels <= stroke_levels:
+        return "isobaric", f"few levels of pressure: {seen}"
+    if 2 * stroke_levels <= pressure_levels:
+        return "isometric", f"few levels of stroke: {seen}"
+    return "static", f"neither pressure nor stroke is constant: {seen}"
 
 
-def _held(values: Array) -> bool:
+def _constant(values: Array) -> bool:
     """Whether a pressure or force is constant within 2 % of its magnitude."""
     return bool(np.ptp(values) <= 0.02 * np.max(np.abs(values)))
 
 
-def _held_runs(force: Array, pressure: Array, stroke: Array) -> int:
+def _constant_runs(force: Array, pressure: Array, stroke: Array) -> int:
     """Number of runs with a constant load and varying pressure and stroke; 0 if one run is not like that."""
     jumps = np.flatnonzero(np.abs(np.diff(force)) > _JUMP * np.ptp(force)) + 1
     runs = np.split(np.arange(len(force)), jumps)
@@ -117,7 +118,7 @@ def _held_runs(force: Array, pressure: Array, stroke: Array) -> int:
     return len(runs)
 
 
-def _held_stroke(values: Array) -> bool:
+def _constant_stroke(values: Array) -> bool:
     """Whether the stroke is constant: within 0.5 % of a length, 0.5 mm, or 0.0005 of contraction."""
     return bool(np.ptp(values) <= max(0.005 * np.median(values), 0.0005))
 
@@ -149,9 +150,9 @@ def group_rows(columns: Mapping[str, NDArray], kind: str) -> tuple[NDArray[np.in
     signal = next(v for v in (pressure, stroke, columns.get("command")) if v is not None)
     if kind in FORCE_KINDS and pressure is not None and stroke is not None:
         by_stroke = kind == "isometric"
-        held, signal = (stroke, pressure) if by_stroke else (pressure, stroke)
-        labels = _levels(held)
-        one_level = _held_stroke(stroke) if by_stroke else _held(pressure)
+        constant, signal = (stroke, pressure) if by_stroke else (pressure, stroke)
+        labels = _levels(constant)
+        one_level = _constant_stroke(stroke) if by_stroke else _constant(pressure)
         if not one_level and 0 < labels.max() < max(1, len(labels) // 2):
             return labels, f"by {'stroke' if by_stroke else 'pressure'}"
     direction = columns.get("direction")

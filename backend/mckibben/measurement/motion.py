@@ -1,4 +1,4 @@
-"""Velocity of a muscle and rate of its pressure, with their uncertainties."""
+"""Velocity of a muscle with its uncertainty, and its direction of motion."""
 
 from __future__ import annotations
 
@@ -23,8 +23,6 @@ class RecordedMotion:
     Attributes:
         velocity: dL/dt, negative = shortening [m/s].
         velocity_sigma: its standard uncertainty [m/s].
-        pressure_rate, pressure_rate_sigma: dp/dt and its standard uncertainty [Pa/s]; zero and infinite
-            without pressure.
         direction: -1 shortening, +1 lengthening, 0 not distinguishable from rest.
         measured: the velocity was measured, not derived.
         messages: the assumptions.
@@ -32,15 +30,13 @@ class RecordedMotion:
 
     velocity: Array
     velocity_sigma: Array
-    pressure_rate: Array
-    pressure_rate_sigma: Array
     direction: NDArray[np.int8]
     measured: bool
     messages: tuple[str, ...]
 
 
 def motion_of(measurement: Measurement, nominal_length: float) -> RecordedMotion:
-    """Velocity and pressure rate of a measurement in time.
+    """Velocity of a measurement in time.
 
     A measured velocity is used as it is, with the sign of dL/dt unless the measured stroke shows that
     shortening is positive. Otherwise the length is differentiated by local fits, see
@@ -77,15 +73,8 @@ def motion_of(measurement: Measurement, nominal_length: float) -> RecordedMotion
         raise InputError(
             f"{measurement.name}: rates need a stroke or a velocity", field="length", hint="e.g. 'length_mm'"
         )
-    pressure = columns.get("pressure")
-    rows = len(time)
-    rate = (
-        Rate(np.zeros(rows), np.full(rows, np.inf), np.zeros(rows, np.intp))
-        if pressure is None
-        else rates(time, pressure, starts=starts)
-    )
     return RecordedMotion(
-        value, sigma, rate.value, rate.sigma, directions(value, sigma, starts=starts),
+        value, sigma, directions(value, sigma, starts=starts),
         "velocity" in columns, tuple(messages),
     )  # fmt: skip
 

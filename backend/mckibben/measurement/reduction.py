@@ -1,8 +1,10 @@
-r"""Reduction of long measurements to weighted block means, for fits.
+r"""Reduction of long measurements to block means, for fits.
 
 Consecutive samples of a sweep differ mainly by noise. Their mean keeps the signal and has the noise
-:math:`\sigma/\sqrt{n}`. So a fit to the means, weighted by :math:`n`, gives the parameters and standard
-errors of a fit to all rows, provided that the model is nearly linear within a block.
+:math:`\sigma/\sqrt{n}`. A fit to the means, weighted by their number of rows :math:`n`, gives the parameters
+and standard errors of a fit to all rows, provided that the model is nearly linear within a block. A diagnosis
+gives every mean the same weight, so quickly changing parts of a measurement count more than in a fit to all
+rows.
 """
 
 from __future__ import annotations
@@ -26,10 +28,10 @@ _BY_TIME = 0.5  # share of the blocks spread evenly over the rows; the others fo
 
 
 class Reduced(NamedTuple):
-    """A measurement of block means, the number of rows of each mean as weight, and a note for the user."""
+    """A measurement of block means, the number of rows of each mean, and a note for the user."""
 
     measurement: Measurement
-    weights: Array
+    counts: Array
     message: str
 
 
@@ -44,7 +46,7 @@ def reduced(measurement: Measurement, rows: int = ROWS) -> Reduced:
     if there are many such limits.
 
     Args:
-        measurement: any kind; one that is not larger than ``rows`` is returned as it is, with weights 1.
+        measurement: any kind; one that is not larger than ``rows`` is returned as it is, with counts of 1.
         rows: approximate number of rows of the result.
     """
     usable = measurement.usable
@@ -53,20 +55,20 @@ def reduced(measurement: Measurement, rows: int = ROWS) -> Reduced:
         return Reduced(measurement, np.ones(measurement.rows), "")
     kept = np.flatnonzero(usable)
     block = _blocks(measurement, kept, rows)
-    weights = np.bincount(block).astype(float)
+    counts = np.bincount(block).astype(float)
     first = kept[np.concatenate([[True], np.diff(block) != 0])]
     columns: dict[str, NDArray] = {}
     for name, values in measurement.columns.items():
         if name == "group":
             columns[name] = values[first]
         else:
-            columns[name] = np.bincount(block, values[kept]) / weights
+            columns[name] = np.bincount(block, values[kept]) / counts
     for values in columns.values():
         values.flags.writeable = False
     starts = np.unique(np.searchsorted(first, measurement.starts)).tolist()
     message = (
-        f"fitted to {len(first)} means of up to {int(weights.max())} consecutive rows each, weighted by "
-        f"their number, instead of {count} rows; no mean crosses a sweep, a direction or an edge"
+        f"fitted to {len(first)} means of up to {int(counts.max())} consecutive rows each, all with the same "
+        f"weight, instead of {count} rows; no mean crosses a sweep, a direction or an edge"
     )
     slack = np.zeros(len(first), bool)
     slack.flags.writeable = False
@@ -81,7 +83,7 @@ def reduced(measurement: Measurement, rows: int = ROWS) -> Reduced:
         segmented=measurement.segments.only(first),
         messages=(*measurement.messages, message),
     )
-    return Reduced(few, weights, message)
+    return Reduced(few, counts, message)
 
 
 def _blocks(measurement: Measurement, kept: NDArray[np.intp], rows: int) -> NDArray[np.intp]:

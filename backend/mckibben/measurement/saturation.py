@@ -1,9 +1,9 @@
 """Detection of rows with a faulty sensor: saturated at an end of its range, or stuck.
 
-A run of identical values alone is no evidence: a held pressure, a set point, rest and coarse rounding cause
-it too. There are two criteria. Missing noise: if a sensor is noisy elsewhere, a long run without noise is a
-fault. An abrupt stop: the signal changes at a constant rate, then suddenly not at all, while other channels
-continue to change.
+A run of identical values alone is no evidence: a constant pressure, a set point, rest and coarse rounding
+cause it too. There are two criteria. Missing noise: if a sensor is noisy elsewhere, a long run without noise
+is a fault. An abrupt stop: the signal changes at a constant rate, then suddenly not at all, while other
+channels continue to change.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _SENSORS = ("pressure", "force", *STROKES, "diameter", "velocity")
 _SHORTEST = 5  # rows of a run
 _STUCK = 20  # rows of a run away from the ends of the range
 _CHANCE = 1e-4  # probability that noise alone causes such a run in the file
-_FLICKER = 1.0  # rounding steps; a held signal with less noise may be constant
+_FLICKER = 1.0  # rounding steps; a resting signal with less noise may be constant
 _MOVES = 0.02  # share of the range; a channel with a smaller change is at rest
 _REPEATS = 0.2  # share of equal neighbours elsewhere, above which a signal is often at rest
 _APPROACH = 0.05  # share of the range that is examined next to a corner

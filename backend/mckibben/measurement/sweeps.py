@@ -13,7 +13,7 @@ from mckibben.measurement.derivative import noise_of, running_mean, smoothed
 from mckibben.measurement.kind import STROKES, Array, turning_points
 
 _TURN = 0.03  # smallest swing of a sweep, share of the range
-_SLOW = 0.1  # share of the mean speed of a sweep below which a row is held
+_SLOW = 0.1  # share of the mean speed of a sweep below which a row is at rest
 _HOLD_AT_TURN = 0.08  # shortest hold at a turn, share of the rows of a sweep; less is the turn itself
 _HOLD = 0.015  # the same within a sweep
 _HOLD_ROWS = 5  # shortest hold
@@ -28,9 +28,9 @@ class Sweeps:
     Attributes:
         sweep: number of the sweep, ascending from 0 with the rows; a sweep ends where the signal turns.
         cycle: number of the cycle, ascending from 0; a cycle begins with each sweep of the first direction.
-        direction: -1 shortening, +1 lengthening, 0 held (rest, creep). If the signal is the pressure, rising
+        direction: -1 shortening, +1 lengthening, 0 at rest or creeping. If the signal is the pressure, rising
             counts as shortening.
-        speed_level: 0 held, else 1 for the slowest level of ``speeds`` and so on.
+        speed_level: 0 at rest, else 1 for the slowest level of ``speeds`` and so on.
         speeds: mean |rate| of the sweeps of each level [unit of the signal per s], empty without time.
         signal: the evaluated channel.
         noise: standard deviation of its noise [unit of the signal].
@@ -72,8 +72,8 @@ def sweeps_of(columns: Mapping[str, NDArray], kind: str, *, starts: tuple[int, .
 
     The signal is the stroke (the pressure of an isometric test, or if no stroke was measured). It turns where
     it leaves an extreme by 3 % of its range and by 8 times its noise; a noisier signal is smoothed first. A
-    row is held where the signal moves at less than a tenth of the mean speed of its sweep, for at least five
-    rows and longer than a turn takes. A direction column of the file takes precedence.
+    row is at rest where the signal moves at less than a tenth of the mean speed of its sweep, for at least
+    five rows and longer than a turn takes. A direction column of the file takes precedence.
 
     Args:
         columns: channels in SI, with ``group``.
@@ -158,7 +158,7 @@ def _detected(
 def _directions(
     smooth: Array, clock: Array, edges: list[int], noise: float, threshold: float
 ) -> NDArray[np.int8]:
-    """Direction of each row of a part: that of its sweep, 0 where the signal is held."""
+    """Direction of each row of a part: that of its sweep, 0 where the signal rests."""
     rows = len(smooth)
     begin, end = np.array(edges[:-1]), np.array(edges[1:])
     lengths = end - begin

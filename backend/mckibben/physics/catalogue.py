@@ -10,7 +10,7 @@ from pathlib import Path
 
 from mckibben.physics.custom import CUSTOM
 from mckibben.physics.effect import Effect
-from mckibben.physics.errors import InputError, did_you_mean, told
+from mckibben.physics.errors import InputError, did_you_mean, error_text
 
 BUILT_IN_FOLDER = Path(__file__).parent / "effects"
 _LONGEST_NAME = 64  # characters, as in a request
@@ -50,7 +50,7 @@ class EffectCatalogue(Mapping[str, Effect]):
                 except (
                     BaseException
                 ) as error:  # a user's file may fail in any way, also by ending the program
-                    self.problems.append(EffectProblem(path.name, _told(error, path)))
+                    self.problems.append(EffectProblem(path.name, _problem_text(error, path)))
         self._effects = dict(sorted(by_id.items()))
 
     def __getitem__(self, effect_id: str) -> Effect:
@@ -100,18 +100,18 @@ def _check_name(path: Path, known: Iterable[str]) -> None:
         )
 
 
-def _told(error: BaseException, path: Path) -> str:
-    """What is wrong with a file, in one line: where in it, which error, what the error says."""
+def _problem_text(error: BaseException, path: Path) -> str:
+    """The problem of a file in one line: line number, type and message of the error."""
     line, file = 0, str(path.absolute())
     for raised in (error, error.__cause__):
         step = None if raised is None else raised.__traceback__
         while step is not None:
             line = step.tb_lineno if step.tb_frame.f_code.co_filename == file else line
             step = step.tb_next
-    what = told(error)
+    text = error_text(error)
     if not isinstance(error, Exception):
-        what = f"{what} when it is loaded; an effect file only defines functions and EFFECT"
-    return f"line {line}: {what}" if line else what
+        text = f"{text} when it is loaded; an effect file only defines functions and EFFECT"
+    return f"line {line}: {text}" if line else text
 
 
 def _load(path: Path) -> Effect:

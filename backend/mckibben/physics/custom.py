@@ -26,11 +26,11 @@ from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 from mckibben.physics.slots import SLOTS
 from mckibben.physics.term_check import (
-    Worth,
+    TermFunction,
     check_derivatives,
     check_written_out,
+    errors_of_term,
     finite,
-    named,
     refused,
     shown,
 )
@@ -68,12 +68,12 @@ class TypedEffect(Effect):
     term: str = ""
 
 
-def custom_effect(term: str, given: Mapping[str, float] | None = None) -> Effect:
+def custom_effect(term: str, stated: Mapping[str, float] | None = None) -> Effect:
     """The effect of a typed term.
 
     Args:
         term: the tension it adds [N].
-        given: values of its parameters; 1 for the rest. Bounds are a thousand times the value either way.
+        stated: values of its parameters; 1 for the rest. Bounds are a thousand times the value either way.
 
     Raises:
         InputError: names what in the term cannot be used; field "effects.custom.term".
@@ -83,14 +83,14 @@ def custom_effect(term: str, given: Mapping[str, float] | None = None) -> Effect
     if len(term) > _LONGEST:
         raise refused(f"the term has {len(term)} characters, at most {_LONGEST}")
     if odd := term[_USABLE.match(term).end() :]:  # type: ignore[union-attr] - it matches the empty text
-        raise refused(f"{_named(odd[0])} cannot be part of a term", hint=_ALLOWED)
+        raise refused(f"{_character_name(odd[0])} cannot be part of a term", hint=_ALLOWED)
     try:
         tree = ast.parse(term.strip().replace("^", "**"), mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         raise refused(f"'{shown(part=term)}' is not a formula", hint="e.g. -c*sign(v)*P") from error
     names: dict[str, None] = {}
-    with named(term=term):
-        worth = _node(tree.body, names, 0)
+    with errors_of_term(term=term):
+        evaluate = _node(tree.body, names, 0)
     parameters = [name for name in names if name not in SYMBOLS]
     for name in parameters:
         if name in _TAKEN or name.startswith("_") or len(name) > _LONGEST_NAME:
@@ -99,8 +99,8 @@ def custom_effect(term: str, given: Mapping[str, float] | None = None) -> Effect
     if not parameters:
         raise refused("the term has no parameter that could be fitted", hint="e.g. c*sign(v)*P")
     check_written_out(tree=tree.body, term=term)
-    check_derivatives(worth=worth, names=names, term=term)
-    unknown = [name for name in given or {} if name not in parameters]
+    check_derivatives(evaluate=evaluate, names=names, term=term)
+    unknown = [name for name in stated or {} if name not in parameters]
     if unknown:
         raise InputError(
             f"the term has no parameter '{unknown[0]}'",
@@ -119,8 +119,8 @@ def custom_effect(term: str, given: Mapping[str, float] | None = None) -> Effect
             "t": known.get("elapsed", 0.0),
             "pi": math.pi,
         }
-        with named(term=term):
-            return worth({**values, **{name: known[name] for name in parameters}})
+        with errors_of_term(term=term):
+            return evaluate({**values, **{name: known[name] for name in parameters}})
 
     def rates(**_: Any) -> tuple[Value, ...]:
         return (1.0,)
@@ -141,7 +141,7 @@ def custom_effect(term: str, given: Mapping[str, float] | None = None) -> Effect
         type="static",
         cause=f"A term that was typed or proposed from data: {term}. Its cause is unknown.",
         equation=r"F_{custom} = \mathtt{" + term.replace("_", r"\_").replace("**", "^") + "}",
-        parameters=tuple(_parameter(name, (given or {}).get(name, 1.0), user) for name in parameters),
+        parameters=tuple(_parameter(name, (stated or {}).get(name, 1.0), user) for name in parameters),
         slots=slots,
         states=states,
         kinds=frozenset({"isobaric", "isometric", "isotonic", "static", "transient"}),
@@ -152,14 +152,14 @@ def custom_effect(term: str, given: Mapping[str, float] | None = None) -> Effect
     ).named(CUSTOM)
 
 
-def typed_effect(given: Mapping[str, float | str]) -> tuple[Effect, str]:
+def typed_effect(document: Mapping[str, float | str]) -> tuple[Effect, str]:
     """The effect of a request or document, {"term": text, parameter: value}, and its term.
 
     Raises:
         InputError: as `custom_effect`; or no term, or a value that is not a number.
     """
     values: dict[str, float] = {}
-    for name, value in given.items():
+    for name, value in document.items():
         if name == TERM:
             continue
         try:
@@ -170,14 +170,14 @@ def typed_effect(given: Mapping[str, float | str]) -> tuple[Effect, str]:
         if not abs(values[name]) <= _LARGEST:
             where = f"effects.{CUSTOM}.{name}"
             raise InputError(f"{name} is {values[name]:g}, beyond {_LARGEST:g}", field=where, hint="in SI")
-    term = given.get(TERM)
+    term = document.get(TERM)
     if not isinstance(term, str):
         raise refused("a custom effect needs its term as a text", hint="e.g. c*sign(v)*P")
-    return _kept(term, tuple(sorted(values.items()))), term
+    return _cached_effect(term, tuple(sorted(values.items()))), term
 
 
 @lru_cache(maxsize=64)
-def _kept(term: str, values: tuple[tuple[str, float], ...]) -> Effect:
+def _cached_effect(term: str, values: tuple[tuple[str, float], ...]) -> Effect:
     # The same object for the same term, so that its cached machine code is reused.
     return custom_effect(term, dict(values))
 
@@ -226,21 +226,21 @@ def _declare(function: Callable[..., Value], names: list[str]) -> None:
     function.__signature__ = CallSignature(arguments)  # type: ignore[attr-defined]
 
 
-def _node(node: ast.expr, names: dict[str, None], depth: int) -> Worth:
+def _node(node: ast.expr, names: dict[str, None], depth: int) -> TermFunction:
     """A function of the known values, from a permitted part of the formula; constants are evaluated."""
     part = _part(node, names, depth)
 
-    def worth(known: Mapping[str, Value]) -> Value:
-        return finite(part=node, worth=part, known=known)
+    def evaluate(known: Mapping[str, Value]) -> Value:
+        return finite(part=node, evaluate=part, known=known)
 
     try:
-        number = worth({"pi": math.pi})
+        number = evaluate({"pi": math.pi})
     except KeyError:  # it has symbols or parameters
-        return worth
+        return evaluate
     return lambda _: number
 
 
-def _part(node: ast.expr, names: dict[str, None], depth: int) -> Worth:
+def _part(node: ast.expr, names: dict[str, None], depth: int) -> TermFunction:
     if depth > _DEEPEST:
         raise refused("the term is nested too deeply")
     if isinstance(node, ast.Constant) and type(node.value) in (int, float):
@@ -264,7 +264,7 @@ def _part(node: ast.expr, names: dict[str, None], depth: int) -> Worth:
     raise refused(f"'{shown(part=node)}' cannot be part of a term", hint=_ALLOWED)
 
 
-def _call(node: ast.Call, names: dict[str, None], depth: int) -> Worth:
+def _call(node: ast.Call, names: dict[str, None], depth: int) -> TermFunction:
     name = node.func.id if isinstance(node.func, ast.Name) else shown(part=node.func)
     if name != "sign" and name not in FUNCTIONS:
         raise refused(f"there is no function '{name}'", hint=did_you_mean(name, ("sign", *FUNCTIONS)))
@@ -279,7 +279,7 @@ def _call(node: ast.Call, names: dict[str, None], depth: int) -> Worth:
     return lambda known: function(inner(known))
 
 
-def _named(character: str) -> str:
+def _character_name(character: str) -> str:
     if not character.isprintable():
         return f"the character U+{ord(character):04X}"
     return _QUOTES.get(character, f"'{character}'")

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from mckibben.physics.errors import InputError, told
+from mckibben.physics.errors import InputError, error_text
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 from mckibben.physics.slots import SLOTS
@@ -165,9 +165,9 @@ class Effect:
             raise ValueError(f"a parameter name occurs twice: {names}")
         if bool(self.states) != bool({"rates", "drive_rates"} & set(self.slots)):
             raise ValueError("states and a slot 'rates' or 'drive_rates' belong together")
-        own = [*names, *(state.name for state in self.states)]
-        wanted = {slot: _wanted_arguments(slot, function, own) for slot, function in self.slots.items()}
-        if unused := set(own) - {argument for arguments in wanted.values() for argument in arguments}:
+        declared = [*names, *(state.name for state in self.states)]
+        wanted = {slot: _wanted_arguments(slot, function, declared) for slot, function in self.slots.items()}
+        if unused := set(declared) - {argument for arguments in wanted.values() for argument in arguments}:
             raise ValueError(f"no slot function takes {sorted(unused)}")
         object.__setattr__(self, "_wanted", wanted)
 
@@ -192,7 +192,7 @@ class Effect:
             raise
         except BaseException as error:  # the function may be a user's, and may even end the program
             raise InputError(
-                f"effect '{self.id}', slot '{slot}': {told(error)}",
+                f"effect '{self.id}', slot '{slot}': {error_text(error)}",
                 field=f"effects.{self.id}",
                 hint=f"correct the function in {self.id}.py, or take the file out of its folder",
             ) from error

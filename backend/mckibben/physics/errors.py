@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from difflib import get_close_matches
 
-_LONGEST = 300  # characters of an error of a user's code that are told
+_LONGEST = 300  # most characters shown of an error in a user's code
 
 
 class InputError(ValueError):
@@ -63,11 +63,11 @@ def did_you_mean(word: str, options: Iterable[str]) -> str | None:
     return f"Known: {', '.join(known)}." if 0 < len(known) <= 60 else None
 
 
-def told(error: BaseException) -> str:
-    """An error of a user's code in one line: its kind, what it says, and that it ends programs if it does."""
+def error_text(error: BaseException) -> str:
+    """An error in a user's code in one line: its type, its message, and whether it would end the program."""
     try:
-        said = " ".join(str(error).split())[:_LONGEST]
-    except Exception:  # its own way to tell itself is broken too
-        said = ""
-    what = f"{type(error).__name__}: {said}" if said else type(error).__name__
-    return what if isinstance(error, Exception) else f"it ends the program ({what})"
+        message = " ".join(str(error).split())[:_LONGEST]
+    except Exception:  # str(error) itself may fail
+        message = ""
+    text = f"{type(error).__name__}: {message}" if message else type(error).__name__
+    return text if isinstance(error, Exception) else f"it ends the program ({text})"

@@ -6,6 +6,9 @@ All follow from virtual work, :math:`F = -P\,dV/dL`, and are written in (b, n). 
 differ from these are listed in ``PAPER.md`` beside this file.
 
 P is gauge pressure; only the gas term of the closed-valve stiffness takes the absolute one.
+
+The model of a muscle with effects (`mckibben.physics.model`) derives its force and stiffness from the volume.
+`stiffness_closed`, `blocked_force` and `max_work` are its reference values without effects.
 """
 
 from __future__ import annotations
@@ -32,14 +35,6 @@ def stiffness(*, braid: Braid, pressure: Value, length: Value) -> Value:
     return 3.0 * length * pressure / (2.0 * ops.pi * braid.turns**2)
 
 
-def stiffness_from_force(*, braid: Braid, force: Value, length: Value) -> Value:
-    """The paper's eq. (20), k = 6 L F/(3 L^2 - b^2) [N/m].
-
-    0/0 at `zero_force_length`, where `stiffness` is its limit; NaN is returned there, on purpose.
-    """
-    return 6.0 * length * force / (3.0 * length**2 - braid.thread_length**2)
-
-
 def stiffness_closed(
     *,
     braid: Braid,
@@ -58,15 +53,6 @@ def stiffness_closed(
     return stiffness(braid=braid, pressure=pressure, length=length) + gas / (
         volume(braid=braid, length=length) + dead_volume
     )
-
-
-def secant_stiffness(*, braid: Braid, pressure: Value, length: Value) -> Value:
-    """The paper's eq. (25): F/(L - L_min) = 3 P (L + L_min)/(4 pi n^2) [N/m].
-
-    Written with the common factor divided out, so it is regular at L_min, where it equals `stiffness`.
-    """
-    shortest = zero_force_length(braid=braid)
-    return 3.0 * pressure * (length + shortest) / (4.0 * ops.pi * braid.turns**2)
 
 
 def zero_force_length(*, braid: Braid) -> Value:

@@ -26,7 +26,7 @@ from mckibben.physics.errors import InputError
 from mckibben.physics.ops import Value
 
 #: Known values by name -> value of the term.
-Worth = Callable[[Mapping[str, Value]], Value]
+TermFunction = Callable[[Mapping[str, Value]], Value]
 
 # Parts of the fully expanded first derivative: 18 nested abs of a sum, which compile in half a second.
 _MOST_WRITTEN = 2**23
@@ -73,7 +73,7 @@ def shown(*, part: ast.expr | str) -> str:
     return text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}..."
 
 
-def finite(*, part: ast.expr, worth: Worth, known: Mapping[str, Value]) -> Value:
+def finite(*, part: ast.expr, evaluate: TermFunction, known: Mapping[str, Value]) -> Value:
     """Value of a part of the term; numbers are floats, also those that symengine simplifies from c/c.
 
     Exact numbers could grow without bound: ((c + c)/c)**... is a tower of integers.
@@ -83,12 +83,12 @@ def finite(*, part: ast.expr, worth: Worth, known: Mapping[str, Value]) -> Value
     """
     try:
         with np.errstate(all="ignore"):
-            value = worth(known)
+            value = evaluate(known)
         if isinstance(value, se.Number) or (isinstance(value, np.ndarray) and not value.ndim):
             value = float(value)
     except NoValueError:
         raise
-    except (ArithmeticError, RuntimeError) as error:  # the latter is what symengine raises
+    except (ArithmeticError, RuntimeError) as error:  # symengine raises the latter
         raise NoValueError(part) from error
     if isinstance(value, complex) or (isinstance(value, int | float) and not math.isfinite(value)):
         raise NoValueError(part)
@@ -96,7 +96,7 @@ def finite(*, part: ast.expr, worth: Worth, known: Mapping[str, Value]) -> Value
 
 
 @contextmanager
-def named(*, term: str, where: str = "") -> Iterator[None]:
+def errors_of_term(*, term: str, where: str = "") -> Iterator[None]:
     """Turn errors in evaluating a term into an error that names the part and the term.
 
     Args:
@@ -109,7 +109,7 @@ def named(*, term: str, where: str = "") -> Iterator[None]:
         part, whole = shown(part=error.part), shown(part=term)
         place = f"'{part}'" if "".join(part.split()) == "".join(whole.split()) else f"'{part}' in '{whole}'"
         raise refused(f"{place} has no finite value{where}", hint=_UNREAL) from error
-    except RuntimeError as error:  # of symengine, e.g. the exponential of what is infinite
+    except RuntimeError as error:  # of symengine, e.g. the exponential of infinity
         raise refused(f"'{shown(part=term)}' has no finite value{where}", hint=_UNREAL) from error
 
 
@@ -165,19 +165,19 @@ def _written_call(name: str, value: int, derivative: int) -> _Size:
     return _Size(value + 1, value + derivative + 3)
 
 
-def check_derivatives(*, worth: Worth, names: Iterable[str], term: str) -> None:
+def check_derivatives(*, evaluate: TermFunction, names: Iterable[str], term: str) -> None:
     """Refuse a term that, or whose derivatives, are not finite and real or are too large.
 
     Args:
-        worth: the term.
+        evaluate: the term.
         names: the names in the term.
         term: as it was typed.
     """
     symbols: dict[str, Any] = {name: se.Symbol(name) for name in (*names, "direction", "L") if name != "pi"}
     known = symbols | {"pi": math.pi}
     parts = _Parts(term)
-    with named(term=term):
-        value = se.sympify(worth(known))
+    with errors_of_term(term=term):
+        value = se.sympify(evaluate(known))
         parts.add(value)
         slopes: dict[str, Any] = {}
         for name, symbol in symbols.items():
@@ -185,14 +185,14 @@ def check_derivatives(*, worth: Worth, names: Iterable[str], term: str) -> None:
             parts.add(slopes[name])
     moving = [symbols[name] for name in ("L", "kappa", "P", "v", "direction") if name in symbols]
     if "t" in symbols:
-        with named(term=term, where=_AT_REST):
-            begin = se.sympify(worth(known | {"t": 0.0}))
+        with errors_of_term(term=term, where=_AT_REST):
+            begin = se.sympify(evaluate(known | {"t": 0.0}))
             at_rest = _Parts(term, _AT_REST)  # separate: comparing equal parts of two expressions is slow
             for part in (begin, *(begin.diff(x) for x in moving)):
                 at_rest.add(part)
         moving.append(symbols["t"])
     # With series compliance the tension contains dF/dL, which the integrator differentiates.
-    with named(term=term):
+    with errors_of_term(term=term):
         for slope in (slopes[name] for name in ("L", "kappa") if name in slopes):
             for symbol in moving:
                 parts.add(slope.diff(symbol), real=False)

@@ -1,4 +1,4 @@
-"""Named bars one below the other, as SVG: the error after each step, shares, margins."""
+"""Horizontal bar chart as SVG: the error after each step, shares, margins."""
 
 from __future__ import annotations
 
@@ -10,13 +10,20 @@ from mckibben.report.html import Html, tag
 from mckibben.report.marks import ACCENT, EDGE, GRID, INK, SECOND, SOFT
 
 _ROW, _TOP, _BOTTOM, _RIGHT = 27.0, 20.0, 42.0, 86.0
-_LETTER = 6.3  # width of a letter of the names
+_LETTER = 6.3  # mean width of a letter
 
 
 @dataclass(frozen=True)
 class Bar:
-    """A bar; ``tick`` is a second value marked on it, ``pale`` one that is only proposed, ``strong`` the one
-    that matters most.
+    """A bar.
+
+    Attributes:
+        name: label at the left.
+        value: length of the bar, in units of the axis.
+        shown: text at its end.
+        tick: second value, marked by a black tick; None without one.
+        pale: drawn pale, as a proposal.
+        strong: highlighted, as the most important bar.
     """
 
     name: str
@@ -38,30 +45,30 @@ def bars(
     """The drawing.
 
     Args:
-        rows: from the top; values of at least zero.
-        axis: what the values are, with unit.
-        title: what is shown, for those who cannot see it.
-        level: a value marked by a vertical line, and its name.
-        width: of the drawing; on the page it fills the width.
+        rows: from the top; values must not be negative.
+        axis: label of the axis, with unit.
+        title: description for screen readers.
+        level: value marked by a vertical line, and its label.
+        width: of the drawing; the page scales it to its own width.
     """
     left = min(max((len(row.name) for row in rows), default=0) * _LETTER + 14.0, 0.45 * width)
-    high = max([*(max(row.value, row.tick or 0.0) for row in rows), level[0] if level else 0.0, 1e-300])
+    longest = max([*(max(row.value, row.tick or 0.0) for row in rows), level[0] if level else 0.0, 1e-300])
     bottom = _TOP + _ROW * len(rows)
 
     def at(value: float) -> float:
-        return left + value / high * (width - _RIGHT - left)
+        return left + value / longest * (width - _RIGHT - left)
 
     parts: list[Html] = []
-    for value in ticks(0.0, high):
+    for value in ticks(0.0, longest):
         x = f"{at(value):.1f}"
         parts.append(tag("line", x1=x, x2=x, y1=_TOP, y2=f"{bottom:g}", stroke=GRID))
         parts.append(text(label(value), x, bottom + 16.0, anchor="middle"))
     for number, row in enumerate(rows):
         y = _TOP + _ROW * number
-        long = max(at(row.value) - left, 1.0)
+        length = max(at(row.value) - left, 1.0)
         parts.append(
             tag(
-                "rect", x=f"{left:.1f}", y=f"{y + 5:g}", width=f"{long:.1f}", height=f"{_ROW - 10:g}",
+                "rect", x=f"{left:.1f}", y=f"{y + 5:g}", width=f"{length:.1f}", height=f"{_ROW - 10:g}",
                 fill="#a9c5ea" if row.pale else SECOND if row.strong else ACCENT,
             )
         )  # fmt: skip

@@ -24,26 +24,26 @@ from mckibben.report.marks import (
     Rule,
 )
 
-# Viridis without its bright end: the lightness alone tells the order.
+# Viridis without its bright end: the order is still visible in black and white.
 _FAMILY = ((34, 154, 136), (33, 131, 141), (45, 106, 142), (61, 78, 138), (71, 45, 123), (66, 4, 84))
 _RIGHT, _TOP, _BOTTOM, _BARE = 12.0, 10.0, 44.0, 8.0
-_DIGIT = 6.9  # width of a digit of the ticks
-_LETTER, _CAP = 6.3, 8.0  # width and height of a letter of a name
+_DIGIT = 6.9  # width of a digit of a tick label
+_LETTER, _CAP = 6.3, 8.0  # mean width and height of a letter
 _LEGEND = 128.0
 _MOST_ENTRIES = 12
 
 
 def family(count: int) -> list[str]:
-    """So many colours in the order of the family."""
-    found = []
+    """Colours for a family of curves, from light to dark."""
+    colours = []
     for number in range(count):
         place = number / max(count - 1, 1) * (len(_FAMILY) - 1)
         low = min(int(place), len(_FAMILY) - 2)
         mixed = [
             round(a + (b - a) * (place - low)) for a, b in zip(_FAMILY[low], _FAMILY[low + 1], strict=True)
         ]
-        found.append(f"rgb({mixed[0]},{mixed[1]},{mixed[2]})")
-    return found
+        colours.append(f"rgb({mixed[0]},{mixed[1]},{mixed[2]})")
+    return colours
 
 
 def ticks(low: float, high: float, about: int = 6) -> list[float]:
@@ -70,12 +70,12 @@ def chart(
     """The drawing.
 
     Args:
-        x, y: the axes; their ranges follow the marks.
-        marks: bands lie below lines and dots, which are drawn in the order given.
-        title: what is shown, for those who cannot see it.
-        width, height: of the drawing; on the page it fills the width.
-        left: where the axes begin, to have drawings below each other; None: as the labels need.
-        legend: whether there is room for a legend; None: if a mark has a label.
+        x, y: the axes; their ranges follow the marks unless `Axis.ends` is set.
+        marks: bands are drawn first, everything else on top in this order.
+        title: description for screen readers.
+        width, height: of the drawing; the page scales it to its own width.
+        left: where the axes begin, to align several drawings; None for as much as the labels need.
+        legend: whether to leave space for a legend; None for "if any mark has a label".
         room: width of the legend.
     """
     labelled = [mark for mark in marks if mark.label]
@@ -118,22 +118,22 @@ class _Scale:
 
 
 def _numbers(values: ArrayLike) -> NDArray[np.float64]:
-    """Floats; what is missing in an answer becomes a gap."""
+    """Floats; None becomes NaN, which leaves a gap."""
     return np.array(values, dtype=float)
 
 
 def _range(axis: Axis, values: Sequence[ArrayLike], pad: float = 0.02) -> tuple[float, float]:
     if axis.ends is not None:
         return axis.ends
-    found = [numbers[np.isfinite(numbers)] for numbers in map(_numbers, values)]
-    joined = np.concatenate([*found, [0.0]] if axis.zero or not any(map(len, found)) else found)
+    finite = [numbers[np.isfinite(numbers)] for numbers in map(_numbers, values)]
+    joined = np.concatenate([*finite, [0.0]] if axis.zero or not any(map(len, finite)) else finite)
     low, high = float(np.min(joined)), float(np.max(joined))
     span = high - low or abs(high) or 1.0
     return low - (pad * span if low or not axis.zero else 0.0), high + pad * span
 
 
 def _clipped(box: tuple[float, float, float, float], marks: Sequence[Html]) -> Html:
-    """Marks inside the axes only: an inner svg cuts what leaves it."""
+    """Marks clipped to the axes by an inner svg."""
     left, top, wide, high = (f"{value:g}" for value in box)
     return tag("svg", *marks, x=left, y=top, width=wide, height=high, viewBox=f"{left} {top} {wide} {high}")
 
@@ -170,19 +170,19 @@ def _rule(mark: Rule, at: float, top: float, bottom: float) -> Html:
 
 
 def _names(mark: Dots, x: _Scale, y: _Scale) -> Html:
-    """Names at the right of the dots, or at the left near the right end."""
+    """Labels at the right of the dots; at the left where there is no space."""
     across, up = x.all(mark.x), y.all(mark.y)
     away = 0.5 * mark.size + 3.0
     parts = []
-    for a, b, words in zip(across.tolist(), up.tolist(), mark.names, strict=True):
-        left = a + away + _LETTER * len(words) > x.end
+    for a, b, name in zip(across.tolist(), up.tolist(), mark.names, strict=True):
+        left = a + away + _LETTER * len(name) > x.end
         place = a - away if left else a + away
         height = b + away + _CAP if mark.below else b - away
         anchor = "end" if left else "start"
-        # Lines below do not cross the letters: they have a white edge.
+        # A white outline keeps the letters readable on top of lines.
         parts += [
             tag(
-                "text", words, x=f"{place:.1f}", y=f"{height:.1f}", text_anchor=anchor, fill=INK,
+                "text", name, x=f"{place:.1f}", y=f"{height:.1f}", text_anchor=anchor, fill=INK,
                 stroke="#fff", stroke_width=3, paint_order="stroke", stroke_linejoin="round",
             )
         ]  # fmt: skip
@@ -190,7 +190,7 @@ def _names(mark: Dots, x: _Scale, y: _Scale) -> Html:
 
 
 def _path(course: str, mark: Line | Dots) -> Html:
-    """A line; a dot is a stroke of no length with round ends."""
+    """A line; a dot is a stroke of zero length with round caps."""
     if isinstance(mark, Dots):
         return tag(
             "path", d=course, stroke=mark.colour, stroke_width=mark.size, stroke_linecap="round", fill="none"
@@ -232,12 +232,12 @@ def _grid(x: Axis, y: Axis, across: _Scale, up: _Scale) -> Html:
 
 
 def label(value: float) -> str:
-    """A tick's number, without the last digits of a sum."""
+    """A tick label, without floating-point noise in the last digits."""
     return plain(float(f"{value:.9g}"), 6, exact=True)
 
 
 def margin(labels: Sequence[str]) -> float:
-    """Width that tick labels and the turned title of an axis need."""
+    """Width for the tick labels and the rotated title of an axis."""
     return 34.0 + _DIGIT * max(map(len, labels), default=1)
 
 
@@ -250,18 +250,18 @@ def text(
     colour: str = SOFT,
     transform: str | None = None,
 ) -> Html:
-    """Words in a drawing."""
+    """Text in a drawing."""
     return tag("text", words, x=x, y=f"{y:.1f}", text_anchor=anchor, fill=colour, transform=transform)
 
 
 def _legend(marks: Sequence[Mark], left: float) -> Html:
-    """One row a label: marks of the same label stand on top of each other. Of many, evenly chosen ones."""
+    """One row per label; marks with the same label share it. A long legend shows evenly chosen rows."""
     rows: dict[str, list[Mark]] = {}
     for mark in marks:
         rows.setdefault(mark.label, []).append(mark)
     names = list(rows)
-    left_out = max(len(names) - _MOST_ENTRIES, 0)
-    if left_out:
+    omitted = max(len(names) - _MOST_ENTRIES, 0)
+    if omitted:
         names = [names[round(k * (len(names) - 1) / (_MOST_ENTRIES - 1))] for k in range(_MOST_ENTRIES)]
     parts: list[Html] = []
     for row, name in enumerate(names):
@@ -276,6 +276,6 @@ def _legend(marks: Sequence[Mark], left: float) -> Html:
             else:
                 parts.append(_path(f"M{left:g} {y:g}h20", mark))
         parts.append(text(name, left + 26.0, y + 4.0, colour=INK))
-    if left_out:
-        parts.append(text(f"and {left_out} between", left + 26.0, _TOP + 12.0 + 19.0 * len(names)))
+    if omitted:
+        parts.append(text(f"and {omitted} more", left + 26.0, _TOP + 12.0 + 19.0 * len(names)))
     return html(parts)

@@ -1,4 +1,4 @@
-"""How the figures of a report are had again."""
+"""Commands that reproduce the figures of a report."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from mckibben.report.html import Child, Html, html
 
 @dataclass(frozen=True)
 class Command:
-    """Lines to type, files they need (name -> text), what they cannot say."""
+    """Command lines, the files they need (name -> text), and remarks on what they do not cover."""
 
     lines: Sequence[str]
     files: Mapping[str, str] = field(default_factory=dict)
@@ -19,7 +19,7 @@ class Command:
 
 
 def command_section(command: Command) -> Html:
-    """Lines and files to be copied."""
+    """Command lines and files, ready to copy."""
     parts: list[Child] = [code("\n".join(command.lines))]
     for name, text in command.files.items():
         parts += [paragraph(name, ":"), code(text)]

@@ -1,4 +1,4 @@
-"""The frame of a report and its parts: sections, tables, facts, callouts, figures."""
+"""The page of a report and its building blocks: sections, tables, facts, callouts, figures."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from mckibben.report.html import Child, Html, html, tag
 from mckibben.report.style import CSS
 
 Tone = Literal["plain", "good", "warn", "bad"]
-_SHORT = 20  # rows of a table that is not broken between pages
-# Nothing is loaded and nothing runs, whatever a text of a user should turn out to be.
+_SHORT = 20  # most rows of a table that is kept on one page
+# Nothing is loaded and no script runs, whatever text a user put in.
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
 
 
@@ -27,13 +27,13 @@ class Section:
 def document(
     *, kind: str, title: str, made: datetime, versions: Mapping[str, str], sections: Iterable[Section]
 ) -> str:
-    """The whole file.
+    """The whole HTML file.
 
     Args:
         kind: what sort of report this is.
-        title: of this one.
-        made: when.
-        versions: program -> version that the numbers come from.
+        title: of this report.
+        made: date and time.
+        versions: program -> version that computed the numbers.
         sections: numbered in this order.
     """
     programs = ", ".join(f"{name} {version}" for name, version in versions.items())
@@ -63,7 +63,7 @@ def document(
 
 @dataclass(frozen=True)
 class Head:
-    """A column of a table; numbers stand at the right, a wide one is not squeezed by its neighbours."""
+    """Head of a table column; numbers are right-aligned, a wide column keeps a minimum width."""
 
     title: Child
     number: bool = False
@@ -71,7 +71,7 @@ class Head:
 
     @property
     def kind(self) -> str | None:
-        """Class of its cells."""
+        """CSS class of the cells."""
         return "number" if self.number else "wide" if self.wide else None
 
 
@@ -82,13 +82,13 @@ def table(
     caption: Child = None,
     whole: bool = True,
 ) -> Html:
-    """A table whose head is repeated on every printed page.
+    """A table; its head repeats on every printed page.
 
     Args:
-        columns: heads, and how their cells are set.
+        columns: heads and cell styles.
         rows: of cells.
-        caption: above it.
-        whole: whether a short one stays on one page; not where its cells are long.
+        caption: above the table.
+        whole: keep a table of up to 20 rows on one page; False if its cells are long.
     """
     kinds = [column.kind for column in columns]
     head = tag("tr", [tag("th", c.title, class_=k, scope="col") for c, k in zip(columns, kinds, strict=True)])
@@ -98,16 +98,16 @@ def table(
     top = None if caption is None else tag("caption", caption)
     short = "short" if whole and len(body) <= _SHORT else None
     whole_table = tag("table", top, tag("thead", head), tag("tbody", body), class_=short)
-    return tag("div", whole_table, class_="scroll")  # a narrow screen moves the table, not the page
+    return tag("div", whole_table, class_="scroll")  # on a narrow screen the table scrolls, not the page
 
 
 def facts(pairs: Iterable[tuple[Child, Child]]) -> Html:
-    """Names and what they are."""
+    """A list of names and values."""
     return tag("dl", [html(tag("dt", name), tag("dd", value)) for name, value in pairs])
 
 
 def tiles(pairs: Iterable[tuple[Child, Child]]) -> Html:
-    """The few figures that matter most, large."""
+    """The most important figures, in large type."""
     return tag(
         "div",
         [tag("div", tag("small", name), tag("strong", value), class_="tile") for name, value in pairs],
@@ -116,7 +116,7 @@ def tiles(pairs: Iterable[tuple[Child, Child]]) -> Html:
 
 
 def callout(title: Child, *text: Child, tone: Tone = "plain") -> Html:
-    """What must not be overlooked."""
+    """A highlighted box."""
     return tag("div", tag("b", title), [tag("p", one) for one in text], class_=f"callout {tone}")
 
 
@@ -141,10 +141,10 @@ def heading(text: Child) -> Html:
 
 
 def code(text: str) -> Html:
-    """Lines to be copied."""
+    """Preformatted text to copy."""
     return tag("pre", text)
 
 
 def mark(text: str) -> Html:
-    """A remark that qualifies a number."""
+    """A highlighted remark, such as "not verified"."""
     return tag("span", text, class_="mark")

@@ -1,4 +1,4 @@
-"""Numbers as people read them: everyday units, as many digits as mean something, the exact value beside."""
+"""Numbers for readers: common units, significant digits only, with the exact SI value in the markup."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from typing import NamedTuple
 from mckibben.report.html import Html, html, tag
 
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-_SMALLEST, _LARGEST = 1e-3, 1e5  # beyond, a power of ten is written
+_SMALLEST, _LARGEST = 1e-3, 1e5  # outside, scientific notation is used
 
 
 class Scale(NamedTuple):
-    """A unit to show: SI value = shown value * size."""
+    """A display unit: SI value = displayed value * size."""
 
     unit: str
     size: float = 1.0
@@ -23,13 +23,13 @@ class Scale(NamedTuple):
         return value / self.size
 
     def all(self, values: Iterable[float | None]) -> list[float]:
-        """SI values in this unit; what is missing is not a number."""
+        """SI values in this unit; None becomes NaN."""
         return [math.nan if value is None else float(value) / self.size for value in values]
 
 
 PLAIN = Scale("")
 
-#: SI unit -> what it is shown in.
+#: SI unit -> display unit.
 _SCALES = {
     "m": Scale("mm", 1e-3),
     "rad": Scale("°", math.pi / 180.0),
@@ -38,7 +38,7 @@ _SCALES = {
     "1": Scale(""),
     "SI": Scale("SI"),
 }
-#: Channel or variable -> name in words and scale.
+#: Channel or variable -> name in words and display unit.
 VARIABLES = {
     "pressure": ("pressure", Scale("bar", 1e5)),
     "contraction": ("contraction", Scale("%", 0.01)),
@@ -57,12 +57,12 @@ VARIABLES = {
 
 
 def variable(name: str) -> tuple[str, Scale]:
-    """A channel or variable in words, and the unit it is shown in."""
+    """Name of a channel or variable in words, and its display unit."""
     return VARIABLES.get(name, (name.replace("_", " "), Scale("")))
 
 
 def scale_of(unit: str, value: float | None = None) -> Scale:
-    """What an SI unit is shown in; pascals by the size of the value: Pa, kPa or MPa."""
+    """Display unit of an SI unit; for pascals it depends on the value: Pa, kPa or MPa."""
     if unit == "Pa":
         size = abs(value or 0.0)
         return Scale("MPa", 1e6) if size >= 1e5 else Scale("kPa", 1e3) if size >= 100.0 else Scale("Pa")
@@ -70,7 +70,7 @@ def scale_of(unit: str, value: float | None = None) -> Scale:
 
 
 def pretty(unit: str) -> str:
-    """A unit text with superscripts and middle dots: "N*s/m^2" is N·s/m²."""
+    """A unit with superscripts and middle dots: "N*s/m^2" becomes N·s/m²."""
     words = unit.replace("*", "·").split("^")
     if len(words) == 1:
         return words[0]
@@ -79,7 +79,7 @@ def pretty(unit: str) -> str:
 
 
 def plain(value: float | None, digits: int = 4, *, exact: bool = False) -> str:
-    """A number with so many significant digits; a dash for none. ``exact``: zeros at the end say nothing."""
+    """A number with ``digits`` significant digits; a dash for None. ``exact`` drops trailing zeros."""
     if value is None or not math.isfinite(value):
         return "–"
     if value == 0.0:
@@ -100,7 +100,7 @@ def _signed(text: str) -> str:
 
 
 def figure(value: float | None, scale: Scale = PLAIN, digits: int = 4, *, exact: bool = False) -> Html:
-    """A value in SI as ``<data value="SI">shown unit</data>``; a dash for none. ``exact`` as in `plain`."""
+    """An SI value as ``<data value="SI">value unit</data>``; a dash for None. ``exact`` as in `plain`."""
     if value is None or not math.isfinite(value):
         return html("–")
     shown = plain(scale.of(value), digits, exact=exact)
@@ -108,7 +108,7 @@ def figure(value: float | None, scale: Scale = PLAIN, digits: int = 4, *, exact:
 
 
 def with_error(value: float, error: float | None, scale: Scale) -> Html:
-    """Value and standard error, rounded where the error has two digits: (0.9047 ± 0.0088) MPa."""
+    """Value and standard error, rounded to two digits of the error: (0.9047 ± 0.0088) MPa."""
     if error is None or not math.isfinite(error) or error <= 0.0:
         return figure(value, scale, exact=True)
     shown, spread = scale.of(value), scale.of(error)
@@ -127,7 +127,7 @@ def with_error(value: float, error: float | None, scale: Scale) -> Html:
 
 
 def percent(share: float | None, digits: int = 2) -> Html:
-    """A share of one in percent."""
+    """A share (1 = 100 %) in percent."""
     return figure(share, Scale("%", 0.01), digits)
 
 

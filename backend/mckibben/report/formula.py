@@ -1,4 +1,4 @@
-"""LaTeX as MathML that every browser draws by itself."""
+"""LaTeX to MathML, which browsers render without a script."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ _ATTRIBUTES = frozenset({
 
 @lru_cache(maxsize=512)
 def formula(latex: str, *, block: bool = False) -> Html:
-    r"""The formula; where LaTeX cannot be read, its text.
+    r"""The formula as MathML; LaTeX that cannot be parsed is shown as text.
 
-    Only the drawing part of MathML passes: ``\href`` and the like do not.
+    Only presentation elements are copied, so ``\href`` and the like have no effect.
     """
     from latex2mathml.converter import convert  # 0.05 s import
 
     try:
         root = ElementTree.fromstring(convert(latex, display="block" if block else "inline"))
-    except Exception:  # whatever the converter stumbles over: the report is still to be read
+    except Exception:  # a formula that cannot be converted must not prevent the report
         return tag("code", latex)
     return _copied(root)
 

@@ -1,4 +1,4 @@
-"""A quantity over two others as coloured cells with their numbers, as SVG."""
+"""Heat map with numbers in its cells, as SVG."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mckibben.report.marks import EDGE, INK, SOFT, Axis
 
 _LOW, _ZERO, _HIGH = (33, 102, 172), (247, 247, 247), (178, 24, 43)
 _TOP, _BOTTOM, _CELL = 8.0, 44.0, 26.0
-_DARK = 0.55  # share of the scale from which white numbers are easier to read
+_DARK = 0.55  # share of the scale above which numbers are white
 
 Values = Sequence[Sequence[float]]
 
@@ -25,20 +25,20 @@ def heat(
 
     Args:
         x, y: the axes, in the units of the edges.
-        x_edges, y_edges: limits of the cells, one more than cells.
-        values: rows of y from the lowest, shape (y cells, x cells); NaN where there is none.
-        title: what is shown, for those who cannot see it.
-        width: of the drawing; on the page it fills the width.
+        x_edges, y_edges: limits of the cells, one more than there are cells.
+        values: shape (y cells, x cells), lowest y first; NaN for an empty cell.
+        title: description for screen readers.
+        width: of the drawing; the page scales it to its own width.
     """
     rows, columns = len(y_edges) - 1, len(x_edges) - 1
     begin = margin([_edge(edge, y_edges) for edge in y_edges])
     wide, bottom = (width - begin - 24.0) / columns, _TOP + _CELL * rows
-    most = max((abs(v) for row in values for v in row if not math.isnan(v)), default=0.0) or 1.0
+    largest = max((abs(v) for row in values for v in row if not math.isnan(v)), default=0.0) or 1.0
     parts: list[Html] = []
     for j, row in enumerate(values):
         for i, value in enumerate(row):
             left, top = begin + wide * i, bottom - _CELL * (j + 1)
-            share = None if math.isnan(value) else value / most
+            share = None if math.isnan(value) else value / largest
             parts.append(
                 tag(
                     "rect", x=f"{left:.1f}", y=f"{top:.1f}", width=f"{wide:.1f}", height=f"{_CELL:g}",
@@ -78,6 +78,6 @@ def _colour(share: float) -> str:
 
 
 def _edge(value: float, edges: Sequence[float]) -> str:
-    """As many digits as tell neighbours apart."""
+    """Label of an edge with enough digits to distinguish neighbours."""
     step = (edges[-1] - edges[0]) / max(len(edges) - 1, 1) or 1.0
     return label(round(value, max(1 - math.floor(math.log10(step)), 0)))

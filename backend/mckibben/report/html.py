@@ -1,4 +1,4 @@
-"""HTML and SVG from Python values: whatever is not `Html` already is escaped."""
+"""HTML and SVG from Python values: everything that is not `Html` is escaped."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from html import escape
 
-# What XML cannot hold: a report can also be read as XHTML.
+# Characters XML does not allow: a report is also valid XHTML.
 _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
 
 
@@ -20,7 +20,7 @@ Child = str | Html | int | float | None | Iterable["Child"]
 
 
 def html(*children: Child) -> Html:
-    """The children one after the other; plain text is escaped, None is nothing."""
+    """The children, joined; plain text is escaped, None is skipped."""
     parts: list[str] = []
     for child in children:
         if child is None:

@@ -1,4 +1,4 @@
-"""What a drawing shows: axes, lines, dots, bands, marked values; and the colours of all drawings."""
+"""Elements of a drawing (axes, lines, dots, bands, rules) and the colours of all drawings."""
 
 from __future__ import annotations
 
@@ -13,12 +13,14 @@ ACCENT, SECOND = "#1257b8", "#b93815"
 
 @dataclass(frozen=True)
 class Axis:
-    """What an axis shows.
+    """An axis.
 
     Attributes:
-        zero: it begins at (or reaches) zero.
-        ends: where it begins and ends; None: as the marks need.
-        bare: without numbers and title, of a drawing that stands on another.
+        title: quantity.
+        unit: "" for none.
+        zero: include zero in the range.
+        ends: range; None to fit the marks.
+        bare: without numbers and title, for all but the lowest drawing of a stack.
     """
 
     title: str
@@ -35,7 +37,7 @@ class Axis:
 
 @dataclass(frozen=True)
 class Line:
-    """A curve; gaps where a value is not finite. ``label`` "" leaves it out of the legend."""
+    """A curve with gaps at values that are not finite. An empty ``label`` keeps it out of the legend."""
 
     x: ArrayLike
     y: ArrayLike
@@ -47,9 +49,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Dots:
-    """Measured points; a large ``size`` marks a single one, as an operating point; ``names`` stand beside,
-    above or ``below``.
-    """
+    """Points, with optional ``names`` beside them, placed above or ``below``."""
 
     x: ArrayLike
     y: ArrayLike
@@ -62,7 +62,7 @@ class Dots:
 
 @dataclass(frozen=True)
 class Band:
-    """A range of y that is shaded over the whole width."""
+    """A range of y, shaded over the whole width."""
 
     low: float
     high: float
@@ -71,7 +71,7 @@ class Band:
 
 @dataclass(frozen=True)
 class Rule:
-    """A value of x, marked over the whole height."""
+    """A vertical line at a value of x."""
 
     x: float
     label: str = ""

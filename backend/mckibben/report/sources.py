@@ -1,4 +1,4 @@
-"""Where figures come from: source, grade, and what a grade means."""
+"""Sources of figures, their grades, and what the grades mean."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from mckibben.report.html import Html, html
 
 
 class Figure(NamedTuple):
-    """Where a figure comes from: short source and grade."""
+    """Short source and grade of a figure."""
 
     source: str
     grade: str
 
     @property
     def verified(self) -> bool:
-        """Whether the figure was read in a source or computed from something read."""
+        """Whether the figure was read in a source or computed from one."""
         return self.grade not in UNVERIFIED_GRADES
 
 
 def source_text(figure: Figure) -> Html:
-    """Source and grade of a figure, with a mark where nobody verified it."""
+    """Source and grade of a figure, marked if it was not verified."""
     text = f"{figure.source} (grade {figure.grade}: {GRADES.get(figure.grade, 'unknown')})"
     return html(text) if figure.verified else html(text, " ", mark("not verified"))
 

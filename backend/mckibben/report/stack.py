@@ -1,4 +1,4 @@
-"""Drawings on top of each other with one x axis: several quantities over the same time."""
+"""Drawings above each other that share an x axis, for several quantities over time."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from mckibben.report.chart import chart
 from mckibben.report.html import Html, html
 from mckibben.report.marks import Axis, Mark
 
-_FOOT = 36.0  # what numbers and title of the x axis take
+_FOOT = 36.0  # height of the numbers and title of the x axis
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Panel:
 def stack(
     x: Axis, panels: Sequence[Panel], *, height: float = 100.0, left: float = 84.0, room: float = 150.0
 ) -> Html:
-    """The drawings, the x axis below the last.
+    """The drawings, with numbers on the x axis of the lowest one.
 
     Args:
         x: the common axis; its ``ends`` must be given.

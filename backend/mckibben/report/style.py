@@ -1,4 +1,4 @@
-"""The look of a report: light, one column, prints on A4."""
+"""Style sheet of a report: light, one column, prints on A4."""
 
 CSS = """
 @page { size: A4; margin: 16mm 15mm 17mm;

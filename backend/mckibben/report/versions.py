@@ -1,4 +1,4 @@
-"""The programs whose versions a report tells."""
+"""Versions named in a report."""
 
 from __future__ import annotations
 
@@ -13,6 +13,6 @@ def versions() -> dict[str, str]:
     return {
         "mckibben": __version__,
         "Python": platform.python_version(),
-        # Asked of their packages: importing scipy would delay the start of the server.
+        # Read from the package metadata: importing scipy would delay the start of the server.
         **{name: version(name) for name in ("numpy", "scipy")},
     }

@@ -1,20 +1,27 @@
-"""The effect catalogue as JSON."""
+"""The effect catalogue as an answer."""
 
 from __future__ import annotations
-
-from typing import Any
 
 from mckibben.physics.catalogue import EffectCatalogue
 from mckibben.physics.effect import Effect
 from mckibben.physics.parameter import Parameter, Source
+from mckibben.server.schemas.common import SourceText
+from mckibben.server.schemas.effects import (
+    EffectAnswer,
+    EffectParameter,
+    EffectsAnswer,
+    FileProblem,
+    Signature,
+    Twin,
+)
 
 
-def effects_answer(catalogue: EffectCatalogue) -> dict[str, Any]:
+def effects_answer(catalogue: EffectCatalogue) -> EffectsAnswer:
     """Every effect with its declarations, and the effect files that could not be loaded."""
-    return {
-        "effects": [_effect(effect) for effect in catalogue.values()],
-        "problems": [{"file": problem.file, "message": problem.message} for problem in catalogue.problems],
-    }
+    return EffectsAnswer(
+        effects=[_effect(effect) for effect in catalogue.values()],
+        problems=[FileProblem(file=problem.file, message=problem.message) for problem in catalogue.problems],
+    )
 
 
 def _mathml(latex: str) -> str:
@@ -23,48 +30,48 @@ def _mathml(latex: str) -> str:
     return convert(latex)
 
 
-def _source(source: Source) -> dict[str, Any]:
-    return {"text": source.text, "grade": source.grade}
+def _source(source: Source) -> SourceText:
+    return SourceText(text=source.text, grade=source.grade)
 
 
-def _parameter(parameter: Parameter) -> dict[str, Any]:
-    return {
-        "name": parameter.name,
-        "symbol": parameter.symbol,
-        "symbol_mathml": _mathml(parameter.symbol),
-        "unit": parameter.unit,
-        "default": parameter.default,
-        "lower": parameter.lower,
-        "upper": parameter.upper,
-        "off": parameter.off,
-        "fitted": parameter.fitted,
-        "description": parameter.description,
-        "source": _source(parameter.source),
-    }
+def _parameter(parameter: Parameter) -> EffectParameter:
+    return EffectParameter(
+        name=parameter.name,
+        symbol=parameter.symbol,
+        symbol_mathml=_mathml(parameter.symbol),
+        unit=parameter.unit,
+        default=parameter.default,
+        lower=parameter.lower,
+        upper=parameter.upper,
+        off=parameter.off,
+        fitted=parameter.fitted,
+        description=parameter.description,
+        source=_source(parameter.source),
+    )
 
 
-def _effect(effect: Effect) -> dict[str, Any]:
+def _effect(effect: Effect) -> EffectAnswer:
     signature = effect.signature
-    return {
-        "id": effect.id,
-        "title": effect.title,
-        "family": effect.family,
-        "type": effect.type,
-        "cause": effect.cause,
-        "equation": effect.equation,
-        "equation_mathml": _mathml(effect.equation),
-        "parameters": [_parameter(parameter) for parameter in effect.parameters],
-        "kinds": sorted(effect.kinds),
-        "signature": {
-            "text": signature.text,
-            "direction": signature.direction,
-            "pressure_power": signature.pressure_power,
-            "zero_at": list(signature.zero_at),
-            "energy": signature.energy,
-        },
-        "confused_with": [
-            {"effect": twin.effect, "separated_by": twin.separated_by} for twin in effect.confused_with
+    return EffectAnswer(
+        id=effect.id,
+        title=effect.title,
+        family=effect.family,
+        type=effect.type,
+        cause=effect.cause,
+        equation=effect.equation,
+        equation_mathml=_mathml(effect.equation),
+        parameters=[_parameter(parameter) for parameter in effect.parameters],
+        kinds=sorted(effect.kinds),
+        signature=Signature(
+            text=signature.text,
+            direction=signature.direction,
+            pressure_power=signature.pressure_power,
+            zero_at=list(signature.zero_at),
+            energy=signature.energy,
+        ),
+        confused_with=[
+            Twin(effect=twin.effect, separated_by=twin.separated_by) for twin in effect.confused_with
         ],
-        "references": [_source(source) for source in effect.references],
-        "slots": list(effect.slots),
-    }
+        references=[_source(source) for source in effect.references],
+        slots=list(effect.slots),
+    )

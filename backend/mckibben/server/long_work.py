@@ -70,15 +70,15 @@ async def _events(work: Work, time_limit: float) -> AsyncIterator[bytes]:
     news: asyncio.Queue[dict[str, object] | None] = asyncio.Queue()
     gone = threading.Event()
 
-    def tell(**fresh: object) -> None:
+    def send_progress(**fresh: object) -> None:
         # The event loop may end before the thread.
         if not loop.is_closed():
             loop.call_soon_threadsafe(news.put_nowait, fresh)
 
     watch = Watch(
         cancelled=gone.is_set,
-        progress=lambda share: tell(share=share),
-        found=lambda found: tell(found=found),
+        progress=lambda share: send_progress(share=share),
+        found=lambda found: send_progress(found=found),
         time_limit=time_limit,
     )
     running = loop.run_in_executor(None, lambda: _event("done", to_json(work(watch))))

@@ -156,8 +156,8 @@ def _is_address(name: str) -> bool:
     return True
 
 
-def _same(given: str, token: str) -> bool:
-    return secrets.compare_digest(given.encode("utf-8", "surrogateescape"), token.encode())
+def _same(secret: str, token: str) -> bool:
+    return secrets.compare_digest(secret.encode("utf-8", "surrogateescape"), token.encode())
 
 
 def _cookie_value(header: str, name: str) -> str:

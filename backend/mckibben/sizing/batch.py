@@ -80,7 +80,7 @@ class Bench:
                 yield from pool.map(function, chunk)
                 done += len(chunk)
 
-    def counted(self) -> None:
+    def count_run(self) -> None:
         """Count one more run; may be called from any thread."""
         self.runs = next(self._runs) + 1
 
@@ -101,7 +101,7 @@ class Bench:
 
     def run(self, design: Design) -> Figures:
         """Simulate one cycle of a design, on few rows."""
-        self.counted()
+        self.count_run()
         prepared = self.prepared(design)
         try:
             return prepared.figures(prepared.parameters, prepared.inputs, self.task.returns)

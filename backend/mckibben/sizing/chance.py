@@ -17,7 +17,7 @@ _CHUNK = 25  # specimens a thread takes at a time
 
 @dataclass(frozen=True, slots=True)
 class Chance:
-    """Share of the specimens that do the task, its standard error, and the number of specimens."""
+    """Share of the specimens that fulfil the task, its standard error, and the number of specimens."""
 
     probability: float
     error: float
@@ -25,7 +25,7 @@ class Chance:
 
 
 def chance(bench: Bench, design: Design, share: tuple[float, float], specimens: int) -> Chance:
-    """The probability that a design does the task.
+    """The probability that a design fulfils the task.
 
     Args:
         bench: runs the designs of the task.
@@ -39,23 +39,23 @@ def chance(bench: Bench, design: Design, share: tuple[float, float], specimens: 
     prepared, spread = bench.prepared(design), spread_of(design, bench.task, specimens)
     starts = range(0, specimens, _CHUNK)
 
-    def met(begin: int) -> int:
+    def successes(begin: int) -> int:
         chosen = range(begin, min(begin + _CHUNK, specimens))
-        return sum(_met(prepared, bench.task, spread, index) for index in chosen)
+        return sum(_succeeds(prepared, bench.task, spread, index) for index in chosen)
 
-    probability = sum(bench.each(met, starts, share, len(starts))) / specimens
+    probability = sum(bench.each(successes, starts, share, len(starts))) / specimens
     # At 0 and 1 the variance is that of one deviating specimen, not zero.
     variance = max(probability * (1.0 - probability), 1.0 / specimens)
     return Chance(probability, sqrt(variance / specimens), specimens)
 
 
-def _met(prepared: Prepared, task: Task, spread: Spread, index: int) -> bool:
+def _succeeds(prepared: Prepared, task: Task, spread: Spread, index: int) -> bool:
     """Whether one specimen reaches the end of the stroke in time, stays there, and returns in time."""
-    figures = prepared.built(
+    figures = prepared.run_specimen(
         float(spread.shift[index]),
         float(spread.friction[index]),
         float(spread.pressure[index]),
         task.returns,
     )
     late = max(times_over(figures, task).values(), default=0.0)
-    return figures.time is not None and figures.held and late <= 1.0
+    return figures.time is not None and figures.holds and late <= 1.0

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from mckibben.sizing.catalogue import MusclePart
-from mckibben.sizing.statics import AMPLE, Rest, at_rest, contraction_limit, margins
+from mckibben.sizing.statics import Rest, at_rest, contraction_limit, margins
 from mckibben.sizing.task import Duty, Task
 
 Array = np.ndarray
@@ -53,11 +53,6 @@ class Sheet:
     def of(self, parallel: int) -> Array:
         """Positions of all designs with this number of muscles."""
         return np.flatnonzero(self.rest.parallel == parallel)
-
-    def margin(self, index: int) -> dict[str, float]:
-        """Margins of one design, without quantities that have no limit."""
-        values = {name: float(margin[index]) for name, margin in self.margins.items()}
-        return {name: value for name, value in values.items() if value < AMPLE}
 
 
 def sheet_of(part: MusclePart, duty: Duty, task: Task) -> Sheet:

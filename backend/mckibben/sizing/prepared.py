@@ -21,7 +21,7 @@ _TOLERANCE = 1e-5
 #: Distance from a stop within which a load counts as resting on it [m].
 ON_STOP = 1e-8
 #: Last share of the fill in which the load must rest on the stop: a load that is too heavy swings back.
-HELD_SHARE = 0.25
+HOLD_SHARE = 0.25
 _HOLDS_BACK = 0.999  # largest friction as a share of the load: friction holds a load, it does not lift it
 
 
@@ -31,13 +31,13 @@ class Figures:
 
     Attributes:
         time, time_down: to the end of the stroke and back; None when not reached in the simulated time.
-        held: whether the load stays there until the valve stops filling.
+        holds: whether the load stays there until the valve stops filling.
         reached: largest stroke of the load [m].
     """
 
     time: float | None
     time_down: float | None
-    held: bool
+    holds: bool
     air: float
     peak_force: float
     reached: float
@@ -83,11 +83,11 @@ class Prepared:
         inputs[:, INPUTS.index("external_force")] = self.drive.load.force
         return inputs
 
-    def place(self, name: str) -> int:
+    def parameter_index(self, name: str) -> int:
         """Position of a parameter."""
         return list(self.compiled.model.parameters).index(name)
 
-    def built(self, shift: float, friction: float, pressure: float, returns: bool) -> Figures:
+    def run_specimen(self, shift: float, friction: float, pressure: float, returns: bool) -> Figures:
         """Run with the deviations of one specimen.
 
         Args:
@@ -98,9 +98,9 @@ class Prepared:
         """
         drive, duty = self.drive, self.design.group.duty
         parameters, inputs = self.parameters.copy(), self.inputs
-        parameters[self.place("precontraction")] += shift * drive.muscle.nominal_length
+        parameters[self.parameter_index("precontraction")] += shift * drive.muscle.nominal_length
         supply = drive.supply_pressure * pressure + drive.ambient_pressure
-        parameters[self.place("supply_pressure")] = supply
+        parameters[self.parameter_index("supply_pressure")] = supply
         forward = back = friction * duty.lever_ratio
         if not duty.pair:  # the load at the start of the stroke, where a spring does not pull yet
             pulling = float(duty.load(np.zeros(1))[0]) / self.design.group.parallel
@@ -149,7 +149,7 @@ class Prepared:
         return Figures(
             time,
             back,
-            bool(np.min(stroke[up][-int(HELD_SHARE * ROWS_UP) :]) >= high - ON_STOP),
+            bool(np.min(stroke[up][-int(HOLD_SHARE * ROWS_UP) :]) >= high - ON_STOP),
             air / ANR_DENSITY,
             float(force.max()),
             float(np.max(stroke[up]) - self.drive.stops[0]) / self.drive.load.lever_ratio,

@@ -16,7 +16,7 @@ from mckibben.simulation.timing.table import timing
 from mckibben.sizing.batch import Bench
 from mckibben.sizing.catalogue import Design, switch_on
 from mckibben.sizing.chance import Chance
-from mckibben.sizing.prepared import HELD_SHARE, ON_STOP, Figures, arrival
+from mckibben.sizing.prepared import HOLD_SHARE, ON_STOP, Figures, arrival
 from mckibben.sizing.trial import Trial, judged
 
 _MILLIMETRE, _PRESSURE_STEP = 1e-3, 1e3
@@ -24,7 +24,7 @@ _MILLIMETRE, _PRESSURE_STEP = 1e-3, 1e3
 
 @dataclass(frozen=True, eq=False)
 class Proposal:
-    """A drive that does the task.
+    """A drive that fulfils the task.
 
     Attributes:
         trial: design, statics and figures of the run.
@@ -32,7 +32,7 @@ class Proposal:
         end_speed: speed of the load there [m/s].
         pressure_start, pressure_end: in the muscle when the load leaves its stop, and on arrival [Pa].
         max_speed: largest speed of the load [m/s].
-        chance: probability that it does the task; None when no specimens were requested.
+        chance: probability that it fulfils the task; None when no specimens were requested.
         reason: explanation of its rank.
         front: whether it is on the Pareto front: no other design is better in every aim.
     """
@@ -68,17 +68,17 @@ def propose(trial: Trial, bench: Bench) -> Proposal | Trial:
         candidate = _measured(Design(design.group, length, pressure), bench)
         if candidate is None:
             continue
-        if candidate.trial.does:
+        if candidate.trial.keeps_limits:
             return candidate
         measured = candidate.trial
     return measured
 
 
 def _measured(design: Design, bench: Bench) -> Proposal | None:
-    """A design run on the fine grid, whether it does the task or not; None when the run fails."""
+    """A design run on the fine grid, whether it fulfils the task or not; None when the run fails."""
     task, group = bench.task, design.group
     drive = group.drive(task, design.length, design.pressure)
-    bench.counted()
+    bench.count_run()
     step = time_step(drive.duration)
     grid = np.linspace(0.0, drive.duration, ceil(drive.duration / step) + 1)
     with np.errstate(all="ignore"):
@@ -99,14 +99,14 @@ def _measured(design: Design, bench: Bench) -> Proposal | None:
         delays=dead_times(drive),
     )
     up, down = table.extend, table.retract
-    begin, late, end = np.searchsorted(trace.time, (on, off - HELD_SHARE * task.fill_time, off))
+    begin, late, end = np.searchsorted(trace.time, (on, off - HOLD_SHARE * task.fill_time, off))
     resting = trace.position[late : end + 1] >= stops_of(drive)[1] - ON_STOP
     # Without an impact the table means 95 % of the stroke; here it is the stop.
     time = up.positioning_time if arrival(run.events, HIGH_STOP, on, off) is not None else None
     figures = Figures(
         time=time,
         time_down=down.positioning_time if trace.contact[-1] else None,
-        held=bool(np.all(resting)),
+        holds=bool(np.all(resting)),
         air=float(trace.supplied[-1] - trace.supplied[begin]) / ANR_DENSITY * group.parallel,
         peak_force=float(np.max(run.outputs["force"])),
         reached=float(np.max(trace.position[begin : end + 1])) - low,

@@ -17,9 +17,9 @@ _SURE = 0.95  # probabilities above this form one class
 def ranked(proposals: list[Proposal], task: Task) -> list[Proposal]:
     """Best first, with the front and reasons filled in.
 
-    Whatever the task ranks by, a drive that probably fails comes after one that probably does the task: the
-    first key is the probability in classes of 5 % up to 95 %, the second what the task ranks by. If that is
-    the probability, the first key is the probability itself and the second the air.
+    Whatever the task ranks by, a drive that probably fails comes after one that probably fulfils the task:
+    the first key is the probability in classes of 5 % up to 95 %, the second what the task ranks by. If that
+    is the probability, the first key is the probability itself and the second the air.
     """
 
     def order(proposal: Proposal) -> tuple[float, float]:
@@ -79,7 +79,7 @@ def _reason(proposal: Proposal, best: dict[str, float]) -> str:
     if aims["air"] > best["air"] * 1.05:
         texts.append(f"{aims['air'] / best['air']:.2g} times the least air")
     if proposal.chance is not None:
-        texts.append(f"does the task with {proposal.chance.probability * 100:.0f} % probability")
+        texts.append(f"fulfils the task with {proposal.chance.probability * 100:.0f} % probability")
     margin = proposal.trial.margins[proposal.trial.binding]
     texts.append(f"nearest limit: {proposal.trial.binding.replace('_', ' ')}, {margin * 100:.2g} % left")
     return "; ".join(texts)

@@ -14,7 +14,7 @@ _BAR = 1e5
 
 
 def length_text(length: float) -> str:
-    """A length as people of the field write it: whole millimetres."""
+    """A length in whole millimetres."""
     return f"{length * 1e3:.0f} mm"
 
 
@@ -125,14 +125,14 @@ def slow_text(trial: Trial | None, task: Task) -> str:
         case "time":
             return f"{at} takes {figures.time:.3g} s for the stroke; {task.time:.3g} s is required"
         case "time_down" if figures.time_down is None:
-            return f"{at} does not come back within {task.vent_time:.3g} s"
+            return f"{at} does not return within {task.vent_time:.3g} s"
         case "time_down":
-            return f"{at} takes {figures.time_down:.3g} s back; {task.time_down:.3g} s is required"
+            return f"{at} takes {figures.time_down:.3g} s for the return; {task.time_down:.3g} s is required"
         case "cycle_time" if figures.time_down is None:
-            return f"{at} does not come back within {task.vent_time:.3g} s"
+            return f"{at} does not return within {task.vent_time:.3g} s"
         case "cycle_time":
             both = figures.time + (figures.time_down or 0.0)
-            return f"{at} takes {both:.3g} s up and down; {task.cycle_time:.3g} s is required"
+            return f"{at} takes {both:.3g} s for stroke and return; {task.cycle_time:.3g} s is required"
         case "force_limit":
             return f"{at} peaks at {figures.peak_force:.4g} N while it moves, above what the maker allows"
         case _:
@@ -155,7 +155,7 @@ def slow_remedy(trial: Trial | None, task: Task, binding: str, works: bool) -> s
 
 
 def temperature_text(part: MusclePart, task: Task) -> str | None:
-    """Why the muscle does not stand the ambient temperature; None when it does."""
+    """Why the ambient temperature rules the muscle out; None if it does not."""
     low, high = part.coldest, part.hottest
     if (low is None or task.temperature >= low) and (high is None or task.temperature <= high):
         return None

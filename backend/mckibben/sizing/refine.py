@@ -39,5 +39,5 @@ def refined(trial: Trial, bench: Bench) -> Trial:
     simplex = begin + np.array([[0.0, 0.0], [steps[0], 0.0], [0.0, steps[1]]])
     options = {"maxfev": _RUNS, "initial_simplex": simplex, "xatol": 1e-3, "fatol": 1e-3}
     minimize(cost, begin, method="Nelder-Mead", options=options)
-    doing = [item for item in tried if item.does]
-    return min(doing, key=lambda item: item.cost()) if doing else trial
+    good = [item for item in tried if item.keeps_limits]
+    return min(good, key=lambda item: item.cost()) if good else trial

@@ -25,7 +25,7 @@ _NEVER = float("inf")
 
 @dataclass(frozen=True, slots=True)
 class Rejection:
-    """A number of muscles, or these with a valve and a tube, that cannot do the task.
+    """A number of muscles, or these with a valve and a tube, that cannot fulfil the task.
 
     Attributes:
         binding: the limit that prevents it.
@@ -47,7 +47,7 @@ class Rejection:
 def at_rest_rejections(
     sheets: Sequence[Sheet], catalogue: PartsCatalogue, task: Task, works: set[str]
 ) -> list[Rejection]:
-    """Muscles that the closed form rules out with any valve; ``works`` names those that can do the task."""
+    """Muscles that the closed form rules out with any valve; ``works`` names those that fulfil the task."""
     rejections = [
         Rejection(part.id, 1, why, "temperature", "another muscle, or another place for it")
         for part in catalogue.muscles

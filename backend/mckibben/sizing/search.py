@@ -37,7 +37,7 @@ class Sizing:
     Attributes:
         proposals: best first.
         rejected: the rejected candidates, nearest first.
-        explored: the best trial of each group that does the task.
+        explored: the best trial of each group that fulfils the task.
         combinations: designs within the limits of length, pressure and contraction, times valves and tubes.
         pruned: number of them that the closed form ruled out.
         simulated: number of transient runs, without those of specimens.
@@ -112,7 +112,7 @@ class _Search:
         sizing.rejected = at_rest_rejections(sheets, self.catalogue, task, set())
         candidates, failed = self._prune(sheets)
         candidates = self._likely(candidates)
-        self._look(_PRUNED)
+        self._check_end(_PRUNED)
         good, slow = self._try(candidates)
         sizing.explored = good
         failed += slow
@@ -132,7 +132,7 @@ class _Search:
         sizing.proposals = ranked(proposals, task)[: task.max_proposals]
         sizing.proposals = self._with_chances(sizing.proposals)
 
-    def _look(self, share: float) -> None:
+    def _check_end(self, share: float) -> None:
         ended = self.bench.watch.ended(share)
         if ended is not None:
             raise EndedError(ended)
@@ -179,13 +179,13 @@ class _Search:
         return sound[times[sound] <= wanted]
 
     def _try(self, candidates: list[DesignCandidate]) -> tuple[list[Trial], list[tuple[Group, Trial | None]]]:
-        """The best trial of each group that does the task, and the nearest trial of each other group."""
+        """The best trial of each group that fulfils the task, and the nearest trial of each other group."""
         first = [(candidate, index) for candidate in candidates for index in _first_choice(candidate)]
         ran = self._run(first, (_PRUNED, 0.8 * _TRIED))
         again = [
             (candidate, index)
             for candidate, trials in ran.items()
-            if not any(trial.does for trial in trials)
+            if not any(trial.keeps_limits for trial in trials)
             and min(trial.excess() for trial in trials) <= _SECOND_LOOK
             for index in _second_choice(candidate)
         ]
@@ -194,9 +194,9 @@ class _Search:
         good: list[Trial] = []
         slow: list[tuple[Group, Trial | None]] = []
         for candidate, trials in ran.items():
-            doing = [trial for trial in trials if trial.does]
-            if doing:
-                good.append(min(doing, key=lambda trial: trial.cost()))
+            good_trials = [trial for trial in trials if trial.keeps_limits]
+            if good_trials:
+                good.append(min(good_trials, key=lambda trial: trial.cost()))
             else:
                 slow.append((candidate.group, min(trials, key=lambda trial: trial.cost())))
         return good, slow

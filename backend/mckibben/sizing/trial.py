@@ -1,4 +1,4 @@
-"""A simulated design: whether it does the task, its margin to each limit, and its cost."""
+"""A simulated design: whether it fulfils the task, its margin to each limit, and its cost."""
 
 from __future__ import annotations
 
@@ -45,9 +45,9 @@ class Trial:
         return min(self.margins, key=lambda name: self.margins[name])
 
     @property
-    def does(self) -> bool:
+    def keeps_limits(self) -> bool:
         """Whether every limit is kept."""
-        return self.figures.time is not None and self.figures.held and min(self.margins.values()) >= -_HAIR
+        return self.figures.time is not None and self.figures.holds and min(self.margins.values()) >= -_HAIR
 
     @property
     def air(self) -> float:
@@ -96,8 +96,8 @@ class Trial:
             if not late < 2.0:  # not within the simulated time; the missing stroke gives the cost a slope
                 late = 3.0 - min(self.weak.reached / self.design.group.duty.stroke, 1.0)
             total += _NEAR * (max(late - 1.0, 0.0) / _WEAK) ** 2
-            total += 0.0 if self.weak.held else _NEAR / _WEAK
-        return total if self.figures.held else total + _BROKEN
+            total += 0.0 if self.weak.holds else _NEAR / _WEAK
+        return total if self.figures.holds else total + _BROKEN
 
 
 def trial_of(design: Design, bench: Bench, rest: Rest | None = None) -> Trial:
@@ -107,8 +107,8 @@ def trial_of(design: Design, bench: Bench, rest: Rest | None = None) -> Trial:
 
 def hard_trial_of(design: Design, bench: Bench) -> Trial:
     """Run a design and a weak specimen of it."""
-    poor = bench.prepared(design).built(*weak(design, bench.task), bench.task.returns)
-    bench.counted()
+    poor = bench.prepared(design).run_specimen(*weak(design, bench.task), bench.task.returns)
+    bench.count_run()
     return replace(trial_of(design, bench), weak=poor)
 
 

@@ -131,7 +131,6 @@ def test_one_missing_friction_is_found(noise):
     assert first.effect.id == "coulomb_friction"
     assert first.gain > 0.9
     assert "changes sign with the direction of motion" in first.why
-    assert found.seen.odd == pytest.approx(1.0, abs=0.02)
     assert found.where[0].over in ("direction", "velocity")  # here the speed tells the direction
     assert found.where[0].share_explained > 0.95
 
@@ -220,7 +219,6 @@ def test_an_offset_of_the_sensor_and_a_prestress_are_one_group():
     names = {found.added[0], *(other.effect for other in found.alternatives)}
     assert names == {"prestress", "force_offset"}
     other = found.alternatives[0]
-    assert abs(other.cosine) == pytest.approx(1.0, abs=1e-6)
     assert other.difference < 1e-3
     twins = {c.effect.id: c.twins for c in found.candidates if c.effect.id in names}
     assert "prestress" in twins["force_offset"]
@@ -337,7 +335,9 @@ def test_progress_and_candidates_are_told():
             shares.append(share)
             return super().ended(share)
 
-    found = diagnosis(cycles(coulomb, noise=1.0, each=20), watch=Told(time_limit=1e3), found=told.append)
+    found = diagnosis(
+        cycles(coulomb, noise=1.0, each=20), watch=Told(time_limit=1e3), on_candidate=told.append
+    )
     assert shares == sorted(shares)
     assert shares[0] >= 0.0
     assert shares[-1] <= 1.0

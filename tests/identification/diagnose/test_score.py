@@ -13,7 +13,6 @@ from mckibben.identification.diagnose.score import (
     LEAST_SCORE,
     better,
     effective_rows,
-    log_ratio,
     score,
 )
 from mckibben.identification.fit.fitted_model import FittedModel
@@ -121,9 +120,3 @@ def test_an_implausible_number_is_never_better():
     stuck = replace(after, free=(replace(after.free[0], lower=after.free[0].start),))
     assert stuck.implausible == 1
     assert not better(stuck, before, rows=60.0, noise=None)
-
-
-def test_mean_of_the_ratios_and_its_error():
-    mean, error = log_ratio(node_of([4.0, 4.0, 16.0]), node_of([1.0, 1.0, 1.0]))
-    assert mean == pytest.approx((2 * log(2.0) + log(4.0)) / 3)
-    assert error == pytest.approx(np.std([log(2.0), log(2.0), log(4.0)], ddof=1) / np.sqrt(3))

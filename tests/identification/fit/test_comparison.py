@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mckibben.identification.fit.comparison import compare
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.residual.noise import channel_noise
 from mckibben.measurement.read import read_measurement
 from mckibben.physics.errors import InputError
 from mckibben.physics.muscle import Muscle
+from tests.identification.comparing import compare
 from tests.identification.synthetic import (
     CATALOGUE,
     MUSCLE,

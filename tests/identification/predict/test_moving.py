@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from mckibben.identification.diagnose.diagnosis import diagnose
-from mckibben.identification.fit.comparison import compare
 from mckibben.identification.predict import TransientPredictor, predictor_of
 from mckibben.identification.predict.fit_model import FitModel, free_numbers
 from mckibben.measurement.measurement import Measurement, build
@@ -19,6 +18,7 @@ from mckibben.simulation.drive.driven import driven_motion
 from mckibben.simulation.drive.parts import Drive, Load, Tube, Valve
 from mckibben.simulation.drive.transient import simulate
 from mckibben.simulation.statics.model import StaticModel
+from tests.identification.comparing import compare
 from tests.identification.synthetic import CATALOGUE, MUSCLE, G, truth
 
 HIDDEN = {"bladder_elasticity": {"shear_modulus": 0.4e6}, "viscous_damping": {"coefficient": 200.0}}

@@ -9,7 +9,7 @@ import numpy as np
 
 from mckibben.identification.diagnose.gauge_zero import GaugeZero, vented
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment
-from mckibben.identification.diagnose.reason import ResidualTraits, seen, why
+from mckibben.identification.diagnose.reason import ResidualTraits, traits_of, why
 from mckibben.identification.diagnose.score import effective_rows, score
 from mckibben.identification.diagnose.search import search
 from mckibben.identification.diagnose.twins import Alternative, alternatives, same, same_predictions
@@ -87,7 +87,6 @@ class Diagnosis:
         noise: of the scaled residual; None when it cannot be estimated.
         noise_how: how it was obtained.
         where: the start model's residual over each variable.
-        seen: features of the root's residual.
         candidates: single additions, the best first.
         path: steps to the best model; each adds the effect that lowers the error most.
         best: the best model.
@@ -108,7 +107,6 @@ class Diagnosis:
     noise: float | None
     noise_how: str
     where: tuple[Profile, ...]
-    seen: ResidualTraits
     candidates: tuple[SingleAddition, ...]
     path: tuple[PathStep, ...]
     best: FittedModel
@@ -133,7 +131,7 @@ def diagnose(
     noise: float | None = None,
     effort: SearchEffort | None = None,
     watch: Watch | None = None,
-    found: Callable[[SingleAddition], None] = lambda _: None,
+    on_candidate: Callable[[SingleAddition], None] = lambda _: None,
 ) -> Diagnosis:
     """Find the effects that a model of a measurement lacks.
 
@@ -146,7 +144,7 @@ def diagnose(
         noise: standard deviation of the predicted channel [SI], when it is known.
         effort: limits of the search; by default they depend on the cost of a prediction.
         watch: receives the progress and may cancel.
-        found: receives each candidate as soon as it is fitted.
+        on_candidate: receives each candidate as soon as it is fitted.
 
     Raises:
         CancelledError: the watch cancelled.
@@ -164,7 +162,7 @@ def diagnose(
             noise=noise,
             effort=effort or diagnosis_effort(simulated=predictor.simulated),
             watch=watch or Watch(time_limit=np.inf),
-            found=found,
+            on_candidate=on_candidate,
         )
 
 
@@ -178,7 +176,7 @@ def _diagnose(
     noise: float | None,
     effort: SearchEffort,
     watch: Watch,
-    found: Callable[[SingleAddition], None],
+    on_candidate: Callable[[SingleAddition], None],
 ) -> Diagnosis:
     start_ids = set(fit_model.ids)
     absent = [effect for effect in catalogue.values() if effect.id not in start_ids]
@@ -193,7 +191,7 @@ def _diagnose(
         noise=None,
         load=predictor.unknown_load,
         effort=effort,
-        tell=progress.tell,
+        before_fit=progress.count_fit,
         estimate=lambda fitted_model: noise_of(predictor, fitted_model.residual, noise)[0],
     )
     start = FittedModel(
@@ -204,7 +202,7 @@ def _diagnose(
     gauge_zero = None if readings is None else vented(readings, candidates)
     first = fit_model
     if gauge_zero is not None:
-        fitter.held = frozenset({f"{gauge_zero.effect.id}.{gauge_zero.parameter}"})
+        fitter.fixed = frozenset({f"{gauge_zero.effect.id}.{gauge_zero.parameter}"})
         first = fit_model.adding(gauge_zero.effect, {gauge_zero.parameter: gauge_zero.value})
         candidates = tuple(effect for effect in candidates if effect is not gauge_zero.effect)
         fitter.candidates = candidates
@@ -216,7 +214,7 @@ def _diagnose(
         root = fitter.fit(first, freed)
     fitter.noise, how = noise_of(predictor, root.residual, noise)
     variables = variables_of(predictor, fit_model.muscle.nominal_length)
-    before = seen(root.residual, variables)
+    before = traits_of(root.residual, variables)
     where = profiles(start.residual, variables, predictor.folds[0])
     fitted = {effect.id for effect in fitter.promising(root, candidates)[: effort.tried]}
     fitted_singles, guesses = [], []
@@ -224,7 +222,7 @@ def _diagnose(
         progress.share = 0.45 * number / max(len(candidates), 1)
         if effect.id in fitted:
             fitted_singles.append((effect, fitter.adding(root, effect)))
-            found(_candidate(fitter, root, effect, fitted_singles[-1][1], before, ()))
+            on_candidate(_candidate(fitter, root, effect, fitted_singles[-1][1], before, ()))
         else:
             guesses.append((effect, fitter.guessed(root, effect)))
     progress.share, progress.end = 0.45, 0.85
@@ -265,7 +263,6 @@ def _diagnose(
         noise=fitter.noise,
         noise_how=how,
         where=tuple(where),
-        seen=before,
         candidates=tuple(ranked),
         path=path,
         best=best,
@@ -288,7 +285,7 @@ class _Progress:
         self._watch = watch
         self.share, self.end = 0.0, 0.45
 
-    def tell(self, _: str) -> None:
+    def count_fit(self) -> None:
         """Count one more fitted model; cancel when the watch asks for it."""
         self.share += 0.02 * (self.end - self.share)
         if self._watch.ended(self.share) in (Outcome.CANCELLED, Outcome.TIMED_OUT):

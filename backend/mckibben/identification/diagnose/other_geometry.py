@@ -22,7 +22,7 @@ def geometry_instead(
     first: FitModel,
     best: FittedModel,
     *,
-    held: Collection[str] = (),
+    fixed: Collection[str] = (),
     load: Free | None = None,
 ) -> list[str]:
     """A sentence on the dimensions that explain the data as well as the added effects; empty without any.
@@ -31,14 +31,14 @@ def geometry_instead(
         predictor: the data.
         first: the start model.
         best: the best model, with effects added to it.
-        held: parameters of the start model that no fit changes.
+        fixed: parameters of the start model that no fit changes.
         load: bounds of the load, when it is unknown and fitted.
     """
     explanations = []
     for name in _BY_HAND:
         (dimension,) = free_geometry(first.muscle, [name], {})
         choice = free_numbers(first, [dimension], load=load)
-        free = [parameter for parameter in choice if parameter.name not in held]
+        free = [parameter for parameter in choice if parameter.name not in fixed]
         fitted_model = refitted(predictor, first, free)
         value = fitted_model.fit_model.number(name)
         change = abs(value - dimension.start) / (dimension.upper - dimension.start)

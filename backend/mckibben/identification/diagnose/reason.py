@@ -19,19 +19,17 @@ class ResidualTraits:
     Attributes:
         odd: share of its mean square that changes sign with the direction of motion; None when unknown.
         pressure_power: exponent n of a fit of its size to P^n; None without a range of pressures.
-        constant: share of the mean in its mean square.
     """
 
     odd: float | None
     pressure_power: float | None
-    constant: float
 
 
-def seen(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> ResidualTraits:
-    """Parity, growth with pressure and offset of a residual."""
+def traits_of(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> ResidualTraits:
+    """Parity of a residual and its growth with pressure."""
     whole = float(np.mean(residual**2))
     if not whole > 0.0:
-        return ResidualTraits(None, None, 0.0)
+        return ResidualTraits(None, None)
     odd = None
     direction = variables.get("direction")
     if direction is not None and np.any(direction > 0) and np.any(direction < 0):
@@ -50,29 +48,29 @@ def seen(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> ResidualT
                 sizes.append(0.5 * np.log(np.mean(residual[rows] ** 2) + 1e-30))
         if len(centres) >= 3:
             power = float(np.polyfit(centres, sizes, 1)[0])
-    return ResidualTraits(odd, power, float(np.mean(residual)) ** 2 / whole)
+    return ResidualTraits(odd, power)
 
 
-def why(effect: Effect, found: ResidualTraits, *, gain: float) -> str:
+def why(effect: Effect, traits: ResidualTraits, *, gain: float) -> str:
     """The reason for or against a candidate, in words.
 
     Args:
         effect: the candidate.
-        found: features of the residual before the candidate is added.
+        traits: features of the residual before the candidate is added.
         gain: relative reduction of the rms error.
     """
     signature = effect.signature
     agreeing, against = [], []
-    if found.odd is not None and signature.direction is not None:
-        is_odd = found.odd > _CLEAR
+    if traits.odd is not None and signature.direction is not None:
+        is_odd = traits.odd > _CLEAR
         words = (
             "changes sign with the direction of motion"
             if is_odd
             else "keeps its sign when the motion reverses"
         )
         (agreeing if is_odd == (signature.direction == "odd") else against).append(words)
-    if found.pressure_power is not None and signature.pressure_power is not None:
-        nearest = 0.0 if found.pressure_power < 0.4 else 1.0 if found.pressure_power < 1.5 else 2.0
+    if traits.pressure_power is not None and signature.pressure_power is not None:
+        nearest = 0.0 if traits.pressure_power < 0.4 else 1.0 if traits.pressure_power < 1.5 else 2.0
         words = {
             0.0: "hardly depends on pressure",
             1.0: "grows about in proportion to pressure",

@@ -71,13 +71,6 @@ def _complexity(fitted_model: FittedModel) -> float:
     return _SIMPLER * sum(_ORDER.get(effect.type, 0) for effect in fitted_model.fit_model.effects)
 
 
-def log_ratio(before: FittedModel, after: FittedModel) -> tuple[float, float]:
-    """Mean over groups of ln(error before / error after) in rms, and its standard error."""
-    first, second = (np.maximum(fitted_model.fold_squares[0], 1e-300) for fitted_model in (before, after))
-    ratios = 0.5 * np.log(first / second)
-    return float(np.mean(ratios)), float(np.std(ratios, ddof=1) / np.sqrt(len(ratios)))
-
-
 def better(after: FittedModel, before: FittedModel, *, rows: float, noise: float | None) -> bool:
     """Whether a model with more parameters is better, with no additional implausible parameter."""
     if after.implausible > before.implausible:

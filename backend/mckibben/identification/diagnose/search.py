@@ -46,7 +46,7 @@ def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel])
         rows = _rows(fitter, min(children, key=lambda fitted_model: fitted_model.rmse))
         children.sort(key=lambda fitted_model: score(fitted_model, rows=rows, noise=fitter.noise))
         first = next((fitted_model for fitted_model in children if not fitted_model.implausible), children[0])
-        fitter.listen(first)
+        fitter.update_noise(first)
         if _at_floor(fitter, first) and better(first, best, rows=_rows(fitter, first), noise=fitter.noise):
             best = first
             break
@@ -62,7 +62,7 @@ def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel])
         whole = with_further_constants(fitter, leader)
         beam, leader = [whole if fitted_model is leader else fitted_model for fitted_model in beam], whole
         idle += 1
-        fitter.listen(leader)
+        fitter.update_noise(leader)
         if better(leader, best, rows=_rows(fitter, leader), noise=fitter.noise):
             best, idle = leader, 0
         if idle >= _PATIENCE or _at_floor(fitter, best):

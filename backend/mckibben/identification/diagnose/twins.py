@@ -27,14 +27,12 @@ class Alternative:
         of: the effect of the model.
         effect: the possible replacement.
         difference: rms difference of the fitted predictions over the noise.
-        cosine: of the angle between the sensitivities of both effects.
         fitted_model: the model with the exchange.
     """
 
     of: str
     effect: str
     difference: float
-    cosine: float
     fitted_model: FittedModel
 
 
@@ -53,7 +51,7 @@ def alternatives(fitter: Fitter, best: FittedModel, added: Sequence[str], noise:
             cosine = _cosine(sensitivity, fitter.changes(less, effect))
             parallel = abs(cosine) > _COSINE and fitted_model.rmse <= _AS_GOOD * best.rmse
             if difference < SAME or parallel:
-                equivalent.append(Alternative(effect_id, effect.id, difference, cosine, fitted_model))
+                equivalent.append(Alternative(effect_id, effect.id, difference, fitted_model))
     return equivalent
 
 

@@ -145,7 +145,7 @@ def messages(fitter: Fitter, first: FitModel, best: FittedModel, fit: FitResult 
     notes = _assumptions(best)
     # Transients hardly determine the geometry, and each fit is slow: their effort skips the dimensions.
     if fitter.effort.dimensions and len(best.fit_model.ids) > len(first.ids) and not fitter.geometry:
-        notes += geometry_instead(fitter.predictor, first, best, held=fitter.held, load=fitter.load)
+        notes += geometry_instead(fitter.predictor, first, best, fixed=fitter.fixed, load=fitter.load)
     if fitter.noise is None:
         notes.append(
             "the sweeps are too short to estimate the noise: state it, so that the search can stop there"

@@ -11,17 +11,12 @@ from mckibben.identification.fit.effort import final_effort
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.least_squares import FitResult
 from mckibben.identification.fit.misfit import Misfit
-from mckibben.identification.predict import Predictor, predictor_of
-from mckibben.identification.predict.fit_model import FitModel, free_geometry, free_numbers
+from mckibben.identification.predict import Predictor
+from mckibben.identification.predict.fit_model import FitModel, free_numbers
 from mckibben.identification.predict.free import Free
 from mckibben.identification.residual.noise import noise_of
-from mckibben.measurement.measurement import Measurement
 from mckibben.physics.custom import CUSTOM, TERM
-from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
-from mckibben.physics.muscle import Muscle
-from mckibben.simulation.drive.parts import Drive
-from mckibben.simulation.statics.model import EffectValues, checked_values
 
 
 @dataclass(frozen=True)
@@ -173,49 +168,6 @@ def parameter_table(fit_model: FitModel, fit: FitResult | None) -> ParameterTabl
             p.name: ParameterValue(p.value, p.stderr, p.unit, p.at_bound, fitted=True) for p in others
         }
     return table
-
-
-def compare(
-    measurement: Measurement,
-    muscle: Muscle,
-    effects: EffectValues,
-    *,
-    catalogue: Mapping[str, Effect],
-    drive: Drive | None = None,
-    fit: bool = False,
-    free: Sequence[str] = (),
-    freed: Sequence[str] = (),
-    tolerance: Mapping[str, float] | None = None,
-    noise: float | None = None,
-) -> Comparison:
-    """Compare a measurement with a muscle and its effects.
-
-    Args:
-        measurement: the measurement.
-        muscle: the muscle.
-        effects: effect id -> parameter values, SI; missing parameters take the effect's default.
-        catalogue: all known effects.
-        drive: valve, tube and load of a transient measurement.
-        fit: fit the parameters that the effects declare as fitted.
-        free: geometry fields to fit as well, within their tolerance.
-        freed: further constants to fit, as "effect.parameter".
-        tolerance: geometry field -> largest change in either direction, SI.
-        noise: standard deviation of the predicted channel, when it is known.
-
-    Raises:
-        InputError: a row, kind, effect, parameter or geometry field that cannot be used.
-    """
-    values = checked_values(effects, catalogue)
-    fit_model = FitModel(muscle.checked(), tuple(catalogue[name] for name in values), values)
-    return compared(
-        predictor_of(measurement, muscle, drive),
-        fit_model,
-        rows=measurement.rows,
-        fit=fit,
-        geometry=free_geometry(muscle, free, tolerance or {}),
-        freed=freed,
-        noise=noise,
-    )
 
 
 def compared(

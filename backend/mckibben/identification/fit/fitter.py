@@ -36,13 +36,13 @@ class Fitter:
         noise: of the scaled residual; None when it cannot be estimated.
         load: bounds of the load when it is unknown and fitted.
         effort: limits of fits and search.
-        held: names of parameters that no fit changes, because they are known from elsewhere.
-        tell: called before each fit with the ids of the effects; may raise `CancelledError`.
+        fixed: names of parameters that no fit changes, because they are known from elsewhere.
+        before_fit: called before each fit; may raise `CancelledError`.
         estimate: estimates the noise from a model's residual. Missing effects may look like noise, so the
             search repeats the estimate with better models.
         known: the models fitted so far.
-        acts: effect id -> result of `acting`.
-        twice: keys of the models that were fitted from a second start.
+        off_values: effect id -> result of `acting`.
+        refitted_keys: keys of the models that were fitted from a second start.
     """
 
     predictor: Predictor
@@ -51,12 +51,12 @@ class Fitter:
     noise: float | None
     load: Free | None
     effort: SearchEffort
-    held: frozenset[str] = frozenset()
-    tell: Callable[[str], None] = lambda _: None
+    fixed: frozenset[str] = frozenset()
+    before_fit: Callable[[], None] = lambda: None
     estimate: Callable[[FittedModel], float | None] = lambda _: None
     known: dict[tuple[frozenset[str], frozenset[str]], FittedModel] = field(default_factory=dict)
-    acts: dict[str, dict[str, float]] = field(default_factory=dict)
-    twice: set[tuple[frozenset[str], frozenset[str]]] = field(default_factory=set)
+    off_values: dict[str, dict[str, float]] = field(default_factory=dict)
+    refitted_keys: set[tuple[frozenset[str], frozenset[str]]] = field(default_factory=set)
 
     def fit(
         self, fit_model: FitModel, freed: frozenset[str] = frozenset(), *, again: bool = False
@@ -66,13 +66,13 @@ class Fitter:
         ``again`` fits once more from another start and keeps the better result.
         """
         key = frozenset(fit_model.ids), freed
-        if key not in self.known or (again and key not in self.twice):
-            self.tell(", ".join(fit_model.ids))
+        if key not in self.known or (again and key not in self.refitted_keys):
+            self.before_fit()
             free = free_numbers(fit_model, self.geometry, freed, load=self.load)
-            free = [parameter for parameter in free if parameter.name not in self.held]
+            free = [parameter for parameter in free if parameter.name not in self.fixed]
             fitted_model = refitted(self.predictor, fit_model, free, freed=freed, effort=self.effort.fit)
             if again:
-                self.twice.add(key)
+                self.refitted_keys.add(key)
             if key not in self.known or fitted_model.rmse < self.known[key].rmse:
                 self.known[key] = fitted_model
         return self.known[key]
@@ -98,7 +98,7 @@ class Fitter:
 
         These are the parameters declared as fitted, or the further constants if those change nothing.
         """
-        if effect.id not in self.acts:
+        if effect.id not in self.off_values:
             choices = [
                 {p.name: p.off for p in effect.parameters if p.off is not None and p.fitted is fitted}
                 for fitted in (True, False)
@@ -108,8 +108,8 @@ class Fitter:
                 for off in choices
                 if np.any(self._sizes(self._columns(fitted_model, effect, off)) > self._least)
             )
-            self.acts[effect.id] = next(visible, choices[0])
-        return self.acts[effect.id]
+            self.off_values[effect.id] = next(visible, choices[0])
+        return self.off_values[effect.id]
 
     def freeing(self, fitted_model: FittedModel, effect: Effect) -> list[FittedModel]:
         """The model with further constants of an effect freed: all, and subsets if all are too many."""
@@ -168,8 +168,10 @@ class Fitter:
         reach = np.array([_between(effect, off)[name] - value for name, value in off.items()])
         columns = self.changes(fitted_model, effect)
         size = np.linalg.lstsq(columns, fitted_model.residual, rcond=1e-6)[0] * reach
-        named = {f"{effect.id}.{name}": value + x for (name, value), x in zip(off.items(), size, strict=True)}
-        inside = {p.name: float(np.clip(named[p.name], p.lower, p.upper)) for p in free if p.name in named}
+        linear = {
+            f"{effect.id}.{name}": value + x for (name, value), x in zip(off.items(), size, strict=True)
+        }
+        inside = {p.name: float(np.clip(linear[p.name], p.lower, p.upper)) for p in free if p.name in linear}
         fit_model = fitted_model.fit_model.adding(effect, effect.off)
         fit_model = fit_model.with_numbers(list(inside), list(inside.values()))
         trial_residual = (self.predictor.measured - self.predictor.trial(fit_model)) / self.predictor.scale
@@ -210,8 +212,8 @@ class Fitter:
         reach = self._sizes(columns) * span
         return {p.name for p, size in zip(free, reach, strict=True) if not size > self._least}
 
-    def listen(self, fitted_model: FittedModel) -> None:
-        """Lower the noise when the residual of a better model shows less."""
+    def update_noise(self, fitted_model: FittedModel) -> None:
+        """Lower the noise estimate if the residual of a better model has less."""
         estimated = self.estimate(fitted_model)
         if estimated is not None:
             self.noise = estimated if self.noise is None else min(self.noise, estimated)
@@ -232,8 +234,8 @@ class Fitter:
 
 def _between(effect: Effect, off: dict[str, float]) -> dict[str, float]:
     """A third of the way from off to the default; to 1 % of the range where the default is off."""
-    ways = {}
+    distances = {}
     for name, value in off.items():
         p = effect.parameter(name)
-        ways[name] = p.default - value if p.default != value else _USUAL * (p.upper - value)
-    return {name: value + ways[name] / 3.0 for name, value in off.items()}
+        distances[name] = p.default - value if p.default != value else _USUAL * (p.upper - value)
+    return {name: value + distances[name] / 3.0 for name, value in off.items()}

@@ -103,12 +103,12 @@ def _step(
     slope = columns.T @ residuals
     low, high = lower / unit, upper / unit
     d = np.zeros(len(unit))
-    held = ((low >= 0.0) & (slope > 0.0)) | ((high <= 0.0) & (slope < 0.0))
+    at_bound = ((low >= 0.0) & (slope > 0.0)) | ((high <= 0.0) & (slope < 0.0))
     for _ in range(3 * len(unit) + 3):
-        free = ~held
+        free = ~at_bound
         if np.any(free):
             wanted = d.copy()
-            right = -slope[free] - normal[np.ix_(free, held)] @ d[held]
+            right = -slope[free] - normal[np.ix_(free, at_bound)] @ d[at_bound]
             wanted[free] = np.linalg.solve(normal[np.ix_(free, free)], right)
             change = wanted - d
             room = np.where(change > 0.0, high - d, low - d)[free]
@@ -116,11 +116,11 @@ def _step(
             part = float(np.min(share, initial=1.0))
             d = np.clip(d + max(part, 0.0) * change, low, high)
             if part < 1.0:
-                held[np.flatnonzero(free)[np.argmin(share)]] = True
+                at_bound[np.flatnonzero(free)[np.argmin(share)]] = True
                 continue
         pull = normal @ d + slope  # at an active bound it must point out of the box
-        inward = held & np.where(d <= low, pull < 0.0, np.where(d >= high, pull > 0.0, True))
+        inward = at_bound & np.where(d <= low, pull < 0.0, np.where(d >= high, pull > 0.0, True))
         if not np.any(inward):
             break
-        held[np.argmax(np.where(inward, np.abs(pull), -1.0))] = False
+        at_bound[np.argmax(np.where(inward, np.abs(pull), -1.0))] = False
     return d * unit

@@ -28,7 +28,7 @@ _UNSURE = 5.0  # times the median uncertainty and
 _JUMP = 0.05  # times the speed of the neighbouring rows.
 _STILL = 0.25  # speed over that of both neighbours, below which the motion turns
 _SUDDEN = 4.0  # change of velocity over the changes before and after, above which it is a jump
-_NEW_LEVEL = 0.05  # change of the held quantity from row to row, share of its range
+_NEW_LEVEL = 0.05  # change of the constant quantity from row to row, share of its range
 _FORGOTTEN = 0.15  # travel after which friction no longer depends on the history, share of the swept range
 _PAUSE = 3.0  # time step over the median one, above which the recording paused
 _FEW = 0.1  # largest share of rows with jumps; above, the velocity is simply noisy
@@ -197,22 +197,22 @@ def _pauses(time: np.ndarray, group: np.ndarray) -> np.ndarray:
 def _unknown_history(measurement: Measurement, length: np.ndarray | None) -> np.ndarray:
     """Mask of the rows after a break whose friction still depends on the unrecorded motion in the break.
 
-    A break is a pause between groups, or a jump of the held quantity. The state of friction after it is
+    A break is a pause between groups, or a jump of the constant quantity. The state of friction after it is
     known only after some travel. A record is assumed to begin at rest, except in isotonic measurements: there
     the muscle was filled before the record to carry its load.
     """
     columns, rows = measurement.columns, np.zeros(measurement.rows, bool)
-    quantities = {  # the held and the swept quantity
+    quantities = {  # the constant and the swept quantity
         "isobaric": (columns.get("pressure"), length),
         "isometric": (length, columns.get("pressure")),
         "isotonic": (columns.get("force"), columns.get("pressure")),
     }
-    held, swept = quantities.get(measurement.kind, (None, None))
+    constant, swept = quantities.get(measurement.kind, (None, None))
     if swept is None or "time" not in columns or measurement.rows < 3:
         return rows
     breaks = _pauses(columns["time"], columns["group"])
-    if held is not None:
-        jumps = np.abs(np.diff(held)) > _NEW_LEVEL * max(np.ptp(held), 0.2 * np.max(np.abs(held)))
+    if constant is not None:
+        jumps = np.abs(np.diff(constant)) > _NEW_LEVEL * max(np.ptp(constant), 0.2 * np.max(np.abs(constant)))
         breaks |= jumps & (np.diff(columns["group"]) != 0)
     edges = [*(np.flatnonzero(breaks) + 1), measurement.rows]
     if measurement.kind == "isotonic":

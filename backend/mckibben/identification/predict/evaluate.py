@@ -58,7 +58,7 @@ class Evaluation:
         effects = sorted_effects(fit_model.effects)
         memory = any(map(remembers, effects))
         inner = [name for name in names if name != LOAD]
-        inner += sorted({state for own in moved.values() for state in own})
+        inner += sorted({state for rates in moved.values() for state in rates})
         few = len(self.task.measured) <= _FEW_ROWS
         gradient_by = _derivatives(effects, inner, memory) if few else tuple(inner)
         compiled = compiled_state(effects, gradient_by, memory=memory, quick=True)
@@ -77,8 +77,8 @@ class Evaluation:
         for column, name in enumerate(names):
             if name != LOAD:
                 gradient[:, column] = total[inner.index(name)]
-            for own, rate in moved.get(name, {}).items():
-                gradient[:, column] += total[inner.index(own)] * rate
+            for state_name, rate in moved.get(name, {}).items():
+                gradient[:, column] += total[inner.index(state_name)] * rate
         return out, gradient
 
 

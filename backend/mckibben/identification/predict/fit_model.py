@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -44,7 +43,7 @@ class FitModel:
     assumed: frozenset[str] = frozenset()
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "values", {name: dict(own) for name, own in dict(self.values).items()})
+        object.__setattr__(self, "values", {name: dict(inner) for name, inner in dict(self.values).items()})
 
     def number(self, name: str) -> float:
         """The value with this name."""
@@ -57,8 +56,8 @@ class FitModel:
 
     def with_numbers(self, names: Sequence[str], numbers: Sequence[float] | np.ndarray) -> FitModel:
         """The same model with some values replaced."""
-        values = {effect: dict(own) for effect, own in self.values.items()}
-        geometry: dict[str, Any] = {}
+        values = {effect: dict(inner) for effect, inner in self.values.items()}
+        geometry: dict[str, float] = {}
         load = self.load
         for name, number in zip(names, numbers, strict=True):
             if name == LOAD:
@@ -94,7 +93,7 @@ class FitModel:
             self,
             muscle=self.muscle._replace(**dict.fromkeys(idle, 0.0)),
             effects=effects,
-            values={name: own for name, own in self.values.items() if name != effect_id},
+            values={name: parameters for name, parameters in self.values.items() if name != effect_id},
             assumed=self.assumed - idle,
         )
 

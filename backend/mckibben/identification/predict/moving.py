@@ -82,8 +82,8 @@ class TransientPredictor(Predictor):
         columns = measurement.columns
         self.kind = measurement.kind
         self.commanded = "command" in columns
-        found = _channels(measurement, drive, commanded=self.commanded)
-        if not found:
+        recorded = _channels(measurement, drive, commanded=self.commanded)
+        if not recorded:
             raise InputError(
                 f"{measurement.name}: a transient without a command column needs a displacement",
                 field="displacement",
@@ -109,31 +109,31 @@ class TransientPredictor(Predictor):
         self.excluded = dict(measurement.exclusions)
         if between := int(np.count_nonzero(measurement.usable)) - count:
             self.excluded[f"in between ({_MOST_ROWS} rows of each run are compared, evenly spread)"] = between
-        for number, (name, unit, values) in enumerate(found):
+        for number, (name, unit, values) in enumerate(recorded):
             sweeps = [np.flatnonzero(labels == label) for label in np.unique(labels)]
             full_scale = float(np.max(np.abs(values)))
             noise = noise_floor(values, sweeps) or 1e-3 * full_scale
             place = slice(number * count, (number + 1) * count)
             channels.append(PredictedChannel(name, unit, place, max(noise, 1e-6 * full_scale), full_scale))
         self.channels = tuple(channels)
-        self.measured = np.concatenate([values[rows] for _, _, values in found])
-        several = len(found) > 1
+        self.measured = np.concatenate([values[rows] for _, _, values in recorded])
+        several = len(recorded) > 1
         self.scale = np.concatenate(
             [np.full(count, channel.noise if several else 1.0) for channel in self.channels]
         )
         per_record = [np.full(len(record.rows), n) for n, record in enumerate(self._records)]
-        self.records = np.tile(np.concatenate(per_record), len(found)) + np.repeat(
-            len(self._records) * np.arange(len(found)), count
+        self.records = np.tile(np.concatenate(per_record), len(recorded)) + np.repeat(
+            len(self._records) * np.arange(len(recorded)), count
         )
         self.groups = self.records
         self.sweeps = [np.flatnonzero(self.records == label) for label in np.unique(self.records)]
-        self.folds = (_blocks(self._records, len(found)),)
+        self.folds = (_blocks(self._records, len(recorded)),)
         time = np.concatenate([record.time for record in self._records])
         others = {name: columns[name][rows] for name in ("pressure", "command") if name in columns}
         stroke = _stroke(measurement, drive)
         if stroke is not None:
             others |= {"displacement": stroke[rows], "velocity": -np.gradient(stroke, columns["time"])[rows]}
-        self.inputs = {name: np.tile(v, len(found)) for name, v in {"time": time, **others}.items()}
+        self.inputs = {name: np.tile(v, len(recorded)) for name, v in {"time": time, **others}.items()}
         self._wide: tuple[Effect, ...] = ()
 
     def why_hidden(self, effect: Effect) -> str:

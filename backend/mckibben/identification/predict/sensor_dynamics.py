@@ -83,11 +83,11 @@ def _constants(effect: Effect, values: Mapping[str, float]) -> list[float]:
 def _filtered(time: np.ndarray, signal: np.ndarray, constants: Sequence[float]) -> np.ndarray:
     """The signal after all stages; equal time constants are shifted by a negligible amount."""
     apart = [constant * (1.0 + _APART * number) for number, constant in enumerate(constants)]
-    weights = [np.prod([own / (own - other) for other in apart if other != own]) for own in apart]
-    shown = np.zeros_like(signal)
-    for weight, own in zip(weights, apart, strict=True):
-        shown += weight * _lagged(time, signal, own)
-    return shown
+    weights = [np.prod([tau / (tau - other) for other in apart if other != tau]) for tau in apart]
+    reading = np.zeros_like(signal)
+    for weight, tau in zip(weights, apart, strict=True):
+        reading += weight * _lagged(time, signal, tau)
+    return reading
 
 
 def _lagged(time: np.ndarray, signal: np.ndarray, constant: float) -> np.ndarray:

@@ -62,19 +62,19 @@ def _beside_planes(
     return float(np.sqrt(np.median(squares) / CHI2_MEDIAN))
 
 
-def noise_of(predictor: Predictor, residual: np.ndarray, given: float | None) -> tuple[float | None, str]:
+def noise_of(predictor: Predictor, residual: np.ndarray, stated: float | None) -> tuple[float | None, str]:
     """Noise of a scaled residual and how it was obtained; None when it cannot be estimated.
 
     Args:
         predictor: the data.
         residual: over the scale, shape (values,).
-        given: noise of the single channel as stated by the user [SI].
+        stated: noise of the single channel as stated by the user [SI].
     """
     first, *others = predictor.channels
     if others:
         return 1.0, "third differences of each channel"
-    if given is not None:
-        return given, "given"
+    if stated is not None:
+        return stated, "given"
     value, how = channel_noise(predictor, residual, first)
     if value is None:
         return None, "the sweeps are too short for an estimate"

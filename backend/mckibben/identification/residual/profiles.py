@@ -110,7 +110,7 @@ def _profile(name: str, residual: np.ndarray, values: np.ndarray, folds: np.ndar
 def _range(name: str, low: float, high: float) -> str:
     words, factor, unit, digits = SHOWN[name]
     if name == "direction":
-        return {-1.0: "shortening", 0.0: "held", 1.0: "lengthening"}.get(low, "unknown")
+        return {-1.0: "shortening", 0.0: "at rest", 1.0: "lengthening"}.get(low, "unknown")
     first, last = f"{low * factor:.{digits}f}", f"{high * factor:.{digits}f}"
     text = first if first == last else f"{first} to {last}"
     return f"{words} {text} {unit}".strip()

@@ -151,15 +151,15 @@ def _steps(values: np.ndarray) -> float:
     return float(len(np.unique(np.rint(_FINEST * (values - low) / span))))
 
 
-def _library(given: Mapping[str, np.ndarray]) -> Iterator[tuple[Sequence[str], list[np.ndarray]]]:
+def _library(symbols: Mapping[str, np.ndarray]) -> Iterator[tuple[Sequence[str], list[np.ndarray]]]:
     """Products as (texts, columns); a sine has two columns, so that its phase is free."""
-    if not given:
+    if not symbols:
         return
-    shapes: list[tuple[list[str], list[np.ndarray]]] = [(["1"], [np.ones(len(next(iter(given.values()))))])]
+    shapes: list[tuple[list[str], list[np.ndarray]]] = [(["1"], [np.ones(len(next(iter(symbols.values()))))])]
     for symbol in ("kappa", "P", "t", "v"):
-        if symbol not in given:
+        if symbol not in symbols:
             continue
-        x = given[symbol]
+        x = symbols[symbol]
         powers: tuple[tuple[str, Callable[[np.ndarray], np.ndarray]], ...] = (
             (symbol, lambda x: x),
             (f"{symbol}**2", lambda x: x**2),
@@ -187,14 +187,14 @@ def _library(given: Mapping[str, np.ndarray]) -> Iterator[tuple[Sequence[str], l
                 text = f"exp(-(({symbol} - {middle:g})/{scale:g})**2)"
                 shapes.append(([text], [np.exp(-(((x - middle) / scale) ** 2))]))
     factors: list[tuple[str, np.ndarray | float]] = [("", 1.0)]
-    if "P" in given:
-        factors.append(("P", given["P"]))
-    if "s" in given:
-        factors.append(("sign(v)", given["s"]))
-        if "P" in given:
-            factors.append(("sign(v)*P", given["s"] * given["P"]))
-    if "v" in given:
-        factors.append(("v", given["v"]))
+    if "P" in symbols:
+        factors.append(("P", symbols["P"]))
+    if "s" in symbols:
+        factors.append(("sign(v)", symbols["s"]))
+        if "P" in symbols:
+            factors.append(("sign(v)*P", symbols["s"] * symbols["P"]))
+    if "v" in symbols:
+        factors.append(("v", symbols["v"]))
     for texts, columns in shapes:
         for text, factor in factors:
             if text and text == texts[0]:

@@ -108,10 +108,13 @@ EFFECT = Effect(
         energy="conservative",
     ),
     confused_with=(
-        Twin("prestress", "lengths near the nominal one: the prestress is there already, the bladder is not"),
-        Twin("linear_elasticity", "contractions beyond 10 %: linear goes on rising, the bladder saturates"),
+        Twin("prestress", "lengths near the nominal length: there the prestress acts, the bladder does not"),
+        Twin(
+            "linear_elasticity",
+            "contractions beyond 10 %: a linear spring keeps rising, the bladder saturates",
+        ),
         Twin("threshold_pressure", "force over pressure at several lengths: the intercept grows"),
-        Twin("contraction_factor", "several pressures: the factor's share grows with pressure"),
+        Twin("contraction_factor", "several pressures: the effect of the factor grows with pressure"),
     ),
     references=(
         Source("Yeoh, Rubber Chem. Technol. 66 (1993) 754; Gent, ibid. 69 (1996) 59", "M"),

@@ -24,13 +24,13 @@ _LEAST_SHARE = 1e-6
 def tension(*, length: Value, muscle: Muscle, stiffness: Value, lock_angle: Value, exponent: Value) -> Value:
     """-k_l d (d/d_r)^(m-1) with d = max(b cos(theta_max) - L, 0) [N]; never positive."""
     lock_length = muscle.braid.thread_length * ops.cos(lock_angle)
-    way = ops.positive_part(lock_length - length)
-    share = ops.maximum(way / (REFERENCE_SHARE * muscle.nominal_length), _LEAST_SHARE)
-    return -stiffness * way * share ** (exponent - 1.0)
+    travel = ops.positive_part(lock_length - length)
+    share = ops.maximum(travel / (REFERENCE_SHARE * muscle.nominal_length), _LEAST_SHARE)
+    return -stiffness * travel * share ** (exponent - 1.0)
 
 
 _DAVIS = Source("Davis & Caldwell, Int. J. Robotics Res. 25 (2006) 359", "M")
-_DEFINITION = Source("stiffness times the way beyond b cos(theta_max), by hand", "D")
+_DEFINITION = Source("stiffness times the travel beyond b cos(theta_max), by hand", "D")
 _POWER_BY_HAND = Source("302.06009 * 3.0206009^0.5: 1 % of 100 mm is 1 mm", "D")
 _SIZE_10 = {"nominal_length": 0.1, "braid_diameter": 0.01, "braid_angle": 0.4363323129985824}
 

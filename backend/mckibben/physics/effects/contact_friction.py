@@ -52,8 +52,8 @@ EFFECT = Effect(
     title="Contact friction (Tondu)",
     family="friction",
     type="rate",
-    cause="Strand rubs on strand all over the braid, pressed together by the gas. The area in contact "
-    "follows the braid angle, and the coefficient follows the speed.",
+    cause="The gas presses the strands of the braid together, and they rub on each other. The area in "
+    "contact follows the braid angle, and the coefficient follows the speed.",
     equation=r"F_{fr} = \left[f_k+(f_s-f_k)e^{-|\dot L|/v_s}\right] P\,"
     r"\pi D_0L_0\frac{\sin 2\theta_0}{\sin 2\theta}\,\operatorname{sgn}\dot L",
     parameters=(

@@ -71,7 +71,7 @@ EFFECT = Effect(
     title="Contraction factor of the ends (Tondu k)",
     family="geometry",
     type="static",
-    cause="Towards its fittings the muscle is conical and takes no part in the contraction. The cylindrical "
+    cause="Near its fittings the muscle is conical and does not contract. The cylindrical "
     "middle therefore contracts k times as much as the muscle as a whole.",
     equation=r"F = P A_0\left[\frac{3}{\tan^2\theta_0}(1-k_P\varepsilon)^2 - \frac{1}{\sin^2\theta_0}\right]"
     r",\quad k_P = k + a_k e^{-P/P_k}",
@@ -95,7 +95,7 @@ EFFECT = Effect(
             default=0.0,
             lower=0.0,
             upper=1.0,
-            source=Source("0.02-0.3 beside an elastic bladder, more where it stands for the bladder", "E"),
+            source=Source("0.02-0.3 with a bladder in the model, more without one", "E"),
             description="Excess of the factor at low pressure; 0 is the same factor at every pressure.",
             off=0.0,
             fitted=False,

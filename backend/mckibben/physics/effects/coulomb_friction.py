@@ -32,7 +32,8 @@ EFFECT = Effect(
     family="friction",
     type="static",
     cause="The threads rub on each other and on the bladder when the braid angle changes. The friction "
-    "opposes the motion with a constant force, so lengthening takes more and shortening gives less.",
+    "opposes the motion with a constant force, so the muscle pulls harder while lengthening than while "
+    "shortening.",
     equation=r"F_{fr} = F_c\left[1+s\,e^{-|\dot L|/v_s}\right]\operatorname{sgn}\dot L",
     parameters=(
         Parameter(

@@ -1,13 +1,13 @@
-r"""Creep and relaxation of the elastomer: three Maxwell arms, a decade apart in time, beside the wall.
+r"""Creep and relaxation of the elastomer: three Maxwell arms parallel to the wall, a decade apart in time.
 
 With the extension :math:`d_j` of the spring in arm j from its relaxed length,
 
 .. math:: F = k\,\frac{\sum_j s_j^{-\alpha} d_j}{\sum_j s_j^{-\alpha}}, \qquad
    \dot d_j = \dot L - \frac{d_j}{s_j\tau}, \qquad s_j = \frac{1}{s},\ 1,\ s
 
-Slow motion adds no force, fast motion adds the stiffness k. With a spread s of 10 a step relaxes nearly with
-the logarithm of time for :math:`\alpha = 0`, with a power of time for :math:`\alpha > 0`; a spread of 1 is
-one arm.
+Slow motion adds no force, fast motion adds the stiffness k. With a spread s of 10 the force after a step
+relaxes nearly with the logarithm of time for :math:`\alpha = 0`, with a power of time for
+:math:`\alpha > 0`; a spread of 1 is one arm.
 """
 
 from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
@@ -40,8 +40,8 @@ EFFECT = Effect(
     title="Creep and relaxation",
     family="elastomer",
     type="dynamic",
-    cause="Rubber flows back slowly after it was stretched. Held at a length the force drifts, and under a "
-    "constant load and pressure the muscle goes on shortening for seconds to minutes.",
+    cause="Rubber relaxes slowly after it was stretched. At a constant length the force drifts; under a "
+    "constant load and pressure the muscle keeps shortening for seconds to minutes.",
     equation=r"F_{ve} = k\,\frac{\sum_j s_j^{-\alpha} d_j}{\sum_j s_j^{-\alpha}},\quad "
     r"\dot d_j = \dot L-\frac{d_j}{s_j\tau},\quad s_j = \frac{1}{s},\,1,\,s",
     parameters=(
@@ -87,7 +87,8 @@ EFFECT = Effect(
             lower=-0.3,
             upper=0.8,
             source=Source(
-                "relaxation of filled rubber with a power of time, exponents of some 0.01 to some 0.1", "E"
+                "relaxation of filled rubber with a power of time, exponents from about 0.01 to a few 0.1",
+                "E",
             ),
             description="Larger weight of the faster arms: weights with the power -alpha of their times.",
             fitted=False,

@@ -35,8 +35,8 @@ EFFECT = Effect(
     title="Dahl friction",
     family="friction",
     type="hysteretic",
-    cause="Threads that touch first shear elastically before they slide. The friction therefore turns over "
-    "smoothly at a reversal, over a short travel of the muscle.",
+    cause="Threads in contact shear elastically before they slide. After a reversal the friction therefore "
+    "changes sign smoothly, over a short travel of the muscle.",
     equation=r"F_{h} = F_c\,z,\quad \dot z = \frac{\dot L-|\dot L|\,z}{\varepsilon_b L_0}",
     parameters=(
         Parameter(
@@ -75,9 +75,9 @@ EFFECT = Effect(
     confused_with=(
         Twin("coulomb_friction", "the corners of a loop: Coulomb friction jumps at the reversal"),
         Twin("maxwell_slip", "loops within a loop: only Maxwell slip closes them"),
-        Twin("bouc_wen", "the branch after a reversal at fine steps; the shapes are close relatives"),
+        Twin("bouc_wen", "the branch after a reversal at fine steps; the shapes are very similar"),
         Twin("viscous_damping", "three speeds over two decades: Dahl friction does not change"),
-        Twin("pressure_hysteresis", "a pressure loop at constant length: Dahl friction shows nothing"),
+        Twin("pressure_hysteresis", "a pressure loop at constant length: Dahl friction shows no loop"),
     ),
     references=(_DAHL,),
     examples=(

@@ -43,7 +43,9 @@ EFFECT = Effect(
         energy="conservative",
     ),
     confused_with=(
-        Twin("flow_coefficient", "a rigid vessel of known volume for the muscle: only volume over C shows"),
+        Twin(
+            "flow_coefficient", "a rigid vessel of known volume in place of the muscle gives the conductance"
+        ),
         Twin("tube_resistance", "a second pressure sensor at the valve"),
         Twin("heat_exchange", "close the valve and hold the length: dead volume does not drift"),
     ),

@@ -30,8 +30,8 @@ EFFECT = Effect(
     title="Effectiveness",
     family="geometry",
     type="static",
-    cause="Ends, bladder and braid take a share of the work of the gas. As long as the causes are not known "
-    "one by one, their sum is written as a ratio of real to ideal force.",
+    cause="Ends, bladder and braid take up part of the work of the gas. While the single causes are unknown, "
+    "their sum is described by the ratio of real to ideal force.",
     equation=r"F = E\,\max\left(1-\frac{P_0}{P},\,0\right) F_{ideal}",
     parameters=(
         Parameter(

@@ -43,7 +43,7 @@ EFFECT = Effect(
         energy="dissipative",
     ),
     confused_with=(
-        Twin("dead_volume", "a rigid vessel of known volume for the muscle: only volume over C shows"),
+        Twin("dead_volume", "a rigid vessel of known volume in place of the muscle gives the conductance"),
         Twin("exhaust_restriction", "filling and venting: a restricted exhaust slows venting alone"),
         Twin("tube_resistance", "a second pressure sensor at the valve"),
         Twin("supply_droop", "log the supply pressure"),

@@ -49,7 +49,7 @@ EFFECT = Effect(
             "prestress", "read the force sensor with the muscle removed; no muscle test can tell them apart"
         ),
         Twin("coulomb_friction", "both directions: friction changes sign, an offset does not"),
-        Twin("pressure_offset", "lengths near the one without force: there a pressure offset vanishes"),
+        Twin("pressure_offset", "lengths near the zero-force length: there a pressure offset vanishes"),
     ),
     references=(Source("definition of a zero error", "D"),),
     examples=(

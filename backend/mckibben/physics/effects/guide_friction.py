@@ -38,8 +38,8 @@ EFFECT = Effect(
     title="Friction of the guide",
     family="friction",
     type="rate",
-    cause="The carriage, its seals and the pulleys rub while the load moves. The load feels less than the "
-    "muscle gives on the way up, and the muscle has to hold less on the way down.",
+    cause="The carriage, its seals and the pulleys rub while the load moves. On the way up the load "
+    "receives less force than the muscle exerts; on the way down the muscle has to hold less.",
     equation=r"F_g = F_{cg}\,z + c_g\,\dot s,\quad x_g\,\dot z = \dot s - "
     r"\frac{|\dot s|\,z}{1+\varsigma\,e^{-|\dot s|/v_s}}",
     parameters=(
@@ -96,17 +96,21 @@ EFFECT = Effect(
             default=5e-5,
             lower=2e-6,
             upper=2e-3,
-            source=Source("presliding of rolling and plain guides, some 1 to some 100 micrometres", "E"),
+            source=Source("presliding of rolling and plain guides, 1 to several 100 micrometres", "E"),
             description="Travel over which the friction builds up after a reversal; over a shorter travel "
             "the guide acts like a spring.",
             fitted=False,
         ),
     ),
     slots={"guide": guide, "drive_rates": drive_rates},
-    states=(StateVariable("presliding", "z", "1", 1.0, "Share of the friction that the guide gives."),),
+    states=(
+        StateVariable(
+            "presliding", "z", "1", 1.0, "Present friction as a share of the friction at high speed."
+        ),
+    ),
     kinds=frozenset({"isotonic", "transient"}),
     signature=Signature(
-        text="a dead width of the load, the same at every pressure, not seen by a force sensor at the muscle",
+        text="a dead band of the load, the same at every pressure, invisible to a force sensor at the muscle",
         direction=None,
         pressure_power=None,
         zero_at=(),
@@ -114,7 +118,7 @@ EFFECT = Effect(
     ),
     confused_with=(
         Twin(
-            "coulomb_friction", "a dummy spring for the muscle, or force sensors on both sides of the guide"
+            "coulomb_friction", "a spring in place of the muscle, or force sensors on both sides of the guide"
         ),
         Twin("viscous_damping", "force sensors on both sides of the guide"),
     ),

@@ -31,8 +31,8 @@ EFFECT = Effect(
     title="Heat exchange with the wall",
     family="gas",
     type="dynamic",
-    cause="Filling warms the gas and venting cools it, and the wall takes the difference away within a "
-    "second or so. After a fast fill with the valve closed the pressure therefore drops again.",
+    cause="Filling warms the gas and venting cools it, and the wall equalises the temperature within about a "
+    "second. After a fast fill with the valve closed the pressure therefore drops again.",
     equation=r"\dot Q = h\,(\pi D L + \tfrac{\pi}{2} D^2)\,(T_w-T)",
     parameters=(
         Parameter(
@@ -57,7 +57,7 @@ EFFECT = Effect(
         energy="dissipative",
     ),
     confused_with=(
-        Twin("leak", "close the valve and wait: heat exchange ends at an asymptote, a leak goes on"),
+        Twin("leak", "close the valve and wait: heat exchange ends at an asymptote, a leak continues"),
         Twin("creep", "log the pressure: creep changes the length, not the pressure"),
         Twin("flow_coefficient", "filling and venting: a conductance leaves no drift afterwards"),
     ),

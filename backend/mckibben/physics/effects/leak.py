@@ -102,7 +102,9 @@ EFFECT = Effect(
         energy="dissipative",
     ),
     confused_with=(
-        Twin("heat_exchange", "close the valve and wait: heat exchange ends at an asymptote, a leak goes on"),
+        Twin(
+            "heat_exchange", "close the valve and wait: heat exchange ends at an asymptote, a leak continues"
+        ),
         Twin("creep", "log the pressure: it falls with a leak and stays with creep"),
         Twin("valve_deadband", "close off the muscle by a tap instead of the valve"),
     ),

@@ -50,8 +50,11 @@ EFFECT = Effect(
         energy="conservative",
     ),
     confused_with=(
-        Twin("bladder_elasticity", "contractions beyond 10 %: linear goes on rising, the bladder saturates"),
-        Twin("contraction_factor", "several pressures: the factor's share grows with pressure"),
+        Twin(
+            "bladder_elasticity",
+            "contractions beyond 10 %: a linear spring keeps rising, the bladder saturates",
+        ),
+        Twin("contraction_factor", "several pressures: the effect of the factor grows with pressure"),
         Twin("end_caps", "several pressures: the share of the ends grows with pressure"),
         Twin("creep", "two speeds: elasticity has no rate"),
     ),

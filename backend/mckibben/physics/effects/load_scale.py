@@ -17,7 +17,7 @@ EFFECT = Effect(
     title="Scale of the load",
     family="load",
     type="static",
-    cause="Hooks, cords and the real inclination make the load heavier or lighter than noted. The muscle "
+    cause="Hooks, cords and the real inclination make the load heavier or lighter than stated. The muscle "
     "then rests at another length and moves with another acceleration.",
     equation=r"M' = f_M M,\quad F_{ext}' = f_M F_{ext}",
     parameters=(

@@ -38,7 +38,7 @@ EFFECT = Effect(
     title="Mullins effect (run-in)",
     family="elastomer",
     type="hysteretic",
-    cause="The first stretch breaks bonds between rubber and filler that do not come back for hours. A fresh "
+    cause="The first stretch breaks bonds between rubber and filler that recover only over hours. A fresh "
     "muscle is stiffer in its first cycles, until it has been contracted as far as it is used.",
     equation=r"F_{el}\left[1-d\left(1-e^{-(\varepsilon_m-\varepsilon)/\varepsilon_c}\right)\right],\quad "
     r"\varepsilon_m = \max_{t'\le t}\varepsilon(t')",
@@ -70,7 +70,8 @@ EFFECT = Effect(
     states=(StateVariable("largest", r"\varepsilon_m", "1", 0.1, "Largest contraction seen."),),
     kinds=frozenset({"isobaric", "isotonic", "transient"}),
     signature=Signature(
-        text="the first cycle differs from all later ones; it comes back only beyond the largest contraction",
+        text="the first cycle differs from all later ones; the lost stiffness returns only beyond the "
+        "largest contraction so far",
         direction=None,
         pressure_power=0.0,
         zero_at=("no_motion",),
@@ -78,9 +79,7 @@ EFFECT = Effect(
     ),
     confused_with=(
         Twin("creep", "wait ten minutes and repeat: creep recovers, the first-cycle loss does not"),
-        Twin(
-            "temperature", "let the muscle cool: warmth comes back with work, the first-cycle loss does not"
-        ),
+        Twin("temperature", "let the muscle cool: heating returns with work, the first-cycle loss does not"),
         Twin("bladder_elasticity", "compare the first cycle with the third"),
     ),
     references=(_OGDEN, Source("Mullins, Rubber Chem. Technol. 42 (1969) 339", "M")),

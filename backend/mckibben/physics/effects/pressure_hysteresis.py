@@ -40,8 +40,8 @@ EFFECT = Effect(
     title="Pressure-driven hysteresis",
     family="friction",
     type="hysteretic",
-    cause="The pressure strains the threads and presses them together, so that they slip a little even when "
-    "the length is held. The force on filling is then lower than on venting at the same pressure.",
+    cause="The pressure strains the threads and presses them together, so that they slip a little even at "
+    "constant length. The force on filling is then lower than on venting at the same pressure.",
     equation=r"F_{h} = -F_p\,(1-a+a\,A_+/A_0)\,z,\quad \dot z = \frac{\dot P-|\dot P|\,z}{P_b}",
     parameters=(
         Parameter(

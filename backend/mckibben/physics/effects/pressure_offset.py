@@ -52,8 +52,8 @@ EFFECT = Effect(
     ),
     confused_with=(
         Twin("threshold_pressure", "vent to the atmosphere and read the pressure sensor"),
-        Twin("prestress", "lengths near the one without force: there the offset vanishes"),
-        Twin("force_offset", "lengths near the one without force: there a pressure offset vanishes"),
+        Twin("prestress", "lengths near the zero-force length: there the offset vanishes"),
+        Twin("force_offset", "lengths near the zero-force length: there a pressure offset vanishes"),
         Twin("bladder_elasticity", "vent and read; the bladder's share grows with contraction"),
     ),
     references=(Source("definition of a zero error", "D"),),

@@ -1,7 +1,6 @@
-r"""Prestress: a constant tension at every length and pressure, from a bladder of the wrong length.
+r"""Prestress: a constant tension at every length and pressure; bladder and braid differ in rest length.
 
-It is shorter or longer than the braid at rest. The tension belongs to the elastomer, and changes with its
-temperature.
+The tension belongs to the elastomer, so it changes with the temperature of the wall.
 """
 
 from mckibben.physics.effect import Effect, Example, Signature, Twin
@@ -53,8 +52,11 @@ EFFECT = Effect(
             "read the force sensor with the muscle removed; no muscle test can tell them apart",
         ),
         Twin("coulomb_friction", "both directions: friction changes sign, the prestress does not"),
-        Twin("threshold_pressure", "lengths near the one without force: there the threshold vanishes"),
-        Twin("bladder_elasticity", "lengths near the nominal one: the prestress is there already"),
+        Twin("threshold_pressure", "lengths near the zero-force length: there the threshold vanishes"),
+        Twin(
+            "bladder_elasticity",
+            "lengths near the nominal length: there the prestress acts, the bladder does not",
+        ),
     ),
     references=(Source("Martens & Boblan, Actuators 6(4):33 (2017), doi 10.3390/act6040033", "S2"),),
     examples=(

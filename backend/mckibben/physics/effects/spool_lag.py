@@ -34,8 +34,8 @@ EFFECT = Effect(
     title="Spool dynamics",
     family="valve",
     type="dynamic",
-    cause="The spool has a mass and is moved by a spring and a limited magnet. Its opening follows the "
-    "command late, and hardly at all above its natural frequency.",
+    cause="The spool has a mass and is moved by a spring and a magnet of limited force. Its opening "
+    "lags behind the command, and hardly moves above its natural frequency.",
     equation=r"\tau^2\,\ddot x + 2\zeta\tau\,\dot x + x = u,\quad \tau = \frac{1}{2\pi f_n}",
     parameters=(
         Parameter(

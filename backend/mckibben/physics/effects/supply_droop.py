@@ -43,7 +43,7 @@ EFFECT = Effect(
     family="supply",
     type="dynamic",
     cause="The pressure regulator and the line before the valve pass a limited flow. While the muscle fills, "
-    "the supply pressure falls and takes a while to come back.",
+    "the supply pressure falls and recovers slowly.",
     equation=r"p_s = p_{s,0}-d,\quad "
     r"\tau\,\dot d = R\,\frac{\dot m}{\rho_0}-d\left(\frac{d}{d_1}\right)^{m-1}",
     parameters=(

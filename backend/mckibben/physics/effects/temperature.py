@@ -22,7 +22,7 @@ EFFECT = Effect(
     title="Temperature of the elastomer",
     family="elastomer",
     type="static",
-    cause="The modulus of rubber depends on its temperature, and a muscle that works warms its wall. The "
+    cause="The modulus of rubber depends on its temperature, and a working muscle warms its wall. The "
     "elastic share of the force then drifts over minutes.",
     equation=r"F_{el}(T) = \left[1+\beta\,(T-T_0)\right] F_{el}",
     parameters=(
@@ -60,7 +60,7 @@ EFFECT = Effect(
     ),
     confused_with=(
         Twin("creep", "log the temperature; warm the resting muscle without pressure"),
-        Twin("mullins", "let the muscle cool: warmth comes back with work, the first-cycle loss does not"),
+        Twin("mullins", "let the muscle cool: heating returns with work, the first-cycle loss does not"),
         Twin("bladder_elasticity", "the same test at two temperatures"),
         Twin("force_offset", "read the force sensor with the muscle removed, cold and warm"),
     ),

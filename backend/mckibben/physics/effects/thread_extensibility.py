@@ -66,7 +66,7 @@ EFFECT = Effect(
     confused_with=(
         Twin("rig_compliance", "diameter against pressure at constant length, or a rigid rod for the muscle"),
         Twin("pressure_scale", "a pressure calibrator at several pressures"),
-        Twin("creep", "hold the pressure: thread stretch does not go on"),
+        Twin("creep", "hold the pressure: the stretch of the threads does not increase"),
     ),
     references=(_DAVIS,),
     examples=(

@@ -1,4 +1,4 @@
-r"""Threshold pressure: the gas first has to widen the bladder until it touches the braid.
+r"""Threshold pressure: the gas must first widen the bladder until it touches the braid.
 
 A thin tube of modulus E, wall H and inner radius :math:`r_i` reaches a braid of radius :math:`r_b` at
 :math:`P_{th} \approx E H (r_b-r_i)/r_i^2`. The work of the gas below contact is not modelled, so the law is
@@ -56,7 +56,7 @@ EFFECT = Effect(
             "bladder_elasticity", "force against pressure at several lengths: the bladder's intercept grows"
         ),
         Twin("effectiveness", "force against pressure: the intercept changes, or the slope"),
-        Twin("prestress", "lengths near the one without force: there the threshold vanishes"),
+        Twin("prestress", "lengths near the zero-force length: there the threshold vanishes"),
     ),
     references=(
         Source("Colbrunn, Nelson & Quinn, IEEE/RSJ IROS (2001)", "M"),

@@ -48,8 +48,8 @@ EFFECT = Effect(
     ),
     confused_with=(
         Twin("sensor_lag", "steps: a skew shifts the edge, a lag rounds it"),
-        Twin("viscous_damping", "a tap that shows in all channels at once"),
-        Twin("valve_delay", "a tap that shows in all channels at once"),
+        Twin("viscous_damping", "a tap on the rig that every channel records"),
+        Twin("valve_delay", "a tap on the rig that every channel records"),
     ),
     references=(Source("definition of a skew", "D"),),
     examples=(Example("slot:skew", -0.01, 1e-12, _DEFINITION, {"delay": -0.01}, {}, {}),),

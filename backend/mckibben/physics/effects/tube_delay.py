@@ -47,7 +47,7 @@ EFFECT = Effect(
     ),
     confused_with=(
         Twin("valve_delay", "a pressure sensor at the port of the valve, or two lengths of the tube"),
-        Twin("tube_resistance", "a small step: the delay stays, the pressure difference goes"),
+        Twin("tube_resistance", "a small step: the delay remains, the pressure difference vanishes"),
     ),
     references=(Source("Richer & Hurmuzlu, J. Dyn. Syst. Meas. Control 122 (2000) 416", "M"),),
     examples=(

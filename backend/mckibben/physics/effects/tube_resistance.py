@@ -47,7 +47,7 @@ EFFECT = Effect(
     ),
     confused_with=(
         Twin("flow_coefficient", "a second pressure sensor at the valve"),
-        Twin("tube_delay", "a small step: the delay stays, the pressure difference goes"),
+        Twin("tube_delay", "a small step: the delay remains, the pressure difference vanishes"),
         Twin("dead_volume", "a second pressure sensor at the valve"),
     ),
     references=(Source("Beater, Pneumatic Drives (2007)", "M"),),

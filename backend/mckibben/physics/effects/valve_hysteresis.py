@@ -33,8 +33,8 @@ EFFECT = Effect(
     title="Hysteresis of the valve",
     family="valve",
     type="hysteretic",
-    cause="Friction on the spool and magnetic remanence keep it behind its command. Up and down the same "
-    "command gives two openings, or two pressures of a regulator.",
+    cause="Friction on the spool and magnetic remanence keep it behind its command. The same command gives "
+    "different openings, or pressures of a regulator, when rising and when falling.",
     equation=r"\tau\,\dot y = \max(u-\tfrac{w}{2}-y,\,0)-\max(y-u-\tfrac{w}{2},\,0)",
     parameters=(
         Parameter(

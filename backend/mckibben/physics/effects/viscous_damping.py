@@ -112,7 +112,7 @@ EFFECT = Effect(
         Twin("coulomb_friction", "three speeds over two decades: Coulomb friction does not change"),
         Twin("pressure_friction", "three speeds at three pressures, crossed"),
         Twin("sensor_lag", "isometric pressure steps: without motion only the sensor lags"),
-        Twin("time_skew", "swap the channels, or a tap that shows in all of them"),
+        Twin("time_skew", "swap the channels, or a tap on the rig that every channel records"),
         Twin("creep", "a fast step: creep goes on for seconds after the motion has stopped"),
     ),
     references=(

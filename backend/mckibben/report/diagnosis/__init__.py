@@ -1,4 +1,4 @@
-"""The report of a diagnosis: data, model, error, where it fails, what is missing, and how to repeat it."""
+"""The report of a diagnosis: data, model, error, where it fails, what is missing, how to reproduce it."""
 
 from mckibben.report.command import Command
 from mckibben.report.diagnosis.material import DataSource, DiagnosisMaterial, MuscleFacts, PastModel

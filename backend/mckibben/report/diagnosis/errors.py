@@ -1,4 +1,4 @@
-"""The error of a model in figures, and where it is."""
+"""How large the error of a model is, and where it occurs."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from mckibben.report.heat import heat
 from mckibben.report.html import Child, Html, html
 from mckibben.report.marks import Axis
 
-_TOLD, _TELLING = 3, 0.05  # variables that are told in words: how many, from which share on
-#: What errors of several channels together are told in.
+_MOST_SENTENCES, _LEAST_SHARE = 3, 0.05  # variables named in sentences: how many, from which share on
+#: Unit of an error that combines several channels.
 TIMES_NOISE = Scale("× noise")
 
 
 def error_scale(answer: ComparisonResult | DiagnosisResult) -> Scale:
-    """What errors of a comparison or diagnosis are shown in."""
+    """Unit in which the errors of a comparison or diagnosis are shown."""
     if answer.unit == "1" and "," in answer.predicted:
         return TIMES_NOISE
     return variable(answer.predicted)[1] if answer.unit != "1" else Scale("")
@@ -37,29 +37,29 @@ def error_table(columns: Sequence[tuple[str, ComparisonResult]]) -> Html:
             "RMS error with whole groups left out of the fit",
             *(figure(answer.holdout_rmse, scale) for _, answer in columns),
         ],
-        ["mean of the residual", *(figure(answer.residual_mean, scale) for _, answer in columns)],
+        ["Mean of the residual", *(figure(answer.residual_mean, scale) for _, answer in columns)],
         [
-            f"noise of the data ({first.noise_how})",
+            f"Noise of the data ({first.noise_how})",
             *(figure(answer.noise_floor, scale) for _, answer in columns),
         ],
-        ["rows used", *(_rows(answer) for _, answer in columns)],
+        ["Rows used", *(_rows(answer) for _, answer in columns)],
         [
-            "does the residual look like noise?",
+            "Does the residual look like noise?",
             *("yes" if answer.whiteness.white else "no, it has structure" for _, answer in columns),
         ],
     ]
     for name in first.channels:
-        words, own = variable(name)
+        words, channel_scale = variable(name)
         rows.append(
             [
                 f"RMS error of {words}",
-                *(figure(answer.channels[name].rmse, own) for _, answer in columns),
+                *(figure(answer.channels[name].rmse, channel_scale) for _, answer in columns),
             ]
         )
         rows.append(
             [
-                f"noise of {words}",
-                *(figure(answer.channels[name].noise_floor, own) for _, answer in columns),
+                f"Noise of {words}",
+                *(figure(answer.channels[name].noise_floor, channel_scale) for _, answer in columns),
             ]
         )
     if any(answer.validation for _, answer in columns):
@@ -99,7 +99,7 @@ def _percent(value: float | None) -> Html:
 
 
 def where_it_fails(answer: ComparisonResult) -> Html:
-    """The residual over each variable as a table, over two of them as a map, and in words."""
+    """The residual over each variable: sentences, a table, and a map over two variables."""
     scale = error_scale(answer)
     rows = [
         [
@@ -111,44 +111,42 @@ def where_it_fails(answer: ComparisonResult) -> Html:
         for profile in answer.where
     ]
     columns = [
-        Head("Variable"), Head("Share of the squared error that it alone predicts", number=True),
+        Head("Variable"), Head("Share of the squared error it explains alone", number=True),
         Head("Worst range"), Head("RMS error there", number=True),
     ]  # fmt: skip
     words: list[Child] = [
         html(
-            f"{profile.worst}: ", figure(profile.rmse, scale, 3), " rms; this variable alone predicts ",
+            f"{profile.worst}: ", figure(profile.rmse, scale, 3), " rms; this variable alone explains ",
             percent(profile.share_explained), " of the squared error.",
         )
-        for profile in answer.where[:_TOLD]
-        if profile.share_explained > _TELLING
+        for profile in answer.where[:_MOST_SENTENCES]
+        if profile.share_explained > _LEAST_SHARE
     ]  # fmt: skip
     parts: list[Child] = [bullets([*words, f"{answer.sentences[-1]}."])]
     if rows:
         parts.append(table(columns, rows))
-    found = answer.heat_map
-    if found is not None:
-        (across, x_scale), (up, y_scale) = variable(found.x), variable(found.y)
-        mean = [scale.all(row) for row in found.mean]
+    heat_map = answer.heat_map
+    if heat_map is not None:
+        (across, x_scale), (up, y_scale) = variable(heat_map.x), variable(heat_map.y)
+        mean = [scale.all(row) for row in heat_map.mean]
         drawing = heat(
             Axis(across.capitalize(), x_scale.unit), Axis(up.capitalize(), y_scale.unit),
-            x_scale.all(found.x_edges), y_scale.all(found.y_edges), mean,
+            x_scale.all(heat_map.x_edges), y_scale.all(heat_map.y_edges), mean,
             title=f"Mean residual over {across} and {up}",
         )  # fmt: skip
         unit = f" in {scale.unit}" if scale.unit else ""
         if scale == TIMES_NOISE:
             unit = " as a multiple of the noise"
         parts.append(
-            figure_of(
-                drawing, f"Mean residual{unit} over {across} and {up}; red: more was measured than modelled."
-            )
+            figure_of(drawing, f"Mean residual{unit} over {across} and {up}; red: measured above modelled.")
         )
     areas = [loop.area for loop in answer.loops]
     if areas:
         parts.append(
             paragraph(
-                "Area of the residual over a closed way, mean of ", str(len(areas)), " loops: ",
+                "Area of the residual over a closed loop, mean of ", str(len(areas)), " loops: ",
                 figure(float(np.mean(areas)), Scale("J"), 3),
-                ". Positive: friction that the model does not have takes this energy out of the motion.",
+                ". Positive: friction missing in the model dissipates this energy.",
             )
         )  # fmt: skip
     return html(parts)

@@ -1,4 +1,4 @@
-"""The report of a diagnosis: everything it tells, computed and looked up."""
+"""Collects the content of a diagnosis report."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from mckibben.application.diagnosis_result import DiagnosisResult
 from mckibben.application.json_text import to_json
 from mckibben.application.measurements import summary_of
 from mckibben.application.model_question import ModelQuestion, with_model
-from mckibben.documents.start_model import GivenMuscle, PresetFacts
+from mckibben.documents.start_model import PresetFacts, StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.identification.predict.fit_model import LOAD
 from mckibben.measurement.points import Points
@@ -38,12 +38,12 @@ _MODEL_FILE = "model.json"
 
 
 class ReportOptions(NamedTuple):
-    """What a report tells besides its question.
+    """Options of a report that are not part of the question.
 
     Attributes:
-        title: "" for the names of the measurements.
+        title: "" to use the names of the measurements.
         history: label and question of each model before this one.
-        unverified: preset figures of the drive that nobody verified: part -> names.
+        unverified: unverified preset figures of the drive: part -> names.
         fit: fit the model before it is compared.
     """
 
@@ -126,15 +126,16 @@ def _muscle_facts(question: ModelQuestion, studio: Studio, known: Mapping[str, Q
     if preset is None:
         return MuscleFacts()
     figures = {
-        name: Figure(found.source, found.grade)
+        name: Figure(quantity.source, quantity.grade)
         for name in GEOMETRY
-        if (found := known.get(f"geometry.{name}")) and getattr(muscle, name) == getattr(preset.muscle, name)
+        if (quantity := known.get(f"geometry.{name}"))
+        and getattr(muscle, name) == getattr(preset.muscle, name)
     }
     units = {"max_pressure": "Pa", "max_force": "N", "max_contraction": "1", "max_pretension": "1"}
     limits = {
-        name: (value, unit, Figure(found.source, found.grade))
+        name: (value, unit, Figure(quantity.source, quantity.grade))
         for name, unit in units.items()
-        if (value := getattr(preset.limits, name)) is not None and (found := known.get(f"limits.{name}"))
+        if (value := getattr(preset.limits, name)) is not None and (quantity := known.get(f"limits.{name}"))
     }
     return MuscleFacts(f"{preset.id} ({studio.library.muscle(preset.id).title})", figures, limits)
 
@@ -145,14 +146,14 @@ def _figures(
     preset: PresetFacts | None,
     known: Mapping[str, Quantity],
 ) -> Iterator[tuple[str, Figure]]:
-    """Where the given values of the effects come from: the preset, the catalogue's default, or the user."""
+    """Source of each effect parameter: the preset or the catalogue's default. None for the user's values."""
     for effect, values in question.start.effects.items():
-        own = {} if preset is None else preset.effects.get(effect, {})
+        preset_values = {} if preset is None else preset.effects.get(effect, {})
         for parameter in catalogue[effect].parameters:
             name, value = parameter.name, values[parameter.name]
-            found = known.get(f"effects.{effect}.{name}")
-            if found is not None and own.get(name) == value:
-                yield f"{effect}.{name}", Figure(f"preset: {found.source}", found.grade)
+            quantity = known.get(f"effects.{effect}.{name}")
+            if quantity is not None and preset_values.get(name) == value:
+                yield f"{effect}.{name}", Figure(f"preset: {quantity.source}", quantity.grade)
             elif value == parameter.default:
                 source = parameter.source
                 yield f"{effect}.{name}", Figure(f"default: {source.text}", source.grade)
@@ -163,24 +164,25 @@ def _unverified(
     catalogue: Mapping[str, Effect],
     preset: PresetFacts | None,
     known: Mapping[str, Quantity],
-    of_drive: Mapping[str, Sequence[str]],
+    drive_figures: Mapping[str, Sequence[str]],
 ) -> Iterator[str]:
     if preset is not None:
-        for path, found in known.items():
-            if not found.verified and path.rpartition(".")[2].replace("_", " ") in preset.unverified:
+        for path, quantity in known.items():
+            if not quantity.verified and path.rpartition(".")[2].replace("_", " ") in preset.unverified:
                 where = path.replace("_", " ").replace(".", ": ")
-                value = f"{found.value:g} {found.unit}"
-                yield f"{preset.id}, {where} = {value}: {found.source} (grade {found.grade})"
-    for part, names in of_drive.items():
+                value = f"{quantity.value:g} {quantity.unit}"
+                yield f"{preset.id}, {where} = {value}: {quantity.source} (grade {quantity.grade})"
+    for part, names in drive_figures.items():
         yield f"{part}: {', '.join(names)}"
-    for path, found in _figures(question, catalogue, None, {}):
-        if found.grade in ("M", "E"):
+    for path, figure in _figures(question, catalogue, None, {}):
+        if figure.grade in ("M", "E"):
             effect, name = path.split(".")
-            yield f"{catalogue[effect].title}, {name.replace('_', ' ')}: {found.source} (grade {found.grade})"
+            words = f"{catalogue[effect].title}, {name.replace('_', ' ')}"
+            yield f"{words}: {figure.source} (grade {figure.grade})"
 
 
 def _drive(question: ModelQuestion) -> Iterator[tuple[str, str]]:
-    """Valve, tube and load that a transient was compared with."""
+    """The drive of a transient measurement, in words."""
     drive = question.drive
     if drive is None:
         return
@@ -196,15 +198,15 @@ def _drive(question: ModelQuestion) -> Iterator[tuple[str, str]]:
 
 
 def _proposed(question: ModelQuestion, studio: Studio, diagnosis: DiagnosisResult) -> ComparisonResult | None:
-    """The comparison of the model that the diagnosis ends with; None when it is the given one."""
+    """Comparison of the final model of the diagnosis; None if it adds no effect."""
     if not diagnosis.verdict.effects:
         return None
     model = diagnosis.model
-    muscle = replace(GivenMuscle(), **model.muscle)
+    muscle = replace(StatedMuscle(), **model.muscle)
     other = with_model(question, studio, muscle, model.effects, freed=tuple(diagnosis.freed))
-    # A load that the measurement does not say is no part of a model: it has to be fitted again.
-    again = LOAD in diagnosis.parameters.get("geometry", {})
-    return replace(compare(other, fit=again), holdout_rmse=diagnosis.path[-1].holdout_rmse)
+    # A load missing in the measurement is not stored in the model, so it is fitted again.
+    fit_load = LOAD in diagnosis.parameters.get("geometry", {})
+    return replace(compare(other, fit=fit_load), holdout_rmse=diagnosis.path[-1].holdout_rmse)
 
 
 def _command(
@@ -226,15 +228,15 @@ def _command(
     if question.drive is not None:
         notes.append(
             f"{_MODEL_FILE} holds muscle and effects; add valve, supply, load and the like of the drive "
-            "document to repeat a transient. The command is that of the file."
+            "document to reproduce a transient. The valve command comes from the measurement file."
         )
     if question.freed:
-        notes.append(f"Constants that were freed in addition: {', '.join(question.freed)}.")
+        notes.append(f"Constants fitted in addition: {', '.join(question.freed)}.")
     if question.validation is not None:
         notes.append("The validation data are not part of the command.")
     return Command(lines, {_MODEL_FILE: json.dumps(json.loads(to_json(model)), indent=2)}, notes)
 
 
 def _typed(name: str) -> str:
-    """A file name as a shell takes it, never as an option."""
+    """A file name quoted for the shell; a leading dash does not make it an option."""
     return shlex.quote(f"./{name}" if name.startswith("-") else name)

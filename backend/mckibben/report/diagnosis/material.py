@@ -1,4 +1,4 @@
-"""What the report of a diagnosis is made of."""
+"""Content of a diagnosis report."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ class DataSource:
     Attributes:
         name: of the file, or the id of a built-in measurement.
         identity: SHA-256 of an uploaded file, "" of a built-in measurement.
-        origin: who measured a built-in one.
+        origin: who made a built-in measurement.
         use: "fit" or "validation".
-        about: how the measurement was understood.
-        left_out: why rows were left out -> how many.
+        about: how the measurement was read.
+        left_out: reason -> number of rows left out.
     """
 
     name: str
@@ -38,12 +38,12 @@ class DataSource:
 
 @dataclass(frozen=True)
 class MuscleFacts:
-    """What is known of the muscle besides its geometry.
+    """What is known about the muscle besides its geometry.
 
     Attributes:
         preset: id and title of the preset it is based on, "" without one.
-        figures: geometry field -> source, of what is the preset's own.
-        limits: what the maker allows: name -> value, SI unit, source.
+        figures: geometry field -> source, for values taken from the preset.
+        limits: of the maker: name -> value, SI unit, source.
     """
 
     preset: str = ""
@@ -52,7 +52,7 @@ class MuscleFacts:
 
 
 class PastModel(NamedTuple):
-    """A model on the way to this one: its name, its effects, its comparison."""
+    """An earlier model: its name, its effects, its comparison."""
 
     label: str
     effects: Sequence[str]
@@ -61,23 +61,23 @@ class PastModel(NamedTuple):
 
 @dataclass(frozen=True)
 class DiagnosisMaterial:
-    """Everything the report tells.
+    """Everything the report contains.
 
     Attributes:
         title: of the report.
-        made: when.
+        made: date and time.
         versions: program -> version.
         sources: the measurements.
-        muscle: what is known of it.
-        catalogue: effect id -> declaration, of all that are named.
-        comparison: the model as given beside the data.
-        figures: "effect.parameter" -> where the given value comes from.
-        diagnosis: None when none was asked for.
-        proposed: comparison of the model that the diagnosis ends with, None without one.
-        history: models on the way to the given one.
-        drive: valve, tube, load and the like in words, of transient measurements.
-        unverified: figures that nobody verified, in words.
-        command: how to repeat it.
+        muscle: preset, sources and limits of the muscle.
+        catalogue: effect id -> declaration.
+        comparison: the given model against the data.
+        figures: "effect.parameter" -> source of the given value.
+        diagnosis: None if none was requested.
+        proposed: comparison of the final model of the diagnosis, None without one.
+        history: earlier models, the oldest first.
+        drive: name and value of valve, load and the like, for transient measurements.
+        unverified: figures that were not verified, in words.
+        command: how to reproduce it.
     """
 
     title: str
@@ -96,6 +96,6 @@ class DiagnosisMaterial:
     unverified: Sequence[str] = ()
 
     def title_of(self, effect: str) -> str:
-        """An effect in the field's own words."""
-        known = self.catalogue.get(effect)
-        return known.title if known else effect.replace("_", " ")
+        """Title of an effect; of an unknown one, its id in words."""
+        declared = self.catalogue.get(effect)
+        return declared.title if declared else effect.replace("_", " ")

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from mckibben.application.compare import ComparisonResult
 from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.application.model_question import EffectDocument
 from mckibben.identification.fit.comparison import ParameterTable, ParameterValue
 from mckibben.physics.effect import Effect
 from mckibben.physics.parameter import Parameter
@@ -17,9 +17,8 @@ from mckibben.report.formula import formula
 from mckibben.report.html import Child, Html, html, tag
 from mckibben.report.sources import Figure, source_text
 
-# Standard error over the value from which a fitted value says little.
-_VAGUE = 0.5
-_NOTHING = 1e-6  # of the bounds
+_VAGUE = 0.5  # standard error over value from which a fitted value is marked as hardly determined
+_NEGLIGIBLE = 1e-6  # share of the bounds that counts as zero
 
 
 def model_cards(
@@ -28,34 +27,34 @@ def model_cards(
     *,
     figures: Mapping[str, Figure] | None = None,
     added: Sequence[str] = (),
-    terms: Mapping[str, Any] | None = None,
+    terms: EffectDocument | None = None,
 ) -> Html:
     """Every effect with its equation and parameters.
 
     Args:
         parameters: every parameter as used or fitted.
-        figures: where given values come from; the others were fitted.
+        figures: "effect.parameter" -> source of a given value; the others were fitted.
         added: effects that the diagnosis added.
-        terms: effects as a request takes them; a typed term stands in there.
+        terms: effect id -> its document in the request, which has the formula of a typed term.
     """
     if not parameters:
         return paragraph(
-            "The ideal model: the gas works on a cylinder of the braid's diameter, the wall has no "
-            "thickness, nothing rubs and nothing gives."
+            "The ideal model: the gas acts on a cylinder with the diameter of the braid; no wall thickness, "
+            "no friction, no elasticity."
         )
     return html(
-        _card(name, own, material, figures or {}, name in added, (terms or {}).get(name, {}))
-        for name, own in parameters.items()
+        _card(name, values, material, figures or {}, name in added, (terms or {}).get(name, {}))
+        for name, values in parameters.items()
     )
 
 
 def _card(
     name: str,
-    own: Mapping[str, ParameterValue],
+    values: Mapping[str, ParameterValue],
     material: DiagnosisMaterial,
     figures: Mapping[str, Figure],
     new: bool,
-    given: Mapping[str, Any],
+    document: Mapping[str, float | str],
 ) -> Html:
     effect = material.catalogue.get(name)
     declared = {p.name: p for p in effect.parameters} if effect else {}
@@ -67,11 +66,11 @@ def _card(
             _bounds(declared.get(key), item),
             _origin(item, figures.get(f"{name}.{key}")),
         ]
-        for key, item in own.items()
+        for key, item in values.items()
     ]
     columns = [
         Head("Symbol"), Head("Parameter"), Head("Value ± standard error", number=True),
-        Head("Bounds", number=True), Head("Where from"),
+        Head("Bounds", number=True), Head("Source"),
     ]  # fmt: skip
     if effect is None:
         return html(heading("Geometry and load"), table(columns, rows))
@@ -79,14 +78,14 @@ def _card(
     return html(
         heading(title),
         paragraph(effect.cause),
-        tag("div", _equation(effect, given), class_="equation"),
+        tag("div", _equation(effect, document), class_="equation"),
         table(columns, rows) if rows else None,
     )
 
 
-def _equation(effect: Effect, given: Mapping[str, Any]) -> Html:
-    term = given.get("term")
-    if isinstance(term, str):  # as it was typed: it is no LaTeX
+def _equation(effect: Effect, document: Mapping[str, float | str]) -> Html:
+    term = document.get("term")
+    if isinstance(term, str):  # a formula as the user typed it, not LaTeX
         return html("F = ", tag("code", term))
     return formula(effect.equation, block=True)
 
@@ -100,19 +99,19 @@ def _words(parameter: Parameter | None, key: str) -> str:
 
 
 def _scale(parameter: Parameter | None, item: ParameterValue) -> Scale:
-    """A unit for the value and its bounds; a value of nearly nothing goes by its bounds."""
+    """Unit for a value and its bounds, chosen by the bound if the value is practically zero."""
     size = abs(item.value)
-    if parameter is not None and size < _NOTHING * abs(parameter.upper):
+    if parameter is not None and size < _NEGLIGIBLE * abs(parameter.upper):
         size = abs(parameter.upper)
     return scale_of(item.unit, size)
 
 
 def _settled(parameter: Parameter | None, item: ParameterValue) -> float:
-    """The value; exactly the bound where a fit stopped a hair beside it."""
+    """The value, rounded to the bound if the fit stopped next to it."""
     value = item.value
     if parameter is not None and item.at_bound:
         nearest = min((parameter.lower, parameter.upper), key=lambda bound: abs(bound - value))
-        if abs(nearest - value) < _NOTHING * (parameter.upper - parameter.lower):
+        if abs(nearest - value) < _NEGLIGIBLE * (parameter.upper - parameter.lower):
             return nearest
     return value
 
@@ -125,34 +124,34 @@ def _bounds(parameter: Parameter | None, item: ParameterValue) -> Html:
     return html(low, " to ", figure(parameter.upper, scale, 3, exact=True))
 
 
-def _origin(item: ParameterValue, found: Figure | None) -> Html:
+def _origin(item: ParameterValue, source: Figure | None) -> Html:
     if not item.fitted:
-        return html("given") if found is None or found.grade == "user" else source_text(found)
-    said: list[Child] = ["fitted to these data"]
+        return html("given") if source is None or source.grade == "user" else source_text(source)
+    remarks: list[Child] = ["fitted to these data"]
     if item.at_bound:
-        said += ["; ", mark("stopped at its bound")]
+        remarks += ["; ", mark("stopped at its bound")]
     if item.stderr is None:
-        said += ["; ", mark("not determined by these data")]
+        remarks += ["; ", mark("not determined by these data")]
     elif item.stderr > _VAGUE * abs(item.value):
-        said += ["; ", mark("hardly determined: the error is of its size")]
-    return html(said)
+        remarks += ["; ", mark("hardly determined: its error is as large as the value")]
+    return html(remarks)
 
 
 def correlations(answer: ComparisonResult | DiagnosisResult, material: DiagnosisMaterial) -> Html:
-    """Fitted numbers that can stand in for each other."""
-    found = [item for item in answer.correlations if abs(item.value) > 0.9]
-    if not found:
+    """Pairs of strongly correlated fitted parameters."""
+    strong = [item for item in answer.correlations if abs(item.value) > 0.9]
+    if not strong:
         return html()
     lines = [
         f"{named(item.a, material)} and {named(item.b, material)}: "
-        f"correlation {item.value:.3f}; only a combination of the two is determined"
-        for item in sorted(found, key=lambda item: -abs(item.value))
+        f"correlation {item.value:.3f}; the data determine only a combination of the two"
+        for item in sorted(strong, key=lambda item: -abs(item.value))
     ]
-    return html(heading("Fitted numbers that cannot be told apart"), bullets(lines))
+    return html(heading("Strongly correlated parameters"), bullets(lines))
 
 
 def named(path: str, material: DiagnosisMaterial) -> str:
-    """A number "effect.parameter" (or of the geometry) in words."""
+    """A parameter "effect.parameter" (or of the geometry) in words."""
     effect, _, name = path.rpartition(".")
     words = name.replace("_", " ")
     return f"{words} ({material.title_of(effect)})" if effect else words

@@ -1,4 +1,4 @@
-"""A model beside the data: measured and modelled, and the residual."""
+"""Plots of measured and modelled values, and of the residual."""
 
 from __future__ import annotations
 
@@ -16,55 +16,58 @@ from mckibben.report.html import Html, html
 from mckibben.report.marks import ACCENT, EDGE, SECOND, Axis, Band, Dots, Line, Mark
 
 _MOST_POINTS = 250  # of a series in a drawing
-_FEW_POINTS = 300  # of all series: dots are drawn larger
+_FEW_POINTS = 300  # of all series: below, dots are drawn larger
 _LEFT = 84.0  # where the axes of both drawings begin
 
 
 def pictures(answer: ComparisonResult, name: str) -> Html:
     """Overlay and residual of every predicted channel; ``name`` is the model's."""
-    parts = [_all(answer.series, answer, name)]
+    parts = [_channels(answer.series, answer, name)]
     if answer.validation:
-        parts.append(_all(answer.validation.series, answer, f"{name} on the validation data"))
+        parts.append(_channels(answer.validation.series, answer, f"{name} on the validation data"))
     return html(parts)
 
 
-def _all(every: Sequence[ComparedSeries], answer: ComparisonResult, name: str) -> Html:
-    channels = dict.fromkeys(series.channel for series in every)
+def _channels(all_series: Sequence[ComparedSeries], answer: ComparisonResult, name: str) -> Html:
+    channels = dict.fromkeys(series.channel for series in all_series)
     return html(
-        _channel([series for series in every if series.channel == channel], answer, channel, name)
+        _channel([series for series in all_series if series.channel == channel], answer, channel, name)
         for channel in channels
     )
 
 
-def _channel(every: Sequence[ComparedSeries], answer: ComparisonResult, channel: str, name: str) -> Html:
+def _channel(all_series: Sequence[ComparedSeries], answer: ComparisonResult, channel: str, name: str) -> Html:
     words, scale = variable(channel)
-    key = _across(every, answer.kind)
+    key = _across(all_series, answer.kind)
     over, x_scale = variable("pressure" if key == "x_pressure" else key)
-    single, scattered = len(every) == 1, _scattered(every, answer.kind)
-    colours = [ACCENT] * len(every) if single or scattered else family(len(every))
-    size = 5.0 if sum(len(series.measured) for series in every) < _FEW_POINTS else 3.0
+    only_one, scattered = len(all_series) == 1, _scattered(all_series, answer.kind)
+    colours = [ACCENT] * len(all_series) if only_one or scattered else family(len(all_series))
+    size = 5.0 if sum(len(series.measured) for series in all_series) < _FEW_POINTS else 3.0
     dots: list[Mark] = []
     lines: list[Mark] = []
     errors: list[Mark] = []
-    for series, colour in zip(every, colours, strict=True):
+    for series, colour in zip(all_series, colours, strict=True):
         rows = _rows(series, key, sort=answer.kind in ("static", "diameter"))
         across = x_scale.all(_values(getattr(series, key))[rows])
         measured, predicted, residual = (
             scale.all(_values(getattr(series, part))[rows]) for part in ("measured", "predicted", "residual")
         )
-        of_dots, of_line = _labels(series, single)
+        of_dots, of_line = _labels(series, only_one)
         dots.append(Dots(across, measured, of_dots, colour, size))
-        lines.append(Line(across, predicted, of_line, SECOND if single else colour, width=1.6))
+        lines.append(Line(across, predicted, of_line, SECOND if only_one else colour, width=1.6))
         errors.append(Dots(across, residual, "", colour, size))
     noise = answer.channels[channel].noise_floor if answer.channels else answer.noise_floor
-    told = "Residual (measured minus modelled)" + ("." if single or scattered else ", colours as above.")
+    caption = "Residual (measured minus modelled)" + ("." if only_one or scattered else ", colours as above.")
     if noise is not None:
         wide = 2.0 * scale.of(noise)
         errors.insert(0, Band(-wide, wide, "± 2 × noise"))
-        told += " The grey band is twice the noise of the data."
+        caption += " The grey band is twice the noise of the data."
     x, about = Axis(over.capitalize(), x_scale.unit), f"{words} over {over}"
     if scattered:
-        overlay, legend = _parity(every, channel, size), f"{words.capitalize()} by the {name} over measured."
+        overlay, legend = (
+            _parity(all_series, channel, size),
+            f"{words.capitalize()} by the {name} over measured.",
+        )
     else:
         overlay = chart(
             x, Axis(words.capitalize(), scale.unit), [*dots, *lines],
@@ -77,45 +80,45 @@ def _channel(every: Sequence[ComparedSeries], answer: ComparisonResult, channel:
     )  # fmt: skip
     return html(
         figure_of(overlay, legend),
-        figure_of(below, told),
+        figure_of(below, caption),
     )
 
 
-def _scattered(every: Sequence[ComparedSeries], kind: str) -> bool:
-    """Points of a map that follow no line: most series hold neither pressure nor length."""
+def _scattered(all_series: Sequence[ComparedSeries], kind: str) -> bool:
+    """Whether the points form no lines: in most series neither pressure nor length is constant."""
     if kind not in ("static", "diameter"):
         return False
-    whole = _span(np.concatenate([_values(series.contraction) for series in every]))
-    loose = [s.pressure is None and _span(_values(s.contraction)) > 0.05 * whole for s in every]
-    return 2 * sum(loose) > len(every)
+    whole = _span(np.concatenate([_values(series.contraction) for series in all_series]))
+    varies = [s.pressure is None and _span(_values(s.contraction)) > 0.05 * whole for s in all_series]
+    return 2 * sum(varies) > len(all_series)
 
 
-def _parity(every: Sequence[ComparedSeries], channel: str, size: float) -> Html:
-    """Modelled over measured, beside the line on which both are the same."""
+def _parity(all_series: Sequence[ComparedSeries], channel: str, size: float) -> Html:
+    """Modelled over measured values, with the line of equality."""
     words, scale = variable(channel)
     measured, modelled = (
-        scale.all(np.concatenate([_values(getattr(s, part)) for s in every]))
+        scale.all(np.concatenate([_values(getattr(s, part)) for s in all_series]))
         for part in ("measured", "predicted")
     )
     ends = [min(measured), max(measured)]
     return chart(
         Axis(f"Measured {words}", scale.unit), Axis(f"Modelled {words}", scale.unit),
-        [Line(ends, ends, "the same", EDGE), Dots(measured, modelled, "rows", ACCENT, size)],
+        [Line(ends, ends, "equal", EDGE), Dots(measured, modelled, "rows", ACCENT, size)],
         title=f"Modelled over measured {words}", left=_LEFT, legend=True,
     )  # fmt: skip
 
 
-def _across(every: Sequence[ComparedSeries], kind: str) -> str:
-    """What the series run over: time for transients, else what changes most within them."""
-    if kind == "transient" and every[0].time is not None:
+def _across(all_series: Sequence[ComparedSeries], kind: str) -> str:
+    """x axis of the series: time for transients, else the variable that changes most within a series."""
+    if kind == "transient" and all_series[0].time is not None:
         return "time"
-    best, share = "contraction", 0.0
+    best, best_share = "contraction", 0.0
     for key in ("contraction", "x_pressure"):
-        values = [_values(getattr(series, key)) for series in every]
+        values = [_values(getattr(series, key)) for series in all_series]
         whole = _span(np.concatenate(values))
         inner = float(np.mean([_span(v) for v in values])) / whole if whole > 0.0 else 0.0
-        if inner > share + 0.05:
-            best, share = key, inner
+        if inner > best_share + 0.05:
+            best, best_share = key, inner
     return best
 
 
@@ -129,12 +132,12 @@ def _values(values: Iterable[Any]) -> np.ndarray:
 
 
 def _rows(series: ComparedSeries, key: str, *, sort: bool) -> np.ndarray:
-    """Rows to draw: not too many; in the order of x where the measurement has none of its own."""
+    """Indices of at most `_MOST_POINTS` rows to draw; sorted by x if their order has no meaning."""
     count = len(series.measured)
     rows = np.unique(np.linspace(0, count - 1, min(count, _MOST_POINTS)).astype(int))
     return rows[np.argsort(_values(getattr(series, key))[rows], kind="stable")] if sort else rows
 
 
 def _labels(series: ComparedSeries, single: bool) -> tuple[str, str]:
-    """Legend of dots and line: one entry for both where there are several series."""
+    """Legend entries of dots and line; with several series they share one."""
     return ("measured", "model") if single else (series.label, series.label)

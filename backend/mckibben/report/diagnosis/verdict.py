@@ -1,4 +1,4 @@
-"""The verdict, the way to it, what the data cannot tell apart, and what to measure next."""
+"""The verdict, the steps to it, indistinguishable effects, and what to measure next."""
 
 from __future__ import annotations
 
@@ -31,31 +31,31 @@ _TONES: dict[Status, Tone] = {
     "ambiguous": "warn",
     "unknown_effect": "bad",
 }
-_HELPS = 1.0  # percent of the error: candidates that gain less are only counted
-_SAME = 0.98  # of an error: less is worth a figure of its own
+_HELPS = 1.0  # % of the error: candidates that gain less are only counted
+_SAME = 0.98  # ratio to the first error: below, the refitted error gets a tile of its own
 _MOST_TWINS = 4
-_SHOWN = 8  # candidates with their reasons; the others that help are named
+_SHOWN = 8  # candidates listed with reasons; further useful ones are only named
 
 
 def verdict_section(material: DiagnosisMaterial) -> Html:
-    """The answer first: sentence, the figures that matter, what to measure next."""
-    answer, found = material.comparison, material.diagnosis
+    """The verdict in one sentence, key figures, and what to measure next."""
+    answer, diagnosis = material.comparison, material.diagnosis
     scale = error_scale(answer)
     figures: list[tuple[Child, Child]] = [("RMS error of the model", figure(answer.rmse, scale, 3))]
     if answer.nrmse_percent is not None and scale != TIMES_NOISE:
         figures.append(("… of the largest value", percent(answer.nrmse_percent / 100.0, 3)))
-    if found is None:
+    if diagnosis is None:
         parts = [callout("Comparison", f"{sentence}.") for sentence in answer.sentences[-1:]]
         figures.append(("Noise of the data", figure(answer.noise_floor, scale, 3)))
         return html(parts, tiles(figures))
-    verdict = found.verdict
+    verdict = diagnosis.verdict
     title, tone = verdict.title, _TONES[verdict.status]
-    best = found.path[-1].rmse
+    best = diagnosis.path[-1].rmse
     if verdict.effects:
-        figures.append(("With what is missing", figure(best, scale, 3)))
-    elif best < _SAME * found.path[0].rmse:
-        figures.append(("With its numbers refitted", figure(best, scale, 3)))
-    figures.append(("Noise of the data", figure(found.noise_floor.rmse, scale, 3)))
+        figures.append(("With the missing effects", figure(best, scale, 3)))
+    elif best < _SAME * diagnosis.path[0].rmse:
+        figures.append(("With its parameters refitted", figure(best, scale, 3)))
+    figures.append(("Noise of the data", figure(diagnosis.noise_floor.rmse, scale, 3)))
     parts = [callout(title, verdict.sentence, tone=tone), tiles(figures)]
     if verdict.next_measurement:
         parts.append(callout("Next measurement", verdict.next_measurement))
@@ -63,7 +63,7 @@ def verdict_section(material: DiagnosisMaterial) -> Html:
 
 
 def path_section(material: DiagnosisMaterial) -> Html:
-    """The error step by step: the history, the model as given, and what the diagnosis adds."""
+    """The error step by step: earlier models, the given model, and what the diagnosis adds."""
     scale = error_scale(material.comparison)
     rows: list[list[Child]] = []
     drawn: list[Bar] = []
@@ -75,38 +75,38 @@ def path_section(material: DiagnosisMaterial) -> Html:
             drawn.append(Bar(name, value, f"{plain(value, 3)} {scale.unit}".strip(), tick, pale))
 
     for past in material.history:
-        add(past.label, past.comparison.rmse, past.comparison.holdout_rmse, "a model before this one")
-    answer, found = material.comparison, material.diagnosis
-    if found is None:
+        add(past.label, past.comparison.rmse, past.comparison.holdout_rmse, "an earlier model")
+    answer, diagnosis = material.comparison, material.diagnosis
+    if diagnosis is None:
         add("this model", answer.rmse, answer.holdout_rmse, "as given")
     else:
-        for number, step in enumerate(found.path):
+        for number, step in enumerate(diagnosis.path):
             if number == 0:
                 add("this model", step.rmse, step.holdout_rmse, "as given")
             elif step.added is None:
-                add("refitted", step.rmse, step.holdout_rmse, "its numbers fitted", pale=True)
+                add("refitted", step.rmse, step.holdout_rmse, "its parameters fitted", pale=True)
             else:
                 name = f"+ {material.title_of(step.added)}"
                 add(name, step.rmse, step.holdout_rmse, "added by the diagnosis", pale=True)
-    floor = answer.noise_floor if found is None else found.noise_floor.rmse
+    floor = answer.noise_floor if diagnosis is None else diagnosis.noise_floor.rmse
     level = None if floor is None else (scale.of(floor), "noise")
     unit = f" [{scale.unit}]" if scale.unit else ""
     drawing = bars(drawn, axis=f"RMS error{unit}", title="RMS error of each model", level=level)
     columns = [
         Head("Model"), Head("RMS error", number=True),
-        Head("With whole groups left out of the fit", number=True), Head(""),
+        Head("On groups left out of the fit", number=True), Head(""),
     ]  # fmt: skip
     return html(
-        figure_of(drawing, "RMS error; the black tick is the error on groups that were left out of the fit."),
+        figure_of(drawing, "RMS error; the black tick is the error on groups left out of the fit."),
         table(columns, rows),
     )
 
 
-def candidates_section(material: DiagnosisMaterial, found: DiagnosisResult) -> Html:
-    """What one effect alone would do, what looks alike, and which experiment would tell."""
-    scale = error_scale(found)
-    verdict = found.verdict
-    useful = [c for c in found.candidates if c.gain_percent >= _HELPS]
+def candidates_section(material: DiagnosisMaterial, diagnosis: DiagnosisResult) -> Html:
+    """Gain of each effect alone, indistinguishable effects, and experiments that distinguish them."""
+    scale = error_scale(diagnosis)
+    verdict = diagnosis.verdict
+    useful = [c for c in diagnosis.candidates if c.gain_percent >= _HELPS]
     useful.sort(key=lambda candidate: -candidate.gain_percent)
     rows = [
         [
@@ -119,34 +119,36 @@ def candidates_section(material: DiagnosisMaterial, found: DiagnosisResult) -> H
         for c in useful[:_SHOWN]
     ]
     columns = [
-        Head("Effect"), Head("RMS error with it alone", number=True), Head("Gain", number=True),
-        Head("Cannot be told from"), Head("Why"),
+        Head("Effect"), Head("RMS error with this effect alone", number=True), Head("Gain", number=True),
+        Head("Indistinguishable from"), Head("Why"),
     ]  # fmt: skip
-    rest = len(found.candidates) - len(useful)
+    rest = len(diagnosis.candidates) - len(useful)
     parts: list[Child] = [heading("One effect alone, everything refitted")]
-    parts.append(table(columns, rows) if rows else paragraph("No catalogued effect alone lowers the error."))
+    parts.append(
+        table(columns, rows) if rows else paragraph("No single effect of the catalogue reduces the error.")
+    )
     if useful[_SHOWN:]:
         others = ", ".join(f"{c.title} ({plain(c.gain_percent, 2)} %)" for c in useful[_SHOWN:])
-        parts.append(paragraph(f"Others that help alone: {others}.", note=True))
+        parts.append(paragraph(f"Further effects that help alone: {others}.", note=True))
     if rows and rest:
-        parts.append(paragraph(f"{rest} more were tried; alone they gain less than 1 %.", note=True))
-    if found.not_tried:
+        parts.append(paragraph(f"{rest} more were tried; each alone gains less than 1 %.", note=True))
+    if diagnosis.not_tried:
         reasons: dict[str, list[str]] = {}
-        for item in found.not_tried:
+        for item in diagnosis.not_tried:
             reasons.setdefault(item.why, []).append(material.title_of(item.effect))
         parts.append(heading("Effects that were not tried"))
         parts.append(bullets(f"{', '.join(names)}: {why}." for why, names in reasons.items()))
     if verdict.indistinguishable:
-        parts.append(heading("What these data cannot tell apart"))
+        parts.append(heading("Effects these data cannot distinguish"))
         groups = [[material.title_of(name) for name in group] for group in verdict.indistinguishable]
         parts.append(bullets(f"{group[0]} from {_alternatives(group[1:])}" for group in groups))
     if verdict.experiments:
-        parts.append(heading("Experiments that would tell"))
+        parts.append(heading("Experiments that would distinguish them"))
         columns = [
-            Head("Pair"), Head("The catalogue says"), Head("Best simulated experiment"),
-            Head("Apart by", number=True),
+            Head("Pair"), Head("Suggested in the catalogue"), Head("Best simulated experiment"),
+            Head("Separation", number=True),
         ]  # fmt: skip
-        told = [
+        experiments = [
             [
                 " or ".join(material.title_of(name) for name in item.pair),
                 item.declared or "–",
@@ -155,7 +157,7 @@ def candidates_section(material: DiagnosisMaterial, found: DiagnosisResult) -> H
             ]
             for item in verdict.experiments
         ]
-        parts.append(table(columns, told, caption="σ: standard deviation of one reading."))
+        parts.append(table(columns, experiments, caption="σ: standard deviation of one reading."))
     if verdict.status == "unknown_effect":
         parts.append(_unknown(verdict))
     return html(parts)
@@ -172,17 +174,17 @@ def _alternatives(names: list[str]) -> str:
 
 
 def _unknown(verdict: Verdict) -> Html:
-    """What is left when the catalogue is exhausted, and a formula for it."""
+    """Remaining error that no catalogued effect explains, and a formula that describes it."""
     follows = ", ".join(variable(name)[0] for name in verdict.unexplained_in) or "no variable in particular"
     parts: list[Child] = [
         heading("What no catalogued effect explains"),
         facts(
             [
                 (
-                    "Share of the remaining squared error that still has structure",
+                    "Structured share of the remaining squared error",
                     percent(verdict.unexplained_share),
                 ),
-                ("It follows", follows),
+                ("It depends on", follows),
             ]
         ),
     ]
@@ -192,23 +194,23 @@ def _unknown(verdict: Verdict) -> Html:
     values = [f"{name} = {plain(value, 4)}" for name, value in term.coefficients.items()]
     parts += [
         paragraph(
-            mark("Proposed term"), " (in SI; a description, not a cause), which takes away ",
-            percent(term.share), " of the squared error that is left:",
+            mark("Proposed term"), " (in SI; a description, not a cause). It explains ",
+            percent(term.share), " of the remaining squared error:",
         ),
         tag("div", tag("code", term.formula), class_="equation"),
         paragraph(", ".join(values), note=True),
     ]  # fmt: skip
     curve = term.curve
-    words, scale = variable(curve.x)
+    variable_name, scale = variable(curve.x)
     x = scale.all(curve.values)
     marks = [Dots(x, curve.residual, "residual"), Line(x, curve.term, "term", SECOND)]
     parts.append(
         figure_of(
             chart(
-                Axis(words.capitalize(), scale.unit), Axis("Force", "N"), marks,
-                title="The proposed term and the residual it is for", height=240.0,
+                Axis(variable_name.capitalize(), scale.unit), Axis("Force", "N"), marks,
+                title="Residual and proposed term", height=240.0,
             ),
-            "The residual and the proposed term.",
+            "Residual and proposed term.",
         )
     )  # fmt: skip
     return html(parts)

@@ -1,4 +1,4 @@
-"""The sections of the report in their order."""
+"""Assembles the sections of the report."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from mckibben.report.command import command_section
 from mckibben.report.diagnosis.errors import error_scale, error_table, where_it_fails
-from mckibben.report.diagnosis.given import assumptions_section, data_section, muscle_section
+from mckibben.report.diagnosis.inputs import assumptions_section, data_section, muscle_section
 from mckibben.report.diagnosis.material import DiagnosisMaterial
 from mckibben.report.diagnosis.model import correlations, model_cards
 from mckibben.report.diagnosis.pictures import pictures
@@ -17,7 +17,7 @@ from mckibben.report.html import Child, Html, html
 
 
 def diagnosis_report(material: DiagnosisMaterial) -> str:
-    """One HTML file that needs nothing else."""
+    """The report as one self-contained HTML file."""
     return document(
         kind="diagnosis report",
         title=material.title,
@@ -28,35 +28,37 @@ def diagnosis_report(material: DiagnosisMaterial) -> str:
 
 
 def _sections(material: DiagnosisMaterial) -> Iterator[Section]:
-    answer, found, proposed = material.comparison, material.diagnosis, material.proposed
-    yield Section("Verdict" if found else "Result", verdict_section(material))
+    answer, diagnosis, proposed = material.comparison, material.diagnosis, material.proposed
+    yield Section("Verdict" if diagnosis else "Result", verdict_section(material))
     yield Section("Data", data_section(material))
     yield Section("Muscle", muscle_section(material))
     cards = model_cards(answer.parameters, material, figures=material.figures, terms=answer.model.effects)
     yield Section("Model", html(cards, correlations(answer, material)))
-    fitted = any(item.fitted for own in answer.parameters.values() for item in own.values())
+    fitted = any(item.fitted for values in answer.parameters.values() for item in values.values())
     name = "fitted model" if fitted else "model as given"
     columns = [(f"the {name}", answer), *([("the proposed model", proposed)] if proposed else [])]
     yield Section("Error", html(error_table(columns), pictures(answer, name)))
     yield Section("Where it fails", where_it_fails(answer))
-    yield Section("Path of the error", path_section(material))
-    if found is not None:
-        yield Section("What is missing", candidates_section(material, found))
-        yield Section("Proposed model" if proposed else "The model refitted", _proposed(material))
+    yield Section("Error step by step", path_section(material))
+    if diagnosis is not None:
+        yield Section("What is missing", candidates_section(material, diagnosis))
+        yield Section("Proposed model" if proposed else "Refitted model", _proposed(material))
     if material.history:
         yield Section("History", _history(material))
     yield Section("Assumptions", assumptions_section(material))
-    yield Section("To repeat it", command_section(material.command))
+    yield Section("How to reproduce", command_section(material.command))
 
 
 def _proposed(material: DiagnosisMaterial) -> Html:
-    found = material.diagnosis
-    assert found is not None  # noqa: S101 - of a section that only a diagnosis has
-    cards = model_cards(found.parameters, material, added=found.verdict.effects, terms=found.model.effects)
-    parts: list[Child] = [cards, correlations(found, material)]
+    diagnosis = material.diagnosis
+    assert diagnosis is not None  # noqa: S101 - only called with a diagnosis
+    cards = model_cards(
+        diagnosis.parameters, material, added=diagnosis.verdict.effects, terms=diagnosis.model.effects
+    )
+    parts: list[Child] = [cards, correlations(diagnosis, material)]
     if material.proposed is not None:
         parts += [
-            heading("Beside the data"),
+            heading("Comparison with the data"),
             pictures(material.proposed, "proposed model"),
             bullets(f"{sentence}." for sentence in material.proposed.sentences),
         ]
@@ -74,4 +76,4 @@ def _history(material: DiagnosisMaterial) -> Html:
         for past in material.history
     ]
     columns = [Head("Step"), Head("Effects"), Head("RMS error", number=True)]
-    return table(columns, rows, caption="Models before this one, the oldest first.")
+    return table(columns, rows, caption="Earlier models, the oldest first.")

@@ -1,4 +1,4 @@
-"""The report of a sizing: task, drive, curves, run, margins, uncertainty, alternatives, parts, equations."""
+"""The sizing report: task, drive, curves, run, margins, uncertainty, alternatives, parts, equations."""
 
 from mckibben.report.command import Command
 from mckibben.report.sizing.material import (

@@ -1,4 +1,4 @@
-"""A proposal in figures for its report: curves and operating points, margins, spread of the specimens."""
+"""Figures of a proposal for its report: curves, operating points, margins, spread of the specimens."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from mckibben.sizing.statics import contraction_limit, outputs
 Array = np.ndarray
 
 _COLUMNS, _PLACES = 121, 61
-_BEYOND = 1.15  # how far the curves go on after the end of the stroke
+_BEYOND = 1.15  # end of the curves, as a multiple of the contraction at the end of the stroke
 _BAR = 1e5
-_FEW_BARS = 1.5
+_FEW_BARS = 1.5  # supply [bar] below which the pressures of the curves are quarters of it
 
 
 def curves_of(proposal: Proposal, task: Task) -> ForceCurves:
-    """Force of one muscle over its contraction, and what it has to carry over the stroke.
+    """Force of one muscle over its contraction, and the force demanded over the stroke.
 
-    All at rest by the same closed form that the search prunes with, filling.
+    Static values while filling, by the closed form that the search prunes with.
     """
     design, rest = proposal.design, proposal.trial.rest
     group, duty = design.group, design.group.duty
@@ -31,7 +31,7 @@ def curves_of(proposal: Proposal, task: Task) -> ForceCurves:
     strokes = np.linspace(0.0, duty.stroke, _PLACES)
     places = reach * strokes / duty.stroke
     counter = np.zeros(_PLACES)
-    if duty.pair:  # the other muscle is empty, and as long as this one is short
+    if duty.pair:  # the second muscle is empty; it lengthens as the first one shortens
         counter = np.maximum(_force(design, task, places[::-1], 0.0), 0.0)
     share = duty.lever_ratio * group.parallel
     start, slope = duty.straight()
@@ -50,7 +50,7 @@ def curves_of(proposal: Proposal, task: Task) -> ForceCurves:
 
 
 def _pressures(supply: float) -> list[float]:
-    """Whole bars below the supply pressure, not too many, and the supply pressure itself."""
+    """At most seven whole-bar pressures below the supply pressure, and the supply pressure itself."""
     if supply < _FEW_BARS * _BAR:
         return [supply * share for share in (0.25, 0.5, 0.75, 1.0)]
     step = max(round(supply / _BAR / 6.0), 1) * _BAR
@@ -70,7 +70,7 @@ def _force(design: Design, task: Task, contraction: Array, pressure: float) -> A
 
 
 def margins_of(proposal: Proposal, task: Task) -> list[Margin]:
-    """What each limit allows and what the drive has; the nearest first."""
+    """Allowed and actual value of each limit, the smallest margin first."""
     trial, design, rest, figures = (
         proposal.trial,
         proposal.design,
@@ -92,33 +92,33 @@ def margins_of(proposal: Proposal, task: Task) -> list[Margin]:
         "time_down": (task.time_down, down, "s", True),
         "cycle_time": (task.cycle_time, up + down, "s", True),
     }
-    found = []
+    margins = []
     for name, share in sorted(trial.margins.items(), key=lambda item: item[1]):
         allowed, actual, unit, upper = sides[name]
         if allowed is not None:
-            found.append(Margin(name, allowed, actual, unit, upper, share))
-    return found
+            margins.append(Margin(name, allowed, actual, unit, upper, share))
+    return margins
 
 
 def spread_of(proposal: Proposal, task: Task) -> SpecimenSpread | None:
-    """What the specimens of the probability vary by."""
+    """How the simulated specimens differ; None if none were simulated."""
     if proposal.chance is None:
         return None
-    given, part = task.uncertainty, proposal.design.group.muscle
+    uncertainty, part = task.uncertainty, proposal.design.group.muscle
     deviation = deviation_of(proposal.design, task)
-    demands = ["reaches the end of the stroke and stays there while the valve fills"]
+    demands = ["it reaches the end of the stroke and stays there while the valve fills"]
     for words, demanded in (
         ("the stroke takes", task.time),
-        ("the way back takes", task.time_down),
-        ("both ways together take", task.cycle_time),
+        ("the return takes", task.time_down),
+        ("stroke and return together take", task.cycle_time),
     ):
         if demanded is not None:
             demands.append(f"{words} at most {demanded:.4g} s")
     return SpecimenSpread(
-        blocked_force=given.blocked_force,
+        blocked_force=uncertainty.blocked_force,
         shift=deviation.shift,
-        hysteresis=(part.hysteresis or None) if given.hysteresis is None else given.hysteresis,
+        hysteresis=(part.hysteresis or None) if uncertainty.hysteresis is None else uncertainty.hysteresis,
         friction=deviation.friction,
-        supply=given.supply_pressure,
+        supply=uncertainty.supply_pressure,
         demands=demands,
     )

@@ -16,22 +16,22 @@ from mckibben.report.sizing.words import AMPLE, BAR, MILLIMETRES, NEWTON, PER_MI
 
 _FEW_ROWS = 300
 _HEIGHT = 400.0
-_ROOM = 0.1  # of the highest force: room for a name below a point
+_ROOM = 0.1  # share of the highest force that a name below a point needs
 
 
 def curves_section(material: SizingMaterial, chosen: Chosen) -> Html:
-    """The curves of one muscle, what it carries, and the operating points as a table."""
-    single = chosen.proposal.muscles == 1
-    who = "the muscle" if single else "one muscle"
-    told = (
-        f"Force of {who} at rest over its contraction at the pressures named (gauge, while it shortens), the "
-        "force the task takes of it over the stroke, and the way of the run from the begin of the fill to "
-        "the end stop. The point above the load at the end of the stroke is what the supply pressure holds."
+    """Force curves of one muscle, its load, and a table of operating points."""
+    one_only = chosen.proposal.muscles == 1
+    who = "the muscle" if one_only else "one muscle"
+    caption = (
+        f"Static force of {who} over its contraction at several gauge pressures (while it shortens), the "
+        "force the task demands over the stroke, and the simulated path from the start of filling to the "
+        "end stop. The point above the load at the end of the stroke is the force at supply pressure."
     )
     if chosen.curves.run:
-        told += " Times and air come from a run under the dashed straight load."
+        caption += " Times and air come from a run with the dashed linear load."
     return html(
-        figure_of(_drawing(chosen), told),
+        figure_of(_drawing(chosen), caption),
         _table(material, chosen, who),
         paragraph(
             "Stiffness at the end of the stroke, at the load: ",
@@ -53,15 +53,15 @@ def _drawing(chosen: Chosen) -> Html:
         shown = [value if value > 0.0 else math.nan for value in force]
         label = f"{plain(BAR.of(pressure), 3, exact=True)} bar{', supply' if supply else ''}"
         marks.append(Line(across, shown, label, colour, width=2.4 if supply else 1.5))
-    marks.append(_way(chosen))
+    marks.append(_path(chosen))
     places = SHARE.all(curves.places)
     marks.append(Line(places, curves.demand, "load", SECOND, width=2.4))
     if curves.run:
         marks.append(Line(places, curves.run, "load in the run", SECOND, "6 4"))
     available = float(np.interp(reach, curves.contraction, curves.force[-1]))
     carrying = [f"{plain(BAR.of(value), 3)} bar" for value in curves.carrying]
-    for end, words in ((0, "begin"), (-1, "end")):
-        name = f"{words}: {carrying[end]}"
+    for end, position in ((0, "start"), (-1, "end")):
+        name = f"{position}: {carrying[end]}"
         place, force = [places[end]], [curves.demand[end]]
         below = end == 0 and force[0] > _ROOM * max(curves.force[-1])
         marks.append(Dots(place, force, "operating points", SECOND, 9.0, [name], below=below))
@@ -75,8 +75,8 @@ def _drawing(chosen: Chosen) -> Html:
     )  # fmt: skip
 
 
-def _way(chosen: Chosen) -> Line:
-    """Tension over contraction from the begin of the fill to the end stop."""
+def _path(chosen: Chosen) -> Line:
+    """Tension over contraction from the start of filling to the end stop."""
     run, (on, off) = chosen.run, chosen.fill
     time = np.asarray(run.time, dtype=float)
     arrived = run.timing.extend.positioning_time
@@ -87,7 +87,7 @@ def _way(chosen: Chosen) -> Line:
 
 
 def _table(material: SizingMaterial, chosen: Chosen, who: str) -> Html:
-    curves, found = chosen.curves, chosen.proposal
+    curves, proposal = chosen.curves, chosen.proposal
     supply = [
         float(np.interp(place, curves.contraction, curves.force[-1]))
         for place in (curves.places[0], curves.places[-1])
@@ -97,31 +97,34 @@ def _table(material: SizingMaterial, chosen: Chosen, who: str) -> Html:
     ratios = [
         _ratio(force / load if load > 0.0 else math.inf) for force, load in zip(supply, demand, strict=True)
     ]
-    length = found.nominal_length
+    length = proposal.nominal_length
     rows: list[list[Child]] = [
         ["Contraction", *(figure(curves.places[end], SHARE, 3) for end in (0, -1))],
         ["Length between the fittings", *(_length(length, curves.places[end]) for end in (0, -1))],
-        [f"Force that {who} must have", *(figure(value, NEWTON) for value in demand)],
+        [f"Force demanded of {who}", *(figure(value, NEWTON) for value in demand)],
     ]
     if material.pair:
-        rows.append(["… of it against the empty second muscle", *(figure(v, NEWTON) for v in counter)])
+        rows.append(["… of which to stretch the empty second muscle", *(figure(v, NEWTON) for v in counter)])
     rows += [
         [f"Force of {who} at supply pressure", *(figure(value, NEWTON) for value in supply)],
         ["Force over load", *ratios],
-        ["Pressure that just carries it, at rest", *(figure(value, BAR, 3) for value in curves.carrying)],
         [
-            "Pressure in the run, load leaves and arrives",
-            figure(found.pressure_start, BAR, 3),
-            figure(found.pressure_end, BAR, 3),
+            "Pressure that just carries the load, at rest",
+            *(figure(value, BAR, 3) for value in curves.carrying),
+        ],
+        [
+            "Pressure in the run when the load starts and arrives",
+            figure(proposal.pressure_start, BAR, 3),
+            figure(proposal.pressure_end, BAR, 3),
         ],
     ]
     columns = [
         Head("At rest"),
-        Head("Begin of the stroke", number=True),
+        Head("Start of the stroke", number=True),
         Head("End", number=True),
     ]
-    ratio = 1.0 + found.force_reserve
-    least = f"The least force over load on the whole stroke is {_ratio(ratio)}"
+    ratio = 1.0 + proposal.force_reserve
+    least = f"The smallest force over load on the whole stroke is {_ratio(ratio)}"
     return table(columns, rows, caption=f"Operating points. {least}.")
 
 

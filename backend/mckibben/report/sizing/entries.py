@@ -1,4 +1,4 @@
-"""Every field of a sizing task with what it means: what was asked for, and what was assumed."""
+"""Every field of a sizing task with its value and meaning: what was stated, and what was assumed."""
 
 from __future__ import annotations
 
@@ -13,48 +13,47 @@ from mckibben.documents.task import ForceOverStroke, SizingTask
 from mckibben.report.figures import scale_of
 from mckibben.report.sizing.material import Entry
 
-_NOT_TOLD = frozenset({"schema_version", "title"})
-# What a task of one kind does not have.
-# What a field that is left out stands for, where that is not nothing.
-_FREE = {"uncertainty.hysteresis": "the muscle's own", "load.pair.pulley_radius": "free"}
-_OF_A_STROKE = frozenset({"stroke", "speed"})
+_NOT_LISTED = frozenset({"schema_version", "title"})
+# What an omitted field means, where that is not "none".
+_DEFAULT_WORDS = {"uncertainty.hysteresis": "that of the muscle", "load.pair.pulley_radius": "free"}
+_LINEAR_ONLY = frozenset({"stroke", "speed"})  # fields that an antagonist pair does not have
 
 
 def entries_of(document: SizingTask, considered: Mapping[str, Sequence[str]]) -> list[Entry]:
-    """The fields that apply to a task.
+    """The fields of a task that apply to it.
 
     Args:
         document: the task.
-        considered: kind of part -> ids that the search tried.
+        considered: kind of part -> ids tried in the search.
     """
     pair = document.load.pair is not None
-    found = []
+    entries = []
     for entry in _entries(document, ""):
         of_load = entry.path.startswith("load.")
-        if pair and (entry.path in _OF_A_STROKE or (of_load and not entry.path.startswith("load.pair"))):
+        if pair and (entry.path in _LINEAR_ONLY or (of_load and not entry.path.startswith("load.pair"))):
             continue
         if not pair and entry.path == "load.pair":
             continue
-        if entry.value is None and entry.path in _FREE:
-            entry = entry._replace(value=_FREE[entry.path])
+        if entry.value is None and entry.path in _DEFAULT_WORDS:
+            entry = entry._replace(value=_DEFAULT_WORDS[entry.path])
         kind = entry.path.removeprefix("catalogue.")
         if kind in considered and entry.value is None:
             entry = entry._replace(value=", ".join(considered[kind]) or "none")
-        found.append(entry)
-    return found
+        entries.append(entry)
+    return entries
 
 
-def _entries(model: BaseModel, prefix: str, *, given: bool = True) -> Iterator[Entry]:
+def _entries(model: BaseModel, prefix: str, *, parent_stated: bool = True) -> Iterator[Entry]:
     for name, field in type(model).model_fields.items():
         value = getattr(model, name)
-        if name in _NOT_TOLD:
+        if name in _NOT_LISTED:
             continue
         path = f"{prefix}{name}"
-        stated = given and name in model.model_fields_set
+        is_stated = parent_stated and name in model.model_fields_set
         if isinstance(value, BaseModel) and not isinstance(value, ForceOverStroke):
-            yield from _entries(value, f"{path}.", given=stated)
+            yield from _entries(value, f"{path}.", parent_stated=is_stated)
         else:
-            yield Entry(path, _shown(value), _unit(field), stated, field.description or "")
+            yield Entry(path, _shown(value), _unit(field), is_stated, field.description or "")
 
 
 def _shown(value: object) -> float | str | None:
@@ -71,17 +70,17 @@ def _shown(value: object) -> float | str | None:
 
 
 def _unit(field: FieldInfo) -> str:
-    """SI unit of a quantity; "%" where people write a share in percent."""
-    found = [
+    """SI unit of a quantity; "%" for a share that is usually written in percent."""
+    quantity_fields = [
         item for item in (*field.metadata, *_inside(field.annotation)) if isinstance(item, QuantityField)
     ]
-    if not found:
+    if not quantity_fields:
         return ""
-    return "%" if "%" in found[0].example else found[0].unit
+    return "%" if "%" in quantity_fields[0].example else quantity_fields[0].unit
 
 
 def _inside(annotation: Any) -> Iterator[Any]:
-    """What an optional annotated type carries."""
+    """Metadata of the parts of a union type."""
     for part in get_args(annotation):
         yield from getattr(part, "__metadata__", ())
 

@@ -1,4 +1,4 @@
-r"""The equations behind the figures: what every drive has, and the effects of this one."""
+"""Equations of the model: those of every drive, and the effects of this one."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _BASE = (
     _Law(
         "Force",
         (r"F = P\,\frac{3L^2 - b^2}{4\pi n^2}, \quad \kappa = 1 - \frac{L}{L_0}",),
-        "Gauge pressure P, contraction κ; the effects below change it. A muscle never pushes.",
+        "Gauge pressure P, contraction κ; modified by the effects below. A muscle never pushes.",
     ),
     _Law(
         "Stiffness",
@@ -40,8 +40,8 @@ _BASE = (
             r"k_c = \frac{\partial F}{\partial L} - \frac{\partial F}{\partial P}"
             r"\frac{\gamma p\,\partial_L V}{V + \gamma p\,\partial_P V}",
         ),
-        "With the valve open, and closed with γ = 1.4; times the square of the lever and the number of "
-        "muscles at the load.",
+        "With the valve open (k), and closed (k_c, γ = 1.4). At the load: times the square of the lever "
+        "ratio and the number of muscles.",
     ),
     _Law(
         "Flow through valve and tube (ISO 6358)",
@@ -60,7 +60,7 @@ _BASE = (
     _Law(
         "Motion",
         (r"M\ddot s = r^2 F - r\,(m g\sin\alpha + F_{ext}) - k s - F_{stop}",),
-        "Lever ratio r, inclination α, spring k. Of a pair the tension of the second muscle counts against "
+        "Lever ratio r, inclination α, spring k. In a pair, the tension of the second muscle opposes "
         "the first.",
     ),
 )  # fmt: skip
@@ -73,13 +73,13 @@ _SIZING = (
     _Law(
         "Force reserve",
         (r"\min_s \frac{N r\,F(P, \kappa(s))}{F_{load}(s)} - 1",),
-        "N parallel muscles over the whole stroke, at rest while shortening; of a pair the empty second "
-        "muscle belongs to the load.",
+        "N parallel muscles, smallest value over the stroke, static while shortening; in a pair the empty "
+        "second muscle is part of the load.",
     ),
     _Law(
-        "Air a cycle",
+        "Air per cycle",
         (r"V_{ANR} = \frac{1}{\rho_0}\int \dot m_{supply}\,dt",),
-        "Of all muscles, over one fill and one vent.",
+        "Of all muscles, for filling and venting once.",
     ),
     _Law(
         "Life (an estimate)",
@@ -87,7 +87,7 @@ _SIZING = (
             r"N_{life} = 10^{7 - 2u}, \quad "
             r"u = \max\Bigl(\frac{\kappa}{\kappa_{max}}, \frac{F}{F_{max}}\Bigr)",
         ),
-        "General knowledge, not verified; no maker's curve is known.",
+        "General knowledge, not verified; not a curve of the maker.",
     ),
     _Law(
         "Specimens",
@@ -95,19 +95,19 @@ _SIZING = (
             r"F_i(\kappa) = F(\kappa + \Delta_i), \quad "
             r"\Delta_i \sim \mathcal{N}\Bigl(0, \frac{\sigma_F F_0}{\lvert\partial_\kappa F(0)\rvert}\Bigr)",
         ),
-        "Shifted along the contraction so that the blocked force F₀ differs by its standard deviation "
-        "(σ as a share of it); friction and supply pressure evenly distributed.",
+        "The force curve is shifted along the contraction so that the blocked force F₀ has the relative "
+        "standard deviation σ_F; friction and supply pressure are uniformly distributed.",
     ),
 )  # fmt: skip
 
 
 def equations_section(material: SizingMaterial, chosen: Chosen) -> Html:
-    """All equations, then each effect with the values of this drive."""
+    """All equations, and each effect with its values in this drive."""
     laws = [*_BASE, *([_TUBE] if chosen.proposal.tube else []), *_SIZING]
     parts: list[Child] = [_law(law) for law in laws]
     parts.append(heading("Effects in the model of this drive"))
     if not chosen.effects:
-        parts.append(paragraph("None: the ideal muscle with thin wall and no losses."))
+        parts.append(paragraph("None: the ideal muscle with a thin wall and no losses."))
     parts += [_effect(name, material, chosen) for name in chosen.effects]
     return html(parts)
 
@@ -128,14 +128,14 @@ def _effect(name: str, material: SizingMaterial, chosen: Chosen) -> Html:
         Head("Symbol"),
         Head("Parameter"),
         Head("Value", number=True),
-        Head("Where from"),
+        Head("Source"),
     ]
     rows: list[list[Child]] = [
         [
             formula(parameter.symbol),
             parameter.description,
             figure(value, scale_of(parameter.unit, value), exact=True),
-            source_text(found) if (found := chosen.figures.get(f"{name}.{parameter.name}")) else "given",
+            source_text(source) if (source := chosen.figures.get(f"{name}.{parameter.name}")) else "given",
         ]
         for parameter in effect.parameters
         if (value := values.get(parameter.name)) is not None

@@ -1,4 +1,4 @@
-"""The report of a sizing: the search once more, the run of one proposal, what is known of its parts."""
+"""Collects the content of a sizing report: the search, the run of one proposal, its parts."""
 
 from __future__ import annotations
 
@@ -8,12 +8,10 @@ import shlex
 from collections.abc import Callable, Mapping
 from datetime import datetime
 from math import ceil
-from typing import Any
 
 from mckibben.application.json_text import to_json
 from mckibben.application.simulate import result_of, run_drive
 from mckibben.application.size import Searched, prepare_search, sizing_question
-from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
@@ -29,7 +27,7 @@ from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.timing.of_run import grid_of
 from mckibben.sizing.catalogue import switch_on
 
-# Rows of the run: a stroke of some milliseconds is to be seen in a run of some seconds.
+# Time step [s] and number of rows: resolves a stroke of milliseconds in a run of seconds.
 _STEP, _FEWEST, _MOST = 2.5e-4, 2000, 20_000
 _TASK_FILE, _DRIVE_FILE = "task.json", "drive.json"
 
@@ -42,8 +40,8 @@ def prepare_report(
     Args:
         document: the task.
         studio: presets and effects.
-        proposal: rank of the drive that is written down, 1 the best.
-        title: "" for that of the task, else what it is about.
+        proposal: rank of the drive that is reported, 1 is the best.
+        title: "" to use the title of the task or, without one, its summary.
 
     Raises:
         InputError: the task cannot be used; its field begins with ``task``.
@@ -66,16 +64,16 @@ def report_of(
         InputError: there are fewer proposals, or the search did not complete.
     """
     result, document = search.result, search.question.document
-    if search.found.outcome is not Outcome.COMPLETED:
+    if search.sizing.outcome is not Outcome.COMPLETED:
         raise InputError(f"there is nothing to report: {result.message}", field="task")
     count = len(result.proposals)
-    if 0 < count < proposal:  # a task that nothing does has a report too
-        there = "is 1 proposal" if count == 1 else f"are {count} proposals"
+    if 0 < count < proposal:  # a task without a proposal has a report too
+        number = "is 1 proposal" if count == 1 else f"are {count} proposals"
         most = "1" if count == 1 else f"1 to {count}"
-        raise InputError(f"there {there}", field="proposal", hint=most)
+        raise InputError(f"there {number}", field="proposal", hint=most)
     chosen = _chosen(search, studio, proposal, watch or Watch()) if count else None
     about = about_task(document)
-    task = canonical(task_document(document))
+    task = canonical(document.completed())
     files = {_TASK_FILE: task}
     if chosen is not None:
         files[_DRIVE_FILE] = canonical(chosen.proposal.drive)
@@ -94,7 +92,6 @@ def report_of(
             result=result,
             pair=search.question.task.pair is not None,
             profile=search.question.task.force_over_stroke,
-            considered=considered,
             chosen=chosen,
             catalogue=studio.catalogue,
             hashes={name: hashlib.sha256(text.encode()).hexdigest() for name, text in files.items()},
@@ -104,14 +101,14 @@ def report_of(
 
 
 def _chosen(search: Searched, studio: Studio, rank: int, watch: Watch) -> Chosen:
-    proposal, answer = search.found.proposals[rank - 1], search.result.proposals[rank - 1]
+    proposal, answer = search.sizing.proposals[rank - 1], search.result.proposals[rank - 1]
     task, group = search.question.task, proposal.design.group
-    given = drive_of(read_document(answer.drive, "the drive of the proposal"), studio)
-    duration = given.drive.duration
+    drive_model = drive_of(answer.drive, studio)
+    duration = drive_model.drive.duration
     points = min(max(ceil(duration / _STEP), _FEWEST), _MOST) + 1
     grid = grid_of(duration=duration, begin=0.0, end=duration, points=points)
-    # By the kernel as in the search, so that both show the same digits.
-    run = result_of(given, grid, run_drive(given, grid, watch, "rodas"))
+    # The solver of the search, so that the figures agree to the last digit.
+    run = result_of(drive_model, grid, run_drive(drive_model, grid, watch, "rodas"))
     on = switch_on(task, group.duty)
     return Chosen(
         rank=rank,
@@ -119,27 +116,18 @@ def _chosen(search: Searched, studio: Studio, rank: int, watch: Watch) -> Chosen
         run=run,
         fill=(on, on + task.fill_time),
         count=group.parallel,
-        lever=group.duty.lever_ratio,
         curves=curves_of(proposal, task),
         margins=margins_of(proposal, task),
         parts=parts_of(proposal.design, studio),
         spread=spread_of(proposal, task),
-        effects=given.start.effects,
-        figures=dict(effect_figures(proposal.design, studio, given.start.effects)),
-        gas=given.drive.gas_closure,
+        effects=drive_model.start.effects,
+        figures=dict(effect_figures(proposal.design, studio, drive_model.start.effects)),
+        gas=drive_model.drive.gas_closure,
     )
 
 
-def task_document(document: SizingTask) -> dict[str, Any]:
-    """The task with everything that was assumed, in SI; reading it again gives the same search."""
-    whole = document.model_dump(mode="json", by_alias=True, exclude_none=True)
-    if document.load.pair is not None:  # a pair takes no other field of the load
-        whole["load"] = {"pair": whole["load"]["pair"]}
-    return whole
-
-
 def canonical(content: object) -> str:
-    """JSON with sorted keys and no blanks: what the hashes are taken of."""
+    """JSON with sorted keys and without spaces, for hashing."""
     plain = json.loads(to_json(content))
     return json.dumps(plain, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
 
@@ -150,10 +138,10 @@ def _command(files: Mapping[str, str], chosen: Chosen | None, proposal: int) -> 
     notes = []
     if chosen is not None:
         lines.append(f"mckibben simulate {_DRIVE_FILE}")
-        own = [part.id for part in chosen.parts if part.origin == "user"]
-        if own:
+        user_presets = [part.id for part in chosen.parts if part.origin == "user"]
+        if user_presets:
             notes.append(
-                f"Presets of your own are needed too (--presets): {', '.join(map(shlex.quote, own))}."
+                f"Also needs your own presets (--presets): {', '.join(map(shlex.quote, user_presets))}."
             )
     shown = {name: json.dumps(json.loads(text), indent=2, ensure_ascii=False) for name, text in files.items()}
     return Command(lines, shown, notes)

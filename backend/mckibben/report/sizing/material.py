@@ -1,4 +1,4 @@
-"""What the report of a sizing is made of."""
+"""Content of a sizing report."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ class Entry(NamedTuple):
 
     Attributes:
         path: "limits.max_length".
-        value: in SI, or words; None where nothing is demanded.
-        unit: SI unit, "" of words; "%" of a share that people write in percent.
-        given: whether the task says it; else it is the usual value.
-        about: what it is, and why its usual value is what it is.
+        value: in SI, or text; None where nothing is demanded.
+        unit: SI unit, "" for text; "%" for a share that is usually written in percent.
+        stated: whether the task states it; otherwise it is the default.
+        about: its meaning, and the reason for the default.
     """
 
     path: str
     value: float | str | None
     unit: str
-    given: bool
+    stated: bool
     about: str
 
 
 class KnownFigure(NamedTuple):
-    """A figure of a part that enters: name, value in its own unit, where it comes from, a remark."""
+    """A figure of a part used in the sizing: name, value, its unit, source and a remark."""
 
     name: str
     value: float
@@ -50,9 +50,10 @@ class Part:
         kind: "muscle", "valve" or "tube".
         id: of the preset.
         number: how many are needed.
-        order: what to order: title of the preset, with the length where it is cut.
-        maker, origin: who makes it; "built-in" or "user" preset.
-        figures: what enters the sizing.
+        order: title of the preset, with the length of parts cut to length.
+        maker: of the part.
+        origin: "built-in" or "user" preset.
+        figures: those used in the sizing.
         references: of the preset.
     """
 
@@ -67,7 +68,15 @@ class Part:
 
 
 class Margin(NamedTuple):
-    """A limit: its name, what is allowed and what the drive has in SI, whether less is better, the margin."""
+    """Distance to a limit.
+
+    Attributes:
+        name: of the limit.
+        allowed, actual: its value and that of the drive, in ``unit``.
+        unit: SI unit; "%" for a share.
+        upper: whether it is an upper limit.
+        share: distance as a share of the limit, negative beyond it.
+    """
 
     name: str
     allowed: float
@@ -79,17 +88,17 @@ class Margin(NamedTuple):
 
 @dataclass(frozen=True)
 class ForceCurves:
-    """Force of one muscle over its contraction at rest, and what it has to carry.
+    """Static force of one muscle over its contraction, and the force demanded of it.
 
     Attributes:
         contraction: of the columns [-].
-        pressures: gauge, ascending, the supply's last [Pa].
+        pressures: gauge, ascending, the supply pressure last [Pa].
         force: shape (pressures, columns) [N].
         places: contractions over the stroke [-].
-        demand: force one muscle must have there [N]; with what the second muscle of a pair resists.
-        counter: that resistance alone [N].
-        carrying: pressures that just carry the load at the begin and at the end [Pa].
-        run: the same demand as the run takes it, where that differs; else empty [N].
+        demand: force demanded of one muscle at ``places``, including ``counter`` [N].
+        counter: force of the empty second muscle of a pair [N].
+        carrying: pressures that just carry the load at the start and at the end [Pa].
+        run: demand used in the run, if that differs; else empty [N].
     """
 
     contraction: Sequence[float]
@@ -104,15 +113,15 @@ class ForceCurves:
 
 @dataclass(frozen=True)
 class SpecimenSpread:
-    """What the specimens of the probability vary by.
+    """How the simulated specimens differ.
 
     Attributes:
         blocked_force: two standard deviations, share of the blocked force.
-        shift: one standard deviation of the contraction at which a specimen is at rest [-].
-        hysteresis: largest width of the loop, share of the nominal length; None where nobody states it.
-        friction: largest force of one muscle against the motion [N].
+        shift: one standard deviation of the shift of the curve along the contraction [-].
+        hysteresis: largest width of the loop, share of the nominal length; None if unknown.
+        friction: largest friction force of one muscle [N].
         supply: largest deviation of the supply pressure, share of it.
-        demands: what a specimen must do, in words.
+        demands: what a specimen must achieve, in words.
     """
 
     blocked_force: float
@@ -125,21 +134,20 @@ class SpecimenSpread:
 
 @dataclass(frozen=True)
 class Chosen:
-    """The proposal that is written down.
+    """The reported proposal.
 
     Attributes:
-        rank: of it, 1 the best.
+        rank: 1 is the best.
         proposal: the drive.
-        run: its run.
-        fill: when the valve begins and stops to fill [s].
-        count: muscles on one side; the run is that of one of them.
-        lever: stroke of the muscle per stroke of the load.
+        run: its simulation.
+        fill: when the valve starts and stops filling [s].
+        count: muscles on one side; ``run`` simulates one of them.
         curves: of one muscle.
-        margins: to each limit.
-        parts: what is built in.
-        spread: of the specimens; None when none were asked for.
+        margins: to each limit, the smallest first.
+        parts: parts list.
+        spread: of the specimens; None if none were simulated.
         effects: effect id -> its parameters in the run.
-        figures: "effect.parameter" -> where the value comes from.
+        figures: "effect.parameter" -> source of the value.
         gas: how the air in the muscle is modelled.
     """
 
@@ -148,7 +156,6 @@ class Chosen:
     run: SimulationResult
     fill: tuple[float, float]
     count: int
-    lever: float
     curves: ForceCurves
     margins: Sequence[Margin]
     parts: Sequence[Part]
@@ -160,22 +167,21 @@ class Chosen:
 
 @dataclass(frozen=True)
 class SizingMaterial:
-    """Everything the report tells.
+    """Everything the report contains.
 
     Attributes:
         title: of the report.
-        made: when.
+        made: date and time.
         versions: program -> version.
         about: the task in one sentence.
         entries: every field of the task that applies.
         result: of the search.
         pair: whether the drive is an antagonist pair.
         profile: strokes [m] and forces [N] of a force over the stroke; empty without one.
-        considered: kind of part -> ids that were tried.
-        chosen: the proposal that is written down; None when nothing does the task.
+        chosen: the reported proposal; None if there is none.
         catalogue: effect id -> declaration.
-        hashes: what -> SHA-256 of its canonical JSON.
-        command: how to repeat it.
+        hashes: file -> SHA-256 of its canonical JSON.
+        command: how to reproduce it.
     """
 
     title: str
@@ -186,7 +192,6 @@ class SizingMaterial:
     result: SizingResult
     pair: bool
     profile: tuple[Sequence[float], Sequence[float]]
-    considered: Mapping[str, Sequence[str]]
     chosen: Chosen | None
     catalogue: Mapping[str, Effect]
     hashes: Mapping[str, str]

@@ -20,14 +20,14 @@ from mckibben.report.stack import Panel, stack
 from mckibben.simulation.timing.table import PhaseFigures, TimingTable
 
 _MOST_ROWS = 420
-_AFTER, _LEAST_AFTER = 1.2, 0.02  # how much longer than the motion is shown, share and s
-_LEAVES = 1e-5  # m; less is no travel
+_AFTER, _LEAST_AFTER = 1.2, 0.02  # shown time: this multiple of the motion, and at least so many s more
+_LEAVES = 1e-5  # travel from which the load has started to move [m]
 _MILLISECONDS = Scale("ms", 1e-3)
 _SPEED, _ACCELERATION, _FLOW = Scale("mm/s", 1e-3), Scale("m/s²"), Scale("g/s", 1e-3)
 
-#: Figure of the timing table -> name, unit, whether it is that of all muscles together.
+#: Figure of the timing table -> name, unit, whether it is multiplied by the number of muscles.
 _FIGURES: Mapping[str, tuple[str, Scale, bool]] = {
-    "positioning_time": ("Positioning time (arrival on the stop)", _MILLISECONDS, False),
+    "positioning_time": ("Positioning time (arrival at the stop)", _MILLISECONDS, False),
     "delay_time": ("Delay time (50 % of the stroke)", _MILLISECONDS, False),
     "rise_time": ("Rise time (10 to 90 % of the stroke)", _MILLISECONDS, False),
     "settling_time": ("Settling time (within 5 %)", _MILLISECONDS, False),
@@ -36,13 +36,13 @@ _FIGURES: Mapping[str, tuple[str, Scale, bool]] = {
     "max_speed_at": ("… reached after", _MILLISECONDS, False),
     "max_acceleration": ("Largest acceleration", _ACCELERATION, False),
     "min_acceleration": ("Smallest acceleration", _ACCELERATION, False),
-    "end_speed": ("Speed on the stop", _SPEED, False),
-    "impact_energy": ("Energy on the stop", JOULE, True),
+    "end_speed": ("Speed at the stop", _SPEED, False),
+    "impact_energy": ("Energy at the stop", JOULE, True),
     "overshoot": ("Overshoot", SHARE, False),
     "pressure_delay_time": ("Pressure, delay time (50 %)", _MILLISECONDS, False),
     "pressure_rise_time": ("Pressure, rise time (10 to 90 %)", _MILLISECONDS, False),
     "pressure_settling_time": ("Pressure, settling time (within 1 %)", _MILLISECONDS, False),
-    "air_volume_anr": ("Air taken (filling) or let out (venting), ANR", LITRES, True),
+    "air_volume_anr": ("Air taken in (filling) or released (venting), ANR", LITRES, True),
     "choked_share": ("Share of the time the valve is choked", SHARE, False),
 }
 
@@ -58,9 +58,9 @@ class _DrawnPhase(NamedTuple):
 def motion_section(material: SizingMaterial, chosen: Chosen) -> Html:
     """Both phases as drawings, then the table."""
     on, off = chosen.fill
-    up = _DrawnPhase("The stroke, from the instant the valve begins to fill", "extend", on, off, 1.0)
+    up = _DrawnPhase("Stroke, from the moment the valve starts filling", "extend", on, off, 1.0)
     back = _DrawnPhase(
-        "The way back, from the instant the valve begins to vent",
+        "Return, from the moment the valve starts venting",
         "retract",
         off,
         chosen.run.duration,
@@ -73,11 +73,11 @@ def motion_section(material: SizingMaterial, chosen: Chosen) -> Html:
         drawing = _drawing(material, chosen, phase)
         if drawing is not None:
             parts.append(figure_of(drawing, f"{phase.name}."))
-    if not chosen.proposal.drive["load"]["mass"]:
+    if not chosen.proposal.drive.load.mass:
         parts.append(
             paragraph(
                 mark("No mass is moved"), " in this task: speeds, accelerations and energies are those of a "
-                "load of next to nothing, and mean little.",
+                "practically massless load and have little meaning.",
             )
         )  # fmt: skip
     parts.append(_table(chosen))
@@ -139,31 +139,31 @@ def _of_phase(timing: TimingTable, key: str) -> PhaseFigures:
 
 
 def _rules(run: SimulationResult, phase: _DrawnPhase, rows: NDArray) -> list[Rule]:
-    """When the load leaves, is at 10, 50 and 90 % of its stroke, and arrives."""
+    """When the load starts, is at 10, 50 and 90 % of its stroke, and arrives."""
     time = np.asarray(run.time, dtype=float)[rows] - phase.begin
     position = np.asarray(run.position, dtype=float)[rows]
     figures = _of_phase(run.timing, phase.key)
     begin, end = (run.limits.position_min, run.limits.position_max)[:: int(phase.sign)]
     stroke = abs(end - begin)
     travel = phase.sign * (position - begin)
-    found: list[Rule] = []
+    rules: list[Rule] = []
 
-    def at(value: float | None, words: str, colour: str, dash: str) -> None:
+    def at(value: float | None, name: str, colour: str, dash: str) -> None:
         if value is not None:
             shown = _MILLISECONDS.of(value)
-            found.append(Rule(shown, f"{words}: {shown:.3g} ms", colour, dash))
+            rules.append(Rule(shown, f"{name}: {shown:.3g} ms", colour, dash))
 
-    at(_passes(time, travel, min(_LEAVES, 0.01 * stroke)), "leaves", EDGE, "2 3")
+    at(_passes(time, travel, min(_LEAVES, 0.01 * stroke)), "starts", EDGE, "2 3")
     rise = [_passes(time, travel, share * stroke) for share in (0.1, 0.9)]
     at(rise[0], "10 %", EDGE, "6 3")
     at(figures.delay_time, "50 %, delay", INK, "6 3")
     at(rise[1], "90 %", EDGE, "6 3")
     at(figures.positioning_time, "arrives", SECOND, "6 3")
-    return found
+    return rules
 
 
 def _passes(time: NDArray, travel: NDArray, level: float) -> float | None:
-    """First instant at or beyond a travel, straight between two rows."""
+    """First time at which the travel reaches a level, by linear interpolation."""
     there = np.flatnonzero(travel >= level)
     if not len(there):
         return None
@@ -186,11 +186,11 @@ def _table(chosen: Chosen) -> Html:
     columns = [
         Head("Timing"),
         Head("Stroke (filling)", number=True),
-        Head("Way back (venting)", number=True),
+        Head("Return (venting)", number=True),
     ]
-    caption = "All times count from the instant the valve switches."
+    caption = "Times are measured from the moment the valve switches."
     if chosen.count > 1:
-        caption += f" Energy and air are those of all {chosen.count} muscles of a side."
+        caption += f" Energy and air are for all {chosen.count} muscles of a side together."
     return html(
         table(columns, rows, caption=caption), [paragraph(f"{note}.", note=True) for note in _notes(timing)]
     )
@@ -201,11 +201,11 @@ def _figure(value: float | None, times: int, scale: Scale) -> Html:
 
 
 def _notes(timing: TimingTable) -> list[str]:
-    """What to know of a figure, or why it is missing; of equal reasons one."""
+    """Remarks on figures or why they are missing; figures with the same remark share a line."""
     about: dict[str, list[str]] = {}
     for place, why in timing.notes.items():
         phase, _, name = place.partition(".")
         if name in _FIGURES:
-            way = "stroke" if phase == "extend" else "way back"
-            about.setdefault(why, []).append(f"{_FIGURES[name][0].partition(' (')[0].lower()} ({way})")
+            phase_name = "stroke" if phase == "extend" else "return"
+            about.setdefault(why, []).append(f"{_FIGURES[name][0].partition(' (')[0].lower()} ({phase_name})")
     return [f"{', '.join(names).capitalize()}: {why}" for why, names in about.items()]

@@ -1,4 +1,4 @@
-"""What else would do, and what does not, each with its reason."""
+"""Alternative drives, and rejected ones with their reasons."""
 
 from __future__ import annotations
 
@@ -20,31 +20,31 @@ from mckibben.report.sizing.words import (
     parts_words,
 )
 
-_ORDER = "First what would need the least change."
-_GROUPED = "Of each choice of muscles the nearest."
-_TOUCHING = 0.03  # of the axes
-_FAR = 2.0  # times the air of the proposals: what takes more is counted only
+_ORDER = "Sorted by the change they would need, the smallest first."
+_GROUPED = "One row for each choice of muscles and limit."
+_TOUCHING = 0.03  # share of an axis below which dots share a label
+_FAR = 2.0  # times the largest air consumption of the proposals: designs beyond are not drawn
 
 
 def alternatives_section(material: SizingMaterial, chosen: Chosen) -> Html:
-    """Air over time of every design that does the task, and the proposals as a table."""
+    """Time over air of every design that fulfils the task, and a table of the proposals."""
     explored = material.result.explored
-    beyond = len(explored) - len(_near(material))
-    told = (
-        f"{len(explored)} choices of parts that do the task, each at its best length and pressure of a first "
-        "look (coarse figures); on the front nothing else is better in air, time, length, reserve and "
-        "stiffness together. Numbers are the proposals of the table, refined and run finely."
-        + (f" {beyond} that take more air are not drawn." if beyond else "")
+    not_drawn = len(explored) - len(_near(material))
+    caption = (
+        f"{len(explored)} choices of parts fulfil the task, each shown at its best length and pressure in a "
+        "coarse first search. No design is better than one on the Pareto front in air, time, length, reserve "
+        "and stiffness at once. Numbers are the proposals of the table, refined and simulated accurately."
+        + (f" {not_drawn} that use more air are not drawn." if not_drawn else "")
     )
-    counted = (
+    counts = (
         f"{material.result.combinations} combinations of muscle, length, number, pressure, valve and tube "
-        f"lie within the limits of room and pressure; {material.result.pruned} were sorted out in closed "
-        f"form, {material.result.simulated} transients and {material.result.specimens} specimens "
+        f"keep the limits of length and pressure. {material.result.pruned} were rejected in closed "
+        f"form, {material.result.simulated} transients and {material.result.specimens} specimens were "
         "simulated."
     )
     parts: list[Child] = [
-        paragraph(counted),
-        figure_of(_picture(material, chosen), told),
+        paragraph(counts),
+        figure_of(_picture(material, chosen), caption),
         _proposals(material, chosen),
     ]
     if material.result.message:
@@ -58,39 +58,39 @@ def _picture(material: SizingMaterial, chosen: Chosen) -> Html:
     rest = [item for item in explored if not item.front]
     marks: list[Mark] = []
     if rest:
-        marks.append(Dots(*_places(rest), "does the task", EDGE, 5.0))
+        marks.append(Dots(*_places(rest), "fulfils the task", EDGE, 5.0))
     if front:
-        marks.append(Dots(*_places(front), "on the front", ACCENT, 6.0))
+        marks.append(Dots(*_places(front), "Pareto front", ACCENT, 6.0))
     others = [item for number, item in enumerate(proposals, 1) if number != chosen.rank]
     names = _names(proposals, explored, chosen.rank)
-    own = names.pop(chosen.rank)
+    chosen_name = names.pop(chosen.rank)
     if others:
         marks.append(Dots(*_places(others), "other proposals", INK, 7.0, [names[n] for n in sorted(names)]))
     place = _places([chosen.proposal])
-    marks.append(Dots(*place, f"proposal {chosen.rank}", SECOND, 11.0, [own]))
+    marks.append(Dots(*place, f"proposal {chosen.rank}", SECOND, 11.0, [chosen_name]))
     return chart(
-        Axis("Air a cycle", "l ANR", zero=True), Axis("Time for the stroke", "s", zero=True),
+        Axis("Air per cycle", "l ANR", zero=True), Axis("Time for the stroke", "s", zero=True),
         marks,
-        title="Time over air of the designs that do the task", height=340.0, room=140.0,
+        title="Time over air of the designs that fulfil the task", height=340.0, room=140.0,
     )  # fmt: skip
 
 
 def _names(proposals: list[ProposedDrive], explored: list[ExploredDrive], rank: int) -> dict[int, str]:
-    """Rank -> what stands beside its dot; of dots on each other one tells them all, the chosen one first."""
+    """Rank -> label of its dot; of overlapping dots one shows all ranks, preferably the chosen one."""
     x, y = _places(proposals)
     wide, high = (_TOUCHING * max(values) for values in _places([*proposals, *explored]))
     left = set(range(len(proposals)))
     names: dict[int, str] = {}
     for one in sorted(left, key=lambda number: number + 1 != rank):
         here = [n for n in sorted(left) if abs(x[n] - x[one]) < wide and abs(y[n] - y[one]) < high]
-        told = here if one in left else []
-        names[one + 1] = ", ".join(f"{number + 1}" for number in told)
-        left -= set(told)
+        labelled = here if one in left else []
+        names[one + 1] = ", ".join(f"{number + 1}" for number in labelled)
+        left -= set(labelled)
     return names
 
 
 def _near(material: SizingMaterial) -> list[ExploredDrive]:
-    """Explored designs that do not take many times the air of the proposals."""
+    """Explored designs that use at most `_FAR` times the air of the proposals."""
     most = _FAR * max(item.air_volume_anr for item in material.result.proposals)
     return [item for item in material.result.explored if item.air_volume_anr <= most]
 
@@ -105,16 +105,16 @@ def _places(items: Sequence[ProposedDrive | ExploredDrive]) -> tuple[list[float]
 def _proposals(material: SizingMaterial, chosen: Chosen) -> Html:
     columns = [
         Head("", number=True), Head("Drive", wide=True), Head("Supply", number=True),
-        Head("Time", number=True), Head("Air a cycle", number=True), Head("Does it", number=True),
-        Head("Why it stands there", wide=True),
+        Head("Time", number=True), Head("Air per cycle", number=True), Head("Probability", number=True),
+        Head("Reason for its rank", wide=True),
     ]  # fmt: skip
     rows: list[list[Child]] = []
     for number, item in enumerate(material.result.proposals, 1):
-        words: list[Child] = [drive_words(item), tag("br"), parts_words(item)]
+        name: list[Child] = [drive_words(item), tag("br"), parts_words(item)]
         rows.append(
             [
                 tag("b", f"{number}") if number == chosen.rank else f"{number}",
-                tag("b", words) if number == chosen.rank else html(words),
+                tag("b", name) if number == chosen.rank else html(name),
                 figure(item.pressure, BAR, 3),
                 figure(item.time, SECONDS, 3),
                 figure(item.air_volume_anr, LITRES, 3),
@@ -122,12 +122,12 @@ def _proposals(material: SizingMaterial, chosen: Chosen) -> Html:
                 _reason(item),
             ]
         )
-    return table(columns, rows, caption="Proposals, best first; the one of this report in bold.")
+    return table(columns, rows, caption="Proposals, best first; this report describes the one in bold.")
 
 
 def _reason(item: ProposedDrive) -> str:
-    """Without the probability, which has a column of its own."""
-    return "; ".join(part for part in item.reason.split("; ") if not part.startswith("does the task"))
+    """The reason without the probability, which has its own column."""
+    return "; ".join(part for part in item.reason.split("; ") if not part.startswith("fulfils the task"))
 
 
 def _likely(item: ProposedDrive) -> Child:
@@ -137,17 +137,17 @@ def _likely(item: ProposedDrive) -> Child:
 
 
 def rejected_section(material: SizingMaterial) -> Html:
-    """What does not do the task: why, the limit in the way, what would help; one row for each muscle."""
+    """Rejected parts: reason, violated limit, and what would help; a row per choice of muscles and limit."""
     rejected = material.result.rejected
     if not rejected:
-        return paragraph("Every choice of parts that was tried does the task.")
+        return paragraph("Every choice of parts that was tried fulfils the task.")
     groups: dict[tuple[str, int, str], list[RejectedParts]] = {}
     for item in rejected:
         groups.setdefault((item.muscle, item.parallel, item.binding), []).append(item)
     columns = [
-        Head("Why not", wide=True),
-        Head("Limit in the way"),
-        Head("It would do with", wide=True),
+        Head("Reason", wide=True),
+        Head("Violated limit"),
+        Head("What would help", wide=True),
     ]
     rows = [
         [_why(items), limit_name(binding).lower(), items[0].would_work_if]
@@ -158,5 +158,5 @@ def rejected_section(material: SizingMaterial) -> Html:
 
 def _why(items: list[RejectedParts]) -> Html:
     more = len(items) - 1
-    told = f" And {more} more with other valves and tubes." if more else ""
-    return html(f"{items[0].why}.{told}")
+    others = f" And {more} more with other valves and tubes." if more else ""
+    return html(f"{items[0].why}.{others}")

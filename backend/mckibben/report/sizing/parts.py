@@ -1,4 +1,4 @@
-"""The parts list, what it still lacks, and every figure that enters with its source."""
+"""The parts list, further parts needed, and every figure used with its source."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _HAIR = 1e-6
 
 
 def parts_section(material: SizingMaterial, chosen: Chosen) -> Html:
-    """What to order, and what the sizing does not choose."""
+    """Parts to order, and parts the sizing does not choose."""
     columns = [
         Head("Number", number=True), Head("Part"), Head("To order"), Head("Sources"),
         Head("Verified"),
@@ -25,12 +25,11 @@ def parts_section(material: SizingMaterial, chosen: Chosen) -> Html:
     return html(
         table(columns, rows),
         paragraph(
-            "Titles are those of the presets, no order codes of a shop: connections and lengths are to be "
-            "stated with the order.",
+            "Titles are those of the presets, not order codes: state connections and lengths with the order.",
             note=True,
         ),
-        heading("Needed besides, and not chosen here"),
-        bullets(_besides(material, chosen)),
+        heading("Also needed, not chosen here"),
+        bullets(_further_parts(material, chosen)),
     )
 
 
@@ -39,9 +38,9 @@ def _kind(part: Part) -> str:
 
 
 def _order(part: Part) -> Child:
-    own = " (a preset of your own)" if part.origin == "user" else ""
+    remark = " (your own preset)" if part.origin == "user" else ""
     maker = "" if not part.maker or part.order.startswith(part.maker) else f", {part.maker}"
-    return f"{part.order}{maker}{own}"
+    return f"{part.order}{maker}{remark}"
 
 
 def _sources(part: Part) -> str:
@@ -49,45 +48,49 @@ def _sources(part: Part) -> str:
     for known in part.figures:
         counts[known.figure.grade] = counts.get(known.figure.grade, 0) + 1
     shown = ", ".join(f"{count} of grade {grade}" for grade, count in sorted(counts.items()))
-    return f"{len(part.figures)} figures: {shown}" if shown else "no figure of its own"
+    return f"{len(part.figures)} figures: {shown}" if shown else "no figures"
 
 
 def _verified(part: Part) -> Child:
-    open_ = [known.name for known in part.figures if not known.figure.verified]
-    return html(mark("no"), f": {', '.join(open_)}") if open_ else "yes"
+    unverified = [known.name for known in part.figures if not known.figure.verified]
+    return html(mark("no"), f": {', '.join(unverified)}") if unverified else "yes"
 
 
-def _besides(material: SizingMaterial, chosen: Chosen) -> list[Child]:
-    found = chosen.proposal
+def _further_parts(material: SizingMaterial, chosen: Chosen) -> list[Child]:
+    proposal = chosen.proposal
     supply = next(entry.value for entry in material.entries if entry.path == "supply_pressure")
     parts: list[Child] = []
-    if isinstance(supply, float) and found.pressure < supply * (1.0 - _HAIR):
+    if isinstance(supply, float) and proposal.pressure < supply * (1.0 - _HAIR):
         parts.append(
-            "A pressure regulator before the valve, set to "
-            f"{plain(BAR.of(found.pressure), 4, exact=True)} bar: the supply has "
+            "A pressure regulator upstream of the valve, set to "
+            f"{plain(BAR.of(proposal.pressure), 4, exact=True)} bar; the supply has "
             f"{plain(BAR.of(supply), 4, exact=True)} bar."
         )
-    energy = plain(JOULE.of(found.impact_energy), 3)
-    back = chosen.run.timing.retract.impact_energy
-    lower = "" if back is None else f", on the way back the lower one with {plain(back * chosen.count, 3)} J"
-    end = MILLIMETRES.of(found.nominal_length * (1.0 - found.contraction))
+    energy = plain(JOULE.of(proposal.impact_energy), 3)
+    return_energy = chosen.run.timing.retract.impact_energy
+    lower_stop = (
+        ""
+        if return_energy is None
+        else f"; on return, the lower one with {plain(return_energy * chosen.count, 3)} J"
+    )
+    end = MILLIMETRES.of(proposal.nominal_length * (1.0 - proposal.contraction))
     parts += [
-        f"End stops: the load meets the upper one with {energy} J, where each pulling muscle is {end:.4g} mm "
-        f"long{lower}.",
-        "Fittings between valve, tube and muscle, and silencers: their volume and resistance are not in "
-        "the run.",
-        "End fittings and joints of the muscle, guide of the load, electrics of the valve.",
+        f"End stops: the load hits the upper one with {energy} J, where each pulling muscle is {end:.4g} mm "
+        f"long{lower_stop}.",
+        "Fittings between valve, tube and muscle, and silencers: the run neglects their volume and "
+        "resistance.",
+        "End fittings and joints of the muscle, a guide for the load, wiring of the valve.",
     ]
-    if found.tube is None:
-        parts.append("No tube: the valve sits on the muscle.")
-    if found.pulley_radius is not None:
-        radius = MILLIMETRES.of(found.pulley_radius)
-        parts.append(f"The pulley: {radius:.4g} mm of radius, both muscles on it.")
+    if proposal.tube is None:
+        parts.append("No tube: the valve is mounted on the muscle.")
+    if proposal.pulley_radius is not None:
+        radius = MILLIMETRES.of(proposal.pulley_radius)
+        parts.append(f"A pulley of {radius:.4g} mm radius, which both muscles drive.")
     return parts
 
 
 def figures_section(chosen: Chosen) -> Html:
-    """Every preset figure that enters, and what the grades mean."""
+    """Every preset figure used, and what the grades mean."""
     columns = [
         Head("Figure"), Head("Value", number=True), Head("Source"), Head("Grade"), Head("Verified"),
     ]  # fmt: skip

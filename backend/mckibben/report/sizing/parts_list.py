@@ -1,4 +1,4 @@
-"""The parts of a proposal: what is ordered, and where the numbers of their presets come from."""
+"""The parts of a proposal, and the sources of their figures."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from mckibben.report.sizing.material import KnownFigure, Part
 from mckibben.report.sources import Figure
 from mckibben.sizing import Design
 
-# What a muscle's preset brings into a sizing; the nominal length is the search's own.
+# Figures of a muscle preset used in a sizing; the nominal length is chosen by the search.
 _OF_MUSCLE = (
     "geometry.",
     "effects.",
@@ -32,7 +32,7 @@ def parts_of(design: Design, studio: Studio) -> list[Part]:
     muscle = library.muscle(group.muscle.id)
     valve = library.get("valves", group.valve.id)
     length = f"nominal length {design.length * 1e3:.4g} mm"
-    found = [
+    parts = [
         _part("muscle", muscle, group.muscles, f"{muscle.title}, {length}", studio.catalogue),
         _part("valve", valve, 2 if group.duty.pair else 1, valve.title, studio.catalogue),
     ]
@@ -40,8 +40,8 @@ def parts_of(design: Design, studio: Studio) -> list[Part]:
     if tube is not None:
         preset = library.get("tubes", group.tube.id)
         order = f"{preset.title}, {tube.length * 1e3:.4g} mm each"
-        found.append(_part("tube", preset, group.muscles, order, studio.catalogue))
-    return found
+        parts.append(_part("tube", preset, group.muscles, order, studio.catalogue))
+    return parts
 
 
 def _part(kind: str, preset: Preset, number: int, order: str, catalogue: Mapping[str, Effect]) -> Part:
@@ -53,8 +53,10 @@ def _part(kind: str, preset: Preset, number: int, order: str, catalogue: Mapping
         maker=preset.maker,
         origin=preset.origin,
         figures=[
-            KnownFigure(_named(path, catalogue), found.value, found.unit, _source(found), found.note or "")
-            for path, found in quantities(preset)
+            KnownFigure(
+                _figure_name(path, catalogue), figure.value, figure.unit, _source(figure), figure.note or ""
+            )
+            for path, figure in quantities(preset)
             if _enters(path, kind)
         ],
         references=preset.references,
@@ -67,7 +69,7 @@ def _enters(path: str, kind: str) -> bool:
     return path.startswith("effects.") or path in _OF_PART
 
 
-def _named(path: str, catalogue: Mapping[str, Effect]) -> str:
+def _figure_name(path: str, catalogue: Mapping[str, Effect]) -> str:
     section, _, name = path.rpartition(".")
     words = name.replace("_", " ")
     if not section.startswith("effects."):
@@ -75,30 +77,30 @@ def _named(path: str, catalogue: Mapping[str, Effect]) -> str:
     return f"{catalogue[section.removeprefix('effects.')].title}: {words}"
 
 
-def _source(found: Quantity) -> Figure:
-    return Figure(found.source, found.grade)
+def _source(quantity: Quantity) -> Figure:
+    return Figure(quantity.source, quantity.grade)
 
 
 def effect_figures(
     design: Design, studio: Studio, effects: Mapping[str, Mapping[str, float]]
 ) -> Iterator[tuple[str, Figure]]:
-    """ "effect.parameter" -> where the value of a run comes from: a preset, or the catalogue's default."""
+    """ "effect.parameter" -> source of its value in the run: a preset, or the catalogue's default."""
     group, library = design.group, studio.library
     known: dict[str, tuple[str, Quantity]] = {}
     presets = [library.muscle(group.muscle.id), library.get("valves", group.valve.id)]
     if group.tube.tube is not None:
         presets.append(library.get("tubes", group.tube.id))
-    for preset in presets:  # a later part's effect takes the place of an earlier one's, as in the run
-        for path, found in quantities(preset):
+    for preset in presets:  # a later part replaces the effect of an earlier one, as in the run
+        for path, quantity in quantities(preset):
             if path.startswith("effects."):
-                known[path.removeprefix("effects.")] = preset.id, found
+                known[path.removeprefix("effects.")] = preset.id, quantity
     for effect, values in effects.items():
         for parameter in studio.catalogue[effect].parameters:
             name = f"{effect}.{parameter.name}"
             if parameter.name not in values:
                 continue
             if name in known:
-                preset_id, found = known[name]
-                yield name, Figure(f"{preset_id}: {found.source}", found.grade)
+                preset_id, quantity = known[name]
+                yield name, Figure(f"{preset_id}: {quantity.source}", quantity.grade)
             else:
                 yield name, Figure(f"default: {parameter.source.text}", parameter.source.grade)

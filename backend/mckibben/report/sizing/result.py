@@ -1,4 +1,4 @@
-"""The answer first: what is built, how well it does the task, what it rests on."""
+"""The result: the proposed drive, how well it fulfils the task, unverified figures."""
 
 from __future__ import annotations
 
@@ -18,36 +18,37 @@ from mckibben.report.sizing.words import (
     parts_words,
 )
 
-_LIKELY, _EVEN = 0.9, 0.5
-_NONE_LEFT = 0.005
+_GOOD, _FAIR = 0.9, 0.5  # probabilities from which the result is shown as good, or with a warning
+_USED_UP = 0.005  # margin below which a limit counts as used up
 
 
 def result_section(material: SizingMaterial) -> Html:
-    """The proposal that is written down, or that there is none."""
+    """The reported proposal, or that there is none."""
     if material.chosen is None:
         return _nothing(material)
     return _proposal(material, material.chosen)
 
 
 def _proposal(material: SizingMaterial, chosen: Chosen) -> Html:
-    found = chosen.proposal
-    likely = found.probability
+    proposal = chosen.proposal
+    probability = proposal.probability
     tone: Tone = "plain"
-    if likely is not None:
-        tone = "good" if likely >= _LIKELY else "warn" if likely >= _EVEN else "bad"
+    if probability is not None:
+        tone = "good" if probability >= _GOOD else "warn" if probability >= _FAIR else "bad"
     count = len(material.result.proposals)
     rank = f"Proposal {chosen.rank} of {count}" if count > 1 else "The only proposal"
     parts: list[Child] = [
         paragraph(f"Task: {material.about}."),
         callout(
-            f"{drive_words(found)}, with {parts_words(found)} at {plain(BAR.of(found.pressure), 3)} bar",
-            f"{rank}: {found.reason}.",
+            f"{drive_words(proposal)}, with {parts_words(proposal)} at "
+            f"{plain(BAR.of(proposal.pressure), 3)} bar",
+            f"{rank}: {proposal.reason}.",
             _chance_words(chosen),
             tone=tone,
         ),
         tiles(_tiles(chosen)),
     ]
-    remarks = [*found.notes, *_crossed(chosen)]
+    remarks = [*proposal.notes, *_crossed(chosen)]
     if material.result.message:
         remarks.append(material.result.message)
     if remarks:
@@ -57,62 +58,64 @@ def _proposal(material: SizingMaterial, chosen: Chosen) -> Html:
 
 
 def _tiles(chosen: Chosen) -> list[tuple[Child, Child]]:
-    found = chosen.proposal
+    proposal = chosen.proposal
     nearest = chosen.margins[0]
     pairs: list[tuple[Child, Child]] = [
-        ("Time for the stroke", figure(found.time, SECONDS, 3)),
-        ("Way back", figure(found.time_down, SECONDS, 3)),
-        ("Supply pressure", figure(found.pressure, BAR, 3)),
-        ("Air a cycle (ANR)", figure(found.air_volume_anr, LITRES, 3)),
+        ("Time for the stroke", figure(proposal.time, SECONDS, 3)),
+        ("Time for the return", figure(proposal.time_down, SECONDS, 3)),
+        ("Supply pressure", figure(proposal.pressure, BAR, 3)),
+        ("Air per cycle (ANR)", figure(proposal.air_volume_anr, LITRES, 3)),
         (
             "Force reserve at rest",
-            "ample" if found.force_reserve > AMPLE else percent(found.force_reserve, 3),
+            "ample" if proposal.force_reserve > AMPLE else percent(proposal.force_reserve, 3),
         ),
-        ("Energy on the end stop", figure(found.impact_energy, JOULE, 3)),
-        ("Installed length", figure(found.installed_length, MILLIMETRES, 4)),
-        ("Outer diameter", figure(found.diameter, MILLIMETRES, 3)),
+        ("Energy at the end stop", figure(proposal.impact_energy, JOULE, 3)),
+        ("Installed length", figure(proposal.installed_length, MILLIMETRES, 4)),
+        ("Outer diameter", figure(proposal.diameter, MILLIMETRES, 3)),
     ]
-    if found.probability is not None:
-        pairs.insert(0, ("Does the task", percent(found.probability, 3)))
-    left = percent(max(nearest.share, 0.0)) if nearest.share > _NONE_LEFT else "used up"
-    pairs.append((f"Nearest limit: {limit_name(nearest.name).lower()}", left))
+    if proposal.probability is not None:
+        pairs.insert(0, ("Probability to fulfil the task", percent(proposal.probability, 3)))
+    remaining = percent(max(nearest.share, 0.0)) if nearest.share > _USED_UP else "used up"
+    pairs.append((f"Nearest limit: {limit_name(nearest.name).lower()}", remaining))
     return pairs
 
 
 def _chance_words(chosen: Chosen) -> str:
-    found = chosen.proposal
-    if found.probability is None or found.probability_error is None:
-        return "No specimens were asked for: how likely it does the task when it is built is not known."
-    share, error = 100.0 * found.probability, 100.0 * found.probability_error
+    proposal = chosen.proposal
+    if proposal.probability is None or proposal.probability_error is None:
+        return (
+            "No specimens were simulated, so the probability that a built drive fulfils the task is unknown."
+        )
+    share, error = 100.0 * proposal.probability, 100.0 * proposal.probability_error
     return (
-        f"Of {found.specimens} simulated specimens {share:.3g} % do the task (standard error {error:.2g} "
-        "%); section “Uncertainty” says what varies between them and what does not."
+        f"Of {proposal.specimens} simulated specimens {share:.3g} % fulfil the task (standard error "
+        f"{error:.2g} %). Section “Uncertainty” says what varies between them."
     )
 
 
 def _crossed(chosen: Chosen) -> list[str]:
-    """Limits that the run crosses anywhere."""
+    """Limits exceeded during the run."""
     return [
-        f"The run crosses a limit: {flag.message}."
+        f"The run exceeds a limit: {flag.message}."
         for flag in chosen.run.flags
         if flag.code.startswith("over_")
     ]
 
 
 def _unverified(chosen: Chosen) -> Html:
-    every = [known for part in chosen.parts for known in part.figures]
-    open_ = [known for known in every if not known.figure.verified]
-    if not open_:
-        return callout("Every preset figure that enters was read in a source or computed from one")
+    figures = [known for part in chosen.parts for known in part.figures]
+    unverified = [known for known in figures if not known.figure.verified]
+    if not unverified:
+        return callout("Every preset figure used was read in a source or computed from one")
     texts = [
         f"{part.id}: {', '.join(names)}"
         for part in chosen.parts
         if (names := [known.name for known in part.figures if not known.figure.verified])
     ]
     return callout(
-        f"{len(open_)} of {len(every)} preset figures that enter are not verified",
+        f"{len(unverified)} of {len(figures)} preset figures used are not verified",
         "General knowledge or estimates (grades M and E). Check them against data sheets before ordering; "
-        "the times rest on the flow of the valve and the bore of the tube.",
+        "the times depend on the flow of the valve and the bore of the tube.",
         *(f"{text}." for text in texts),
         tone="warn",
     )
@@ -120,20 +123,20 @@ def _unverified(chosen: Chosen) -> Html:
 
 def _nothing(material: SizingMaterial) -> Html:
     rejected = material.result.rejected
-    words: list[Child] = []
+    hints: list[Child] = []
     if rejected:
         nearest = rejected[0]
         if nearest.would_work_if.startswith("nothing"):
-            words = ["No limit moved by itself, and no other part of the catalogue, would make it do."]
+            hints = ["Neither relaxing a single limit nor another part of the catalogue would help."]
         else:
-            words = [f"Nearest: {nearest.why}.", f"It would do with {nearest.would_work_if}."]
+            hints = [f"Closest: {nearest.why}.", f"It would work with {nearest.would_work_if}."]
     parts: list[Child] = [
         paragraph(f"Task: {material.about}."),
-        callout("Nothing in the catalogue does this task", *words, tone="bad"),
+        callout("No drive in the catalogue fulfils this task", *hints, tone="bad"),
     ]
     tiles_: list[tuple[Child, Child]] = [
         ("Combinations", f"{material.result.combinations}"),
-        ("Sorted out in closed form", f"{material.result.pruned}"),
+        ("Rejected in closed form", f"{material.result.pruned}"),
         ("Simulated", f"{material.result.simulated}"),
     ]
     parts.append(tiles(tiles_))

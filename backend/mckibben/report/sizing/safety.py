@@ -1,4 +1,4 @@
-"""How far each limit is kept, and how likely what is built does the task."""
+"""Margin to each limit, and the probability that a built drive fulfils the task."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from mckibben.report.html import Child, Html, html
 from mckibben.report.sizing.material import Chosen, Margin, SpecimenSpread
 from mckibben.report.sizing.words import NEWTON, SHARE, in_unit, limit_name
 
-_USED_UP = 0.005
-_FREE = ("length", "pressure", "contraction")  # what the search chooses by itself
-_LONGEST = 1.0  # a bar: more than twice the limit is more than enough
+_USED_UP = 0.005  # margin below which a limit counts as used up
+_FREE = ("length", "pressure", "contraction")  # values chosen by the search
+_LONGEST = 1.0  # longest bar: larger margins make no difference
 
 
 def margins_section(chosen: Chosen) -> Html:
-    """Every limit as a bar and as a row; the nearest first."""
+    """Chart and table of the margins, the smallest first."""
     nearest = chosen.margins[0]
     rows = [
         Bar(
@@ -26,14 +26,14 @@ def margins_section(chosen: Chosen) -> Html:
         )
         for margin in chosen.margins
     ]
-    drawing = bars(rows, axis="Left to the limit [%]", title="Margins to the limits")
-    told = (
+    drawing = bars(rows, axis="Margin to the limit [%]", title="Margins to the limits")
+    caption = (
         f"Margins; the nearest limit is {limit_name(nearest.name).lower()}. 0 % is the limit itself; bars "
         "end at 100 %."
     )
     columns = [
-        Head("Limit"), Head("Allowed or wanted", number=True), Head("This drive", number=True),
-        Head("Left", number=True),
+        Head("Limit"), Head("Required", number=True), Head("This drive", number=True),
+        Head("Margin", number=True),
     ]  # fmt: skip
     body = [
         [
@@ -44,13 +44,13 @@ def margins_section(chosen: Chosen) -> Html:
         ]
         for margin in chosen.margins
     ]
-    parts: list[Child] = [figure_of(drawing, told), table(columns, body)]
+    parts: list[Child] = [figure_of(drawing, caption), table(columns, body)]
     if nearest.name in _FREE and nearest.share < _USED_UP:
         parts.append(
             paragraph(
-                "Room, pressure and contraction that are used up are a choice, not a fault: the search takes "
-                "what is allowed where less would cost air or time. The tolerance of the supply is part of "
-                "the specimens below.",
+                "A length, pressure or contraction at its limit is a choice, not a fault: the search uses "
+                "what is allowed where less would cost air or time. The tolerance of the supply pressure is "
+                "covered by the specimens below.",
                 note=True,
             )
         )
@@ -64,39 +64,39 @@ def _value(margin: Margin, value: float) -> Html:
 
 
 def uncertainty_section(chosen: Chosen) -> Html:
-    """The probability, what it is a share of, what varies and what does not."""
-    found, spread = chosen.proposal, chosen.spread
-    if spread is None or found.probability is None or found.probability_error is None:
+    """The probability, its meaning, and what varies between the specimens."""
+    proposal, spread = chosen.proposal, chosen.spread
+    if spread is None or proposal.probability is None or proposal.probability_error is None:
         return paragraph(
-            "No specimens were simulated, because the task asks for none: how likely the drive does the task "
-            "when it is built is not known."
+            "No specimens were simulated, because the task requests none. The probability that a built drive "
+            "fulfils the task is unknown."
         )
-    share, error = 100.0 * found.probability, 100.0 * found.probability_error
+    share, error = 100.0 * proposal.probability, 100.0 * proposal.probability_error
     low, high = (max(share - 2.0 * error, 0.0), min(share + 2.0 * error, 100.0))
     parts: list[Child] = [
         callout(
-            f"{share:.3g} % of {found.specimens} simulated specimens do the task",
-            f"Standard error {error:.2g} %: more specimens of the same kind would show between {low:.3g} and "
-            f"{high:.3g} % (two standard errors).",
+            f"{share:.3g} % of {proposal.specimens} simulated specimens fulfil the task",
+            f"Standard error {error:.2g} %: with many more specimens the share would be between {low:.3g} "
+            f"and {high:.3g} % (two standard errors).",
         ),
-        paragraph("A specimen does the task when it"),
+        paragraph("A specimen fulfils the task if"),
         bullets(spread.demands),
         heading("What differs between specimens"),
         _spread_table(spread),
-        paragraph("All muscles of a drive deviate together, as those of one batch do: the harder case."),
+        paragraph("All muscles of a drive deviate equally, as in one batch: the worst case."),
         heading("What the probability means"),
         bullets(
             [
-                "It is the share of simulated specimens, under the spread above, that keep the times and the "
-                "end of the stroke. It is no failure rate and says nothing about wear.",
+                "It is the share of simulated specimens, with the spread above, that keep the times and "
+                "reach the end of the stroke. It is not a failure rate and says nothing about wear.",
                 html(
-                    "The spread itself is an assumption ", mark("not measured on these parts"), ": with "
-                    "another one in the task the probability changes.",
+                    "The spread itself is an assumption ", mark("not measured on these parts"), "; "
+                    "change it in the task if you know better.",
                 ),
-                "Not varied: flow of valve and tube, load, stroke, temperature, mounting. Where their "
-                "figures are not verified, the probability rests on them all the same.",
-                "Limits at rest (length, diameter, forces the maker allows) are not part of it; their "
-                "margins stand above.",
+                "Not varied: flow of valve and tube, load, stroke, temperature, mounting. If their figures "
+                "are not verified, neither is the probability.",
+                "Static limits (length, diameter, largest force of the maker) are not part of it; see their "
+                "margins above.",
             ]
         ),
     ]  # fmt: skip
@@ -122,17 +122,17 @@ def _spread_table(spread: SpecimenSpread) -> Html:
         ],
         [
             "Hysteresis",
-            "even, from none to the whole loop",
-            mark("not known of this muscle")
+            "uniform, from none to the whole loop",
+            mark("unknown for this muscle")
             if spread.hysteresis is None
             else html(figure(spread.hysteresis, SHARE, 3, exact=True), " of the nominal length wide"),
-            "none was assumed: the probability is too high by what it would cost"
+            "assumed to be zero, so the probability is too high"
             if spread.hysteresis is None
             else html("up to ", figure(spread.friction, NEWTON, 3), " of each muscle against the motion"),
         ],
         [
             "Supply pressure",
-            "even",
+            "uniform",
             html("± ", figure(spread.supply, SHARE, 3, exact=True)),
             "the pressure at the valve",
         ],

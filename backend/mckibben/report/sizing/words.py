@@ -1,4 +1,4 @@
-"""What fields, limits and figures of a sizing are called, and what they are shown in."""
+"""Names and display units of the fields, limits and figures of a sizing."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ LITRES, SECONDS, NEWTON, JOULE = Scale("l", 1e-3), Scale("s"), Scale("N"), Scale
 MILLIMETRES, BAR, SHARE = Scale("mm", 1e-3), Scale("bar", 1e5), Scale("%", 0.01)
 PER_MILLIMETRE = Scale("N/mm", 1e3)
 _ZERO_CELSIUS = 273.15
-#: Force over load from which the load is next to nothing.
+#: Ratio of force to load from which it is shown as "ample": the load is practically zero.
 AMPLE = 100.0
 
 _FIELDS = {
     "load.mass": "Moved mass",
-    "load.inclination": "Inclination of the way",
-    "load.force": "Constant force against the pull",
+    "load.inclination": "Inclination of the path",
+    "load.force": "Constant force against the muscle",
     "load.force_over_stroke": "Force over the stroke",
-    "load.spring": "Spring against the pull",
+    "load.spring": "Spring against the muscle",
     "load.counterweight": "Counterweight",
     "load.lever_ratio": "Stroke of the muscle per stroke of the load",
     "load.pair.angle": "Swing of the pair",
@@ -28,8 +28,8 @@ _FIELDS = {
     "load.pair.pulley_radius": "Pulley radius",
     "stroke": "Stroke of the load",
     "time": "Time for the stroke",
-    "time_down": "Time for the way back",
-    "cycle_time": "Time up and down",
+    "time_down": "Time for the return",
+    "cycle_time": "Time for stroke and return",
     "speed": "Average speed",
     "stiffness": "Stiffness at the load",
     "supply_pressure": "Supply pressure (gauge)",
@@ -40,20 +40,20 @@ _FIELDS = {
     "limits.max_length": "Largest installed length",
     "limits.end_fittings": "Length of both end fittings",
     "limits.max_diameter": "Largest diameter",
-    "limits.max_parallel": "Most muscles in parallel",
+    "limits.max_parallel": "Largest number of parallel muscles",
     "limits.life": "Load cycles",
-    "catalogue.muscles": "Muscles that may be used",
-    "catalogue.valves": "Valves that may be used",
-    "catalogue.tubes": "Tubes that may be used",
+    "catalogue.muscles": "Muscles to try",
+    "catalogue.valves": "Valves to try",
+    "catalogue.tubes": "Tubes to try",
     "catalogue.tube_length": "Tube from the valve to each muscle",
     "uncertainty.blocked_force": "Spread of the blocked force (two standard deviations)",
     "uncertainty.hysteresis": "Width of the hysteresis loop",
     "uncertainty.supply_pressure": "Tolerance of the supply pressure",
     "uncertainty.specimens": "Simulated specimens",
     "rank_by": "Ranked by",
-    "max_proposals": "Proposals wanted",
+    "max_proposals": "Number of proposals",
 }
-#: Limit -> its name and the verb between what the drive has and what is allowed.
+#: Limit -> its name in words.
 LIMITS = {
     "length": "Installed length",
     "pressure": "Supply pressure",
@@ -65,8 +65,8 @@ LIMITS = {
     "life": "Load cycles (an estimate)",
     "temperature": "Ambient temperature",
     "time": "Time for the stroke",
-    "time_down": "Time for the way back",
-    "cycle_time": "Time up and down",
+    "time_down": "Time for the return",
+    "cycle_time": "Time for stroke and return",
 }
 
 
@@ -81,7 +81,7 @@ def limit_name(name: str) -> str:
 
 
 def entry_value(entry: Entry) -> Html:
-    """The value of a field; what is not demanded is said so."""
+    """The value of a field; "none" where nothing is demanded."""
     if entry.value is None:
         return html("none")
     if isinstance(entry.value, str):
@@ -90,7 +90,7 @@ def entry_value(entry: Entry) -> Html:
 
 
 def in_unit(value: float, unit: str, digits: int = 4) -> Html:
-    """A value in SI as people of the field write it."""
+    """An SI value in its usual unit."""
     if unit == "K":
         shown = plain(value - _ZERO_CELSIUS, digits, exact=True)
         return tag("data", f"{shown}\N{NO-BREAK SPACE}°C", value=repr(float(value)))
@@ -106,5 +106,5 @@ def drive_words(proposal: ProposedDrive) -> str:
 
 def parts_words(item: ProposedDrive | RejectedParts) -> str:
     """Valve and tube of a proposal or rejected choice in words."""
-    named = [item.valve, item.tube]
-    return ", ".join(name for name in named if name) or "whatever the valve and tube"
+    names = [item.valve, item.tube]
+    return ", ".join(name for name in names if name) or "any valve and tube"

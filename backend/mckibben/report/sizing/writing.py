@@ -1,4 +1,4 @@
-"""The sections of the report in their order."""
+"""Assembles the sections of the report."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from mckibben.report.document import Head, Section, document, paragraph, table
 from mckibben.report.html import Html, html, tag
 from mckibben.report.sizing.curves import curves_section
 from mckibben.report.sizing.equations import equations_section
-from mckibben.report.sizing.given import assumptions_section, task_section
+from mckibben.report.sizing.inputs import assumptions_section, task_section
 from mckibben.report.sizing.material import SizingMaterial
 from mckibben.report.sizing.motion import motion_section
 from mckibben.report.sizing.others import alternatives_section, rejected_section
@@ -19,7 +19,7 @@ from mckibben.report.sizing.safety import margins_section, uncertainty_section
 
 
 def sizing_report(material: SizingMaterial) -> str:
-    """One HTML file that needs nothing else."""
+    """The report as one self-contained HTML file."""
     return document(
         kind="sizing report",
         title=material.title,
@@ -40,16 +40,16 @@ def _sections(material: SizingMaterial) -> Iterator[Section]:
         yield Section("Margins", margins_section(chosen))
         yield Section("Uncertainty", uncertainty_section(chosen))
         yield Section("Alternatives", alternatives_section(material, chosen))
-    yield Section("What does not do the task", rejected_section(material))
+    yield Section("Rejected parts", rejected_section(material))
     yield Section("Assumptions", assumptions_section(material))
     if chosen is not None:
         yield Section("Figures and their grades", figures_section(chosen))
         yield Section("Equations", equations_section(material, chosen))
-    yield Section("To repeat it", html(_identity(material), command_section(material.command)))
+    yield Section("How to reproduce", html(_identity(material), command_section(material.command)))
 
 
 def _identity(material: SizingMaterial) -> Html:
-    """Versions and hashes: whether two reports speak of the same."""
+    """Versions and hashes, to check whether two reports agree."""
     rows = [
         *([name, version] for name, version in material.versions.items()),
         *(
@@ -60,9 +60,9 @@ def _identity(material: SizingMaterial) -> Html:
     return html(
         table([Head("Made with"), Head("")], rows),
         paragraph(
-            "Hashes are those of the JSON with sorted keys and without blanks, so they do not depend on how "
-            "the files are written. The search draws its specimens from a fixed seed: the same task, "
-            "version and presets give the same figures.",
+            "Hashes are computed from JSON with sorted keys and without spaces, so they do not depend on the "
+            "formatting of the files. Specimens are drawn with a fixed seed: the same task, version and "
+            "presets give the same figures.",
             note=True,
         ),
     )

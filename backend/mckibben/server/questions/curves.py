@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mckibben.application.curves import CurvesQuestion
-from mckibben.documents.convert import given_muscle
+from mckibben.documents.convert import stated_muscle
 from mckibben.documents.studio import Studio
 from mckibben.server.schemas.curves import CurvesRequest
 from mckibben.simulation.statics.characteristics import Conditions
@@ -16,7 +16,7 @@ def curves_question(body: CurvesRequest, studio: Studio) -> CurvesQuestion:
         InputError: an unknown preset, effect or parameter, or no complete muscle.
     """
     return CurvesQuestion(
-        start=studio.start_model(given_muscle(body.muscle), body.effects),
+        start=studio.start_model(stated_muscle(body.muscle), body.effects),
         pressures=tuple(body.pressures),
         points=body.points,
         unclipped=body.unclipped,

@@ -7,11 +7,12 @@ from typing import assert_never
 from mckibben.application.inverse import (
     ContractionForForce,
     InverseQuestion,
+    MuscleCondition,
     PressureForForce,
     PressureForStroke,
     WorkingRange,
 )
-from mckibben.documents.convert import given_muscle
+from mckibben.documents.convert import stated_muscle
 from mckibben.documents.studio import Studio
 from mckibben.server.schemas.inverse import (
     ContractionQuestion,
@@ -29,28 +30,16 @@ def inverse_question(body: Body, studio: Studio) -> InverseQuestion:
     Raises:
         InputError: an unknown preset, effect or parameter, or no complete muscle.
     """
-    start = studio.start_model(given_muscle(body.muscle), body.effects)
-    direction, temperature = body.direction, body.temperature
+    start = studio.start_model(stated_muscle(body.muscle), body.effects)
+    condition = MuscleCondition(start, body.direction, body.temperature)
     match body:
-        case PressureQuestion():
-            return PressureForForce(
-                start=start, direction=direction, temperature=temperature,
-                force=body.force, length=body.length, contraction=body.contraction,
-            )  # fmt: skip
-        case ContractionQuestion():
-            return ContractionForForce(
-                start=start, direction=direction, temperature=temperature,
-                force=body.force, pressure=body.pressure,
-            )  # fmt: skip
-        case WorkingRangeQuestion():
-            return WorkingRange(
-                start=start, direction=direction, temperature=temperature,
-                load=body.load, pressure=body.pressure, preload=body.preload,
-            )  # fmt: skip
-        case StrokePressureQuestion():
-            return PressureForStroke(
-                start=start, direction=direction, temperature=temperature,
-                load=body.load, stroke=body.stroke,
-            )  # fmt: skip
+        case PressureQuestion(force=force, length=length, contraction=contraction):
+            return PressureForForce(condition=condition, force=force, length=length, contraction=contraction)
+        case ContractionQuestion(force=force, pressure=pressure):
+            return ContractionForForce(condition=condition, force=force, pressure=pressure)
+        case WorkingRangeQuestion(load=load, pressure=pressure, preload=preload):
+            return WorkingRange(condition=condition, load=load, pressure=pressure, preload=preload)
+        case StrokePressureQuestion(load=load, stroke=stroke):
+            return PressureForStroke(condition=condition, load=load, stroke=stroke)
         case _:
             assert_never(body)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mckibben.application.model_question import ModelQuestion, question_of
-from mckibben.documents.convert import given_muscle
+from mckibben.documents.convert import stated_muscle
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
@@ -50,13 +50,15 @@ def _model(body: ModelRequest, studio: Studio) -> tuple[StartModel, Drive | None
             raise InputError(
                 "a muscle or a drive is needed", field="muscle", hint='e.g. {"preset": "DMSP-20"}'
             )
-        return studio.start_model(given_muscle(body.muscle), body.effects), None
-    own = {"muscle": body.muscle, "effects": body.effects}
-    document = body.drive.model_copy(update={name: value for name, value in own.items() if value is not None})
+        return studio.start_model(stated_muscle(body.muscle), body.effects), None
+    overrides = {"muscle": body.muscle, "effects": body.effects}
+    document = body.drive.model_copy(
+        update={name: value for name, value in overrides.items() if value is not None}
+    )
     try:
         with fields_inside("drive"):
-            given = drive_of(document, studio, measured=True)
+            annotated = drive_of(document, studio, measured=True)
     except InputError as error:
         field = (error.field or "").removeprefix("drive.")
-        raise (error.at(field) if field.startswith(tuple(own)) else error) from error
-    return given.start, given.drive
+        raise (error.at(field) if field.startswith(tuple(overrides)) else error) from error
+    return annotated.start, annotated.drive

@@ -18,5 +18,5 @@ def simulation_question(body: SimulationRequest, studio: Studio) -> SimulationQu
     """
     with fields_inside("drive"):
         document = body.drive if not isinstance(body.drive, str) else preset_document(body.drive, studio)
-        given = drive_of(document, studio)
-    return SimulationQuestion(given, points=body.points, begin=body.begin, end=body.end)
+        annotated = drive_of(document, studio)
+    return SimulationQuestion(annotated, points=body.points, begin=body.begin, end=body.end)

@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import Field
 
-from mckibben.documents.strict import Strict
+from mckibben.documents.strict import Strict, si_field
 
 
 class ErrorDetail(Strict):
@@ -32,6 +32,15 @@ class Flag(Strict):
     code: str = Field(examples=["over_force_limit"])
     message: str = Field(description="Explanation for the user.")
     field: str | None = Field(default=None, description="The input it belongs to.")
+
+
+class MakerLimits(Strict):
+    """Limits stated by the maker; null where not known."""
+
+    max_pressure: float | None = si_field("Pa", "Highest gauge pressure.")
+    max_force: float | None = si_field("N", "Highest force.")
+    max_contraction: float | None = si_field("1", "Highest contraction.")
+    max_pretension: float | None = si_field("1", "Highest stretch beyond the nominal length.")
 
 
 class SourceText(Strict):

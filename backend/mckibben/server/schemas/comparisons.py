@@ -38,7 +38,7 @@ class ModelRequest(Strict):
     drive: DriveDocument | None = Field(
         None,
         description="Valve, tube, supply and load of transient measurements with a command channel; the "
-        "measured command replaces the one given here.",
+        "measured command replaces the one stated here.",
     )
     measurement: MeasurementId | None = Field(None, description="One measurement to fit to.")
     measurements: list[UsedMeasurement] = Field(default=[], max_length=16)
@@ -101,7 +101,7 @@ class ComparisonSeries(Strict):
     length: Series = si_field("m", "Length of each point.")
     x_pressure: Series = si_field("Pa", "Pressure of each point.")
     velocity: Series = si_field("m/s", "dL/dt of each point.")
-    direction: Series = Field(description="-1 shortening, 1 lengthening, 0 held or unknown.")
+    direction: Series = Field(description="-1 shortening, 1 lengthening, 0 at rest or unknown.")
     measured: Series = Field(description="Measured.")
     predicted: Series = Field(description="Predicted.")
     residual: Series = Field(description="Measured minus predicted.")

@@ -9,7 +9,7 @@ from pydantic import Field
 from mckibben.documents.muscle import EffectsInput, MuscleInput
 from mckibben.documents.quantity import Contraction, Length, Load, Pressure, Temperature, Volume
 from mckibben.documents.strict import Series, Strict, si_field
-from mckibben.server.schemas.common import Flag
+from mckibben.server.schemas.common import Flag, MakerLimits
 
 Direction = Annotated[
     Literal[-1, 0, 1],
@@ -38,7 +38,7 @@ class CurvesOptions(Strict):
         None, description="End of the range; null: the largest free contraction."
     )
     load: Load | None = Field(None, description="Constant load, for the operating points.")
-    fixed_length: Length | None = Field(None, description="Length held fixed, for force over pressure.")
+    fixed_length: Length | None = Field(None, description="Fixed length, for force over pressure.")
 
 
 class CurvesRequest(CurvesOptions):
@@ -48,13 +48,9 @@ class CurvesRequest(CurvesOptions):
     effects: EffectsInput | None = None
 
 
-class CurveLimits(Strict):
+class CurveLimits(MakerLimits):
     """Limits of the muscle; null where the preset does not state one."""
 
-    max_pressure: float | None = si_field("Pa", "Highest gauge pressure.")
-    max_force: float | None = si_field("N", "Highest force.")
-    max_contraction: float | None = si_field("1", "Highest contraction.")
-    max_pretension: float | None = si_field("1", "Highest stretch beyond the nominal length.")
     ideal_max_contraction: float = si_field("1", "Contraction at which the ideal force is zero.")
     braid_lock_force: Series = si_field("N", "Ideal force of the fully stretched braid, per pressure.")
 
@@ -87,10 +83,10 @@ class MuscleGeometry(Strict):
     braid_angle: float = si_field("rad", "Angle between thread and axis.")
     nominal_length: float = si_field("m", "Length at rest.")
     inside_diameter: float = si_field("m", "Bore.")
-    wall_thickness: float = si_field("m", "Wall of the bladder; 0 when not given.")
+    wall_thickness: float = si_field("m", "Wall of the bladder; 0 when not stated.")
     thread_length: float = si_field("m", "Length of one thread.")
     turns: float = si_field("1", "Turns of one thread.")
-    rhombus: RhombusAnswer | None = Field(description="The lattice, when the muscle was given by it.")
+    rhombus: RhombusAnswer | None = Field(description="The lattice, when the muscle was stated in this form.")
 
 
 class ModelAnswer(Strict):
@@ -100,7 +96,7 @@ class ModelAnswer(Strict):
 
 
 class OverPressureBranch(Strict):
-    """Position over pressure in one direction of motion; null where the load cannot be held."""
+    """Position over pressure in one direction of motion; null where the muscle cannot carry the load."""
 
     contraction: Series = si_field("1", "Contraction at the load.")
     length: Series = si_field("m", "Length at the load.")

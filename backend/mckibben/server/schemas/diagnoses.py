@@ -143,7 +143,7 @@ class DiagnosisAnswer(Strict):
     parameters: dict[str, dict[str, FittedParameter]]
     correlations: list[Correlation]
     geometry: MuscleGeometry
-    model: dict[str, Any] = Field(description="Muscle and effects; can be given to a comparison as a drive.")
+    model: dict[str, Any] = Field(description="Muscle and effects; a comparison takes them as a drive.")
     freed: list[str]
     not_tried: list[NotTried] = Field(
         description="Effects of the catalogue that were not tried, with the reason."

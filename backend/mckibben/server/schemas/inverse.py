@@ -33,7 +33,7 @@ class ContractionQuestion(_Question):
     """The contraction at a force and pressure."""
 
     question: Literal["contraction"]
-    force: Load = Field(description="The force held.")
+    force: Load = Field(description="The force of the muscle.")
     pressure: Pressure
 
 

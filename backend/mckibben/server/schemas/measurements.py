@@ -45,13 +45,13 @@ class MeasurementAnswer(Strict):
     """A measurement as it was read."""
 
     id: str = Field(
-        description="SHA-256 of the file's content (and of the mapping, if one was given).",
+        description="SHA-256 of the file's content (and of the mapping, if there is one).",
         pattern=r"^[0-9a-f]{64}$",
     )
     name: str = Field(description="Name of the file.")
     kind: str = Field(description="isobaric, isometric, isotonic, diameter, transient or static.")
-    kind_detected: bool = Field(description="Detected from the data, not given in the file.")
-    kind_reason: str = Field(description="Why this kind was detected; empty when it was given.")
+    kind_detected: bool = Field(description="Detected from the data, not stated in the file.")
+    kind_reason: str = Field(description="Why this kind was detected; empty when it was stated.")
     rows: int
     usable_rows: int = Field(description="Rows with a usable measurement.")
     excluded: dict[str, int] = Field(
@@ -73,7 +73,7 @@ class MeasurementDetail(MeasurementAnswer):
     columns: dict[str, list[float | bool | None]] = Field(
         description="Channel -> values in SI; 'slack' marks rows without pulling force, 'usable' those with "
         "a usable measurement, 'sweep' and 'cycle' number them, 'motion' is -1 shortening, "
-        "+1 lengthening, 0 held."
+        "+1 lengthening, 0 at rest."
     )
 
 
@@ -119,7 +119,9 @@ class PreviewAnswer(Strict):
     kind: str | None = Field(description="The kind; null while the file cannot be used.")
     kind_detected: bool
     kind_reason: str
-    conditions: dict[str, str | float | None] = Field(description="Conditions found or given, SI.")
+    conditions: dict[str, str | float | None] = Field(
+        description="Conditions in the file or in the mapping, SI."
+    )
     missing: list[MissingCondition] = Field(description="Conditions to ask for.")
     measurement: MeasurementAnswer | None = Field(
         description="As it would be stored, without the skipped rows; null while the file cannot be used."

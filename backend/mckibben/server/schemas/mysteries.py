@@ -45,6 +45,8 @@ class RevealAnswer(Strict):
     """The hidden effects, compared with the user's diagnosis."""
 
     hidden: list[Hidden]
-    found: list[bool] = Field(description="For each hidden effect: whether it is among the given ones.")
-    surplus: list[str] = Field(description="Given effects that are neither hidden nor of the start model.")
+    found: list[bool] = Field(description="For each hidden effect: whether the user named it.")
+    surplus: list[str] = Field(
+        description="Effects of the user that are neither hidden nor of the start model."
+    )
     text: str

@@ -9,7 +9,7 @@ from pydantic import Field
 from mckibben.documents.drive import LONGEST, DriveOrId
 from mckibben.documents.quantity import QuantityField
 from mckibben.documents.strict import Series, Strict, si_field
-from mckibben.server.schemas.common import Flag
+from mckibben.server.schemas.common import Flag, MakerLimits
 from mckibben.server.schemas.curves import ModelAnswer, MuscleGeometry
 from mckibben.simulation.timing.table import FIGURES
 
@@ -82,13 +82,9 @@ class StartPosition(Strict):
     reason: str = Field(description="Why the run starts there, as a sentence.")
 
 
-class DriveLimits(Strict):
+class DriveLimits(MakerLimits):
     """Limits stated by the maker (null = not known), and the end stops."""
 
-    max_pressure: float | None = si_field("Pa", "Gauge pressure.")
-    max_force: float | None = si_field("N", "Force.")
-    max_contraction: float | None = si_field("1", "Contraction.")
-    max_pretension: float | None = si_field("1", "Stretch beyond the nominal length.")
     position_min: float = si_field("m", "Lower stop as a position of the load.")
     position_max: float = si_field("m", "Upper stop as a position of the load.")
 

@@ -17,7 +17,7 @@ _MARGINS = "Limit -> margin as a share of the limit; limits that are not set are
 
 
 class ExploredDesign(Strict):
-    """A simulated design that does the task; coarse figures, for a plot of the alternatives."""
+    """A simulated design that fulfils the task; coarse figures, for a plot of the alternatives."""
 
     muscle: str
     nominal_length: float = si_field("m", "Nominal length of each muscle.")
@@ -33,7 +33,7 @@ class ExploredDesign(Strict):
 
 
 class ProposalAnswer(Strict):
-    """A drive that does the task. Figures are per muscle unless stated otherwise."""
+    """A drive that fulfils the task. Figures are per muscle unless stated otherwise."""
 
     muscle: str = Field(description="Id of the preset.")
     nominal_length: float = si_field("m", "Nominal length of each muscle.")
@@ -66,7 +66,7 @@ class ProposalAnswer(Strict):
     diameter: float = si_field("m", "Outside diameter at the end of the stroke.")
     life: float = si_field("1", "Load cycles; an estimate, not verified.")
     probability: float | None = si_field(
-        "1", "Probability that a built drive does the task; null without specimens."
+        "1", "Probability that a built drive fulfils the task; null without specimens."
     )
     probability_error: float | None = si_field("1", "Its standard error.")
     specimens: int = Field(description="Number of specimens simulated for it.")
@@ -95,10 +95,10 @@ class RejectedAnswer(Strict):
 class SizingAnswer(Strict):
     """Proposals, best first, and rejected candidates with reasons; SI, pressures gauge."""
 
-    proposals: list[ProposalAnswer] = Field(description="Best first; empty if no candidate does the task.")
+    proposals: list[ProposalAnswer] = Field(description="Best first; empty if no candidate fulfils the task.")
     rejected: list[RejectedAnswer] = Field(description="Nearest first.")
     explored: list[ExploredDesign] = Field(
-        description="The best design of each choice of parts that does the task."
+        description="The best design of each choice of parts that fulfils the task."
     )
     combinations: int = Field(
         description="Combinations of muscle, length, number, pressure, valve and tube within the limits."

@@ -28,7 +28,7 @@ const significant = (x, digits) => Number(x.toPrecision(digits));
 
 /** The slider's positions 0…n as SI values, in steps that are round in the shown unit.
  * @param {[number, number]} bounds @param {Scale} scale @param {boolean} log */
-export function track([low, high], scale, log) {
+function track([low, high], scale, log) {
   const lo = toShown(low, scale), hi = toShown(high, scale);
   const clamp = (/** @type {number} */ si) => Math.min(high, Math.max(low, si));
   if (log) {

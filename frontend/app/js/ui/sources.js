@@ -5,7 +5,7 @@ import { readable, tidyUnit } from "../format.js";
 import { openPopover } from "./dialog.js";
 
 /** @type {Record<string, string>} */
-export const GRADES = {
+const GRADES = {
   S: "read in the source",
   S2: "second-hand: from a public transcript of the source",
   C: "computed from sourced data",

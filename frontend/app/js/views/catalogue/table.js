@@ -30,7 +30,7 @@ function matches(p) {
 const title = { key: "title", title: "Part", of: (/** @type {Preset} */ p) => p.title };
 const natural = new Intl.Collator("en", { numeric: true });
 
-export const rows = computed(() => {
+const rows = computed(() => {
   const f = filter.value;
   const by = [title, ...columns.value].find((c) => c.key === f.sort) ?? title;
   const matching = (list.value ?? []).filter(matches).map((p) => ({ p, key: sortKey(by.of(p)) }));

@@ -19,7 +19,7 @@ function verdict(p) {
       "p",
       { class: "verdict warn" },
       icon("info"),
-      "Does the task as computed. Its probability is not known: no specimens were simulated.",
+      "Fulfils the task as computed. Its probability is not known: no specimens were simulated.",
     );
   }
   const grade = probability >= LIKELY ? "good" : probability >= DOUBTFUL ? "warn" : "bad";
@@ -32,7 +32,7 @@ function verdict(p) {
       "span",
       null,
       h("b", null, `${percent(probability)}${range}`),
-      ` probability that the real drive does the task (${p.specimens} simulated specimens).`,
+      ` probability that the real drive fulfils the task (${p.specimens} simulated specimens).`,
     ),
   );
 }

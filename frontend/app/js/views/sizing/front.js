@@ -1,5 +1,5 @@
 // @ts-check
-// Trade-offs: all drives that do the task over two aims. A click selects a proposal.
+// Trade-offs: all drives that fulfil the task over two aims. A click selects a proposal.
 import { h, icon } from "../../dom.js";
 import { computed, effect, signal } from "../../reactive.js";
 import { units } from "../../state.js";
@@ -105,7 +105,7 @@ const legend = () =>
 
 /** Moves points apart that lie too close, each as little as possible.
  * @param {{x: number, y: number}[]} points */
-export function spread(points) {
+function spread(points) {
   const placed = points.map(({ x, y }, i) => ({ x: x + 1e-3 * i, y: y - 2e-3 * i }));
   for (let round = 0; round < 60; round++) {
     placed.forEach((a, i) =>
@@ -223,7 +223,7 @@ export function frontCard() {
     class: "plot",
     id: "pareto",
     role: "figure",
-    "aria-label": "Drives that do the task over two aims",
+    "aria-label": "Drives that fulfil the task over two aims",
   });
   const chart = new Chart(host, "pareto");
   const placeNumbers = numbers(chart);

@@ -78,7 +78,7 @@ function start() {
       "p",
       null,
       "Enter what is to be moved, how far and how fast, the supply pressure and the available space. Every combination " +
-        "of muscles, valves and tubes of the catalogue is tried. You get a ranked list of drives that do the task, each " +
+        "of muscles, valves and tubes of the catalogue is tried. You get a ranked list of drives that fulfil the task, each " +
         "with its limits and its probability of success, and the reasons why other drives do not.",
     ),
     h(

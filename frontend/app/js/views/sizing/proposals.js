@@ -176,7 +176,7 @@ export function proposalsCard() {
       h(
         "table",
         { class: "data" },
-        h("caption", { class: "unseen" }, "Drives that do the task, best first"),
+        h("caption", { class: "unseen" }, "Drives that fulfil the task, best first"),
         h(
           "thead",
           null,

@@ -13,7 +13,7 @@ const all = signal(false);
 
 /** Merges candidates that differ only in the tube and fail for the same reason.
  * @param {Rejected[]} list @returns {(Rejected & {tubes: string[]})[]} */
-export function together(list) {
+function together(list) {
   /** @type {Map<string, Rejected & {tubes: string[]}>} */
   const merged = new Map();
   for (const one of list) {

@@ -105,7 +105,7 @@ export const FIELDS = {
     bounds: [0, 5],
     usual: null,
     empty: "no limit",
-    why: "Longest time for the way back. Leave empty for no limit.",
+    why: "Longest time for the return. Leave empty for no limit.",
   },
   cycle_time: {
     label: "Cycle time",
@@ -113,7 +113,7 @@ export const FIELDS = {
     bounds: [0, 10],
     usual: null,
     empty: "no limit",
-    why: "Longest time for the stroke and the way back together. Leave empty for no limit.",
+    why: "Longest time for the stroke and the return together. Leave empty for no limit.",
   },
   speed: {
     label: "Speed",

@@ -13,7 +13,7 @@ import { muscleFrom } from "../muscle-values.js";
 /** @typedef {import("../types.js").Revealed} Revealed */
 
 /** Empty if the server has none. */
-export const mysteries = signal(/** @type {Mystery[]} */ ([]));
+const mysteries = signal(/** @type {Mystery[]} */ ([]));
 const revealed = signal(/** @type {{id: string, answer: Revealed} | null} */ (null));
 const wrong = signal("");
 const chosen = computed(() => mysteries.value.find((m) => m.id === compare.value.mystery) ?? null);

@@ -1,5 +1,5 @@
 // @ts-check
-// The candidates: a card for each effect, the best first, with its reason and the effects it cannot be told from.
+// The candidates: a card for each effect, the best first, with its reason and the effects it is indistinguishable from.
 import { h, icon, mathml } from "../../../dom.js";
 import { signal } from "../../../reactive.js";
 import { units } from "../../../state.js";
@@ -106,7 +106,7 @@ function card(c, best, wanted) {
         "p",
         { class: "twins", title: c.twins.map(titleOf).join(", ") },
         icon("info"),
-        h("span", null, `Cannot be told from ${listed(c.twins.map(titleOf))} with these data.`),
+        h("span", null, `Indistinguishable from ${listed(c.twins.map(titleOf))} with these data.`),
       )
       : null,
     h(

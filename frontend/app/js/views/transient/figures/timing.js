@@ -10,7 +10,7 @@ import { run } from "../model.js";
 /** @typedef {[key: string, label: string, quantity: Quantity, definition: string]} Figure */
 
 /** The timing table, in the order an engineer reads it. @type {[string, Figure[]][]} */
-export const FIGURES = [
+const FIGURES = [
   ["Motion", [
     [
       "positioning_time",

@@ -28,7 +28,7 @@ const AMPLITUDE = ["amplitude", "Amplitude", "value", (o) => o.full];
 
 /** The shapes and their fields, in the words of the drive document.
  * @type {Record<string, [string, Row[]]>} */
-export const SHAPES = {
+const SHAPES = {
   step: ["Step", [["at", "At", "time", () => 0], LEVEL, INITIAL]],
   pulse: ["Pulse", [
     ["on", "On at", "time", () => 0],

@@ -29,7 +29,7 @@ import { siNumber } from "../../../quantities.js";
 
 /** All values of a document by their path. @param {any} part @param {string} [path]
  * @returns {Record<string, unknown>} */
-export function flat(part, path = "") {
+function flat(part, path = "") {
   if (typeof part !== "object" || part === null || Array.isArray(part)) return { [path]: part };
   const kids = Object.entries(part);
   if (!kids.length) return { [path]: "on" };

@@ -1,4 +1,4 @@
-"""What was compared, and on what grounds: data, muscle, assumptions."""
+"""The inputs of a comparison: data, muscle, assumptions."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from mckibben.report.sources import source_text
 
 
 def data_section(material: DiagnosisMaterial) -> Html:
-    """Every measurement: what it is, its rows and channels."""
+    """Kind, rows and channels of every measurement."""
     return html(_measurement(source) for source in material.sources)
 
 
@@ -27,7 +27,7 @@ def _measurement(source: DataSource) -> Html:
     pairs: list[tuple[Child, Child]] = [
         ("Kind", kind),
         ("Used to", "fit the model" if source.use == "fit" else "judge the model only (validation)"),
-        ("Rows", f"{rows}, of which {used} can be used"),
+        ("Rows", f"{rows}, of which {used} are usable"),
     ]
     if left_out:
         reasons = "; ".join(f"{count} {reason.replace('_', ' ')}" for reason, count in left_out.items())
@@ -45,8 +45,8 @@ def _measurement(source: DataSource) -> Html:
         Head("Largest", number=True),
     ]
     channels = [_channel(channel) for channel in about.channels]
-    if source.identity:  # a built-in measurement has no columns of a file
-        columns += [Head("Column of the file"), Head("Its unit")]
+    if source.identity:  # a built-in measurement has no file
+        columns += [Head("Column in the file"), Head("Unit")]
         for row, channel in zip(channels, about.channels, strict=True):
             row += [channel.column, pretty(channel.unit) if channel.unit != "1" else "–"]
     return html(heading(source.name), facts(pairs), table(columns, channels))
@@ -60,8 +60,8 @@ def _channel(channel: ChannelSummary) -> list[Child]:
 
 def _condition(name: str, value: float | str) -> str:
     unit = {"load_mass": " kg", "load_force": " N", "supply_pressure": " Pa"}.get(name, "")
-    shown = value if isinstance(value, str) else f"{value:g}{unit}"
-    return f"{name.replace('_', ' ')} {shown}"
+    text = value if isinstance(value, str) else f"{value:g}{unit}"
+    return f"{name.replace('_', ' ')} {text}"
 
 
 _GEOMETRY = (
@@ -76,8 +76,8 @@ _GEOMETRY = (
 
 
 def muscle_section(material: DiagnosisMaterial) -> Html:
-    """Geometry at rest with its sources, limits, and the drive around the muscle."""
-    known = material.muscle
+    """Geometry at rest and limits with their sources, and the rest of the drive."""
+    facts_of_muscle = material.muscle
     geometry = material.comparison.geometry
     fitted = material.comparison.parameters.get("geometry", {})
     rows = []
@@ -90,31 +90,31 @@ def muscle_section(material: DiagnosisMaterial) -> Html:
         elif name in ("thread_length", "turns"):
             value, origin = (
                 figure(getattr(geometry, name), scale_of(unit), 5, exact=True),
-                html("follows from the above"),
+                html("computed from the above"),
             )
         elif not getattr(geometry, name):
             value, origin = html("not known"), html("")
         else:
-            found = known.figures.get(name)
+            source = facts_of_muscle.figures.get(name)
             value = figure(getattr(geometry, name), scale_of(unit), 5, exact=True)
-            origin = html("given") if found is None else source_text(found)
+            origin = html("given") if source is None else source_text(source)
         rows.append([words, value, origin])
     parts: list[Child] = []
-    if known.preset:
-        parts.append(paragraph(f"Based on the preset {known.preset}."))
+    if facts_of_muscle.preset:
+        parts.append(paragraph(f"Based on the preset {facts_of_muscle.preset}."))
     parts.append(table([Head("At rest"), Head("Value", number=True), Head("Source")], rows))
-    if known.limits:
+    if facts_of_muscle.limits:
         limits = [
             [
                 name.replace("_", " ").capitalize(),
                 figure(value, _limit_scale(unit), exact=True),
-                source_text(found),
+                source_text(source),
             ]
-            for name, (value, unit, found) in known.limits.items()
+            for name, (value, unit, source) in facts_of_muscle.limits.items()
         ]
         parts.append(table([Head("Limit"), Head("Value", number=True), Head("Source")], limits))
     if material.drive:
-        parts += [heading("Drive around it"), facts(material.drive)]
+        parts += [heading("Rest of the drive"), facts(material.drive)]
     return html(parts)
 
 
@@ -124,33 +124,33 @@ def _limit_scale(unit: str) -> Scale:
 
 
 def _in_words(message: str, material: DiagnosisMaterial) -> str:
-    """A message with parameters named as on the page."""
+    """A message in which parameters have the names used in the report."""
     return re.sub(
         r"\b([a-z_]+)\.([a-z_]+)\b",
-        lambda found: named(found[0], material) if found[1] in material.catalogue else found[0],
+        lambda match: named(match[0], material) if match[1] in material.catalogue else match[0],
         message,
     )
 
 
 def assumptions_section(material: DiagnosisMaterial) -> Html:
-    """What was assumed, and what nobody verified."""
+    """Assumptions and unverified figures."""
     lines: list[str] = []
     for answer in (material.comparison, material.diagnosis):
         lines += [] if answer is None else answer.messages
     for source in material.sources:
         lines += [f"{source.name}: {message}" for message in source.about.messages]
-    found = list(dict.fromkeys(_in_words(line, material) for line in lines))
-    own = {line.partition(": ")[2] for line in found}
-    found = [line for line in found if line not in own]  # said once with the name of the file
-    parts: list[Child] = [bullets(f"{line}." for line in found)] if found else [paragraph("None.")]
-    parts.append(heading("Figures that nobody verified"))
+    messages = list(dict.fromkeys(_in_words(line, material) for line in lines))
+    from_files = {line.partition(": ")[2] for line in messages}
+    messages = [line for line in messages if line not in from_files]  # keep the one with the file name
+    parts: list[Child] = [bullets(f"{line}." for line in messages)] if messages else [paragraph("None.")]
+    parts.append(heading("Unverified figures"))
     if material.unverified:
         parts += [
             paragraph(
-                "General knowledge or estimates (grades M and E); a result that rests on them may be off."
+                "General knowledge or estimates (grades M and E). Results that depend on them may be wrong."
             ),
             bullets(material.unverified),
         ]
     else:
-        parts.append(paragraph("None that enter this model."))
+        parts.append(paragraph("This model uses none."))
     return html(parts)

@@ -1,0 +1,102 @@
+"""The task as stated, assumed values, and simplifications of the computation."""
+
+from __future__ import annotations
+
+import re
+
+from mckibben.report.document import Head, bullets, heading, paragraph, table
+from mckibben.report.html import Child, Html, html
+from mckibben.report.sizing.material import Chosen, Entry, SizingMaterial
+from mckibben.report.sizing.words import entry_value, field_name
+
+_FULL_DESCRIPTION = frozenset({"load.force_over_stroke"})  # it says how the run uses the force
+
+
+def task_section(material: SizingMaterial) -> Html:
+    """The stated fields of the task."""
+    rows = [
+        [field_name(entry.path), entry_value(entry), _meaning(entry)]
+        for entry in material.entries
+        if entry.stated
+    ]
+    not_stated = [entry for entry in material.entries if not entry.stated and entry.value is None]
+    parts: list[Child] = [
+        table([Head("Stated"), Head("Value"), Head("Meaning")], rows),
+    ]
+    if not_stated:
+        names = ", ".join(field_name(entry.path).lower() for entry in not_stated)
+        parts.append(paragraph(f"Not stated: {names}.", note=True))
+    return html(parts)
+
+
+def _meaning(entry: Entry) -> str:
+    """The description without the reason for the default value."""
+    if entry.path in _FULL_DESCRIPTION:
+        return entry.about
+    first = re.split(r"(?<=[.])\s", entry.about, maxsplit=1)[0]
+    return "" if ":" in first else first
+
+
+def assumptions_section(material: SizingMaterial) -> Html:
+    """Default values the task does not state, and simplifications of the computation."""
+    rows = [
+        [field_name(entry.path), entry_value(entry), entry.about]
+        for entry in material.entries
+        if not entry.stated and entry.value is not None
+    ]
+    columns = [
+        Head("Assumed"),
+        Head("Value"),
+        Head("Meaning, and reason for the value", wide=True),
+    ]
+    parts: list[Child] = [
+        heading("Values the task does not state"),
+        table(columns, rows) if rows else paragraph("None: the task states every value."),
+        heading("Simplifications"),
+        bullets(_approximations(material)),
+    ]
+    return html(parts)
+
+
+def _approximations(material: SizingMaterial) -> list[str]:
+    chosen = material.chosen
+    lines = [
+        "Static forces come from the static model with the effects of the muscle, without hysteresis and "
+        "friction; these only affect the specimens of the probability.",
+        "Times come from a run of the drive: choked and subsonic flow through valve and tube, polytropic "
+        "gas, a rigid load between two end stops. The valve fills or vents with full flow; nothing "
+        "slows the load down before the stop.",
+        "The mass of the muscle and the volume and resistance of fittings and silencers are neglected.",
+        "Creep, relaxation, warming in operation, wear and ageing are neglected.",
+        "The length of the end fittings counts only if the task states it.",
+        "The life is an estimate from general knowledge, not a curve of the maker: 10⁷ load cycles without "
+        "load, 10⁵ at the largest force or contraction the maker allows, logarithmic in between.",
+    ]
+    if material.profile[0]:
+        lines.insert(
+            1,
+            "Static figures use the force over the stroke as stated. The run, and so all times, the air and "
+            "the probability, use the lowest straight line that is nowhere below it and does not fall: "
+            "conservative, not exact.",
+        )
+    if chosen is None:
+        return lines
+    lines += _of_drive(material, chosen)
+    return lines
+
+
+def _of_drive(material: SizingMaterial, chosen: Chosen) -> list[str]:
+    lines = [f"Air: {chosen.gas}."]
+    if chosen.count > 1:
+        lines.append(
+            f"The {chosen.count} parallel muscles are assumed equal and equally loaded: one is simulated "
+            "with its share of the load and of the valve's flow. Unequal muscles carry unequal shares."
+        )
+    if material.pair:
+        lines += [
+            "Each muscle of the pair has its nominal length at one end of the swing. The run first fills the "
+            "second muscle, then swings; the static reserve assumes the second muscle is empty, in the run "
+            "it is still venting.",
+            "The stiffness is for an empty second muscle.",
+        ]
+    return lines
