@@ -43,8 +43,10 @@ def test_the_table_shows_both_phases_and_the_outcome(run: Run) -> None:
     code, out, err = run("simulate", write("lift.json", EXAMPLE))
     assert code == 0
     assert "completed" in out
-    for word in ("extend", "retract", "positioning time", "impact energy", "valve choked"):
+    for word in ("extend", "retract", "positioning time", "impact energy", "flows choked"):
         assert word in out
+    for word in ("air: energy balance", "lower end stop"):
+        assert word in err
     assert "unverified" not in out
     assert "MPYE" in err  # its figures are not verified
 
@@ -88,7 +90,9 @@ REFUSED = {
     "unknown effect": (
         "bad.json", {**EXAMPLE, "effects": {"creeep": {}}}, ["creeep", "Did you mean 'creep'"]
     ),
-    "no equilibrium": ("bad.json", {**EXAMPLE, "load": {"force": "-1 MN"}}, ["bad.json", "load"]),
+    "start beyond a stop": (
+        "bad.json", {**EXAMPLE, "start": {"position": "2 m"}}, ["bad.json", "start.position", "end stops"]
+    ),
     "another preset": ("bad.json", {"schema": 1, "kind": "valve", "id": "x"}, ["bad.json", "kind"]),
 }  # fmt: skip
 

@@ -211,13 +211,12 @@ def test_a_stream_ends_with_the_answer(shared_client: TestClient) -> None:
 
 
 def test_an_error_inside_a_stream_is_an_event(shared_client: TestClient) -> None:
-    # No equilibrium at the start: the muscle would be torn off its lower stop.
-    torn = {**LIFT, "start_pressure": "6 bar", "load": {"force": "-1 MN"}}
-    response = shared_client.post(PATH, json={"drive": torn}, headers={"accept": "text/event-stream"})
+    beyond = {**LIFT, "start": {"position": "2 m"}}
+    response = shared_client.post(PATH, json={"drive": beyond}, headers={"accept": "text/event-stream"})
     name, data = events_of(response.text)[-1]
     assert name == "error"
-    assert data["error"]["field"] == "drive.load"
-    assert_error(post(shared_client, PATH, {"drive": torn}), 422, field="drive.load")
+    assert data["error"]["field"] == "drive.start.position"
+    assert_error(post(shared_client, PATH, {"drive": beyond}), 422, field="drive.start.position")
 
 
 @pytest.mark.parametrize(

@@ -24,7 +24,7 @@ class Rest(Enum):
 
     BALANCED = "in equilibrium of muscle and load at the start pressure"
     LOW_STOP = "on the lower end stop, where the load rests at the start pressure"
-    HIGH_STOP = "on the upper end stop, where the muscle holds the load at the start pressure"
+    HIGH_STOP = "on the upper end stop, where the load rests at the start pressure"
     ANYWHERE = (
         "on the lower end stop: without pressure the load would rest anywhere; start.position says otherwise"
     )
