@@ -171,6 +171,6 @@ class Prepared:
 def arrival(events: tuple[Event, ...], stop: str, begin: float, end: float) -> float | None:
     """Time from ``begin`` to the first impact on a stop before ``end`` [s]; None without one."""
     for event in events:
-        if event.switch == stop and event.speed and begin <= event.time < end:
+        if event.switch == stop and event.impact and begin <= event.time < end:
             return event.time - begin
     return None

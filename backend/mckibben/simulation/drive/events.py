@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mckibben.physics.drive_terms import HIGH_STOP, LOW_STOP
 from mckibben.simulation.integrate.engine import CompiledDrive
 
 
@@ -18,8 +19,8 @@ class Event:
         switch: `mckibben.physics.drive_terms.LOW_STOP`, `HIGH_STOP` or `SLACK`, of the second muscle of a
             pair with `COUNTER`.
         begins: whether the contact, or the slack, begins; of an impact with rebound False.
-        speed: of the stroke before an impact [m/s], positive = shortening; 0 without an impact.
-        acceleration: of the stroke before an impact [m/s^2].
+        speed: of the stroke just before [m/s], positive = shortening.
+        acceleration: of the stroke just before [m/s^2].
     """
 
     time: float
@@ -27,6 +28,11 @@ class Event:
     begins: bool
     speed: float = 0.0
     acceleration: float = 0.0
+
+    @property
+    def impact(self) -> bool:
+        """Whether the load hits an end stop."""
+        return self.switch in (LOW_STOP, HIGH_STOP) and self.speed != 0.0
 
 
 def events_of(compiled: CompiledDrive, rows: np.ndarray) -> tuple[Event, ...]:

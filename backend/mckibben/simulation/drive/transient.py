@@ -23,7 +23,7 @@ from mckibben.simulation.statics.model import StaticModel
 
 GRAVITY = 9.80665  # m/s2
 # A slack muscle takes its free length within about this time [s].
-_SLACK_TIME = 5e-5
+_SLACK_TIME = 2e-6
 _LIGHTEST = 1e-3  # kg; least moving mass: without mass there is no equation of motion
 # At 1e-5 a step may jump over the moment at which a load leaves its stop (0.4 mm in paper-ramp).
 TOLERANCE = 1e-6

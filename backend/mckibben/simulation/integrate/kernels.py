@@ -95,7 +95,7 @@ def rodas4(
         grid: ascending times between the first and the last boundary, at which ``out`` is written.
         rtol, atol: error per step: weighted root mean square below 1; ``atol`` has one entry per state.
         out: shape (grid, states + outputs).
-        events: rows (instant, number of the switch, its new value, speed and acceleration before an impact);
+        events: rows (instant, number of the switch, its new value, speed and acceleration just before);
             further events are counted, not written.
         counts: accepted steps, rejected steps, grid rows written and events; incremented in place.
         max_steps: give up after this many accepted and rejected steps.

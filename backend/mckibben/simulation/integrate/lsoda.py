@@ -70,10 +70,11 @@ class _Run:
         problem = self.problem
         to, speed, acceleration = 1.0 - problem.switches[number], 0.0, 0.0
         stop = problem.stops[number]
-        if to == 1.0 and not np.isnan(stop):
-            stroke_place, speed_place = problem.drive.moved
+        stroke_place, speed_place = problem.drive.moved
+        if speed_place >= 0:
             speed = float(problem.state[speed_place])
             acceleration = float(self.codes.rates(self.at(problem.state))[speed_place])
+        if to == 1.0 and not np.isnan(stop):
             problem.state[stroke_place], problem.state[speed_place] = stop, 0.0
             if problem.restitution * abs(speed) > SLOWEST_REBOUND:
                 problem.state[speed_place] = -problem.restitution * speed

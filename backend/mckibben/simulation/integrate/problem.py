@@ -73,7 +73,7 @@ class Solution:
         rows: shape (rows, states + outputs).
         end, switches: states and switches at the end.
         events: changes of switches and impacts, rows (instant, number of the switch, its new value, speed
-            and acceleration before an impact).
+            and acceleration just before).
         outcome, steps, rejected, engine: how the run went.
         next_step: step to try next [s].
     """

@@ -176,9 +176,10 @@ def _switch(
     """Change switch k; an end stop stops the load or throws it back. ``rates`` are those before."""
     _, stops, bounce, follows = switching
     speed = acceleration = 0.0
+    if moved[1] >= 0:
+        speed, acceleration = state[moved[1]], rates[moved[1]]
     to = 1.0 - switches[k]
     if to == 1.0 and stops[k] == stops[k]:
-        speed, acceleration = state[moved[1]], rates[moved[1]]
         state[moved[0]] = stops[k]
         state[moved[1]] = 0.0
         if bounce[0] * abs(speed) > bounce[1]:

@@ -65,7 +65,8 @@ def grid_of(*, duration: float, begin: float, end: float, points: int) -> Grid:
 def trace_of(run: Run) -> Trace | None:
     """The run in coordinates of the load; None when fewer than two rows are finite.
 
-    At each impact there are two more rows, before and after it.
+    At each impact, and where the muscle becomes slack or taut on the way, there are two more rows: just
+    before and just after.
     """
     out, lever, drive = run.outputs, run.drive.load.lever_ratio, run.drive
     suffixes = ("", COUNTER) if drive.pair else ("",)
@@ -100,10 +101,13 @@ def trace_of(run: Run) -> Trace | None:
     if count < 2:
         return None
     columns = {name: column[:count] for name, column in columns.items()}
-    hits = [event for event in run.events if event.speed and event.time < columns["time"][-1]]
-    for event in hits:
-        columns = _with_impact(columns, event, run)
-    impacts = tuple(Impact(event.time, stop_of(drive, event) / lever, event.speed / lever) for event in hits)
+    events = [event for event in run.events if event.speed and event.time < columns["time"][-1]]
+    impacts = tuple(
+        Impact(event.time, stop_of(drive, event) / lever, event.speed / lever)
+        for event in events
+        if event.impact
+    )
+    columns = _with_events(columns, events, run)
     return Trace(**columns, impacts=impacts)
 
 
@@ -121,32 +125,45 @@ def tube_charge_of(run: Run) -> Array:
     return np.sum(pressures, axis=0) * tube.volume / (_R * run.drive.temperature)
 
 
-def _with_impact(columns: dict[str, Array], event: Event, run: Run) -> dict[str, Array]:
-    """The columns with the rows just before and just after an impact."""
-    lever = run.drive.load.lever_ratio
-    time = columns["time"]
-    row = int(np.searchsorted(time, event.time, side="left"))
-    if row < len(time) and time[row] == event.time:  # the row of this instant is that before the impact
-        columns = {name: np.delete(column, row) for name, column in columns.items()}
-        time = columns["time"]
-    if not 0 < row < len(time):
+def _with_events(columns: dict[str, Array], events: list[Event], run: Run) -> dict[str, Array]:
+    """The columns with rows just before and just after each event."""
+    instants = np.array([event.time for event in events])
+    new = np.concatenate([[True], np.diff(instants) > 0.0]) if len(events) else np.zeros(0, bool)
+    inside = new & (instants > columns["time"][0])
+    events, instants = [event for event, keep in zip(events, inside, strict=True) if keep], instants[inside]
+    if not events:
         return columns
-    after = np.nextafter(event.time, np.inf)
-    rebound = 0.0 if event.begins else -run.drive.restitution * event.speed
+    # A row of the instant of an event is that before it: the new rows replace it.
+    keep = ~np.isin(columns["time"], instants)
+    columns = {name: column[keep] for name, column in columns.items()}
+    time, lever = columns["time"], run.drive.load.lever_ratio
+    after = np.searchsorted(time, instants)
+    before = after - 1
+    passed = instants - time[before]
+    share = passed / (time[after] - time[before])
+    speed = np.array([event.speed for event in events]) / lever
+    left, here = (
+        speed.copy(),
+        columns["position"][before] + 0.5 * passed * (columns["velocity"][before] + speed),
+    )
+    for index, event in enumerate(events):
+        if event.impact:
+            here[index] = stop_of(run.drive, event) / lever
+            left[index] = 0.0 if event.begins else -run.drive.restitution * speed[index]
+    pulling = np.array([event.acceleration for event in events]) / lever
     known = {
-        "time": (event.time, after),
-        "position": (stop_of(run.drive, event) / lever,) * 2,
-        "velocity": (event.speed / lever, rebound / lever),
-        "acceleration": (event.acceleration / lever, columns["acceleration"][row]),
-        "contact": (False, bool(columns["contact"][row])),
-        "choked": (columns["choked"][row - 1],) * 2,
+        "time": (instants, np.nextafter(instants, np.inf)),
+        "position": (here, here),
+        "velocity": (speed, left),
+        "acceleration": (pulling, columns["acceleration"][after]),
+        "contact": (np.zeros(len(events), bool), columns["contact"][after]),
+        "choked": (columns["choked"][before],) * 2,
     }
-    share = (event.time - time[row - 1]) / (time[row] - time[row - 1])
-    new = {}
+    rows, result = np.repeat(after, 2), {}
     for name, column in columns.items():
-        between = column[row - 1] * (1.0 - share) + column[row] * share
-        new[name] = np.insert(column, row, known.get(name, (between, between)))
-    return new
+        between = column[before] * (1.0 - share) + column[after] * share
+        result[name] = np.insert(column, rows, np.column_stack(known.get(name, (between, between))).ravel())
+    return result
 
 
 def stops_of(drive: Drive) -> Interval:

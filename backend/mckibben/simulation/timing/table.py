@@ -232,14 +232,33 @@ class _Phase:
     ) -> None:
         """Largest speed and accelerations, without a load at rest on a stop."""
         free = np.flatnonzero(~self.contact)
-        best = free[np.argmax(self.speed[free])]
-        figures |= {"max_speed": max(float(self.speed[best]), 0.0), "max_speed_at": float(self.time[best])}
+        at, speed = self._fastest(int(free[np.argmax(self.speed[free])]))
+        figures |= {"max_speed": max(speed, 0.0), "max_speed_at": at}
         values = self.window.acceleration
         for name, pick in (("max_acceleration", np.argmax), ("min_acceleration", np.argmin)):
             index = free[pick(values[free])]
             figures |= {name: float(values[index]), f"{name}_at": float(self.time[index])}
             if impact is not None:
                 notes[name] = "without the impact"
+
+    def _fastest(self, row: int) -> tuple[float, float]:
+        """Instant and value of the largest speed, near its row: between rows by the cubic of speed."""
+        best = float(self.time[row]), float(self.speed[row])
+        for index in (row - 1, row):
+            if not 0 <= index < len(self.time) - 1:
+                continue
+            pair = slice(index, index + 2)
+            (t0, t1), (v0, v1), (a0, a1) = (
+                column[pair].tolist() for column in (self.time, self.speed, self.acceleration)
+            )
+            if not a0 > 0.0 > a1:
+                continue
+            share = a0 / (a0 - a1)  # where the acceleration, linear in between, is zero
+            w, width = 1.0 - share, t1 - t0
+            speed = w * w * (v0 * (1.0 + 2.0 * share) + share * width * a0)
+            speed += share * share * (v1 * (1.0 + 2.0 * w) - w * width * a1)
+            best = max(best, (t0 + share * width, speed), key=lambda pair: pair[1])
+        return best
 
     def _impact(self) -> tuple[float, float] | None:
         """Instant and speed of the first impact on the stop ahead."""
