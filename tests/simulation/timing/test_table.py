@@ -57,10 +57,10 @@ def lift(t: np.ndarray, *, a: float, stop: float, delay: float = 0.0, bounce: fl
 def with_impact(run: Trace, impact: Impact, a: float, bounce: float) -> Trace:
     """The trace with the rows before and after an impact."""
     row = int(np.searchsorted(run.time, impact.time))
-    if not 0 < row < len(run.time):
+    if not 0 < row < len(run.time) or run.time[row] - impact.time < 1e-10:
         return run
     rows = {
-        "time": (impact.time, impact.time + 1e-9),
+        "time": (impact.time, impact.time + min(1e-9, 0.5 * (run.time[row] - impact.time))),
         "position": (impact.position,) * 2,
         "velocity": (impact.velocity, -bounce * impact.velocity),
         "acceleration": (a, run.acceleration[row]),

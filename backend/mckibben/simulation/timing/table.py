@@ -10,7 +10,7 @@ the stroke of the phase: to the stop it ends on, else to where it ends, or the d
 - settling_time: from here to the end of the phase |s - S| <= band S. The band is 5 % by default: after the
   impact a load swings on the gas spring by a few per cent, almost undamped, long after it has arrived for
   practical purposes. A narrower band gives the time until that oscillation has decayed.
-- average_speed: S / positioning_time. end_speed: ds/dt at the impact, or without one at positioning_time.
+- average_speed: travel up to there / positioning_time. end_speed: ds/dt at the impact, or without one at positioning_time.
 - max_speed, max_speed_at: largest ds/dt, including the instant before the impact.
 - max_acceleration, min_acceleration: largest and smallest second derivative of the position, positive =
   towards shorter in both phases: a fall has a negative one. Impacts, and a load at rest on a stop, do not
@@ -185,13 +185,15 @@ class _Phase:
                 figures["rise_time"] = late - (self._first(0.1 * stroke) or 0.0)
             settled = self._settled(self.travel, stroke, self.band * stroke)
             arrival = self._first((1.0 - self.band) * stroke)
+            travelled = stroke
             if impact is not None and (not self.demanded or abs(self.reached - stroke) < 1e-3 * stroke):
                 arrival = impact[0]
+                travelled = float(np.interp(arrival, self.time, self.travel))
             elif not self.demanded and settled is None:
                 arrival = None
             figures |= {"settling_time": settled, "positioning_time": arrival}
             if arrival:
-                figures["average_speed"] = stroke / arrival
+                figures["average_speed"] = travelled / arrival
             if arrival is not None:
                 figures["end_speed"] = float(np.interp(arrival, self.time, self.speed))
             figures["overshoot"] = max(0.0, float(self.travel.max()) / stroke - 1.0)
