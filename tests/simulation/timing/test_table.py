@@ -54,31 +54,26 @@ def lift(t: np.ndarray, *, a: float, stop: float, delay: float = 0.0, bounce: fl
     return run
 
 
+_COLUMNS = (
+    "time", "position", "velocity", "acceleration", "contact", "pressure", "force", "mass_flow"
+)  # fmt: skip
+
+
 def with_impact(run: Trace, impact: Impact, a: float, bounce: float) -> Trace:
-    """The trace with the rows before and after an impact."""
-    row = int(np.searchsorted(run.time, impact.time))
-    if not 0 < row < len(run.time) or run.time[row] - impact.time < 1e-10:
+    """The trace with the rows before and after an impact, instead of one at the same instant."""
+    apart = np.abs(run.time - impact.time) > 1e-6
+    columns = {name: getattr(run, name)[apart] for name in _COLUMNS}
+    row = int(np.searchsorted(columns["time"], impact.time))
+    if not 0 < row < len(columns["time"]):
         return run
     rows = {
-        "time": (impact.time, impact.time + min(1e-9, 0.5 * (run.time[row] - impact.time))),
+        "time": (impact.time, impact.time + 1e-9),
         "position": (impact.position,) * 2,
         "velocity": (impact.velocity, -bounce * impact.velocity),
-        "acceleration": (a, run.acceleration[row]),
-        "contact": (False, run.contact[row]),
+        "acceleration": (a, columns["acceleration"][row]),
+        "contact": (False, columns["contact"][row]),
     }
-    columns = {
-        name: np.insert(getattr(run, name), row, rows.get(name, (0.0, 0.0)))
-        for name in (
-            "time",
-            "position",
-            "velocity",
-            "acceleration",
-            "contact",
-            "pressure",
-            "force",
-            "mass_flow",
-        )
-    }
+    columns = {name: np.insert(column, row, rows.get(name, (0.0, 0.0))) for name, column in columns.items()}
     return Trace(**columns, impacts=(*run.impacts, impact))
 
 
