@@ -10,7 +10,8 @@ the stroke of the phase: to the stop it ends on, else to where it ends, or the d
 - settling_time: from here to the end of the phase |s - S| <= band S. The band is 5 % by default: after the
   impact a load swings on the gas spring by a few per cent, almost undamped, long after it has arrived for
   practical purposes. A narrower band gives the time until that oscillation has decayed.
-- average_speed: travel up to there / positioning_time. end_speed: ds/dt at the impact, or without one at positioning_time.
+- average_speed: travel up to there / positioning_time. end_speed: ds/dt at the impact, or without one at
+  positioning_time.
 - max_speed, max_speed_at: largest ds/dt, including the instant before the impact.
 - max_acceleration, min_acceleration: largest and smallest second derivative of the position, positive =
   towards shorter in both phases: a fall has a negative one. Impacts, and a load at rest on a stop, do not
