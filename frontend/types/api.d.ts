@@ -899,6 +899,17 @@ export interface components {
       /** Null: that of the request. */
       muscle?: components["schemas"]["MuscleInput"] | null;
     };
+    /** Width of the loop of filling and venting at the load, far from its ends; null where it is not held. */
+    HysteresisLoop: {
+      /** Gauge pressures of the curves. [Pa] */
+      pressure: number[];
+      /** Distance of the branches in length, at equal pressure. [m] */
+      stroke: (number | null)[];
+      /** The same as a share of the nominal length. [1] */
+      share: (number | null)[];
+      /** Distance of the branches in pressure, at equal length. [Pa] */
+      pressure_width: (number | null)[];
+    };
     /** The requested value in SI, with flags. */
     InverseAnswer: {
       question: "pressure" | "contraction" | "working_range" | "stroke_pressure";
@@ -1305,6 +1316,8 @@ export interface components {
       /** The fixed length. [m] */
       fixed_length: number | null;
       force_at_fixed_length: components["schemas"]["ForceAtLength"] | null;
+      /** Width of the loop; null without a load. */
+      loop?: components["schemas"]["HysteresisLoop"] | null;
     };
     /** Position over pressure in one direction of motion; null where the load cannot be held. */
     OverPressureBranch: {

@@ -95,7 +95,7 @@ def answer(question: InverseQuestion, studio: Studio) -> InverseFinding:
     Raises:
         InputError: invalid muscle, effect or question; names the field of the question.
     """
-    solution = _ask(question, studio.static_model(question.start))
+    solution = _ask(question, studio.slow_model(question.start))
     return InverseFinding(
         question=question.NAME,
         value=solution.value,

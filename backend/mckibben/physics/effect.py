@@ -46,6 +46,8 @@ class StateVariable:
         initial: value at the start of a run, at which the effect is at rest; static curves use this value.
         settled: the state starts where its rate is zero instead of at ``initial``; all settled states are
             solved together, so their rates must be linear in them.
+        sliding: value that it reaches in a long slow lengthening, its negative in a long shortening; 0 for a
+            state without such a value. See `mckibben.physics.sliding`.
     """
 
     name: str
@@ -55,6 +57,7 @@ class StateVariable:
     description: str
     initial: float = 0.0
     settled: bool = False
+    sliding: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
