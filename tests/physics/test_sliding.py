@@ -42,7 +42,7 @@ def after_a_long_motion(effect: Effect, direction: float) -> float:
 @pytest.mark.parametrize("effect", SLIDING, ids=[effect.id for effect in SLIDING])
 @pytest.mark.parametrize("direction", [-1.0, 1.0])
 def test_a_branch_has_the_friction_after_a_long_motion(effect: Effect, direction: float) -> None:
-    (sliding,) = sliding_effects([effect])
+    (sliding,) = sliding_effects(effects=[effect])
     branch = force(sliding, direction=direction) - force(sliding)
     assert branch == pytest.approx(after_a_long_motion(effect, direction), rel=1e-3)
     assert branch * direction > 0.0  # filling pulls less, venting more
@@ -50,7 +50,7 @@ def test_a_branch_has_the_friction_after_a_long_motion(effect: Effect, direction
 
 @pytest.mark.parametrize("effect", SLIDING, ids=[effect.id for effect in SLIDING])
 def test_without_a_direction_it_is_the_mean_curve_to_the_bit(effect: Effect) -> None:
-    (sliding,) = sliding_effects([effect])
+    (sliding,) = sliding_effects(effects=[effect])
     assert force(sliding) == force(effect)
     assert np.mean([force(sliding, direction=way) for way in (-1.0, 1.0)]) == pytest.approx(force(effect))
 
@@ -62,7 +62,7 @@ def test_every_friction_of_the_muscle_with_memory_slides_except_creep() -> None:
 
 def test_others_stay_the_same_object_and_the_changed_one_is_made_once() -> None:
     effects = (CATALOGUE["dahl"], CATALOGUE["bladder_elasticity"], CATALOGUE["creep"])
-    first, second = sliding_effects(effects), sliding_effects(effects)
+    first, second = sliding_effects(effects=effects), sliding_effects(effects=effects)
     assert first == second
     assert first[0] is not effects[0]
     assert first[1:] == effects[1:]

@@ -1,7 +1,7 @@
 """A slow loop of stroke over pressure under a constant load, integrated in a few lines; no code of physics/.
 
-The muscle of a preset file is read as it is written: ideal braid, neo-Hookean wall under the braid's
-kinematics, prestress, and friction that builds up over a short travel after each reversal (Dahl). The pressure
+The muscle of a preset file is read as written: ideal braid, Mooney-Rivlin wall under the kinematics of
+the braid, prestress, and friction that builds up over a short travel after each reversal (Dahl). The pressure
 is a triangle; at each small step the length follows from the balance of forces.
 """
 
@@ -91,8 +91,8 @@ class SlowMuscle:
     def _balance(self, pressure: float, load: float, length: float, built: float) -> tuple[float, float]:
         """The next length and share of friction: bisection for force + friction = load.
 
-        Dahl, exact over a step of one direction: after a travel s the share is 1 - (1 - z) exp(-s/x_b) towards
-        lengthening, and its mirror image towards shortening.
+        Dahl, exact over a step of one direction: after a travel s the share is 1 - (1 - z) exp(-s/x_b) on
+        lengthening, and its mirror image on shortening.
         """
 
         def share(new: float) -> float:

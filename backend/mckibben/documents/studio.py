@@ -75,7 +75,7 @@ class Studio:
             InputError: as there.
         """
         known = start.catalogue or self.catalogue
-        chosen = sliding_effects(known[name] for name in start.effects)
+        chosen = sliding_effects(effects=(known[name] for name in start.effects))
         catalogue = {effect.id: effect for effect in chosen}
         return StaticModel(start.muscle, start.effects, catalogue=catalogue, limits=start.limits)
 

@@ -20,7 +20,7 @@ from mckibben.physics.slots import SLOTS
 _RATES = ("rates", "drive_rates")
 
 
-def sliding_effects(effects: Iterable[Effect]) -> tuple[Effect, ...]:
+def sliding_effects(*, effects: Iterable[Effect]) -> tuple[Effect, ...]:
     """The effects for curves with a direction; an effect without a sliding state is the same object."""
     return tuple(
         _sliding(effect) if any(state.sliding for state in effect.states) else effect for effect in effects

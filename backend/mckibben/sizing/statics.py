@@ -11,6 +11,7 @@ import numpy as np
 
 from mckibben.physics import gas, ideal
 from mckibben.physics.muscle import GEOMETRY
+from mckibben.physics.sliding import sliding_effects
 from mckibben.simulation.statics.compiled import compiled_state
 from mckibben.simulation.statics.model import settle
 from mckibben.sizing.catalogue import MusclePart
@@ -31,14 +32,15 @@ def outputs(
     length: Array,
     contraction: Array,
     pressure: Array,
-    direction: float = -1.0,
+    direction: float | Array = -1.0,
     temperature: float = 293.15,
 ) -> dict[str, Array]:
     """Outputs of the static model for muscles of different nominal lengths; all arrays of one shape (rows,).
 
-    ``length`` is the nominal one [m], ``pressure`` gauge [Pa]; direction -1 fills.
+    ``length`` is the nominal one [m], ``pressure`` gauge [Pa]; direction -1 fills, +1 vents, with friction
+    fully built up, 0 is their mean.
     """
-    compiled = compiled_state(part.effects)
+    compiled = compiled_state(sliding_effects(effects=part.effects))
     packed = compiled.pack(part.muscle, part.values)
     constants = np.repeat(packed[None, :], len(length), axis=0)
     constants[:, GEOMETRY.index("nominal_length")] = length
@@ -117,7 +119,8 @@ def at_rest(
     against = np.zeros((count, stations))
     counter_stiffness = np.zeros(count)
     if duty.pair:
-        against = np.maximum(passive[:, ::-1], 0.0)
+        stretched = outputs(part, pressure=np.zeros(rows), direction=1.0, **common)["force"]
+        against = np.maximum(stretched.reshape(count, stations)[:, ::-1], 0.0)
         pulling = passive[:, 0] > 0.0
         counter_stiffness = np.where(pulling, empty["force_by_length"].reshape(count, stations)[:, 0], 0.0)
     share = loads[None, :] / (lever * parallel[:, None])  # of one muscle

@@ -62,7 +62,8 @@ def _approximations(material: SizingMaterial) -> list[str]:
     chosen = material.chosen
     found = [
         "Forces at rest come from the static model with the muscle's own effects; "
-        "hysteresis and friction are not in it, they enter the specimens of the probability only.",
+        "they are those while the muscle fills, with its friction. A loop that is wider than that of the "
+        "model enters the specimens of the probability only.",
         "Times come from a run of the drive: choked and subsonic flow through valve and tube, polytropic "
         "gas, a rigid load between two end stops. The valve fills or vents with its whole flow; nothing "
         "slows the load before the stop.",

@@ -122,13 +122,16 @@ def _spread_table(spread: SpecimenSpread) -> Html:
         ],
         [
             "Hysteresis",
-            "even, from none to the whole loop",
+            "even, from the loop of the model to the whole loop",
             mark("not known of this muscle")
             if spread.hysteresis is None
             else html(figure(spread.hysteresis, SHARE, 3, exact=True), " of the nominal length wide"),
             "none was assumed: the probability is too high by what it would cost"
             if spread.hysteresis is None
-            else html("up to ", figure(spread.friction, NEWTON, 3), " of each muscle against the motion"),
+            else html(
+                "up to ", figure(spread.friction, NEWTON, 3),
+                " of each muscle against the motion, beyond its friction in the model",
+            ),
         ],
         [
             "Supply pressure",
