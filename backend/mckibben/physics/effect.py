@@ -131,6 +131,8 @@ class Effect:
         order: position in chained slots; lower acts first.
         needs: fields of the muscle that the effect multiplies; for an unknown (zero) one a typical value is
             assumed (`mckibben.physics.muscle.Muscle.assuming`).
+        among_lengths: whether it shows only among muscles of several lengths; a search in the data of one
+            muscle does not try it, because it would imitate other effects of the geometry.
         states: states of the effect; ``rates`` (of the muscle) or ``drive_rates`` gives their derivatives.
         id: the file name, set by the catalogue.
     """
@@ -149,6 +151,7 @@ class Effect:
     examples: tuple[Example, ...]
     order: int = 0
     needs: tuple[str, ...] = ()
+    among_lengths: bool = False
     states: tuple[StateVariable, ...] = ()
     id: str = ""
     _wanted: Mapping[str, tuple[str, ...]] = field(default_factory=dict, repr=False)
