@@ -1,4 +1,4 @@
-"""The muscle presets over their length: the relative change of published data; the level is that of the maps."""
+"""The muscle presets over their length: the relative change of published data; the level is of the maps."""
 
 from __future__ import annotations
 

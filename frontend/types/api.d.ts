@@ -1181,7 +1181,7 @@ export interface components {
     ModelJson: {
       effects: { [key: string]: { [key: string]: number | string } };
     };
-    /** A muscle: geometry, limits, catalogue data and the effects its model has by default. */
+    /** A muscle: geometry, limits, catalogue data and the effects its model has by default. Attributes: extrapolated: why its force is not known from a curve or a measurement; None when it is. Sizing ranks such a muscle behind all others. */
     MuscleAnswer: {
       schema: 1;
       kind: "muscle";
@@ -1198,6 +1198,7 @@ export interface components {
       data?: { [key: string]: components["schemas"]["Quantity"] };
       reference_curve?: string | null;
       measurement?: string | null;
+      extrapolated?: string | null;
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
       /** Part of the program, or saved by the user. */
@@ -1241,7 +1242,7 @@ export interface components {
       turns?: number | string | null;
       rhombus?: components["schemas"]["RhombusInput"] | null;
     };
-    /** A muscle: geometry, limits, catalogue data and the effects its model has by default. */
+    /** A muscle: geometry, limits, catalogue data and the effects its model has by default. Attributes: extrapolated: why its force is not known from a curve or a measurement; None when it is. Sizing ranks such a muscle behind all others. */
     MusclePreset: {
       schema: 1;
       kind: "muscle";
@@ -1258,6 +1259,7 @@ export interface components {
       data?: { [key: string]: components["schemas"]["Quantity"] };
       reference_curve?: string | null;
       measurement?: string | null;
+      extrapolated?: string | null;
     };
     /** A measurement to practise on; without the solution. */
     Mystery: {
@@ -1511,7 +1513,7 @@ export interface components {
       /** Limit -> margin as a share of the limit; limits that are not set are left out. */
       margins: { [key: string]: number };
       /** The limit with the least margin. */
-      binding: "length" | "pressure" | "contraction" | "force" | "force_limit" | "diameter" | "stiffness" | "life" | "temperature" | "time" | "time_down" | "cycle_time";
+      binding: "length" | "pressure" | "contraction" | "force" | "force_limit" | "diameter" | "stiffness" | "life" | "temperature" | "time" | "time_down" | "cycle_time" | "suspended_mass" | "valve_pressure";
       /** Explanation of its rank. */
       reason: string;
       /** On the Pareto front of the proposals. */
@@ -1572,7 +1574,7 @@ export interface components {
       /** The reason, with figures. */
       why: string;
       /** The limit that must move by the least share when no other moves. */
-      binding: "length" | "pressure" | "contraction" | "force" | "force_limit" | "diameter" | "stiffness" | "life" | "temperature" | "time" | "time_down" | "cycle_time";
+      binding: "length" | "pressure" | "contraction" | "force" | "force_limit" | "diameter" | "stiffness" | "life" | "temperature" | "time" | "time_down" | "cycle_time" | "suspended_mass" | "valve_pressure";
       /** What would help, least change first. */
       would_work_if: string;
       /** Number of combinations this entry covers. */

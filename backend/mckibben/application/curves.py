@@ -14,6 +14,7 @@ from mckibben.application.muscle_summary import (
     limit_notices,
     start_notices,
 )
+from mckibben.application.operating_limits import load_notices, temperature_notices
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
@@ -218,7 +219,12 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
         model=EffectSettings(model.values),
         over_pressure=_over_pressure(question, model, grid, held),
         operating_points=points,
-        flags=[*start_notices(start), *limit_notices(crossed)],
+        flags=[
+            *start_notices(start),
+            *limit_notices(crossed),
+            *load_notices(start, question.load),
+            *temperature_notices(start, conditions.temperature, "temperature"),
+        ],
     )
 
 

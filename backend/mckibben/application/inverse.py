@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar, assert_never
 
 from mckibben.application.muscle_summary import Notice, limit_notices, start_notices
+from mckibben.application.operating_limits import load_notices, temperature_notices
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
@@ -101,7 +102,12 @@ def answer(question: InverseQuestion, studio: Studio) -> InverseFinding:
         value=solution.value,
         unit=solution.unit,
         details=solution.details,
-        flags=[*start_notices(question.start), *limit_notices(solution.flags)],
+        flags=[
+            *start_notices(question.start),
+            *limit_notices(solution.flags),
+            *load_notices(question.start, getattr(question, "load", None)),
+            *temperature_notices(question.start, question.temperature, "temperature"),
+        ],
     )
 
 

@@ -15,6 +15,7 @@ from mckibben.application.muscle_summary import (
     limit_notices,
     start_notices,
 )
+from mckibben.application.operating_limits import suspended_notices, temperature_notices, valve_notices
 from mckibben.documents.drive_reading import GivenDrive
 from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.errors import InputError
@@ -255,7 +256,14 @@ def result_of(given: GivenDrive, grid: Grid, run: Run) -> SimulationResult:
         wall_ms=run.wall_seconds * 1e3,
         engine=run.engine,
         steps=run.steps,
-        flags=[*start_notices(given.start), *_part_notices(given), *limit_notices(_crossed(run))],
+        flags=[
+            *start_notices(given.start),
+            *_part_notices(given),
+            *limit_notices(_crossed(run)),
+            *suspended_notices(given.start, drive.load),
+            *temperature_notices(given.start, drive.temperature, "gas.temperature"),
+            *valve_notices(given),
+        ],
         notes=notes,
         limits=_bounds(given),
         geometry=geometry_of(given.start),

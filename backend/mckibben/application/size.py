@@ -312,6 +312,8 @@ def _notes(proposal: Proposal, task: Task, document: SizingTask) -> list[str]:
             "Both muscles are at their nominal length at the far end of the swing; the run first fills the "
             "second muscle, then swings."
         )
+    if group.muscle.extrapolated is not None:
+        notes.append(f"Test a sample of {group.muscle.id} first: {group.muscle.extrapolated}.")
     if document.load.force_over_stroke is not None:
         notes.append("The simulation uses a straight line above the force over the stroke.")
     if proposal.trial.figures.time_down is None:

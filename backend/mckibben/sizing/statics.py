@@ -166,7 +166,9 @@ def margins(rest: Rest, part: MusclePart, task: Task) -> dict[str, Array]:
     limits = task.limits
     most = contraction_limit(part, task)
     none = np.full(len(rest.length), AMPLE)
-    stiffness = none
+    hanging, stiffness = none, none
+    if part.suspended_mass is not None and task.suspended_mass > 0.0:
+        hanging = part.suspended_mass * rest.parallel * task.lever_ratio / task.suspended_mass - 1.0
     if limits.stiffness is not None:
         stiffness = rest.stiffness / limits.stiffness - 1.0
     tension = none
@@ -178,6 +180,7 @@ def margins(rest: Rest, part: MusclePart, task: Task) -> dict[str, Array]:
         "contraction": most / rest.contraction - 1.0,
         "force": rest.capacity / (1.0 + limits.force_reserve) - 1.0,
         "force_limit": tension,
+        "suspended_mass": hanging,
         "diameter": none if limits.max_diameter is None else limits.max_diameter / rest.diameter - 1.0,
         "stiffness": stiffness,
         "life": none if limits.life is None else rest.life / limits.life - 1.0,

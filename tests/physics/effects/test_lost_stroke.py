@@ -1,4 +1,4 @@
-"""The lost stroke of the ends: nothing at the reference length, the braid's force at a shifted contraction."""
+"""The lost stroke of the ends: nothing at the reference length, else the force at a shifted contraction."""
 
 from __future__ import annotations
 

@@ -1,14 +1,14 @@
 r"""Lost stroke of the ends: a short muscle pulls less and contracts less than a long one of the same braid.
 
-Near its fittings the braid cannot widen, so a piece of stroke :math:`\delta` that does not depend on the length
-is lost. The gas acts as if the braid were contracted by :math:`\delta/L_0` more. Relative to the length
-:math:`L_r` for which the other values of the model hold, that is
+Near its fittings the braid cannot widen, so a stroke :math:`\delta` is lost, whatever the length.
+The gas acts as if the braid were contracted by :math:`\delta/L_0` more. Relative to the length :math:`L_r`,
+for which the other values of the model hold, that is
 
 .. math:: V(L) = V_i(L - o) - V_i(L_0 - o) + V_i(L_0), \qquad o = \delta\,(1 - L_0/L_r)
 
-so a muscle of the length :math:`L_r` is unchanged. The volume at rest and the diameter at mid-span are those of
-the braid. One stroke explains both measured effects of the length: the free contraction (Hunt) and the blocked
-force (Bolen).
+so a muscle of the length :math:`L_r` is unchanged. Volume at rest and diameter at mid-span are the braid's.
+One stroke explains both measured effects of the length: the free contraction (Hunt) and the blocked force
+(Bolen).
 """
 
 from collections.abc import Callable
@@ -49,8 +49,8 @@ EFFECT = Effect(
     title="Lost stroke of the ends",
     family="geometry",
     type="static",
-    cause="Near its fittings the braid cannot widen, so a muscle of any length loses the same piece of stroke "
-    "at its ends. A short muscle therefore pulls less and contracts by a smaller share than a long one.",
+    cause="Near its fittings the braid cannot widen, so a muscle of any length loses the same stroke at its "
+    "ends. A short muscle therefore pulls less and contracts by a smaller share than a long one.",
     equation=r"V = V_i(L-o) - V_i(L_0-o) + V_i(L_0),\quad o = \delta\left(1-\frac{L_0}{L_r}\right)",
     parameters=(
         Parameter(
