@@ -126,7 +126,9 @@ def at_rest(
     share = loads[None, :] / (lever * parallel[:, None])  # of one muscle
     demand = share + against
     with np.errstate(divide="ignore", invalid="ignore"):
-        ratio = np.where(demand > 0.0, force / np.maximum(demand, 1e-9), AMPLE)
+        # Without a load the muscle still has to overcome its own friction.
+        free = np.where(force > 0.0, AMPLE, 0.0)
+        ratio = np.where(demand > 0.0, force / np.maximum(demand, 1e-9), free)
         # At a fixed length the force is nearly linear in pressure.
         slope = (force - passive) / pressure[:, None]
         carrying = np.where(slope > 0.0, (demand - passive) / slope, np.nan)
