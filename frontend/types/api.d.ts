@@ -298,11 +298,11 @@ export interface components {
         period: number | string;
         /** [1] */
         duty?: number | string;
-        /** [m] */
+        /** Peak to peak, the full height: level - initial. [m] */
         amplitude?: number | string;
       } | {
         shape: "triangle";
-        /** [m] */
+        /** Peak to peak, the full height: offset to offset + amplitude. [m] */
         amplitude: number | string;
         /** [s] */
         period: number | string;
@@ -320,7 +320,7 @@ export interface components {
         duration: number | string;
       } | {
         shape: "sine";
-        /** [m] */
+        /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [m] */
         amplitude: number | string;
         /** [m] */
         offset?: number | string;
@@ -332,7 +332,7 @@ export interface components {
         period?: number | string;
       } | {
         shape: "chirp";
-        /** [m] */
+        /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [m] */
         amplitude: number | string;
         /** [m] */
         offset?: number | string;
@@ -546,7 +546,7 @@ export interface components {
       /** Part of the program, or saved by the user. */
       origin: "built-in" | "user";
     };
-    /** A complete drive. Pressures are gauge, strokes are positive when the muscle gets shorter. */
+    /** A complete drive. Strokes are positive when the muscle gets shorter. Pressures are gauge; a text may say "7 bar(a)", which is converted with the ambient pressure of the document. */
     DriveDocument: {
       /** Version of the document. */
       schema?: 1;
@@ -591,11 +591,11 @@ export interface components {
         period: number | string;
         /** [1] */
         duty?: number | string;
-        /** [1] */
+        /** Peak to peak, the full height: level - initial. [1] */
         amplitude?: number | string;
       } | {
         shape: "triangle";
-        /** [1] */
+        /** Peak to peak, the full height: offset to offset + amplitude. [1] */
         amplitude?: number | string;
         /** [s] */
         period: number | string;
@@ -613,7 +613,7 @@ export interface components {
         duration: number | string;
       } | {
         shape: "sine";
-        /** [1] */
+        /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [1] */
         amplitude?: number | string;
         /** [1] */
         offset?: number | string;
@@ -625,7 +625,7 @@ export interface components {
         period?: number | string;
       } | {
         shape: "chirp";
-        /** [1] */
+        /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [1] */
         amplitude?: number | string;
         /** [1] */
         offset?: number | string;
@@ -976,11 +976,11 @@ export interface components {
         period: number | string;
         /** [1] */
         duty?: number | string;
-        /** [N] */
+        /** Peak to peak, the full height: level - initial. [N] */
         amplitude?: number | string;
       } | {
         shape: "triangle";
-        /** [N] */
+        /** Peak to peak, the full height: offset to offset + amplitude. [N] */
         amplitude: number | string;
         /** [s] */
         period: number | string;
@@ -998,7 +998,7 @@ export interface components {
         duration: number | string;
       } | {
         shape: "sine";
-        /** [N] */
+        /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [N] */
         amplitude: number | string;
         /** [N] */
         offset?: number | string;
@@ -1010,7 +1010,7 @@ export interface components {
         period?: number | string;
       } | {
         shape: "chirp";
-        /** [N] */
+        /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [N] */
         amplitude: number | string;
         /** [N] */
         offset?: number | string;
@@ -1947,9 +1947,9 @@ export interface components {
     };
     /** The timing table of the first fill and the exhaust after it. */
     Timing: {
-      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], choked_share [1]. Null where it does not exist; see notes for the reason. */
+      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], choked_share [1]. Speeds are positive in the direction of the phase: towards shorter in extend, towards longer in retract. Accelerations are positive towards shorter in both phases, as in the columns. Null where it does not exist; see notes for the reason. */
       extend: { [key: string]: number | null };
-      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], choked_share [1]. Null where it does not exist; see notes for the reason. */
+      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], choked_share [1]. Speeds are positive in the direction of the phase: towards shorter in extend, towards longer in retract. Accelerations are positive towards shorter in both phases, as in the columns. Null where it does not exist; see notes for the reason. */
       retract: { [key: string]: number | null };
       /** "extend.rise_time" -> why it is null, or a remark on it. */
       notes: { [key: string]: string };

@@ -14,7 +14,7 @@ from mckibben.application.muscle_summary import (
     limit_notices,
     start_notices,
 )
-from mckibben.application.operating_limits import load_notices, temperature_notices
+from mckibben.application.operating_limits import load_notices, pressure_notices, temperature_notices
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
@@ -222,6 +222,7 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
         flags=[
             *start_notices(start),
             *limit_notices(crossed),
+            *pressure_notices({f"pressures.{i}": p for i, p in enumerate(question.pressures)}),
             *load_notices(start, question.load),
             *temperature_notices(start, conditions.temperature, "temperature"),
         ],

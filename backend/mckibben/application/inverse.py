@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar, assert_never
 
 from mckibben.application.muscle_summary import Notice, limit_notices, start_notices
-from mckibben.application.operating_limits import load_notices, temperature_notices
+from mckibben.application.operating_limits import load_notices, pressure_notices, temperature_notices
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
@@ -105,6 +105,7 @@ def answer(question: InverseQuestion, studio: Studio) -> InverseFinding:
         flags=[
             *start_notices(question.start),
             *limit_notices(solution.flags),
+            *pressure_notices({"pressure": getattr(question, "pressure", 0.0)}),
             *load_notices(question.start, getattr(question, "load", None)),
             *temperature_notices(question.start, question.temperature, "temperature"),
         ],

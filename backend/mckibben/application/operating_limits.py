@@ -1,7 +1,10 @@
-"""Limits of a preset on what is done with the muscle and its valve: mass, temperature, supply pressure."""
+"""Limits of a preset on what is done with the muscle and its valve: mass, temperature, supply pressure; and
+pressures that were probably meant in another unit.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import sin
 
 from mckibben.application.muscle_summary import Notice
@@ -15,7 +18,23 @@ OVER_MASS, OUTSIDE_TEMPERATURE, OUTSIDE_VALVE = (
     "outside_temperature",
     "outside_valve_pressure",
 )
+TINY_PRESSURE = "tiny_pressure"
+_LEAST_PRESSURE = 1e3  # Pa; no muscle moves below 0.01 bar, and people write up to some hundred kPa or psi
 _HAIR = 1e-6  # share by which a limit is exceeded at least: rounding of unit conversions
+
+
+def pressure_notices(pressures: Mapping[str, float]) -> list[Notice]:
+    """Gauge pressures [Pa], by their field, so small that bar were probably meant; 0 is none of them."""
+    return [
+        Notice(
+            TINY_PRESSURE,
+            f"{pressure:g} Pa is {pressure / 1e5:g} bar; a number without a unit is in Pa: "
+            f"write '{pressure:g} bar' if bar are meant",
+            field,
+        )
+        for field, pressure in pressures.items()
+        if 0.0 < pressure < _LEAST_PRESSURE
+    ]
 
 
 def load_notices(start: StartModel, load: float | None) -> list[Notice]:

@@ -15,7 +15,12 @@ from mckibben.application.muscle_summary import (
     limit_notices,
     start_notices,
 )
-from mckibben.application.operating_limits import suspended_notices, temperature_notices, valve_notices
+from mckibben.application.operating_limits import (
+    pressure_notices,
+    suspended_notices,
+    temperature_notices,
+    valve_notices,
+)
 from mckibben.documents.drive_reading import GivenDrive
 from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.errors import InputError
@@ -260,6 +265,7 @@ def result_of(given: GivenDrive, grid: Grid, run: Run) -> SimulationResult:
             *start_notices(given.start),
             *_part_notices(given),
             *limit_notices(_crossed(run)),
+            *pressure_notices(_stated_pressures(given)),
             *suspended_notices(given.start, drive.load),
             *temperature_notices(given.start, drive.temperature, "gas.temperature"),
             *valve_notices(given),
@@ -270,6 +276,12 @@ def result_of(given: GivenDrive, grid: Grid, run: Run) -> SimulationResult:
         model=EffectSettings(drive.model.values),
         duration=drive.duration,
     )
+
+
+def _stated_pressures(given: GivenDrive) -> dict[str, float]:
+    drive = given.drive
+    stated = {"supply.pressure": drive.supply_pressure, "start_pressure": drive.start_pressure}
+    return stated if drive.regulator is None else {**stated, "regulator.range": drive.regulator.range}
 
 
 def _bounds(given: GivenDrive) -> DriveBounds:

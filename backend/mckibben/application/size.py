@@ -9,6 +9,7 @@ from typing import Any
 
 from mckibben.application.drive_of_design import drive_document
 from mckibben.application.muscle_summary import Notice
+from mckibben.application.operating_limits import pressure_notices
 from mckibben.application.task_reading import catalogue_of, task_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
@@ -355,6 +356,7 @@ def _notices(proposals: list[ProposedDrive], document: SizingTask) -> list[Notic
     parts = dict.fromkeys(text for proposal in proposals for text in proposal.unverified)
     why = "from general knowledge or estimated, not read in a source"
     notices = [Notice("unverified", f"{text} {why}", "catalogue") for text in parts]
+    notices += pressure_notices({"supply_pressure": document.supply_pressure})
     if document.limits.life is not None:
         text = "the life is an estimate between 100 000 and 10 million cycles; no maker's curve is known"
         notices.append(Notice("unverified", text, "limits.life"))

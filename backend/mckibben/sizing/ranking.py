@@ -86,5 +86,5 @@ def _reason(proposal: Proposal, best: dict[str, float]) -> str:
     texts.append(f"nearest limit: {proposal.trial.binding.replace('_', ' ')}, {margin * 100:.2g} % left")
     muscle = proposal.design.group.muscle
     if muscle.extrapolated is not None:
-        texts.append(f"behind all muscles with a known force curve: of {muscle.id}, {muscle.extrapolated}")
+        texts.append(f"behind all others: {muscle.extrapolated}")
     return "; ".join(texts)
