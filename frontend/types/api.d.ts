@@ -546,7 +546,7 @@ export interface components {
       /** Part of the program, or saved by the user. */
       origin: "built-in" | "user";
     };
-    /** A complete drive. Strokes are positive when the muscle gets shorter. Pressures are gauge; a text may say "7 bar(a)", which is converted with the ambient pressure of the document. */
+    /** A complete drive. Strokes are positive when the muscle gets shorter. Pressures are gauge; a text like "7 bar(a)" is converted with the ambient pressure of the document. */
     DriveDocument: {
       /** Version of the document. */
       schema?: 1;
