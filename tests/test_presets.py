@@ -404,6 +404,9 @@ EFFECTS = {
         ),
     },
     "prestress": {"force"},
+    "lost_stroke": {"stroke", "reference_length"},
+    "dahl": {"force", "break_strain"},
+    "viscous_damping": {"coefficient", "reference_length"},
 }
 MUTATIONS: dict[str, tuple[Callable[[dict[str, Any]], None], str, str]] = {
     "unknown key": (edit("geometry.braid_angel", QUANTITY), "geometry.braid_angel", "braid_angle"),
@@ -629,6 +632,9 @@ def test_effect_values_are_in_si(library: PresetLibrary) -> None:
     assert muscle(library, "DMSP-20").effect_values() == {
         "bladder_elasticity": {"shear_modulus": pytest.approx(0.468e6), "mooney_constant": 0.0},
         "prestress": {"force": 24.7},
+        "lost_stroke": {"stroke": pytest.approx(0.013), "reference_length": pytest.approx(0.3)},
+        "dahl": {"force": 17.0, "break_strain": pytest.approx(0.002)},
+        "viscous_damping": {"coefficient": 192.0, "reference_length": pytest.approx(0.25)},
     }
     assert muscle(library, "paper").effect_values() == {}
 

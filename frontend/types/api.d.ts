@@ -298,11 +298,11 @@ export interface components {
         period: number | string;
         /** [1] */
         duty?: number | string;
-        /** [m] */
+        /** Peak to peak, the full height: level - initial. [m] */
         amplitude?: number | string;
       } | {
         shape: "triangle";
-        /** [m] */
+        /** Peak to peak, the full height: offset to offset + amplitude. [m] */
         amplitude: number | string;
         /** [s] */
         period: number | string;
@@ -320,7 +320,7 @@ export interface components {
         duration: number | string;
       } | {
         shape: "sine";
-        /** [m] */
+        /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [m] */
         amplitude: number | string;
         /** [m] */
         offset?: number | string;
@@ -332,7 +332,7 @@ export interface components {
         period?: number | string;
       } | {
         shape: "chirp";
-        /** [m] */
+        /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [m] */
         amplitude: number | string;
         /** [m] */
         offset?: number | string;
@@ -546,7 +546,7 @@ export interface components {
       /** Part of the program, or saved by the user. */
       origin: "built-in" | "user";
     };
-    /** A complete drive. Pressures are gauge, strokes are positive when the muscle gets shorter. */
+    /** A complete drive. Strokes are positive when the muscle gets shorter. Pressures are gauge; a text like "7 bar(a)" is converted with the ambient pressure of the document. */
     DriveDocument: {
       /** Version of the document. */
       schema?: 1;
@@ -591,11 +591,11 @@ export interface components {
         period: number | string;
         /** [1] */
         duty?: number | string;
-        /** [1] */
+        /** Peak to peak, the full height: level - initial. [1] */
         amplitude?: number | string;
       } | {
         shape: "triangle";
-        /** [1] */
+        /** Peak to peak, the full height: offset to offset + amplitude. [1] */
         amplitude?: number | string;
         /** [s] */
         period: number | string;
@@ -613,7 +613,7 @@ export interface components {
         duration: number | string;
       } | {
         shape: "sine";
-        /** [1] */
+        /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [1] */
         amplitude?: number | string;
         /** [1] */
         offset?: number | string;
@@ -625,7 +625,7 @@ export interface components {
         period?: number | string;
       } | {
         shape: "chirp";
-        /** [1] */
+        /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [1] */
         amplitude?: number | string;
         /** [1] */
         offset?: number | string;
@@ -902,6 +902,17 @@ export interface components {
       /** Null: that of the request. */
       muscle?: components["schemas"]["MuscleInput"] | null;
     };
+    /** Width of the loop of filling and venting at the load, far from its ends; null where it is not held. */
+    HysteresisLoop: {
+      /** Gauge pressures of the curves. [Pa] */
+      pressure: number[];
+      /** Distance of the branches in length, at equal pressure. [m] */
+      stroke: (number | null)[];
+      /** The same as a share of the nominal length. [1] */
+      share: (number | null)[];
+      /** Distance of the branches in pressure, at equal length. [Pa] */
+      pressure_width: (number | null)[];
+    };
     /** The requested value in SI, with flags. */
     InverseAnswer: {
       question: "pressure" | "contraction" | "working_range" | "stroke_pressure";
@@ -968,11 +979,11 @@ export interface components {
         period: number | string;
         /** [1] */
         duty?: number | string;
-        /** [N] */
+        /** Peak to peak, the full height: level - initial. [N] */
         amplitude?: number | string;
       } | {
         shape: "triangle";
-        /** [N] */
+        /** Peak to peak, the full height: offset to offset + amplitude. [N] */
         amplitude: number | string;
         /** [s] */
         period: number | string;
@@ -990,7 +1001,7 @@ export interface components {
         duration: number | string;
       } | {
         shape: "sine";
-        /** [N] */
+        /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [N] */
         amplitude: number | string;
         /** [N] */
         offset?: number | string;
@@ -1002,7 +1013,7 @@ export interface components {
         period?: number | string;
       } | {
         shape: "chirp";
-        /** [N] */
+        /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [N] */
         amplitude: number | string;
         /** [N] */
         offset?: number | string;
@@ -1173,7 +1184,7 @@ export interface components {
     ModelJson: {
       effects: { [key: string]: { [key: string]: number | string } };
     };
-    /** A muscle: geometry, limits, catalogue data and the effects its model has by default. */
+    /** A muscle: geometry, limits, catalogue data and the effects its model has by default. Attributes: extrapolated: why its force is not known from a curve or a measurement; None when it is. Sizing ranks such a muscle behind all others. */
     MuscleAnswer: {
       schema: 1;
       kind: "muscle";
@@ -1190,6 +1201,7 @@ export interface components {
       data?: { [key: string]: components["schemas"]["Quantity"] };
       reference_curve?: string | null;
       measurement?: string | null;
+      extrapolated?: string | null;
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
       /** Part of the program, or saved by the user. */
@@ -1233,7 +1245,7 @@ export interface components {
       turns?: number | string | null;
       rhombus?: components["schemas"]["RhombusInput"] | null;
     };
-    /** A muscle: geometry, limits, catalogue data and the effects its model has by default. */
+    /** A muscle: geometry, limits, catalogue data and the effects its model has by default. Attributes: extrapolated: why its force is not known from a curve or a measurement; None when it is. Sizing ranks such a muscle behind all others. */
     MusclePreset: {
       schema: 1;
       kind: "muscle";
@@ -1250,6 +1262,7 @@ export interface components {
       data?: { [key: string]: components["schemas"]["Quantity"] };
       reference_curve?: string | null;
       measurement?: string | null;
+      extrapolated?: string | null;
     };
     /** A measurement to practise on; without the solution. */
     Mystery: {
@@ -1308,6 +1321,8 @@ export interface components {
       /** The fixed length. [m] */
       fixed_length: number | null;
       force_at_fixed_length: components["schemas"]["ForceAtLength"] | null;
+      /** Width of the loop; null without a load. */
+      loop?: components["schemas"]["HysteresisLoop"] | null;
     };
     /** Position over pressure in one direction of motion; null where the muscle cannot carry the load. */
     OverPressureBranch: {
@@ -1501,7 +1516,7 @@ export interface components {
       /** Limit -> margin as a share of the limit; limits that are not set are left out. */
       margins: { [key: string]: number };
       /** The limit with the least margin. */
-      binding: "length" | "pressure" | "contraction" | "force" | "force_limit" | "diameter" | "stiffness" | "life" | "temperature" | "time" | "time_down" | "cycle_time";
+      binding: "length" | "pressure" | "contraction" | "force" | "force_limit" | "diameter" | "stiffness" | "life" | "temperature" | "time" | "time_down" | "cycle_time" | "suspended_mass" | "valve_pressure";
       /** Explanation of its rank. */
       reason: string;
       /** On the Pareto front of the proposals. */
@@ -1562,7 +1577,7 @@ export interface components {
       /** The reason, with figures. */
       why: string;
       /** The limit that must move by the least share when no other moves. */
-      binding: "length" | "pressure" | "contraction" | "force" | "force_limit" | "diameter" | "stiffness" | "life" | "temperature" | "time" | "time_down" | "cycle_time";
+      binding: "length" | "pressure" | "contraction" | "force" | "force_limit" | "diameter" | "stiffness" | "life" | "temperature" | "time" | "time_down" | "cycle_time" | "suspended_mass" | "valve_pressure";
       /** What would help, least change first. */
       would_work_if: string;
       /** Number of combinations this entry covers. */
@@ -1956,9 +1971,9 @@ export interface components {
     };
     /** The timing table of the first fill and the exhaust after it. */
     Timing: {
-      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], tube_air_mass [kg], choked_share [1]. Null where it does not exist; see notes for the reason. */
+      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], tube_air_mass [kg], choked_share [1]. Speeds are positive in the direction of the phase: towards shorter in extend, towards longer in retract. Accelerations are positive towards shorter in both phases, as in the columns. Null where it does not exist; see notes for the reason. */
       extend: { [key: string]: number | null };
-      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], tube_air_mass [kg], choked_share [1]. Null where it does not exist; see notes for the reason. */
+      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], tube_air_mass [kg], choked_share [1]. Speeds are positive in the direction of the phase: towards shorter in extend, towards longer in retract. Accelerations are positive towards shorter in both phases, as in the columns. Null where it does not exist; see notes for the reason. */
       retract: { [key: string]: number | null };
       /** "extend.rise_time" -> why it is null, or a remark on it. */
       notes: { [key: string]: string };

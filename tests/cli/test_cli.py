@@ -93,7 +93,7 @@ def test_ideal_drops_the_effects_and_effect_replaces_them(run: Run) -> None:
             json.loads(run("curves", "--muscle", "DMSP-20", *options, "--json")[1])["model"]["effects"]
         )
 
-    assert effects() == {"bladder_elasticity", "prestress"}
+    assert effects() == {"bladder_elasticity", "prestress", "lost_stroke", "dahl", "viscous_damping"}
     assert effects("--ideal") == set()
     assert effects("--effect", "prestress", "--effect", "end_caps") == {"prestress", "end_caps"}
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+import re
 import statistics
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -228,8 +229,19 @@ def test_effects_come_from_the_server(page: Page) -> None:
     expect(page.locator("[data-effect].on")).to_have_count(0)
     expect(page.locator("#rmse .rmse.first b")).not_to_contain_text(f"{own}")
     redrawn(page, lambda: page.get_by_role("button", name="Preset’s effects").click())
-    expect(page.locator("[data-effect].on")).to_have_count(2)
+    # Wall, prestress, lost stroke of the ends, friction, damping.
+    expect(page.locator("[data-effect].on")).to_have_count(5)
     expect(page.locator("#rmse .rmse.first b")).to_contain_text(f"{own}")
+
+
+def test_the_loop_of_the_preset_is_drawn_and_in_figures(page: Page) -> None:
+    open_design(page)
+    rows = page.get_by_role("region", name="Width of the loop at the load").locator("tbody tr")
+    expect(rows).to_have_count(6)
+    widths = [float(text) for text in rows.locator("td:nth-child(2)").all_inner_texts() if text != "–"]
+    assert all(0.5 < width < 6.0 for width in widths)  # mm, of 300
+    redrawn(page, lambda: page.get_by_role("button", name="Ideal", exact=True).click())
+    expect(rows.nth(5).locator("td").nth(0)).to_have_text(re.compile(r"^0(\.0+)?$"))
 
 
 def test_an_effect_is_found_switched_and_set(page: Page) -> None:

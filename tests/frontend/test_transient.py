@@ -193,9 +193,9 @@ def test_shapes_and_controller(page: Page) -> None:
 def test_another_valve_brings_its_dead_time(page: Page) -> None:
     open_transient(page)
     own = page.locator(".transient [data-effect].on")
-    expect(own).to_have_count(3)
+    expect(own).to_have_count(6)  # five of the muscle
     rerun(page, lambda: page.get_by_label("Valve", exact=True).select_option("own"))
-    expect(own).to_have_count(2)
+    expect(own).to_have_count(5)
     expect(field(page, "Conductance, filling")).to_have_value("3")
     rerun(page, lambda: page.get_by_label("Tube", exact=True).select_option("none"))
     expect(page.locator(".run-pressure .legend")).not_to_contain_text("tube")

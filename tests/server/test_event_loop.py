@@ -96,7 +96,8 @@ READERS = [name for name, case in CASES.items() if ID in str(case) or "content" 
 #: What reads or prepares, wherever it is called from.
 HEAVY = [
     (MeasurementStore, "get"), (MeasurementStore, "put"), (PresetLibrary, "_refresh"),
-    (Studio, "start_model"), (Studio, "static_model"), (store, "read_measurement"),
+    (Studio, "start_model"), (Studio, "static_model"), (Studio, "slow_model"),
+    (store, "read_measurement"),
     (measurements, "preview"), (model_question, "predictor_of"), (FastAPI, "openapi"),
 ]  # fmt: skip
 
@@ -182,7 +183,7 @@ def test_nothing_is_read_or_prepared_on_the_event_loop(
 
 def test_quick_curves_stay_on_the_loop_and_need_no_file(client: TestClient, watcher: Watcher) -> None:
     assert post(client, "/api/curves", {"muscle": {"preset": "DMSP-20"}}).status_code == 200
-    assert "static_model" in watcher.on_loop
+    assert "slow_model" in watcher.on_loop
     assert not [what for what in watcher.on_loop if what == "_refresh" or what.startswith(("open", "os."))]
     watcher.on_loop = []
     term = {"custom": {"term": "c*L", "c": 1.0}}

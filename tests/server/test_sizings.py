@@ -62,7 +62,7 @@ def test_no_proposal_is_an_answer(shared_client: TestClient) -> None:
     answer = response.json()
     SizingAnswer.model_validate(answer)
     assert answer["proposals"] == []
-    assert {item["binding"] for item in answer["rejected"]} == {"force"}
+    assert {item["binding"] for item in answer["rejected"]} == {"force", "suspended_mass"}
 
 
 @pytest.mark.parametrize("task", [TASK, IMPOSSIBLE])

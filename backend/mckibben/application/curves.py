@@ -15,6 +15,7 @@ from mckibben.application.muscle_summary import (
     limit_notices,
     start_notices,
 )
+from mckibben.application.operating_limits import load_notices, pressure_notices, temperature_notices
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
@@ -83,8 +84,32 @@ class CurveLimits(MakerLimits):
 
 
 @dataclass(frozen=True, slots=True)
+class HysteresisLoop:
+    """Distance of the branches of filling and venting at the load, at each pressure of the curves; SI.
+
+    It is that of a slow loop far from its ends, where friction has built up after the reversal. NaN where the
+    load cannot be held.
+
+    Attributes:
+        pressure: gauge pressures [Pa].
+        stroke: distance in length at equal pressure [m].
+        share: the same as a share of the nominal length [-].
+        pressure_width: distance in pressure at equal length [Pa].
+    """
+
+    pressure: Array
+    stroke: Array
+    share: Array
+    pressure_width: Array
+
+
+@dataclass(frozen=True, slots=True)
 class OverPressure:
-    """Position at the load and force at the fixed length over the pressure, for filling and venting."""
+    """Position at the load and force at the fixed length over the pressure, for filling and venting.
+
+    Attributes:
+        loop: width of the loop of the two branches; None without a load.
+    """
 
     pressure: Array
     load: float | None
@@ -92,6 +117,7 @@ class OverPressure:
     venting: PressureBranch | None
     fixed_length: float | None
     force_at_fixed_length: ForceBranches | None
+    loop: HysteresisLoop | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,7 +168,7 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
             the question.
     """
     start, conditions = question.start, question.conditions
-    model = studio.static_model(start)
+    model = studio.slow_model(start)
     pressures = np.array(question.pressures)
     grid = np.linspace(0.0, float(np.max(pressures)), _OVER_PRESSURE_POINTS)
     under_load = held_contractions(model, pressures, grid, question.load, conditions)
@@ -186,7 +212,13 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
         model=EffectSettings(model.values),
         over_pressure=_over_pressure(question, model, grid, under_load),
         operating_points=points,
-        flags=[*start_notices(start), *limit_notices(crossed)],
+        flags=[
+            *start_notices(start),
+            *limit_notices(crossed),
+            *pressure_notices({f"pressures.{i}": p for i, p in enumerate(question.pressures)}),
+            *load_notices(start, question.load),
+            *temperature_notices(start, conditions.temperature, "temperature"),
+        ],
     )
 
 
@@ -231,7 +263,7 @@ def _over_pressure(
     if load is None and fixed is None:
         return None
     temperature = question.conditions.temperature
-    forces, filling, venting = None, None, None
+    forces, filling, venting, loop = None, None, None, None
     if fixed is not None:
         _check_fixed_length(fixed, model)
         forces = force_at_length(model, grid, fixed, temperature=temperature)
@@ -240,7 +272,23 @@ def _over_pressure(
             pressure_branch(model, grid, contraction, direction=direction, temperature=temperature)
             for contraction, direction in ((under_load.filling, FILLING), (under_load.venting, VENTING))
         )
-    return OverPressure(grid, load, filling, venting, fixed, forces)
+        loop = _loop(np.array(question.pressures), grid, under_load, model.muscle.nominal_length)
+    return OverPressure(grid, load, filling, venting, fixed, forces, loop)
+
+
+def _loop(
+    pressures: Array, grid: Array, under_load: HeldContractions, nominal_length: float
+) -> HysteresisLoop:
+    """The width of the loop at some pressures, from both branches over a grid of pressures."""
+    share = under_load.venting - under_load.filling
+    if float(grid[-1]) > 0.0:
+        slope = np.gradient(0.5 * (under_load.venting + under_load.filling), grid)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            width = np.where(slope > 0.0, share / slope, np.nan)
+    else:  # a single pressure of zero
+        width = np.full(len(grid), np.nan)
+    share, width = np.interp(pressures, grid, share), np.interp(pressures, grid, width)
+    return HysteresisLoop(pressures, share * nominal_length, share, width)
 
 
 def _check_fixed_length(length: float, model: StaticModel) -> None:

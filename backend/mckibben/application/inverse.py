@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar, assert_never
 
 from mckibben.application.muscle_summary import Notice, limit_notices, start_notices
+from mckibben.application.operating_limits import load_notices, pressure_notices, temperature_notices
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
@@ -100,13 +101,19 @@ def answer(question: InverseQuestion, studio: Studio) -> InverseFinding:
         InputError: invalid muscle, effect or question; names the field of the question.
     """
     start = question.condition.start
-    solution = _solve(question, studio.static_model(start))
+    solution = _solve(question, studio.slow_model(start))
     return InverseFinding(
         question=question.NAME,
         value=solution.value,
         unit=solution.unit,
         details=solution.details,
-        flags=[*start_notices(start), *limit_notices(solution.flags)],
+        flags=[
+            *start_notices(start),
+            *limit_notices(solution.flags),
+            *pressure_notices({"pressure": getattr(question, "pressure", 0.0)}),
+            *load_notices(start, getattr(question, "load", None)),
+            *temperature_notices(start, question.condition.temperature, "temperature"),
+        ],
     )
 
 

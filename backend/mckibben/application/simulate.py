@@ -17,6 +17,12 @@ from mckibben.application.muscle_summary import (
     start_notices,
     unverified_notice,
 )
+from mckibben.application.operating_limits import (
+    pressure_notices,
+    suspended_notices,
+    temperature_notices,
+    valve_notices,
+)
 from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.errors import InputError
@@ -274,13 +280,27 @@ def result_of(annotated: AnnotatedDrive, grid: Grid, run: Run) -> SimulationResu
         wall_ms=run.wall_seconds * 1e3,
         engine=run.engine,
         steps=run.steps,
-        flags=[*start_notices(annotated.start), *_part_notices(annotated), *limit_notices(_crossed(run))],
+        flags=[
+            *start_notices(annotated.start),
+            *_part_notices(annotated),
+            *limit_notices(_crossed(run)),
+            *pressure_notices(_stated_pressures(annotated)),
+            *suspended_notices(annotated.start, drive.load),
+            *temperature_notices(annotated.start, drive.temperature, "gas.temperature"),
+            *valve_notices(annotated),
+        ],
         notes=notes,
         limits=_bounds(annotated),
         geometry=geometry_of(annotated.start),
         model=EffectSettings(drive.model.values),
         duration=drive.duration,
     )
+
+
+def _stated_pressures(annotated: AnnotatedDrive) -> dict[str, float]:
+    drive = annotated.drive
+    stated = {"supply.pressure": drive.supply_pressure, "start_pressure": drive.start_pressure}
+    return stated if drive.regulator is None else {**stated, "regulator.range": drive.regulator.range}
 
 
 def _bounds(annotated: AnnotatedDrive) -> DriveBounds:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from mckibben.application.drive_of_design import drive_document
 from mckibben.application.muscle_summary import Notice, unverified_notice
+from mckibben.application.operating_limits import pressure_notices
 from mckibben.application.task_reading import catalogue_of, task_of
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.studio import Studio
@@ -308,6 +309,8 @@ def _notes(proposal: Proposal, task: Task, document: SizingTask) -> list[str]:
             "Each muscle has its nominal length at one end of the swing. The run first fills the second "
             "muscle, then swings."
         )
+    if group.muscle.extrapolated is not None:
+        notes.append(f"Test a sample of {group.muscle.id} first: {group.muscle.extrapolated}.")
     if document.load.force_over_stroke is not None:
         notes.append("The simulation uses a straight line above the force over the stroke.")
     if proposal.trial.figures.time_down is None:
@@ -348,6 +351,7 @@ def _explored(trial: Trial, front: bool) -> ExploredDrive:
 def _notices(proposals: list[ProposedDrive], document: SizingTask) -> list[Notice]:
     parts = dict.fromkeys(text for proposal in proposals for text in proposal.unverified)
     notices = [unverified_notice(text, "catalogue") for text in parts]
+    notices += pressure_notices({"supply_pressure": document.supply_pressure})
     if document.limits.life is not None:
         text = "the life is an estimate between 100 000 and 10 million cycles; no maker's curve is known"
         notices.append(Notice("unverified", text, "limits.life"))

@@ -188,6 +188,8 @@ def _muscle(preset: Preset, studio: Studio) -> MusclePart:
         hysteresis=data["max_hysteresis"].si("1") if "max_hysteresis" in data else 0.0,
         coldest=ends[0],
         hottest=ends[1],
+        suspended_mass=facts.suspended_mass,
+        extrapolated=preset.extrapolated,
     )
 
 
@@ -201,13 +203,15 @@ def _valve(preset: Preset, studio: Studio) -> ValvePart:
         flow = valve_of(ValveInput.model_validate({"preset": preset.id}), preset)
     except InputError as error:
         raise InputError(error.message, hint="choose another valve") from error
-    most = preset.data.get("max_pressure")
+    ends = (preset.data.get(name) for name in ("min_pressure", "max_pressure"))
+    least, most = (None if end is None else end.si("Pa") for end in ends)
     effects, values = _effects(preset, studio)
     return ValvePart(
         id=preset.id,
         unverified=unverified_of(preset, with_effects=True),
         valve=flow,
-        max_pressure=None if most is None else most.si("Pa"),
+        min_pressure=least,
+        max_pressure=most,
         effects=effects,
         values=values,
     )

@@ -50,7 +50,7 @@ def _pressures(text: str) -> tuple[float, ...]:
     values = []
     for part in parts:
         try:
-            value = si(part, "Pa")
+            value = si(part, "Pa", reference="gauge")
         except InputError as error:
             raise InputError(f"--pressure: {error.message}", hint='e.g. --pressure "1 bar,3 bar"') from error
         if not 0.0 <= value <= 1e8:

@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, ValidatorFunctionWrapHandler
+from pydantic import (
+    Field,
+    GetCoreSchemaHandler,
+    GetJsonSchemaHandler,
+    ValidatorFunctionWrapHandler,
+    model_validator,
+)
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
+from mckibben.documents.ambient import with_gauge_pressures
 from mckibben.documents.muscle import EffectsInput, MuscleInput
 from mckibben.documents.quantity import (
     Contraction,
@@ -43,7 +51,9 @@ Restitution = Annotated[float, QuantityField("1", "0.3", at_least=0.0, at_most=0
 Position = Annotated[float, QuantityField("m", "20 mm", at_least=-10.0, at_most=10.0)]
 Duration = Annotated[float, QuantityField("s", "4 s", above=0.0, at_most=LONGEST)]
 LagTime = Annotated[float, QuantityField("s", "50 ms", above=1e-5, at_most=100.0)]
-Ambient = Annotated[float, QuantityField("Pa", "1013.25 hPa", at_least=1e4, at_most=1e6)]
+Ambient = Annotated[
+    float, QuantityField("Pa", "1013.25 hPa", at_least=1e4, at_most=1e6, reference="absolute")
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,7 +206,9 @@ class StartInput(Strict):
 
 
 class DriveDocument(Strict):
-    """A complete drive. Pressures are gauge, strokes are positive when the muscle gets shorter."""
+    """A complete drive. Strokes are positive when the muscle gets shorter. Pressures are gauge; a text like
+    "7 bar(a)" is converted with the ambient pressure of the document.
+    """
 
     schema_version: Literal[1] = Field(1, alias="schema", description="Version of the document.")
     title: Annotated[str, Field(max_length=200)] = Field("", description="Title for display.")
@@ -227,6 +239,12 @@ class DriveDocument(Strict):
     duration: Duration = Field(4.0, description="Length of the run.")
     start_pressure: Pressure = Field(0.0, description="Gauge pressure in the muscle at t = 0.")
     start: StartInput = Field(default_factory=lambda: StartInput.model_validate({}))
+
+    @model_validator(mode="before")
+    @classmethod
+    def _gauge(cls, document: Any) -> Any:
+        """Absolute pressures in texts as gauge pressures, where the document states its own ambient one."""
+        return with_gauge_pressures(document) if isinstance(document, Mapping) else document
 
 
 @dataclass(frozen=True, slots=True)

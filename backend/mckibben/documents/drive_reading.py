@@ -35,6 +35,15 @@ _DEFAULT_MAX_CONTRACTION = 0.25
 _SHORTEST = 0.1  # shortest possible muscle, share of its nominal length
 
 
+@dataclass(frozen=True, slots=True)
+class RatedPressure:
+    """Supply pressures that a valve is made for, gauge [Pa]; None where its preset does not state one."""
+
+    valve: str
+    lowest: float | None
+    highest: float | None
+
+
 @dataclass(frozen=True)
 class AnnotatedDrive:
     """A drive ready to run, with notes for the user.
@@ -44,12 +53,14 @@ class AnnotatedDrive:
         start: its muscle with all effects.
         unverified: preset id -> names of its unverified values in use; without the muscle.
         notes: path in the document -> note.
+        rated_pressure: of the valve's preset; None without a preset.
     """
 
     drive: Drive
     start: StartModel
     unverified: Mapping[str, tuple[str, ...]]
     notes: Mapping[str, str]
+    rated_pressure: RatedPressure | None = None
 
 
 def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False) -> AnnotatedDrive:
@@ -116,7 +127,14 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
         for part in parts
         if (names := unverified_of(part, with_effects=document.effects is None))
     }
-    return AnnotatedDrive(drive, start, unverified, notes)
+    return AnnotatedDrive(drive, start, unverified, notes, _rated(valve_preset))
+
+
+def _rated(preset: ValvePreset | None) -> RatedPressure | None:
+    if preset is None:
+        return None
+    ends = (preset.data.get(name) for name in ("min_pressure", "max_pressure"))
+    return RatedPressure(preset.id, *(None if end is None else end.si("Pa") for end in ends))
 
 
 def _preset(studio: Studio, kind: str, preset_id: str | None, field: str) -> Part | None:

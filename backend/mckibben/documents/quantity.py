@@ -10,7 +10,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
 from mckibben.physics.errors import InputError
-from mckibben.physics.units import MAX_TEXT_LENGTH, si
+from mckibben.physics.units import MAX_TEXT_LENGTH, Reference, si
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +21,8 @@ class QuantityField:
         unit: SI unit of the result; a text must have a compatible unit.
         example: a valid text.
         above, at_least, at_most, below: bounds of the SI value.
+        reference: "gauge" or "absolute" of a pressure; a text that says the other one is converted at the
+            standard atmosphere.
     """
 
     unit: str
@@ -29,6 +31,7 @@ class QuantityField:
     at_least: float | None = None
     at_most: float | None = None
     below: float | None = None
+    reference: Reference | None = None
 
     def __call__(self, value: object) -> float:
         """The value in SI.
@@ -36,7 +39,7 @@ class QuantityField:
         Raises:
             InputError: not a finite number, an unknown or wrong unit, or out of bounds.
         """
-        number = si(value, self.unit)
+        number = si(value, self.unit, reference=self.reference)
         wrong = (
             (self.above is not None and number <= self.above and f"above {self.above:g}")
             or (self.at_least is not None and number < self.at_least and f"at least {self.at_least:g}")
@@ -81,8 +84,8 @@ Thickness = Annotated[float, QuantityField("m", "1.8 mm", at_least=0.0, at_most=
 # Without bounds: the physics checks it with a better message ("… the muscle would lengthen …").
 Angle = Annotated[float, QuantityField("rad", "25 deg")]
 Turns = Annotated[float, QuantityField("1", "1.48", above=0.0, at_most=1e6)]
-Pressure = Annotated[float, QuantityField("Pa", "6 bar", at_least=0.0, at_most=1e8)]
-PositivePressure = Annotated[float, QuantityField("Pa", "6 bar", above=0.0, at_most=1e8)]
+Pressure = Annotated[float, QuantityField("Pa", "6 bar", at_least=0.0, at_most=1e8, reference="gauge")]
+PositivePressure = Annotated[float, QuantityField("Pa", "6 bar", above=0.0, at_most=1e8, reference="gauge")]
 Force = Annotated[float, QuantityField("N", "500 N", at_least=-1e9, at_most=1e9)]
 Load = Annotated[float, QuantityField("N", "500 N", at_least=0.0, at_most=1e9)]
 Temperature = Annotated[float, QuantityField("K", "20 degC", at_least=150.0, at_most=600.0)]

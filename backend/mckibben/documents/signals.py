@@ -16,6 +16,14 @@ from mckibben.simulation.command.signals import MAX_SEGMENTS, SHAPES, SYNONYMS
 
 _UNITS = {"time": "s", "share": "1", "frequency": "Hz", "angle": "rad"}
 _REPLACES = {"amplitude": "level", "period": "frequency"}  # a key -> the key that it may replace
+_FROM_THE_MIDDLE = "From the middle to the peak, half the height: offset - amplitude to offset + amplitude."
+# (shape, key) -> what an amplitude is in it.
+_MEANING = {
+    ("triangle", "amplitude"): "Peak to peak, the full height: offset to offset + amplitude.",
+    ("square", "amplitude"): "Peak to peak, the full height: level - initial.",
+    ("sine", "amplitude"): _FROM_THE_MIDDLE,
+    ("chirp", "amplitude"): _FROM_THE_MIDDLE,
+}
 _EXAMPLES = {"s": "0.5 s", "1": "50 %", "Hz": "2 Hz", "rad": "90 deg", "m": "20 mm", "N": "120 N"}
 
 
@@ -72,11 +80,15 @@ def _shape_schema(name: str, unit: str) -> JsonSchemaValue:
             continue
         label, default = item.metadata["name"] or item.name, item.metadata["default"]
         properties[label] = _key_schema(item.name, item.metadata["kind"], unit)
+        if (name, label) in _MEANING:
+            properties[label]["description"] = _MEANING[name, label]
         needed = default is MISSING or (default == "full" and unit != "1")
         if needed and not any(_REPLACES[synonym] == label for synonym in SYNONYMS.get(kind, ())):
             required.append(label)
     for label in SYNONYMS.get(kind, ()):
         properties[label] = _quantity("s" if label == "period" else unit)
+        if (name, label) in _MEANING:
+            properties[label]["description"] = _MEANING[name, label]
     description = " ".join((kind.__doc__ or "").split("\n\n")[0].split()).replace("``", "")
     return {
         "type": "object",

@@ -65,6 +65,8 @@ class PresetFacts:
         tolerance: geometry field -> largest change by a fit, in either direction.
         shortest, longest: range of nominal lengths that the maker sells, None where not known [m].
         unverified: names of the unverified values that the model uses.
+        suspended_mass: largest mass that may hang freely on the muscle, None where not known [kg].
+        coldest, hottest: ambient temperatures it is made for, None where not known [K].
     """
 
     id: str
@@ -75,6 +77,9 @@ class PresetFacts:
     shortest: float | None
     longest: float | None
     unverified: tuple[str, ...]
+    suspended_mass: float | None = None
+    coldest: float | None = None
+    hottest: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,11 +138,20 @@ def preset_facts(preset: MusclePreset, catalogue: EffectCatalogue) -> PresetFact
         shortest=_optional(limits.min_nominal_length, "m"),
         longest=_optional(limits.max_nominal_length, "m"),
         unverified=tuple(
-            path.rpartition(".")[2].replace("_", " ")
+            _words(path)
             for path, quantity in quantities(preset)
             if path.startswith(_MODEL_PARTS) and not quantity.verified
         ),
+        suspended_mass=_optional(preset.data.get("max_suspended_mass"), "kg"),
+        coldest=_optional(preset.data.get("min_temperature"), "K"),
+        hottest=_optional(preset.data.get("max_temperature"), "K"),
     )
+
+
+def _words(path: str) -> str:
+    """A value of a preset in words; that of an effect with the effect, since many have a force."""
+    section, *names = path.split(".")
+    return " ".join(names if section == "effects" else names[-1:]).replace("_", " ")
 
 
 def _optional(quantity: Quantity | None, unit: str) -> float | None:

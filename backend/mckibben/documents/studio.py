@@ -8,6 +8,7 @@ from pathlib import Path
 from mckibben.documents.start_model import PresetFacts, StartModel, StatedMuscle, preset_facts, start_model
 from mckibben.physics.catalogue import EffectCatalogue, default_catalogue
 from mckibben.physics.errors import InputError
+from mckibben.physics.sliding import sliding_effects
 from mckibben.presets import MusclePreset, PresetLibrary
 from mckibben.simulation.statics.model import StaticModel
 
@@ -66,6 +67,17 @@ class Studio:
         if known is None or known[0] is not preset:
             known = self._facts[preset.id] = preset, preset_facts(preset, self.catalogue)
         return known[1]
+
+    def slow_model(self, start: StartModel) -> StaticModel:
+        """As `static_model`, for curves with a direction: friction with memory is fully built up in it.
+
+        Raises:
+            InputError: as there.
+        """
+        known = start.catalogue or self.catalogue
+        chosen = sliding_effects(effects=(known[name] for name in start.effects))
+        catalogue = {effect.id: effect for effect in chosen}
+        return StaticModel(start.muscle, start.effects, catalogue=catalogue, limits=start.limits)
 
     def static_model(self, start: StartModel) -> StaticModel:
         """The compiled static model of a muscle with its effects.

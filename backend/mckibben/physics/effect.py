@@ -46,6 +46,8 @@ class StateVariable:
         initial: value at the start of a run, at which the effect is at rest; static curves use this value.
         settled: the state starts where its rate is zero instead of at ``initial``; all settled states are
             solved together, so their rates must be linear in them.
+        sliding: value that it reaches in a long slow lengthening, its negative in a long shortening; 0 for a
+            state without such a value. See `mckibben.physics.sliding`.
     """
 
     name: str
@@ -55,6 +57,7 @@ class StateVariable:
     description: str
     initial: float = 0.0
     settled: bool = False
+    sliding: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,6 +131,8 @@ class Effect:
         order: position in chained slots; lower acts first.
         needs: fields of the muscle that the effect multiplies; for an unknown (zero) one a typical value is
             assumed (`mckibben.physics.muscle.Muscle.assuming`).
+        among_lengths: whether it shows only among muscles of several lengths; a search in the data of one
+            muscle does not try it, because it would imitate other effects of the geometry.
         states: states of the effect; ``rates`` (of the muscle) or ``drive_rates`` gives their derivatives.
         id: the file name, set by the catalogue.
     """
@@ -146,6 +151,7 @@ class Effect:
     examples: tuple[Example, ...]
     order: int = 0
     needs: tuple[str, ...] = ()
+    among_lengths: bool = False
     states: tuple[StateVariable, ...] = ()
     id: str = ""
     _wanted: Mapping[str, tuple[str, ...]] = field(default_factory=dict, repr=False)

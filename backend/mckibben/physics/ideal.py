@@ -16,8 +16,9 @@ from __future__ import annotations
 from mckibben.physics import ops
 from mckibben.physics.braid import Braid, volume
 from mckibben.physics.ops import Value
+from mckibben.physics.units import STANDARD_ATMOSPHERE
 
-ATMOSPHERE = 101325.0  # Pa, standard atmosphere
+ATMOSPHERE = STANDARD_ATMOSPHERE  # Pa
 
 
 def area(*, braid: Braid, length: Value) -> Value:

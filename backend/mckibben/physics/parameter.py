@@ -52,6 +52,8 @@ class Parameter:
         fitted: whether a fit changes it by default (usually not for a second constant of the same law).
         natural: whether the bounds are limits of the definition, like 0 and 1 of a share; a fit that ends at
             one is then not a sign of an implausible value.
+        reference: whether it states for which muscle the other parameters hold; a search for the missing
+            physics never frees it.
     """
 
     name: str
@@ -65,6 +67,7 @@ class Parameter:
     off: float | None = None
     fitted: bool = True
     natural: bool = False
+    reference: bool = False
 
     def __post_init__(self) -> None:
         if not self.name.isidentifier():

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import re
 from functools import cache, lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,6 +30,13 @@ _NAME = r"[A-Za-zµμΩΩÅ°%_]+(?:2O|Hg)?"  # 2O: cmH2O is a unit name, its di
 _TOKEN = re.compile(
     rf"({_NAME})(?:(?:\^|\*\*)?([+-]?[1-9])|([⁺⁻]?[¹²³⁴⁵⁶⁷⁸⁹]))?(?![0-9^⁰¹²³⁴⁵⁶⁷⁸⁹])|([()*/]|\s+)"
 )
+# "bar(a)", "bara", "bar abs", "psig", "MPa (gauge)": a pressure unit that says what it is counted from.
+_REFERENCED = re.compile(
+    r"(?P<unit>[kKMmhd]?(?:Pa|pa|PA)|[mM]?(?:bar|Bar|BAR)|(?:psi|PSI|Psi))\s*"
+    r"(?:\(\s*(?P<bracketed>g|a|gauge|rel|abs|absolute)\s*\)|(?P<bare>[ga]|gauge|rel|abs|absolute))\.?",
+)
+Reference = Literal["gauge", "absolute"]
+STANDARD_ATMOSPHERE = 101_325.0  # Pa
 _SUPERSCRIPT = str.maketrans("⁺⁻¹²³⁴⁵⁶⁷⁸⁹", "+-123456789")
 
 # Spellings that pint lacks or reads differently: "pct" as a picocarat, "Nm" as a textile count.
@@ -195,13 +202,23 @@ def meaning(unit_text: str) -> str | None:
         return None
 
 
-def si(value: object, unit: str, *, field: str | None = None) -> float:
+def si(
+    value: object,
+    unit: str,
+    *,
+    field: str | None = None,
+    reference: Reference | None = None,
+    ambient: float = STANDARD_ATMOSPHERE,
+) -> float:
     """A physical value of the caller in SI.
 
     Args:
         value: a number (already SI) or a text of number and unit, ``"300 mm"``, ``"25 %"``, ``"20 degC"``.
         unit: the SI unit the value must be compatible with (``"m"``, ``"rad"``, ``"1"``, ``"m3/(s*Pa)"`` …).
         field: path of the value, for the message ("muscle.nominal_length").
+        reference: what a pressure is counted from in the result. A text may say what its number is counted
+            from, "3 bar(a)", "30 psig", and is converted; without a word of it the number is as needed.
+        ambient: absolute pressure of the surroundings, for that conversion [Pa].
 
     Raises:
         InputError: nan or inf, a boolean, an empty text, a text without unit (unless ``unit`` is ``"1"``), an
@@ -210,11 +227,14 @@ def si(value: object, unit: str, *, field: str | None = None) -> float:
 
     >>> si("300 mm", "m")
     0.3
+    >>> round(si("4.01325 bar(a)", "Pa", reference="gauge"))
+    300000
     """
     if type(value) is float and math.isfinite(value):
         return value
     if isinstance(value, str):
-        return _from_text(value, unit, field)
+        text, offset = _referenced(value, unit, reference, ambient, field)
+        return _from_text(text, unit, field) + offset
     return _from_number(value, unit, field)
 
 
@@ -239,6 +259,39 @@ def convert(
         if offset:
             result += offset
     return result
+
+
+def absolute_text(value: object) -> bool:
+    """Whether a value is the text of a pressure that says it is absolute."""
+    return isinstance(value, str) and _split_reference(value)[1] == "absolute"
+
+
+def _split_reference(value: str) -> tuple[str, Reference | None]:
+    """The text without the word for the reference of its pressure, and the reference; None without one."""
+    parsed = _QUANTITY.fullmatch(value) if len(value) <= MAX_TEXT_LENGTH else None
+    found = _REFERENCED.fullmatch(parsed.group(2)) if parsed is not None else None
+    if parsed is None or found is None:
+        return value, None
+    word = found["bracketed"] or found["bare"]
+    return f"{parsed.group(1)} {found['unit']}", "absolute" if word.startswith("a") else "gauge"
+
+
+def _referenced(
+    value: str, unit: str, wanted: Reference | None, ambient: float, field: str | None
+) -> tuple[str, float]:
+    """The text without its reference, and what is to be added in Pa."""
+    text, stated = _split_reference(value)
+    if stated is None or unit != "Pa":
+        return value, 0.0
+    if wanted is None and stated == "absolute":
+        raise _refusal(
+            f"'{value.strip()}' is an absolute pressure, a gauge pressure or a difference is needed",
+            unit,
+            field,
+        )
+    if wanted is None or wanted == stated:
+        return text, 0.0
+    return text, -ambient if stated == "absolute" else ambient
 
 
 def _from_number(value: Any, unit: str, field: str | None) -> float:

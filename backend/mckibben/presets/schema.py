@@ -151,7 +151,12 @@ class _WithEffects(Preset):
 
 
 class MusclePreset(_WithEffects):
-    """A muscle: geometry, limits, catalogue data and the effects its model has by default."""
+    """A muscle: geometry, limits, catalogue data and the effects its model has by default.
+
+    Attributes:
+        extrapolated: why its force is not known from a curve or a measurement; None when it is. Sizing ranks
+            such a muscle behind all others.
+    """
 
     kind: Literal["muscle"]
     series: Annotated[str, Field(max_length=60)] = ""
@@ -161,6 +166,7 @@ class MusclePreset(_WithEffects):
     data: dict[Key, Quantity] = Field(default_factory=dict)
     reference_curve: PresetId | None = None
     measurement: PresetId | None = None
+    extrapolated: Text | None = None
 
     def findings(self, effects: EffectTable | None = None) -> Iterator[Finding]:
         """Adds: the braid is wider than the bore."""

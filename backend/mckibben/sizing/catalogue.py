@@ -40,6 +40,8 @@ class MusclePart(CataloguePart):
     Attributes:
         hysteresis: largest width of the hysteresis loop as a contraction ratio.
         coldest, hottest: permitted ambient temperature [K].
+        suspended_mass: largest mass that may hang freely on it [kg]; None where not known.
+        extrapolated: why its force is not known from a curve; None when it is.
     """
 
     muscle: Muscle
@@ -49,13 +51,20 @@ class MusclePart(CataloguePart):
     hysteresis: float = 0.0
     coldest: float | None = None
     hottest: float | None = None
+    suspended_mass: float | None = None
+    extrapolated: str | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class ValvePart(CataloguePart):
-    """A switching or proportional valve; used fully open."""
+    """A switching or proportional valve; used fully open.
+
+    Attributes:
+        min_pressure, max_pressure: supply pressures it is made for, gauge [Pa]; None where not known.
+    """
 
     valve: Valve
+    min_pressure: float | None = None
     max_pressure: float | None = None
 
 

@@ -139,7 +139,7 @@ def _movable(sheet: Sheet, name: str, index: int) -> bool:
     if name == "contraction":
         makers_limit = sheet.part.limits.max_contraction
         return makers_limit is None or bool(sheet.rest.contraction[index] <= makers_limit * (1.0 + _HAIR))
-    return name != "force_limit"
+    return name not in ("force_limit", "suspended_mass")
 
 
 def _share(margin: float) -> float:

@@ -19,16 +19,18 @@ def ranked(proposals: list[Proposal], task: Task) -> list[Proposal]:
 
     Whatever the task ranks by, a drive that probably fails comes after one that probably fulfils the task:
     the first key is the probability in classes of 5 % up to 95 %, the second what the task ranks by. If that
-    is the probability, the first key is the probability itself and the second the air.
+    is the probability, the first key is the probability itself and the second the air. Before both, a muscle
+    whose force is extrapolated comes after every muscle with a known curve.
     """
 
-    def order(proposal: Proposal) -> tuple[float, float]:
+    def order(proposal: Proposal) -> tuple[bool, float, float]:
+        unknown = proposal.design.group.muscle.extrapolated is not None
         probability = 1.0 if proposal.chance is None else proposal.chance.probability
         if task.rank_by != "probability":
             probability = np.floor(min(probability, _SURE) / _CLASS + 1e-9)
         else:
-            return -probability, proposal.trial.air
-        return -float(probability), proposal.trial.worth()
+            return unknown, -probability, proposal.trial.air
+        return unknown, -float(probability), proposal.trial.worth()
 
     ordered = sorted(proposals, key=order)
     front = front_of([proposal.trial for proposal in ordered])
@@ -82,4 +84,7 @@ def _reason(proposal: Proposal, best: dict[str, float]) -> str:
         texts.append(f"fulfils the task with {proposal.chance.probability * 100:.0f} % probability")
     margin = proposal.trial.margins[proposal.trial.binding]
     texts.append(f"nearest limit: {proposal.trial.binding.replace('_', ' ')}, {margin * 100:.2g} % left")
+    muscle = proposal.design.group.muscle
+    if muscle.extrapolated is not None:
+        texts.append(f"behind all others: {muscle.extrapolated}")
     return "; ".join(texts)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import isfinite
 
-from mckibben.sizing.catalogue import MusclePart
+from mckibben.sizing.catalogue import Group, MusclePart
 from mckibben.sizing.design_table import Sheet, Shortfall
 from mckibben.sizing.statics import contraction_limit
 from mckibben.sizing.task import Task
@@ -59,6 +59,8 @@ def why_at_rest(sheet: Sheet, parallel: int, lacking: Shortfall) -> str:
         case "force_limit":
             limit = part.limits.max_force
             return f"{at} carries {rest.tension[index]:.4g} N per muscle; the maker allows {limit:.4g} N"
+        case "suspended_mass":
+            return f"{who} {_carrying(task, part, parallel)}"
         case "diameter":
             room = task.limits.max_diameter or 0.0
             return f"{at} bulges to {rest.diameter[index] * 1e3:.3g} mm; {room * 1e3:.3g} mm is available"
@@ -70,6 +72,13 @@ def why_at_rest(sheet: Sheet, parallel: int, lacking: Shortfall) -> str:
             return f"{at} lasts about {rest.life[index]:.2g} cycles (an estimate); {wanted:.2g} is required"
         case _:
             return f"{at} does not fit"
+
+
+def _carrying(task: Task, part: MusclePart, parallel: int) -> str:
+    """What hangs on each muscle, and what its maker permits."""
+    mass = task.suspended_mass / (parallel * task.lever_ratio)
+    each = "" if parallel == 1 else " each"
+    return f"would carry {mass:.4g} kg{each}; the maker permits {part.suspended_mass:.4g} kg freely suspended"
 
 
 def remedies_text(sheet: Sheet, parallel: int, lacking: Shortfall, others: tuple[str, ...]) -> str:
@@ -95,6 +104,8 @@ def remedies_text(sheet: Sheet, parallel: int, lacking: Shortfall, others: tuple
             case "diameter":
                 more = rest.diameter[index] - (task.limits.max_diameter or 0.0)
                 texts.append(f"{rest.diameter[index] * 1e3:.3g} mm of diameter (+{more * 1e3:.2g} mm)")
+            case "suspended_mass":
+                texts.append(f"{share / (1.0 + share) * 100:.2g} % less mass")
             case "stiffness":
                 texts.append(f"{rest.stiffness[index]:.3g} N/m accepted")
             case "life":
@@ -109,6 +120,20 @@ def remedies_text(sheet: Sheet, parallel: int, lacking: Shortfall, others: tuple
     if others:
         texts.append(f"{others[0]} instead")
     return "; or ".join(texts) if texts else "nothing that is in the catalogue"
+
+
+def group_text(group: Group) -> str:
+    """The muscles with their valve and their tube."""
+    tube = f"{group.tube.id}" if group.tube.id else "no tube"
+    return f"{number_text(group.parallel, group.muscle)} with {group.valve.id} and {tube}"
+
+
+def valve_text(group: Group, pressures: tuple[float, float]) -> str:
+    """Why a valve does not suit the lowest and highest pressure at which the muscles carry the load [Pa]."""
+    low, high = group.valve.min_pressure, group.valve.max_pressure
+    ends = " to ".join(f"{end / _BAR:.3g} bar" for end in (low, high) if end is not None)
+    needed = f"{pressures[0] / _BAR:.3g} to {pressures[1] / _BAR:.3g} bar"
+    return f"the valve is made for {ends}, and the muscles need {needed}"
 
 
 def slow_text(trial: Trial | None, task: Task) -> str:

@@ -25,7 +25,8 @@ def refined(trial: Trial, bench: Bench) -> Trial:
         max(part.shortest, group.duty.pull / contraction_limit(part, task)),
         min(part.longest, task.limits.max_length - task.limits.end_fittings),
     )
-    low = np.log([lengths[0], 0.1 * highest])
+    lowest = min(max(0.1 * highest, group.valve.min_pressure or 0.0), highest)
+    low = np.log([lengths[0], lowest])
     high = np.log([max(lengths), highest])
     tried = [hard_trial_of(trial.design, bench)]
 

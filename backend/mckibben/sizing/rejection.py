@@ -10,11 +10,12 @@ import numpy as np
 from mckibben.sizing.catalogue import Group, PartsCatalogue
 from mckibben.sizing.design_table import Sheet, shortfall
 from mckibben.sizing.reasons import (
-    number_text,
+    group_text,
     remedies_text,
     slow_remedy,
     slow_text,
     temperature_text,
+    valve_text,
     why_at_rest,
 )
 from mckibben.sizing.task import Task
@@ -92,13 +93,36 @@ def _miss(sheet: Sheet) -> float:
     return -float(np.max(np.min(list(sheet.margins.values()), axis=0)))
 
 
-def slow_rejections(
-    failed: Sequence[tuple[Group, Trial | None]], task: Task, works: set[str]
-) -> list[Rejection]:
-    """Groups that are strong enough but too slow; one entry per choice of valve and tube."""
+@dataclass(frozen=True, slots=True)
+class WrongPressure:
+    """A valve that is not made for any pressure at which the muscles carry the load: lowest, highest [Pa]."""
+
+    lowest: float
+    highest: float
+
+
+Failed = tuple[Group, Trial | WrongPressure | None]
+
+
+def slow_rejections(failed: Sequence[Failed], task: Task, works: set[str]) -> list[Rejection]:
+    """Groups that are strong enough but too slow, or whose valve does not stand the pressure; one entry per
+    choice of valve and tube.
+    """
     rejections: dict[tuple[str, int, str, str], Rejection] = {}
     for group, trial in failed:
         key = (group.muscle.id, group.parallel, group.valve.id, group.tube.id)
+        if isinstance(trial, WrongPressure):
+            rejections[key] = Rejection(
+                group.muscle.id,
+                group.parallel,
+                f"{group_text(group)}: {valve_text(group, (trial.lowest, trial.highest))}",
+                "valve_pressure",
+                "a valve for this pressure",
+                valve=group.valve.id,
+                tube=group.tube.id,
+                combinations=1,
+            )
+            continue
         excess = _NEVER if trial is None else trial.excess() - 1.0
         if key in rejections and rejections[key].nearness <= excess:
             continue
@@ -106,7 +130,7 @@ def slow_rejections(
         rejections[key] = Rejection(
             group.muscle.id,
             group.parallel,
-            f"{number_text(group.parallel, group.muscle)} with {group.valve.id}: {slow_text(trial, task)}",
+            f"{group_text(group)}: {slow_text(trial, task)}",
             binding,
             slow_remedy(trial, task, binding, group.muscle.id in works),
             valve=group.valve.id,

@@ -17,7 +17,13 @@ from mckibben.sizing.proposal import Proposal, propose
 from mckibben.sizing.ranking import ranked
 from mckibben.sizing.reasons import temperature_text
 from mckibben.sizing.refine import refined
-from mckibben.sizing.rejection import Rejection, at_rest_rejections, slow_rejections
+from mckibben.sizing.rejection import (
+    Failed,
+    Rejection,
+    WrongPressure,
+    at_rest_rejections,
+    slow_rejections,
+)
 from mckibben.sizing.statics import least_time
 from mckibben.sizing.task import Task
 from mckibben.sizing.trial import Trial, trial_of
@@ -116,7 +122,7 @@ class _Search:
         good, slow = self._try(candidates)
         sizing.explored = good
         failed += slow
-        chosen = _varied(sorted(good, key=lambda trial: trial.cost()), task.max_proposals + _SPARE)
+        chosen = _varied(sorted(good, key=_by_cost), task.max_proposals + _SPARE)
         steps = bench.each(lambda trial: refined(trial, bench), chosen, (_TRIED, _REFINED), len(chosen))
         better = list(steps)
         proposals: list[Proposal] = []
@@ -137,17 +143,22 @@ class _Search:
         if ended is not None:
             raise EndedError(ended)
 
-    def _prune(self, sheets: list[Sheet]) -> tuple[list[DesignCandidate], list[tuple[Group, Trial | None]]]:
+    def _prune(self, sheets: list[Sheet]) -> tuple[list[DesignCandidate], list[Failed]]:
         """Candidates not ruled out by the closed form, and groups without any such design."""
         kept: list[DesignCandidate] = []
-        failed: list[tuple[Group, Trial | None]] = []
+        failed: list[Failed] = []
         for sheet in sheets:
             self.sizing.combinations += int(sheet.allowed.sum()) * len(self.parts)
             for parallel in range(1, self.task.limits.max_parallel + 1):
                 sound = sheet.sound(parallel)
                 for valve, tube in self.parts if len(sound) else []:
                     group = Group(sheet.duty, sheet.part, parallel, valve, tube)
-                    left = self._quick(group, sheet, sound)
+                    suited = _suited(group, sheet, sound)
+                    if not len(suited):
+                        needed = sheet.rest.pressure[sound]
+                        failed.append((group, WrongPressure(float(needed.min()), float(needed.max()))))
+                        continue
+                    left = self._quick(group, sheet, suited)
                     if len(left):
                         kept.append(DesignCandidate(group, sheet, left))
                     else:
@@ -171,14 +182,12 @@ class _Search:
 
     def _quick(self, group: Group, sheet: Sheet, sound: np.ndarray) -> np.ndarray:
         """Designs of a group that the closed form does not rule out as too slow."""
-        task, most = self.task, group.valve.max_pressure
-        if most is not None:
-            sound = sound[sheet.rest.pressure[sound] <= most]
+        task = self.task
         wanted = min(time or np.inf for time in (task.time, task.cycle_time, task.fill_time))
         times = least_time(sheet.rest, sheet.duty, task, conductance=group.conductance)
         return sound[times[sound] <= wanted]
 
-    def _try(self, candidates: list[DesignCandidate]) -> tuple[list[Trial], list[tuple[Group, Trial | None]]]:
+    def _try(self, candidates: list[DesignCandidate]) -> tuple[list[Trial], list[Failed]]:
         """The best trial of each group that fulfils the task, and the nearest trial of each other group."""
         first = [(candidate, index) for candidate in candidates for index in _first_choice(candidate)]
         ran = self._run(first, (_PRUNED, 0.8 * _TRIED))
@@ -192,7 +201,7 @@ class _Search:
         for candidate, trials in self._run(again, (0.8 * _TRIED, _TRIED)).items():
             ran[candidate] += trials
         good: list[Trial] = []
-        slow: list[tuple[Group, Trial | None]] = []
+        slow: list[Failed] = []
         for candidate, trials in ran.items():
             good_trials = [trial for trial in trials if trial.keeps_limits]
             if good_trials:
@@ -237,6 +246,13 @@ class _Search:
         return ranked(done, self.task)
 
 
+def _suited(group: Group, sheet: Sheet, sound: np.ndarray) -> np.ndarray:
+    """Those designs whose pressure the valve is made for."""
+    low, high = group.valve.min_pressure or 0.0, group.valve.max_pressure or np.inf
+    pressure = sheet.rest.pressure[sound]
+    return sound[(pressure >= low) & (pressure <= high)]
+
+
 def _varied(trials: list[Trial], count: int) -> list[Trial]:
     """The first ``count`` trials, at most `_OF_ONE_KIND` with the same muscles while there are others."""
     taken: Counter[tuple[str, int]] = Counter()
@@ -247,6 +263,11 @@ def _varied(trials: list[Trial], count: int) -> list[Trial]:
         taken[key] += 1
         (first if taken[key] <= _OF_ONE_KIND else rest).append(trial)
     return [*first, *rest][:count]
+
+
+def _by_cost(trial: Trial) -> tuple[bool, float]:
+    """The least cost first; muscles whose force is extrapolated last."""
+    return trial.design.group.muscle.extrapolated is not None, trial.cost()
 
 
 def _first_choice(candidate: DesignCandidate) -> list[int]:

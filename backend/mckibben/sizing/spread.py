@@ -4,8 +4,8 @@
   curves of specimens and laboratories are displaced along the contraction axis, because the length taken as
   uncontracted differs. So the force of a specimen at kappa is that of the computed muscle at kappa + shift,
   and the shift changes its blocked force.
-- Hysteresis is uniformly distributed between none and the full width of the loop: a force of half that width
-  against the motion in both directions.
+- Hysteresis is uniformly distributed between the loop of the model and the full width that is stated: a force
+  of half that width, less the friction of the model, against the motion in both directions.
 - The supply pressure is uniformly distributed within its tolerance.
 
 All muscles of a drive deviate together, like muscles of one batch; that is the harder case.
@@ -29,7 +29,9 @@ _WEAK, _USUAL = 1.5, 0.6
 
 @dataclass(frozen=True, slots=True)
 class Deviation:
-    """Deviations of one muscle: standard deviation of the shift [-], half the largest loop width [N]."""
+    """Deviations of one muscle: standard deviation of the shift [-], and the largest friction beyond that of
+    the model [N].
+    """
 
     shift: float
     friction: float
@@ -41,7 +43,7 @@ class Spread:
 
     Attributes:
         shift: added to the contraction ratio.
-        friction: force of one muscle against the motion [N].
+        friction: force of one muscle against the motion, beyond the friction of the model [N].
         pressure: factor on the supply pressure.
     """
 
@@ -53,12 +55,13 @@ class Spread:
 def deviation_of(design: Design, task: Task) -> Deviation:
     """Deviations of a design, linearised at the blocked force (shift) and at the end of the stroke (loop)."""
     part, stated, end = design.group.muscle, task.uncertainty, design.contraction
-    points = np.array([0.0, _STEP, end, end + _STEP])
-    force = _force(design, task, points)
+    points = np.array([0.0, _STEP, end, end + _STEP, end])
+    force = _force(design, task, points, np.array([0.0, 0.0, 0.0, 0.0, -1.0]))
+    own = max(float(force[2] - force[4]), 0.0)  # friction of the model while it fills
     lost = np.maximum(force[[0, 2]] - force[[1, 3]], 1e-9) / _STEP  # N per contraction
     width = part.hysteresis if stated.hysteresis is None else stated.hysteresis
     shift = 0.5 * stated.blocked_force * max(float(force[0]), 0.0) / float(lost[0])
-    return Deviation(shift, 0.5 * width * float(lost[1]))
+    return Deviation(shift, max(0.5 * width * float(lost[1]) - own, 0.0))
 
 
 def weak(design: Design, task: Task) -> tuple[float, float, float]:
@@ -84,12 +87,13 @@ def spread_of(design: Design, task: Task, count: int) -> Spread:
     )
 
 
-def _force(design: Design, task: Task, contraction: np.ndarray) -> np.ndarray:
+def _force(design: Design, task: Task, contraction: np.ndarray, direction: np.ndarray) -> np.ndarray:
     size = len(contraction)
     return outputs(
         design.group.muscle,
         length=np.full(size, design.length),
         contraction=contraction,
         pressure=np.full(size, design.pressure),
+        direction=direction,
         temperature=task.temperature,
     )["force"]

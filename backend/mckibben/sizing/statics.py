@@ -11,6 +11,7 @@ import numpy as np
 
 from mckibben.physics import gas, ideal
 from mckibben.physics.muscle import GEOMETRY
+from mckibben.physics.sliding import sliding_effects
 from mckibben.simulation.statics.compiled import compiled_state
 from mckibben.simulation.statics.model import settle
 from mckibben.sizing.catalogue import MusclePart
@@ -31,14 +32,15 @@ def outputs(
     length: Array,
     contraction: Array,
     pressure: Array,
-    direction: float = -1.0,
+    direction: float | Array = -1.0,
     temperature: float = 293.15,
 ) -> dict[str, Array]:
     """Outputs of the static model for muscles of different nominal lengths; all arrays of one shape (rows,).
 
-    ``length`` is the nominal one [m], ``pressure`` gauge [Pa]; direction -1 fills.
+    ``length`` is the nominal one [m], ``pressure`` gauge [Pa]; direction -1 fills, +1 vents, with friction
+    fully built up, 0 is their mean.
     """
-    compiled = compiled_state(part.effects)
+    compiled = compiled_state(sliding_effects(effects=part.effects))
     packed = compiled.pack(part.muscle, part.values)
     constants = np.repeat(packed[None, :], len(length), axis=0)
     constants[:, GEOMETRY.index("nominal_length")] = length
@@ -117,13 +119,16 @@ def at_rest(
     against = np.zeros((count, stations))
     counter_stiffness = np.zeros(count)
     if duty.pair:
-        against = np.maximum(passive[:, ::-1], 0.0)
+        stretched = outputs(part, pressure=np.zeros(rows), direction=1.0, **common)["force"]
+        against = np.maximum(stretched.reshape(count, stations)[:, ::-1], 0.0)
         pulling = passive[:, 0] > 0.0
         counter_stiffness = np.where(pulling, empty["force_by_length"].reshape(count, stations)[:, 0], 0.0)
     share = loads[None, :] / (lever * parallel[:, None])  # of one muscle
     demand = share + against
     with np.errstate(divide="ignore", invalid="ignore"):
-        ratio = np.where(demand > 0.0, force / np.maximum(demand, 1e-9), AMPLE)
+        # Without a load the muscle still has to overcome its own friction.
+        free = np.where(force > 0.0, AMPLE, 0.0)
+        ratio = np.where(demand > 0.0, force / np.maximum(demand, 1e-9), free)
         # At a fixed length the force is nearly linear in pressure.
         slope = (force - passive) / pressure[:, None]
         carrying = np.where(slope > 0.0, (demand - passive) / slope, np.nan)
@@ -163,7 +168,9 @@ def margins(rest: Rest, part: MusclePart, task: Task) -> dict[str, Array]:
     limits = task.limits
     most = contraction_limit(part, task)
     none = np.full(len(rest.length), AMPLE)
-    stiffness = none
+    hanging, stiffness = none, none
+    if part.suspended_mass is not None and task.suspended_mass > 0.0:
+        hanging = part.suspended_mass * rest.parallel * task.lever_ratio / task.suspended_mass - 1.0
     if limits.stiffness is not None:
         stiffness = rest.stiffness / limits.stiffness - 1.0
     tension = none
@@ -175,6 +182,7 @@ def margins(rest: Rest, part: MusclePart, task: Task) -> dict[str, Array]:
         "contraction": most / rest.contraction - 1.0,
         "force": rest.capacity / (1.0 + limits.force_reserve) - 1.0,
         "force_limit": tension,
+        "suspended_mass": hanging,
         "diameter": none if limits.max_diameter is None else limits.max_diameter / rest.diameter - 1.0,
         "stiffness": stiffness,
         "life": none if limits.life is None else rest.life / limits.life - 1.0,

@@ -123,6 +123,13 @@ class Task:
         """Whether the return stroke is timed."""
         return self.time_down is not None or self.cycle_time is not None
 
+    @property
+    def suspended_mass(self) -> float:
+        """Mass whose weight the muscles carry, at the load [kg]; 0 for a pair."""
+        if self.pair is not None:
+            return 0.0
+        return max(self.mass * sin(self.inclination) - self.counterweight, 0.0)
+
     def duties(self) -> list[Duty]:
         """The duty of the muscles; one for each pulley radius to try.
 

@@ -8,13 +8,15 @@ import symengine as se
 
 from mckibben.physics import ops
 from mckibben.physics.catalogue import default_catalogue
+from mckibben.physics.muscle import Muscle
 
+MUSCLE = Muscle(0.3, 0.0218, 0.46)
 DAMPING = default_catalogue()["viscous_damping"]
 REYNOLDS = {"coefficient": 1010.0, "pressure_coefficient": 6.91e-3, "lengthening_ratio": 0.074}
 
 
 def force(velocity: object, pressure: object = 4e5, **values: float) -> np.ndarray:
-    context = {"velocity": velocity, "pressure": pressure}
+    context = {"velocity": velocity, "pressure": pressure, "muscle": MUSCLE}
     return DAMPING.call("friction", context, {**DAMPING.defaults, **values})
 
 
@@ -52,3 +54,17 @@ def test_power_of_the_speed_is_smooth_at_rest_and_only_takes_work(exponent: floa
     speed = se.Symbol("v")
     slope = ops.derivative(lambda v: force(v, exponent=exponent), speed).subs({speed: 0.0})
     assert float(slope) == pytest.approx(200.0 * 1e-3 ** (exponent - 1.0), rel=1e-6)
+
+
+def test_with_a_reference_length_equal_rates_of_strain_give_equal_forces() -> None:
+    """A muscle of twice the length at twice the speed has the same rate of strain, so the same force."""
+    values = {"coefficient": 60.0, "reference_length": 0.25}
+    context = {"pressure": 3e5, **{name: DAMPING.defaults[name] for name in DAMPING.defaults}, **values}
+    one, two = (
+        DAMPING.call(
+            "friction", {"velocity": speed, "muscle": MUSCLE._replace(nominal_length=length)}, context
+        )
+        for speed, length in ((0.02, 0.25), (0.04, 0.5))
+    )
+    assert one == pytest.approx(60.0 * 0.02, rel=1e-12)
+    assert two == pytest.approx(one, rel=1e-12)

@@ -180,8 +180,9 @@ def _diagnose(
 ) -> Diagnosis:
     start_ids = set(fit_model.ids)
     absent = [effect for effect in catalogue.values() if effect.id not in start_ids]
-    candidates = tuple(effect for effect in absent if predictor.reveals(effect))
-    not_tried = [NotTried(effect.id, why) for effect in absent if (why := predictor.why_hidden(effect))]
+    reasons = {effect: _why_not(effect, predictor) for effect in absent}
+    candidates = tuple(effect for effect in absent if not reasons[effect])
+    not_tried = [NotTried(effect.id, why) for effect, why in reasons.items() if why]
     progress = _Progress(watch)
     predictor = predictor.prepared(fit_model, candidates)
     fitter = Fitter(
@@ -276,6 +277,13 @@ def _diagnose(
         messages=(*([] if gauge_zero is None else [gauge_zero.message]), *messages(fitter, first, best, fit)),
         not_tried=tuple(not_tried),
     )
+
+
+def _why_not(effect: Effect, predictor: Predictor) -> str:
+    """Why an effect is not a candidate; empty for a candidate."""
+    if effect.among_lengths:
+        return "it shows only among muscles of several lengths, and these are the data of one"
+    return predictor.why_hidden(effect)
 
 
 class _Progress:

@@ -113,7 +113,8 @@ class Fitter:
 
     def freeing(self, fitted_model: FittedModel, effect: Effect) -> list[FittedModel]:
         """The model with further constants of an effect freed: all, and subsets if all are too many."""
-        names = {f"{effect.id}.{p.name}" for p in effect.parameters if not p.fitted} - fitted_model.freed
+        names = {f"{effect.id}.{p.name}" for p in effect.parameters if not p.fitted and not p.reference}
+        names -= fitted_model.freed
         names -= self._blind(fitted_model, names)
         if not names:
             return []

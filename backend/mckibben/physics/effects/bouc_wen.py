@@ -102,7 +102,11 @@ EFFECT = Effect(
         ),
     ),
     slots={"friction": friction, "rates": rates},
-    states=(StateVariable("presliding", "z", "1", 1.0, "Share of full friction, positive on lengthening."),),
+    states=(
+        StateVariable(
+            "presliding", "z", "1", 1.0, "Share of full friction, positive on lengthening.", sliding=1.0
+        ),
+    ),
     kinds=frozenset({"isobaric", "isotonic", "transient"}),
     signature=Signature(
         text="a loop of constant width at every pressure, with corners of adjustable sharpness",

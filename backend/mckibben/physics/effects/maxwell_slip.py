@@ -101,7 +101,10 @@ EFFECT = Effect(
     ),
     slots={"friction": friction, "rates": rates},
     states=tuple(
-        StateVariable(f"cell_{i}", f"z_{i}", "1", 1.0, f"Deflection of cell {i} as a share of its limit.")
+        StateVariable(
+            *(f"cell_{i}", f"z_{i}", "1", 1.0, f"Deflection of cell {i} as a share of its limit."),
+            sliding=1.0,
+        )
         for i in range(1, _CELLS + 1)
     ),
     kinds=frozenset({"isobaric", "isotonic", "transient"}),

@@ -81,7 +81,9 @@ EFFECT = Effect(
         ),
     ),
     slots={"friction": friction, "rates": rates},
-    states=(StateVariable("filling", "z", "1", 1.0, "Share of the full loop, positive on filling."),),
+    states=(
+        StateVariable("filling", "z", "1", 1.0, "Share of the full loop, positive on filling.", sliding=-1.0),
+    ),
     kinds=frozenset({"isometric", "isotonic", "transient"}),
     signature=Signature(
         text="a loop of force over pressure at constant length, nothing at constant pressure",

@@ -4,12 +4,15 @@ r"""Viscous damping that may grow with pressure and differ between shortening an
    \quad r = 1\ (\dot L<0),\quad r = r_l\ (\dot L>0)
 
 At the reference speed :math:`v_r = 0.1\,m/s` the coefficient is force over speed for any exponent n. Below
-about 0.1 mm/s the law becomes linear, so that its slope stays finite at rest for n < 1.
+about 0.1 mm/s the law becomes linear, so that its slope stays finite at rest for n < 1. A wall that resists
+its rate of strain has a coefficient that goes with 1/L0: with a reference length :math:`L_r` it is that of a
+muscle of this length and is multiplied by :math:`L_r/L_0`.
 Reynolds' hand-made muscle: 1010 N s/m + 6.91e-3 N s/(m Pa) on shortening, a tenth of it on lengthening.
 """
 
 from mckibben.physics import ops
 from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -20,16 +23,22 @@ _CREEPING = 1e-4
 
 def friction(
     *,
+    muscle: Muscle,
     velocity: Value,
     pressure: Value,
     coefficient: Value,
     pressure_coefficient: Value,
     lengthening_ratio: Value,
     exponent: Value,
+    reference_length: Value,
 ) -> Value:
-    """(c0 + c_P P) r |v/v_r|^(n-1) v [N]; 0 at rest. Below atmospheric pressure c_P adds nothing."""
+    """(c0 + c_P P) r |v/v_r|^(n-1) v [N], times L_r/L0 if L_r > 0; 0 at rest.
+
+    Below atmospheric pressure c_P adds nothing.
+    """
+    scale = ops.where(ops.greater(reference_length, 0.0), reference_length / muscle.nominal_length, 1.0)
     ratio = ops.where(ops.greater(velocity, 0.0), lengthening_ratio, 1.0)
-    linear = (coefficient + pressure_coefficient * ops.positive_part(pressure)) * ratio * velocity
+    linear = (coefficient + pressure_coefficient * ops.positive_part(pressure)) * scale * ratio * velocity
     squared = (velocity**2 + _CREEPING**2) / (REFERENCE_SPEED**2 + _CREEPING**2)
     return linear * squared ** (0.5 * (exponent - 1.0))
 
@@ -37,6 +46,7 @@ def friction(
 _REYNOLDS = Source("Reynolds et al., Ann. Biomed. Eng. 31 (2003) 310, coefficients second-hand", "S2")
 _RANGE = Source("50-500 N s/m for size 20, 280-3800 N s/m hand-made at 2-6 bar", "E")
 _POWER = Source("powers of 0.5 to 1 reported for McKibben muscles; 2 would be a throttled flow", "M")
+_STRAIN = Source("the same stress at the same rate of strain", "D")
 _BY_HAND = Source("1.01 + 0.00691 P N s/mm with P = 400 kPa, times 10 mm/s", "D")
 _POWER_BY_HAND = Source("200 N s/m * 25 mm/s * (25/100)^-0.5, 4e-6 of it rounded off", "D")
 _SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
@@ -48,13 +58,11 @@ EFFECT = Effect(
     type="rate",
     cause="Elastomer, lubricated threads and the flow within the wall resist fast motion. The force is lower "
     "while the muscle shortens and higher while it lengthens, the more the faster it moves.",
-    equation=r"F_{v} = (c_0 + c_P P)\,r\left|\frac{\dot L}{v_r}\right|^{n-1}\dot L,\quad "
+    equation=r"F_{v} = (c_0 + c_P P)\,\frac{L_r}{L_0}\,r\left|\frac{\dot L}{v_r}\right|^{n-1}\dot L,\quad "
     r"r = 1\ (\dot L<0),\ r = r_l\ (\dot L>0),\quad v_r = 0.1\,\mathrm{m/s}",
     parameters=(
         Parameter(
-            "coefficient",
-            "c_0",
-            "N*s/m",
+            *("coefficient", "c_0", "N*s/m"),
             default=200.0,
             lower=0.0,
             upper=5000.0,
@@ -64,9 +72,7 @@ EFFECT = Effect(
             off=0.0,
         ),
         Parameter(
-            "pressure_coefficient",
-            "c_P",
-            "N*s/(m*Pa)",
+            *("pressure_coefficient", "c_P", "N*s/(m*Pa)"),
             default=0.0,
             lower=0.0,
             upper=2.0e-2,
@@ -77,9 +83,7 @@ EFFECT = Effect(
             fitted=False,
         ),
         Parameter(
-            "lengthening_ratio",
-            "r_l",
-            "1",
+            *("lengthening_ratio", "r_l", "1"),
             default=1.0,
             lower=0.0,
             upper=2.0,
@@ -88,15 +92,23 @@ EFFECT = Effect(
             fitted=False,
         ),
         Parameter(
-            "exponent",
-            "n",
-            "1",
+            *("exponent", "n", "1"),
             default=1.0,
             lower=0.3,
             upper=2.0,
             source=_POWER,
             description="Exponent of the force over the speed; 1 is linear damping.",
             fitted=False,
+        ),
+        Parameter(
+            *("reference_length", "L_r", "m"),
+            default=0.0,
+            lower=0.0,
+            upper=10.0,
+            source=_STRAIN,
+            description="Nominal length for which the coefficients hold; 0 = that of the muscle itself.",
+            fitted=False,
+            reference=True,
         ),
     ),
     slots={"friction": friction},
@@ -147,6 +159,12 @@ EFFECT = Effect(
             {"coefficient": 200.0, "exponent": 0.5},
             _SIZE_20,
             {"length": 0.28, "pressure": 4e5, "velocity": -0.025, "direction": -1.0},
+        ),
+        Example(
+            *("force_change", 1.0, 1e-9, Source("60 N s/m * 250/300 * 20 mm/s", "D")),
+            {"coefficient": 60.0, "reference_length": 0.25},
+            _SIZE_20,
+            {"length": 0.28, "pressure": 4e5, "velocity": 0.02, "direction": 1.0},
         ),
     ),
 )

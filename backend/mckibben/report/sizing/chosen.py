@@ -85,6 +85,12 @@ def margins_of(proposal: Proposal, task: Task) -> list[Margin]:
         "contraction": (contraction_limit(part, task), design.contraction, "%", True),
         "force": (1.0 + limits.force_reserve, float(rest.capacity[0]), "1", False),
         "force_limit": (part.limits.max_force, max(float(rest.tension[0]), figures.peak_force), "N", True),
+        "suspended_mass": (
+            part.suspended_mass,
+            task.suspended_mass / (design.group.parallel * task.lever_ratio),
+            "kg",
+            True,
+        ),
         "diameter": (limits.max_diameter, float(rest.diameter[0]), "m", True),
         "stiffness": (limits.stiffness, float(rest.stiffness[0]), "N/m", False),
         "life": (limits.life, float(rest.life[0]), "1", False),

@@ -61,10 +61,10 @@ def assumptions_section(material: SizingMaterial) -> Html:
 def _approximations(material: SizingMaterial) -> list[str]:
     chosen = material.chosen
     lines = [
-        "Static forces come from the static model with the effects of the muscle, without hysteresis and "
-        "friction; these only affect the specimens of the probability.",
-        "Times come from a run of the drive: choked and subsonic flow through valve and tube, polytropic "
-        "gas, a rigid load between two end stops. The valve fills or vents with full flow; nothing "
+        "Static forces come from the static model with the effects of the muscle, with its friction while it "
+        "fills. A wider loop than that of the model only affects the specimens of the probability.",
+        "Times come from a run of the drive: choked and subsonic flow through valve and tube, energy balance "
+        "of the air, a rigid load between two end stops. The valve fills or vents with full flow; nothing "
         "slows the load down before the stop.",
         "The mass of the muscle and the volume and resistance of fittings and silencers are neglected.",
         "Creep, relaxation, warming in operation, wear and ageing are neglected.",

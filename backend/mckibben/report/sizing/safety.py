@@ -122,13 +122,16 @@ def _spread_table(spread: SpecimenSpread) -> Html:
         ],
         [
             "Hysteresis",
-            "uniform, from none to the whole loop",
+            "uniform, from the loop of the model to the whole loop",
             mark("unknown for this muscle")
             if spread.hysteresis is None
             else html(figure(spread.hysteresis, SHARE, 3, exact=True), " of the nominal length wide"),
             "assumed to be zero, so the probability is too high"
             if spread.hysteresis is None
-            else html("up to ", figure(spread.friction, NEWTON, 3), " of each muscle against the motion"),
+            else html(
+                "up to ", figure(spread.friction, NEWTON, 3),
+                " of each muscle against the motion, beyond its friction in the model",
+            ),
         ],
         [
             "Supply pressure",

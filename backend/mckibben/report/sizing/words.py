@@ -60,6 +60,8 @@ LIMITS = {
     "contraction": "Contraction",
     "force": "Force over load, at rest",
     "force_limit": "Tension of a muscle",
+    "suspended_mass": "Mass hanging on a muscle",
+    "valve_pressure": "Pressure of the valve",
     "diameter": "Outer diameter",
     "stiffness": "Stiffness at the load",
     "life": "Load cycles (an estimate)",

@@ -111,6 +111,15 @@ class ForceAtLength(Strict):
     venting: Series = si_field("N", "While lengthening.")
 
 
+class HysteresisLoop(Strict):
+    """Width of the loop of filling and venting at the load, far from its ends; null where it is not held."""
+
+    pressure: list[float] = si_field("Pa", "Gauge pressures of the curves.")
+    stroke: Series = si_field("m", "Distance of the branches in length, at equal pressure.")
+    share: Series = si_field("1", "The same as a share of the nominal length.")
+    pressure_width: Series = si_field("Pa", "Distance of the branches in pressure, at equal length.")
+
+
 class OverPressure(Strict):
     """Characteristics over pressure: position at the load, force at the fixed length."""
 
@@ -120,6 +129,7 @@ class OverPressure(Strict):
     venting: OverPressureBranch | None
     fixed_length: float | None = si_field("m", "The fixed length.")
     force_at_fixed_length: ForceAtLength | None
+    loop: HysteresisLoop | None = Field(None, description="Width of the loop; null without a load.")
 
 
 class OperatingPoint(Strict):

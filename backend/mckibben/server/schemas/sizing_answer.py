@@ -11,7 +11,7 @@ from mckibben.server.schemas.common import Flag
 
 Binding = Literal[
     "length", "pressure", "contraction", "force", "force_limit", "diameter", "stiffness", "life",
-    "temperature", "time", "time_down", "cycle_time",
+    "temperature", "time", "time_down", "cycle_time", "suspended_mass", "valve_pressure",
 ]  # fmt: skip
 _MARGINS = "Limit -> margin as a share of the limit; limits that are not set are left out."
 

@@ -66,6 +66,14 @@ function operatingPoints() {
   }));
 }
 
+/** Distance of the branches of filling and venting at each pressure. */
+function loopRows() {
+  const loop = curves.value?.over_pressure?.loop;
+  return (loop?.pressure ?? []).map((p, i) => ({
+    cells: [p, loop?.stroke[i] ?? null, loop?.share[i] ?? null, loop?.pressure_width[i] ?? null],
+  }));
+}
+
 function characteristics() {
   return (curves.value?.characteristics ?? []).map((c) => ({
     cells: [c.pressure, c.blocked_force, c.free_contraction, c.max_work],
@@ -178,6 +186,28 @@ export function resultCards() {
         ["k closed", "stiffness"],
         ["D", "length"],
       ], operatingPoints),
+    ),
+    h(
+      "section",
+      { class: "card", "aria-label": "Hysteresis loop" },
+      h(
+        "div",
+        { class: "card-head" },
+        h("h2", null, "Loop of filling and venting"),
+        h("span", { class: "muted" }, () => loadText.value),
+      ),
+      figures("Width of the loop at the load", [
+        ["P", "pressure"],
+        ["ΔL", "length"],
+        ["of L₀", "ratio"],
+        ["ΔP", "pressure"],
+      ], loopRows),
+      h(
+        "p",
+        { class: "muted" },
+        "Distance of the branches of a slow loop in length and in pressure, as drawn over the pressure. " +
+          "An ideal muscle has none.",
+      ),
     ),
     h(
       "section",

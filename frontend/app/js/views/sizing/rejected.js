@@ -17,10 +17,12 @@ function together(list) {
   /** @type {Map<string, Rejected & {tubes: string[]}>} */
   const merged = new Map();
   for (const one of list) {
-    const { tube, combinations, ...rest } = one, name = JSON.stringify(rest);
+    // The reason names its tube; with several tubes they stand in the heading instead.
+    const { tube, combinations, ...rest } = one, why = rest.why.replace(` and ${tube ?? "no tube"}:`, ":");
+    const name = JSON.stringify({ ...rest, why });
     const same = merged.get(name);
     const tubes = [...same?.tubes ?? [], ...(tube ? [tube] : [])];
-    merged.set(name, { ...one, combinations: combinations + (same?.combinations ?? 0), tubes });
+    merged.set(name, { ...one, why: same ? why : one.why, combinations: combinations + (same?.combinations ?? 0), tubes });
   }
   return [...merged.values()];
 }

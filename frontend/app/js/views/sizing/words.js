@@ -45,6 +45,8 @@ const LIMITS = {
   contraction: "contraction",
   force: "force reserve",
   force_limit: "muscle force",
+  suspended_mass: "hanging mass",
+  valve_pressure: "valve pressure",
   diameter: "diameter",
   stiffness: "stiffness",
   life: "life",

@@ -37,7 +37,7 @@ const SHAPES = {
     INITIAL,
   ]],
   square: ["Square wave", [PERIOD, ["duty", "Duty", "share", () => 0.5], LEVEL, INITIAL]],
-  triangle: ["Triangle", [AMPLITUDE, PERIOD, OFFSET]],
+  triangle: ["Triangle", [["amplitude", "Height, peak to peak", "value", (o) => o.full], PERIOD, OFFSET]],
   ramp: ["Ramp", [
     ["from", "From", "value", (o) => o.rest],
     ["to", "To", "value", (o) => o.full],

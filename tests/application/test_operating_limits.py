@@ -1,0 +1,64 @@
+"""Pressures that were probably meant in bar are pointed out in every answer."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from mckibben.application.curves import CurvesQuestion, curves
+from mckibben.application.inverse import ContractionForForce, answer
+from mckibben.application.operating_limits import pressure_notices
+from mckibben.application.simulate import SimulationQuestion, simulate
+from mckibben.application.size import size, sizing_question
+from mckibben.documents.drive import DriveDocument
+from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.start_model import GivenMuscle
+from mckibben.documents.studio import Studio
+from mckibben.documents.task import SizingTask
+from mckibben.resources import presets_folder
+
+
+@pytest.fixture(scope="module")
+def studio() -> Studio:
+    return Studio(presets=presets_folder())
+
+
+def tiny(flags: list[Any]) -> dict[str | None, str]:
+    return {notice.field: notice.message for notice in flags if notice.code == "tiny_pressure"}
+
+
+def test_six_pascal_are_told_in_bar() -> None:
+    (notice,) = pressure_notices({"supply.pressure": 6.0})
+    assert notice.field == "supply.pressure"
+    assert notice.message.startswith("6 Pa is 6e-05 bar;")
+    assert "write '6 bar'" in notice.message
+    assert pressure_notices({"pressures.0": 0.0, "pressures.1": 1e4}) == []
+
+
+def test_curves_and_inverse_questions_say_it(studio: Studio) -> None:
+    start = studio.start_model(GivenMuscle(preset="DMSP-10"), None)
+    assert set(tiny(curves(CurvesQuestion(start, pressures=(6.0, 3e5)), studio).flags)) == {"pressures.0"}
+    assert tiny(curves(CurvesQuestion(start), studio).flags) == {}
+    found = answer(ContractionForForce(start=start, force=10.0, pressure=6.0), studio)
+    assert set(tiny(found.flags)) == {"pressure"}
+
+
+def test_runs_and_sizings_say_it(studio: Studio) -> None:
+    document = {
+        "muscle": {"preset": "DMSP-10"},
+        "supply": {"pressure": 6},
+        "valve": {"preset": "MPYE-5-M5"},
+        "load": {"mass": 1.0},
+        "command": {"shape": "step", "level": 1.0},
+        "duration": 0.2,
+    }
+    run = simulate(SimulationQuestion(drive_of(DriveDocument.model_validate(document), studio)))
+    assert set(tiny(run.flags)) == {"supply.pressure"}
+    task = {
+        "load": {"mass": 5.0}, "stroke": 0.02, "supply_pressure": 6,
+        "catalogue": {"muscles": ["DMSP-10"], "valves": ["MPYE-5-M5"], "tubes": ["PUN-H-6x1"]},
+    }  # fmt: skip
+    found = size(sizing_question(SizingTask.model_validate(task), studio))
+    assert found.proposals == []
+    assert set(tiny(found.flags)) == {"supply_pressure"}
