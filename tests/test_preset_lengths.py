@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mckibben.application.curves import CurvesQuestion, curves
-from mckibben.documents.start_model import GivenMuscle
+from mckibben.documents.start_model import StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.resources import presets_folder
 
@@ -25,7 +25,7 @@ def studio() -> Studio:
 
 def figures(studio: Studio, name: str, length: float, pressure: float = 6.2 * BAR) -> tuple[float, float]:
     """Blocked force [N] and free contraction of a preset of this length [m]."""
-    start = studio.start_model(GivenMuscle(preset=name, nominal_length=length), None)
+    start = studio.start_model(StatedMuscle(preset=name, nominal_length=length), None)
     found = curves(CurvesQuestion(start, pressures=(pressure,)), studio).characteristics[0]
     return found.blocked_force, found.free_contraction
 
@@ -73,11 +73,11 @@ def test_at_the_length_of_the_sample_the_model_is_the_fitted_one(studio: Studio,
     effects = dict(studio.facts(name).effects)
     pressures = (2 * BAR, 4 * BAR, 6 * BAR)
     with_ends = curves(
-        CurvesQuestion(studio.start_model(GivenMuscle(name, length), effects), pressures), studio
+        CurvesQuestion(studio.start_model(StatedMuscle(name, length), effects), pressures), studio
     )
     assert effects.pop("lost_stroke")["reference_length"] == length
     without = curves(
-        CurvesQuestion(studio.start_model(GivenMuscle(name, length), effects), pressures), studio
+        CurvesQuestion(studio.start_model(StatedMuscle(name, length), effects), pressures), studio
     )
     np.testing.assert_allclose(with_ends.force, without.force, rtol=1e-12, atol=1e-9)
     np.testing.assert_allclose(with_ends.diameter, without.diameter, rtol=1e-12)

@@ -9,16 +9,17 @@ from typing import Any
 import pytest
 
 from mckibben.application.curves import CurvesQuestion, curves
-from mckibben.application.inverse import PressureForStroke, answer
+from mckibben.application.inverse import MuscleCondition, PressureForStroke, answer
 from mckibben.application.simulate import SimulationQuestion, simulate
-from mckibben.application.size import size, sizing_question
+from mckibben.application.size import prepare, sizing_question
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import drive_of
-from mckibben.documents.start_model import GivenMuscle
+from mckibben.documents.start_model import StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.presets import MusclePreset, ValvePreset
 from mckibben.resources import presets_folder
+from mckibben.simulation.outcome import Watch
 from mckibben.simulation.statics.characteristics import Conditions
 
 # Figures by name of a maximum that limit no use of the part, and what they are.
@@ -49,7 +50,7 @@ def studio() -> Studio:
 
 
 def curve_codes(studio: Studio, length: float | None = None, **question: Any) -> set[str]:
-    start = studio.start_model(GivenMuscle(preset="DMSP-10", nominal_length=length), None)
+    start = studio.start_model(StatedMuscle(preset="DMSP-10", nominal_length=length), None)
     return {notice.code for notice in curves(CurvesQuestion(start, **question), studio).flags}
 
 
@@ -60,7 +61,7 @@ def run_codes(studio: Studio, **changes: Any) -> set[str]:
 
 def sized(studio: Studio, **changes: Any) -> Any:
     document = SizingTask.model_validate({**TASK, **changes})
-    return size(sizing_question(document, studio))
+    return prepare(sizing_question(document, studio))(Watch())
 
 
 def rejections(studio: Studio, **changes: Any) -> set[str]:
@@ -105,7 +106,7 @@ MUSCLE_LIMITS: dict[str, dict[str, Check]] = {
             in run_codes(s, load={"mass": "29 kg"}, stops={"min_contraction": -0.08}, duration="0.5 s")
         ),
         # A drive of a sizing starts at the nominal length, so it is never stretched.
-        "sizing": lambda s: sized(s).proposals[0].drive["stops"]["min_contraction"] == 0.0,
+        "sizing": lambda s: sized(s).proposals[0].drive.stops.min_contraction == 0.0,
     },
     "min_nominal_length": {
         "curves": lambda s: "length_outside_range" in curve_codes(s, length=0.03),
@@ -208,6 +209,8 @@ def test_a_load_that_lies_hangs_on_nothing(studio: Studio) -> None:
 
 
 def test_inverse_questions_name_the_hanging_mass(studio: Studio) -> None:
-    start = studio.start_model(GivenMuscle(preset="DMSP-10"), None)
-    found = answer(PressureForStroke(start=start, load=45 * 9.80665, stroke=0.005), studio)
+    start = studio.start_model(StatedMuscle(preset="DMSP-10"), None)
+    found = answer(
+        PressureForStroke(condition=MuscleCondition(start), load=45 * 9.80665, stroke=0.005), studio
+    )
     assert "over_suspended_mass" in {notice.code for notice in found.flags}

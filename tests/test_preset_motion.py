@@ -13,7 +13,7 @@ from mckibben.application.curves import CurvesQuestion, curves
 from mckibben.application.simulate import SimulationQuestion, SimulationResult, simulate
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import drive_of
-from mckibben.documents.start_model import GivenMuscle
+from mckibben.documents.start_model import StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.resources import presets_folder
 from tests.truth.slow_loop import SlowMuscle
@@ -49,7 +49,7 @@ def test_the_loop_of_the_curves_is_that_of_a_slow_triangle_integrated_elsewhere(
     muscle = SlowMuscle.read(MUSCLES / f"{name}.json")
     load, top = LOADS[name], 6e5
     slow = muscle.loop(load, top, PRESSURES, steps=300)
-    start = studio.start_model(GivenMuscle(preset=name), None)
+    start = studio.start_model(StatedMuscle(preset=name), None)
     over = curves(CurvesQuestion(start, pressures=(*PRESSURES, top), load=load), studio).over_pressure
     assert over is not None
     assert over.loop is not None
@@ -126,9 +126,9 @@ def test_a_load_is_at_rest_after_some_swings(studio: Studio, muscle: str, length
 
 
 def test_an_ideal_muscle_has_neither_friction_nor_damping(studio: Studio) -> None:
-    assert studio.start_model(GivenMuscle(preset="DMSP-10"), {}).effects == {}
-    assert studio.start_model(GivenMuscle(preset="paper"), None).effects == {}
-    start = studio.start_model(GivenMuscle(preset="DMSP-10"), {})
+    assert studio.start_model(StatedMuscle(preset="DMSP-10"), {}).effects == {}
+    assert studio.start_model(StatedMuscle(preset="paper"), None).effects == {}
+    start = studio.start_model(StatedMuscle(preset="DMSP-10"), {})
     over = curves(CurvesQuestion(start, pressures=(2e5, 4e5), load=62.0), studio).over_pressure
     assert over is not None
     assert over.loop is not None

@@ -7,16 +7,17 @@ from typing import Any
 import pytest
 
 from mckibben.application.curves import CurvesQuestion, curves
-from mckibben.application.inverse import ContractionForForce, answer
+from mckibben.application.inverse import ContractionForForce, MuscleCondition, answer
 from mckibben.application.operating_limits import pressure_notices
 from mckibben.application.simulate import SimulationQuestion, simulate
-from mckibben.application.size import size, sizing_question
+from mckibben.application.size import prepare, sizing_question
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import drive_of
-from mckibben.documents.start_model import GivenMuscle
+from mckibben.documents.start_model import StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.resources import presets_folder
+from mckibben.simulation.outcome import Watch
 
 
 @pytest.fixture(scope="module")
@@ -37,10 +38,10 @@ def test_six_pascal_are_told_in_bar() -> None:
 
 
 def test_curves_and_inverse_questions_say_it(studio: Studio) -> None:
-    start = studio.start_model(GivenMuscle(preset="DMSP-10"), None)
+    start = studio.start_model(StatedMuscle(preset="DMSP-10"), None)
     assert set(tiny(curves(CurvesQuestion(start, pressures=(6.0, 3e5)), studio).flags)) == {"pressures.0"}
     assert tiny(curves(CurvesQuestion(start), studio).flags) == {}
-    found = answer(ContractionForForce(start=start, force=10.0, pressure=6.0), studio)
+    found = answer(ContractionForForce(condition=MuscleCondition(start), force=10.0, pressure=6.0), studio)
     assert set(tiny(found.flags)) == {"pressure"}
 
 
@@ -59,6 +60,6 @@ def test_runs_and_sizings_say_it(studio: Studio) -> None:
         "load": {"mass": 5.0}, "stroke": 0.02, "supply_pressure": 6,
         "catalogue": {"muscles": ["DMSP-10"], "valves": ["MPYE-5-M5"], "tubes": ["PUN-H-6x1"]},
     }  # fmt: skip
-    found = size(sizing_question(SizingTask.model_validate(task), studio))
+    found = prepare(sizing_question(SizingTask.model_validate(task), studio))(Watch())
     assert found.proposals == []
     assert set(tiny(found.flags)) == {"supply_pressure"}

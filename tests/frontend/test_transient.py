@@ -111,7 +111,7 @@ def test_a_scenario_brings_its_drive_and_the_printed_figures(page: Page) -> None
     open_transient(page)
     load_scenario(page, "propneu-20")
     expect(page.locator("#drive-muscle")).to_contain_text("794 mm")
-    expect(field(page, "Mass")).to_have_value("10.41")
+    expect(field(page, "Mass")).to_have_value("9.321")
     paper = page.get_by_role("region", name="Figures of the run and of the paper")
     row = paper.locator("tr", has_text="Positioning time, fill")
     ours, theirs = (float(row.locator("td").nth(i).inner_text()) for i in (0, 1))
