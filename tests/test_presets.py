@@ -406,7 +406,7 @@ EFFECTS = {
     "prestress": {"force"},
     "lost_stroke": {"stroke", "reference_length"},
     "dahl": {"force", "break_strain"},
-    "viscous_damping": {"coefficient", "reference_length"},
+    "viscous_damping": {"coefficient", "length_power"},
 }
 MUTATIONS: dict[str, tuple[Callable[[dict[str, Any]], None], str, str]] = {
     "unknown key": (edit("geometry.braid_angel", QUANTITY), "geometry.braid_angel", "braid_angle"),
@@ -634,7 +634,7 @@ def test_effect_values_are_in_si(library: PresetLibrary) -> None:
         "prestress": {"force": 24.7},
         "lost_stroke": {"stroke": pytest.approx(0.013), "reference_length": pytest.approx(0.3)},
         "dahl": {"force": 17.0, "break_strain": pytest.approx(0.002)},
-        "viscous_damping": {"coefficient": 192.0, "reference_length": pytest.approx(0.25)},
+        "viscous_damping": {"coefficient": 192.0, "length_power": 1.0},
     }
     assert muscle(library, "paper").effect_values() == {}
 

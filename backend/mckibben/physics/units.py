@@ -233,7 +233,9 @@ def si(
     if type(value) is float and math.isfinite(value):
         return value
     if isinstance(value, str):
-        text, offset = _referenced(value, unit, reference, ambient, field)
+        if unit != "Pa":
+            return _from_text(value, unit, field)
+        text, offset = _referenced(value, reference, ambient, field)
         return _from_text(text, unit, field) + offset
     return _from_number(value, unit, field)
 
@@ -276,17 +278,15 @@ def _split_reference(value: str) -> tuple[str, Reference | None]:
     return f"{parsed.group(1)} {found['unit']}", "absolute" if word.startswith("a") else "gauge"
 
 
-def _referenced(
-    value: str, unit: str, wanted: Reference | None, ambient: float, field: str | None
-) -> tuple[str, float]:
+def _referenced(value: str, wanted: Reference | None, ambient: float, field: str | None) -> tuple[str, float]:
     """The text without its reference, and what is to be added in Pa."""
     text, stated = _split_reference(value)
-    if stated is None or unit != "Pa":
+    if stated is None:
         return value, 0.0
     if wanted is None and stated == "absolute":
         raise _refusal(
             f"'{value.strip()}' is an absolute pressure, a gauge pressure or a difference is needed",
-            unit,
+            "Pa",
             field,
         )
     if wanted is None or wanted == stated:

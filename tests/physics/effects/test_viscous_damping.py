@@ -56,9 +56,9 @@ def test_power_of_the_speed_is_smooth_at_rest_and_only_takes_work(exponent: floa
     assert float(slope) == pytest.approx(200.0 * 1e-3 ** (exponent - 1.0), rel=1e-6)
 
 
-def test_with_a_reference_length_equal_rates_of_strain_give_equal_forces() -> None:
+def test_with_a_length_power_of_1_equal_rates_of_strain_give_equal_forces() -> None:
     """A muscle of twice the length at twice the speed has the same rate of strain, so the same force."""
-    values = {"coefficient": 60.0, "reference_length": 0.25}
+    values = {"coefficient": 60.0, "length_power": 1.0}
     context = {"pressure": 3e5, **{name: DAMPING.defaults[name] for name in DAMPING.defaults}, **values}
     one, two = (
         DAMPING.call(

@@ -1,12 +1,12 @@
 r"""Viscous damping that may grow with pressure and differ between shortening and lengthening.
 
-.. math:: F = (c_0 + c_P P)\,r\,\Bigl|\frac{\dot L}{v_r}\Bigr|^{n-1}\dot L,
+.. math:: F = (c_0 + c_P P)\,(L_r/L_0)^m\,r\,\Bigl|\frac{\dot L}{v_r}\Bigr|^{n-1}\dot L,
    \quad r = 1\ (\dot L<0),\quad r = r_l\ (\dot L>0)
 
 At the reference speed :math:`v_r = 0.1\,m/s` the coefficient is force over speed for any exponent n. Below
 about 0.1 mm/s the law becomes linear, so that its slope stays finite at rest for n < 1. A wall that resists
-its rate of strain has a coefficient that goes with 1/L0: with a reference length :math:`L_r` it is that of a
-muscle of this length and is multiplied by :math:`L_r/L_0`.
+its rate of strain has a coefficient that goes with 1/L0, m = 1: it is then that of a muscle of
+:math:`L_r = 250\,mm`. With m = 0 it is that of the muscle itself.
 Reynolds' hand-made muscle: 1010 N s/m + 6.91e-3 N s/(m Pa) on shortening, a tenth of it on lengthening.
 """
 
@@ -16,7 +16,7 @@ from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
-REFERENCE_SPEED = 0.1  # m/s
+REFERENCE_SPEED, REFERENCE_LENGTH = 0.1, 0.25  # m/s, m
 # Below this speed [m/s] the power of the speed is constant.
 _CREEPING = 1e-4
 
@@ -30,13 +30,10 @@ def friction(
     pressure_coefficient: Value,
     lengthening_ratio: Value,
     exponent: Value,
-    reference_length: Value,
+    length_power: Value,
 ) -> Value:
-    """(c0 + c_P P) r |v/v_r|^(n-1) v [N], times L_r/L0 if L_r > 0; 0 at rest.
-
-    Below atmospheric pressure c_P adds nothing.
-    """
-    scale = ops.where(ops.greater(reference_length, 0.0), reference_length / muscle.nominal_length, 1.0)
+    """(c0 + c_P P) (L_r/L0)^m r |v/v_r|^(n-1) v [N]; 0 at rest. Below the atmosphere c_P adds nothing."""
+    scale = (REFERENCE_LENGTH / muscle.nominal_length) ** length_power
     ratio = ops.where(ops.greater(velocity, 0.0), lengthening_ratio, 1.0)
     linear = (coefficient + pressure_coefficient * ops.positive_part(pressure)) * scale * ratio * velocity
     squared = (velocity**2 + _CREEPING**2) / (REFERENCE_SPEED**2 + _CREEPING**2)
@@ -46,7 +43,7 @@ def friction(
 _REYNOLDS = Source("Reynolds et al., Ann. Biomed. Eng. 31 (2003) 310, coefficients second-hand", "S2")
 _RANGE = Source("50-500 N s/m for size 20, 280-3800 N s/m hand-made at 2-6 bar", "E")
 _POWER = Source("powers of 0.5 to 1 reported for McKibben muscles; 2 would be a throttled flow", "M")
-_STRAIN = Source("the same stress at the same rate of strain", "D")
+_STRAIN = Source("1: the same stress at the same rate of strain", "D")
 _BY_HAND = Source("1.01 + 0.00691 P N s/mm with P = 400 kPa, times 10 mm/s", "D")
 _POWER_BY_HAND = Source("200 N s/m * 25 mm/s * (25/100)^-0.5, 4e-6 of it rounded off", "D")
 _SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
@@ -58,7 +55,8 @@ EFFECT = Effect(
     type="rate",
     cause="Elastomer, lubricated threads and the flow within the wall resist fast motion. The force is lower "
     "while the muscle shortens and higher while it lengthens, the more the faster it moves.",
-    equation=r"F_{v} = (c_0 + c_P P)\,\frac{L_r}{L_0}\,r\left|\frac{\dot L}{v_r}\right|^{n-1}\dot L,\quad "
+    equation=r"F_{v} = (c_0 + c_P P)\left(\frac{L_r}{L_0}\right)^m r"
+    r"\left|\frac{\dot L}{v_r}\right|^{n-1}\dot L,\quad "
     r"r = 1\ (\dot L<0),\ r = r_l\ (\dot L>0),\quad v_r = 0.1\,\mathrm{m/s}",
     parameters=(
         Parameter(
@@ -101,12 +99,12 @@ EFFECT = Effect(
             fitted=False,
         ),
         Parameter(
-            *("reference_length", "L_r", "m"),
+            *("length_power", "m", "1"),
             default=0.0,
             lower=0.0,
-            upper=10.0,
+            upper=1.0,
             source=_STRAIN,
-            description="Nominal length for which the coefficients hold; 0 = that of the muscle itself.",
+            description="Power of 250 mm over the nominal length; 0 = the coefficients are the muscle's own.",
             fitted=False,
             reference=True,
         ),
@@ -162,7 +160,7 @@ EFFECT = Effect(
         ),
         Example(
             *("force_change", 1.0, 1e-9, Source("60 N s/m * 250/300 * 20 mm/s", "D")),
-            {"coefficient": 60.0, "reference_length": 0.25},
+            {"coefficient": 60.0, "length_power": 1.0},
             _SIZE_20,
             {"length": 0.28, "pressure": 4e5, "velocity": 0.02, "direction": 1.0},
         ),

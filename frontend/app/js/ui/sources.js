@@ -25,8 +25,13 @@ export const gradeTag = (grade) =>
 /** @param {import("../types.js").Preset} preset */
 function unverifiedNote(preset) {
   /** @type {[string, import("../types.js").PresetValue][]} */
-  const doubtful = [preset.geometry, preset.limits, preset.data, ...Object.values(preset.effects ?? {})]
-    .flatMap((part) => Object.entries(part ?? {})).filter(([, q]) => isUnverified(q.grade));
+  const doubtful = [
+    ...[preset.geometry, preset.limits, preset.data].flatMap((part) => Object.entries(part ?? {})),
+    // Several effects have a force, so the effect is named too.
+    ...Object.entries(preset.effects ?? {}).flatMap(([effect, values]) =>
+      Object.entries(values).map(([key, q]) => /** @type {[string, typeof q]} */ ([`${effect} ${key}`, q]))
+    ),
+  ].filter(([, q]) => isUnverified(q.grade));
   return h(
     "div",
     null,

@@ -22,7 +22,12 @@ function together(list) {
     const name = JSON.stringify({ ...rest, why });
     const same = merged.get(name);
     const tubes = [...same?.tubes ?? [], ...(tube ? [tube] : [])];
-    merged.set(name, { ...one, why: same ? why : one.why, combinations: combinations + (same?.combinations ?? 0), tubes });
+    merged.set(name, {
+      ...one,
+      why: same ? why : one.why,
+      combinations: combinations + (same?.combinations ?? 0),
+      tubes,
+    });
   }
   return [...merged.values()];
 }
@@ -31,12 +36,16 @@ const groups = computed(() => together(answer.value?.rejected ?? []));
 
 /** @param {Rejected & {tubes: string[]}} r */
 function item(r) {
-  const who = [`${r.parallel > 1 ? `${r.parallel} × ` : ""}${r.muscle}`, r.valve, r.tubes.join(" or ")]
-    .filter(Boolean);
+  const who = [`${r.parallel > 1 ? `${r.parallel} × ` : ""}${r.muscle}`, r.valve].filter(Boolean);
+  // Each name is kept whole; a line may break between them.
+  const names = [
+    ...who.map((name, i) => `${name}${i < who.length - 1 || r.tubes.length ? ", " : ""}`),
+    ...r.tubes.map((name, i) => `${name}${i < r.tubes.length - 1 ? " or " : ""}`),
+  ];
   return h(
     "li",
     null,
-    h("b", null, who.map((text, i) => h("span", { class: "whole" }, text, i < who.length - 1 ? ", " : ""))),
+    h("b", null, names.map((name) => h("span", { class: "whole" }, name))),
     h("span", { class: "limit" }, limitName(r.binding)),
     h("p", null, `${capitalized(r.why)}.`),
     h("p", { class: "remedy" }, h("span", null, "Would work with "), `${r.would_work_if}.`),

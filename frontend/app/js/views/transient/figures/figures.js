@@ -92,7 +92,7 @@ function verdict() {
         OUTCOMES[r.outcome] ?? r.outcome,
         done
           ? hard.length
-            ? " It leaves the permitted range:"
+            ? `${still ? ` Nothing moves: ${still}.` : ""} It leaves the permitted range:`
             : still
             ? ` Nothing moves: ${still}.`
             : " Within all limits."
