@@ -1489,6 +1489,10 @@ export interface components {
       pressure_end: number;
       /** Air of all muscles per cycle at ANR. [m^3] */
       air_volume_anr: number;
+      /** Cost of the air of a cycle, in the currency of the task. */
+      air_cost: number;
+      /** Cost of the air of a year, in the currency of the task. */
+      air_cost_year: number;
       /** Kinetic energy of the whole load at the end stop. [J] */
       impact_energy: number;
       /** Speed of the load there. [m/s] */
@@ -1517,6 +1521,8 @@ export interface components {
       margins: { [key: string]: number };
       /** The limit with the least margin. */
       binding: "length" | "pressure" | "contraction" | "force" | "force_limit" | "diameter" | "stiffness" | "life" | "temperature" | "time" | "time_down" | "cycle_time" | "suspended_mass" | "valve_pressure";
+      /** What costs it rank: margins below 5 %, an impact above limits.max_impact_energy. */
+      reservations: string[];
       /** Explanation of its rank. */
       reason: string;
       /** On the Pareto front of the proposals. */
@@ -1771,6 +1777,8 @@ export interface components {
     SizingAnswer: {
       /** Best first; empty if no candidate fulfils the task. */
       proposals: components["schemas"]["ProposalAnswer"][];
+      /** Why the first comes before the second, in one sentence. */
+      ranking: string | null;
       /** Nearest first. */
       rejected: components["schemas"]["RejectedAnswer"][];
       /** The best design of each choice of parts that fulfils the task. */
@@ -1824,6 +1832,7 @@ export interface components {
       ambient_temperature?: number | string;
       limits?: components["schemas"]["TaskLimits"];
       catalogue?: components["schemas"]["TaskCatalogue"];
+      operation?: components["schemas"]["TaskOperation"];
       uncertainty?: components["schemas"]["TaskUncertainty"];
       /** Order of the proposals. Balanced: by air consumption times the square root of installed length and number of muscles. Drives that probably fail come last in any order. */
       rank_by?: "balanced" | "air" | "time" | "length" | "reserve" | "probability";
@@ -1929,6 +1938,8 @@ export interface components {
       max_diameter?: number | string | null;
       /** Most parallel muscles. Default 2: more muscles rarely share a load evenly. */
       max_parallel?: number;
+      /** Kinetic energy of the load at the end stop that the stop can take. Leave empty for no limit. A drive above it is proposed behind those below it. [J] */
+      max_impact_energy?: number | string | null;
       /** Load cycles. Leave empty for no limit. Makers publish no curve; the program uses an unverified estimate (100 000 cycles at full force or contraction, 10 million without load). [1] */
       life?: number | string | null;
     };
@@ -1950,6 +1961,15 @@ export interface components {
       lever_ratio?: number | string;
       /** An antagonist pair on a pulley. No other field of the load may be given with it. */
       pair?: components["schemas"]["PairInput"] | null;
+    };
+    /** How the drive is used, for the cost of its air. */
+    TaskOperation: {
+      /** Cycles a year. Default one million. [1] */
+      cycles_per_year?: number | string;
+      /** Price of a cubic metre of compressed air at ANR. Default 0.025, a usual figure in euro (general knowledge, not verified: 0.01 to 0.03). [1/m^3] */
+      air_price?: number | string;
+      /** Currency of the price. */
+      currency?: string;
     };
     /** Expected deviations of real drives from the calculation. */
     TaskUncertainty: {

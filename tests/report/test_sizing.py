@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import pytest
 
 from mckibben.application.size import RejectedParts, SizingResult
+from mckibben.documents.task import TaskOperation
 from mckibben.report.sizing import Command, Entry, Margin, SizingMaterial, SpecimenSpread, sizing_report
 from mckibben.report.sizing.inputs import task_section
 from mckibben.report.sizing.others import rejected_section
@@ -23,8 +24,8 @@ REJECTED = RejectedParts(
     would_work_if="half the load", combinations=3,
 )  # fmt: skip
 NOTHING = SizingResult(
-    proposals=[], rejected=[REJECTED], explored=[], combinations=3, pruned=3, simulated=0, specimens=0,
-    outcome="completed", message=None, flags=[], wall_ms=1.0,
+    proposals=[], ranking=None, rejected=[REJECTED], explored=[], combinations=3, pruned=3, simulated=0,
+    specimens=0, outcome="completed", message=None, flags=[], wall_ms=1.0,
 )  # fmt: skip
 
 
@@ -32,7 +33,8 @@ def material(**changes: Any) -> SizingMaterial:
     """Of a task that nothing does."""
     given: dict[str, Any] = {
         "title": "A title", "made": datetime(2026, 1, 2, tzinfo=UTC), "versions": {"mckibben": "1"},
-        "about": "Lift 1 kg", "entries": [], "pair": False, "profile": ((), ()),
+        "about": "Lift 1 kg", "entries": [], "pair": False,
+        "operation": TaskOperation.model_validate({}), "profile": ((), ()),
         "result": NOTHING,
         "chosen": None, "catalogue": {}, "hashes": {"task.json": "ab" * 32},
         "command": Command(["mckibben size task.json"], {"task.json": "{}"}),

@@ -104,8 +104,13 @@ def test_it_ranks_by_what_is_asked_for(studio: Studio, aim: str) -> None:
         "length": "nominal_length",
         "reserve": "force_reserve",
     }
-    found = [item[figures[aim]] for item in answer_of({**LIFT, "rank_by": aim}, studio)["proposals"]]
-    assert found == sorted(found, reverse=aim == "reserve")
+    proposals = answer_of({**LIFT, "rank_by": aim}, studio)["proposals"]
+    for reserved in (False, True):  # drives with a thin margin come after the others
+        found = [item[figures[aim]] for item in proposals if bool(item["reservations"]) is reserved]
+        assert found == sorted(found, reverse=aim == "reserve")
+    assert [bool(item["reservations"]) for item in proposals] == sorted(
+        bool(item["reservations"]) for item in proposals
+    )
 
 
 def test_it_ranks_by_probability(studio: Studio) -> None:

@@ -16,7 +16,7 @@ from mckibben.documents.task import SizingTask
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.sizing import PartsCatalogue, Proposal, Rejection, Sizing, Task
 from mckibben.sizing import size as search_designs
-from mckibben.sizing.ranking import front_of
+from mckibben.sizing.ranking import front_of, why_first
 from mckibben.sizing.trial import Trial
 
 _MESSAGES = {
@@ -60,6 +60,7 @@ class ProposedDrive:
         needed_pressure: pressure that carries the load at the end of the stroke.
         pressure_start, pressure_end: in the muscle when the load leaves its stop, and on arrival.
         air_volume_anr: air of all muscles per cycle.
+        air_cost, air_cost_year: of a cycle and of a year, in the currency of the task.
         impact_energy, end_speed: of the whole load at the end stop.
         max_speed: during the stroke.
         peak_force: largest tension of a muscle.
@@ -71,6 +72,7 @@ class ProposedDrive:
             number of simulated specimens.
         margins: limit -> unused share of it.
         binding: the limit with the least margin.
+        reservations: what costs it rank: margins below 5 %, an impact above the stated limit.
         reason: reason of its rank.
         front: whether no other proposal is better in every respect.
         notes: notes for the builder.
@@ -95,6 +97,8 @@ class ProposedDrive:
     pressure_start: float
     pressure_end: float
     air_volume_anr: float
+    air_cost: float
+    air_cost_year: float
     impact_energy: float
     end_speed: float
     max_speed: float
@@ -109,6 +113,7 @@ class ProposedDrive:
     specimens: int
     margins: dict[str, float]
     binding: str
+    reservations: list[str]
     reason: str
     front: bool
     notes: list[str]
@@ -160,6 +165,7 @@ class SizingResult:
 
     Attributes:
         proposals: empty if no drive fulfils the task.
+        ranking: why the first proposal comes before the second; None for less than two.
         rejected: the nearest to the task first.
         explored: one design for each choice of parts that fulfils the task.
         combinations: number of combinations of parts.
@@ -172,6 +178,7 @@ class SizingResult:
     """
 
     proposals: list[ProposedDrive]
+    ranking: str | None
     rejected: list[RejectedParts]
     explored: list[ExploredDrive]
     combinations: int
@@ -225,6 +232,7 @@ def _result(sizing: Sizing, question: SizingQuestion, wall_ms: float) -> SizingR
     front = front_of(sizing.explored)
     return SizingResult(
         proposals=proposals,
+        ranking=why_first(sizing.proposals, question.task),
         rejected=[_rejected(item) for item in sizing.rejected],
         explored=[_explored(trial, on) for trial, on in zip(sizing.explored, front, strict=True)],
         combinations=sizing.combinations,
@@ -251,7 +259,7 @@ def _proposal(proposal: Proposal, question: SizingQuestion) -> ProposedDrive:
     task = question.task
     trial, design, rest = proposal.trial, proposal.design, proposal.trial.rest
     group, figures, chance = design.group, trial.figures, proposal.chance
-    tube = group.tube.tube
+    tube, operation = group.tube.tube, question.document.operation
     return ProposedDrive(
         muscle=group.muscle.id,
         nominal_length=design.length,
@@ -270,6 +278,8 @@ def _proposal(proposal: Proposal, question: SizingQuestion) -> ProposedDrive:
         pressure_start=proposal.pressure_start,
         pressure_end=proposal.pressure_end,
         air_volume_anr=trial.air,
+        air_cost=trial.air * operation.air_price,
+        air_cost_year=trial.air * operation.air_price * operation.cycles_per_year,
         impact_energy=proposal.impact_energy,
         end_speed=proposal.end_speed,
         max_speed=proposal.max_speed,
@@ -284,6 +294,7 @@ def _proposal(proposal: Proposal, question: SizingQuestion) -> ProposedDrive:
         specimens=0 if chance is None else chance.specimens,
         margins=trial.margins,
         binding=trial.binding,
+        reservations=list(proposal.reservations),
         reason=proposal.reason,
         front=proposal.front,
         notes=_notes(proposal, task, question.document),

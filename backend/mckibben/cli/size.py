@@ -121,17 +121,20 @@ def _write_tables(name: str, result: SizingResult) -> None:
             figure(item.air_volume_anr * 1e3, 3, " l"),
             figure(item.impact_energy, 3, " J"),
             "–" if item.probability is None else figure(item.probability * 100.0, 3, " %"),
+            figure(item.margins[item.binding] * 100.0, 2, " %"),
             item.binding.replace("_", " "),
         ]
         for item in result.proposals
     ]
     header = [
         "muscle", "length", "valve", "tube", "supply", "time", "contraction", "force reserve",
-        "air per cycle", "impact", "probability", "nearest limit",
+        "air per cycle", "impact", "probability", "margin", "nearest limit",
     ]  # fmt: skip
     counted = f"{result.combinations} combinations, {result.simulated} simulated"
     if rows:
         write_table(f"{name}: drives, best first ({counted})", header, rows)
+        if result.ranking is not None:
+            remark(result.ranking)
     else:
         write_table(f"{name}: no drive in the catalogue fulfils this task ({counted})", ["no drive"], [])
     shown = result.rejected[:_REJECTED_SHOWN]

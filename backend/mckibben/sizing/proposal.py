@@ -33,6 +33,7 @@ class Proposal:
         pressure_start, pressure_end: in the muscle when the load leaves its stop, and on arrival [Pa].
         max_speed: largest speed of the load [m/s].
         chance: probability that it fulfils the task; None when no specimens were requested.
+        reservations: what speaks against it although it keeps every limit.
         reason: explanation of its rank.
         front: whether it is on the Pareto front: no other design is better in every aim.
     """
@@ -44,6 +45,7 @@ class Proposal:
     pressure_start: float
     pressure_end: float
     chance: Chance | None = None
+    reservations: tuple[str, ...] = ()
     reason: str = ""
     front: bool = False
 

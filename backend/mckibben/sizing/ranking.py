@@ -10,35 +10,134 @@ from mckibben.sizing.proposal import Proposal
 from mckibben.sizing.task import Task
 from mckibben.sizing.trial import Trial
 
-_CLASS = 0.05  # width of a class of probability: 100 specimens cannot resolve much less
-_SURE = 0.95  # probabilities above this form one class
+#: Below this margin to a limit a drive has a reservation.
+THIN = 0.05
+_LIKELY = 0.8  # a drive less probable than this comes after all others
+_SIGMAS = 2.0  # probabilities closer than this many standard errors of their difference are a tie
 
 
 def ranked(proposals: list[Proposal], task: Task) -> list[Proposal]:
-    """Best first, with the front and reasons filled in.
+    """Best first, with the front, reservations and reasons filled in.
 
-    Whatever the task ranks by, a drive that probably fails comes after one that probably fulfils the task:
-    the first key is the probability in classes of 5 % up to 95 %, the second what the task ranks by. If that
-    is the probability, the first key is the probability itself and the second the air. Before both, a muscle
-    whose force is extrapolated comes after every muscle with a known curve.
+    The order:
+
+    1. muscles with a known curve before those whose force is extrapolated;
+    2. drives that probably fulfil the task (80 % or more) before the others;
+    3. drives without a reservation before those with one: a margin below 5 %, or an impact above
+       ``limits.max_impact_energy``;
+    4. the probability: drives within two standard errors of the best one left are a tie with it;
+    5. within a tie what the task ranks by; the air if that is the probability.
     """
+    marked = [replace(proposal, reservations=reservations(proposal, task)) for proposal in proposals]
+    ties = _ties(marked)
 
-    def order(proposal: Proposal) -> tuple[bool, float, float]:
-        unknown = proposal.design.group.muscle.extrapolated is not None
-        probability = 1.0 if proposal.chance is None else proposal.chance.probability
-        if task.rank_by != "probability":
-            probability = np.floor(min(probability, _SURE) / _CLASS + 1e-9)
-        else:
-            return unknown, -probability, proposal.trial.air
-        return unknown, -float(probability), proposal.trial.worth()
+    def order(index: int) -> tuple[bool, bool, bool, int, float]:
+        proposal = marked[index]
+        worth = proposal.trial.air if task.rank_by == "probability" else proposal.trial.worth()
+        return (
+            proposal.design.group.muscle.extrapolated is not None,
+            not _likely(proposal),
+            bool(proposal.reservations),
+            ties[index],
+            worth,
+        )
 
-    ordered = sorted(proposals, key=order)
+    ordered = [marked[index] for index in sorted(range(len(marked)), key=order)]
     front = front_of([proposal.trial for proposal in ordered])
     best = {name: min(_aims(p.trial)[name] for p in ordered) for name in _NAMES} if ordered else {}
     return [
         replace(proposal, front=on_front, reason=_reason(proposal, best))
         for proposal, on_front in zip(ordered, front, strict=True)
     ]
+
+
+def reservations(proposal: Proposal, task: Task) -> tuple[str, ...]:
+    """What costs a drive rank although it keeps every limit."""
+    trial, most = proposal.trial, task.limits.max_impact_energy
+    found = [
+        f"only {margin * 100:.2g} % margin to the limit of {name.replace('_', ' ')}"
+        for name, margin in trial.margins.items()
+        if margin < THIN
+    ]
+    if most is not None and proposal.impact_energy > most:
+        found.append(f"an impact of {proposal.impact_energy:.3g} J, more than {most:.3g} J")
+    return tuple(found)
+
+
+def why_first(ordered: list[Proposal], task: Task) -> str | None:
+    """Why the first proposal comes before the second, in one sentence; None for less than two."""
+    if len(ordered) < 2:
+        return None
+    first, second = ordered[:2]
+    names = [_name(first), _name(second)]
+    if names[0] == names[1]:
+        names = [f"{name} of {p.design.length * 1e3:.0f} mm" for name, p in zip(names, ordered, strict=False)]
+    before = f"{names[0]} comes before {names[1]}"
+    if (unknown := second.design.group.muscle.extrapolated) and not first.design.group.muscle.extrapolated:
+        return f"{before}, because of the second nobody knows the force: {unknown}."
+    if _likely(first) and not _likely(second):
+        return (
+            f"{before}, because it fulfils the task with {_share(first)} probability, not {_share(second)}."
+        )
+    if second.reservations and not first.reservations:
+        return f"{before}, because the second has {second.reservations[0]}."
+    reason = _by_aim(first, second, task)
+    if first.chance is None or second.chance is None:
+        return f"{before}, because {reason}."
+    if _ties([first, second]) == [0, 0]:
+        equal = "both fulfil the task with the same probability"
+        if _share(first) != _share(second):
+            equal = f"their probabilities, {_share(first)} and {_share(second)}, cannot be told apart"
+        return f"{before}: {equal}, and {reason}."
+    return f"{before}, because it fulfils the task with {_share(first)} probability, not {_share(second)}."
+
+
+def _name(proposal: Proposal) -> str:
+    group = proposal.design.group
+    return f"{group.parallel} × {group.muscle.id}" if group.parallel > 1 else group.muscle.id
+
+
+def _share(proposal: Proposal) -> str:
+    chance = proposal.chance
+    return "an unknown" if chance is None else f"{chance.probability * 100:.3g} ± {chance.error * 100:.1g} %"
+
+
+def _by_aim(first: Proposal, second: Proposal, task: Task) -> str:
+    """What the task ranks by, of both."""
+    a, b = first.trial, second.trial
+    match task.rank_by:
+        case "length":
+            return f"it is {a.design.length * 1e3:.0f} mm long, not {b.design.length * 1e3:.0f} mm"
+        case "time":
+            return f"it takes {a.figures.time or 0.0:.3g} s, not {b.figures.time or 0.0:.3g} s"
+        case "reserve":
+            return f"it has {a.force_reserve * 100:.3g} % force in reserve, not {b.force_reserve * 100:.3g} %"
+        case "air" | "probability":
+            return f"it takes {a.air * 1e3:.3g} l of air a cycle, not {b.air * 1e3:.3g} l"
+        case _:
+            return (
+                f"air, length and number of muscles together are less: {a.air * 1e3:.3g} l and "
+                f"{a.design.length * 1e3:.0f} mm, not {b.air * 1e3:.3g} l and {b.design.length * 1e3:.0f} mm"
+            )
+
+
+def _likely(proposal: Proposal) -> bool:
+    return proposal.chance is None or proposal.chance.probability >= _LIKELY
+
+
+def _ties(proposals: list[Proposal]) -> list[int]:
+    """Number of the tie of each proposal: 0 holds the most probable one and all within its uncertainty."""
+    number = [0] * len(proposals)
+    left = {index: p.chance for index, p in enumerate(proposals) if p.chance is not None}
+    tie = 0
+    while left:
+        best = max(left.values(), key=lambda chance: chance.probability)
+        for index, chance in list(left.items()):
+            if best.probability - chance.probability <= _SIGMAS * np.hypot(best.error, chance.error):
+                number[index] = tie
+                del left[index]
+        tie += 1
+    return number
 
 
 def front_of(trials: list[Trial]) -> list[bool]:
@@ -82,6 +181,7 @@ def _reason(proposal: Proposal, best: dict[str, float]) -> str:
         texts.append(f"{aims['air'] / best['air']:.2g} times the least air")
     if proposal.chance is not None:
         texts.append(f"fulfils the task with {proposal.chance.probability * 100:.0f} % probability")
+    texts += proposal.reservations
     margin = proposal.trial.margins[proposal.trial.binding]
     texts.append(f"nearest limit: {proposal.trial.binding.replace('_', ' ')}, {margin * 100:.2g} % left")
     muscle = proposal.design.group.muscle

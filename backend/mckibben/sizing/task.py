@@ -39,6 +39,7 @@ class DesignLimits:
         max_length, end_fittings: installed length, and the length of both end fittings within it [m].
         max_diameter: largest outside diameter, at the end of the stroke [m].
         max_parallel: largest number of parallel muscles (on each side of a pair).
+        max_impact_energy: kinetic energy of the load at the end stop that costs no rank [J].
         stiffness: least stiffness at the load at the end of the stroke, valve open [N/m].
         life: least number of load cycles.
     """
@@ -50,6 +51,7 @@ class DesignLimits:
     end_fittings: float = 0.0
     max_diameter: float | None = None
     max_parallel: int = 2
+    max_impact_energy: float | None = None
     stiffness: float | None = None
     life: float | None = None
 

@@ -91,6 +91,7 @@ def report_of(
             entries=entries_of(document, considered),
             result=result,
             pair=search.question.task.pair is not None,
+            operation=document.operation,
             profile=search.question.task.force_over_stroke,
             chosen=chosen,
             catalogue=studio.catalogue,

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from mckibben.application.simulate import SimulationResult
 from mckibben.application.size import ProposedDrive, SizingResult
+from mckibben.documents.task import TaskOperation
 from mckibben.physics.effect import Effect
 from mckibben.report.command import Command
 from mckibben.report.sources import Figure
@@ -177,6 +178,7 @@ class SizingMaterial:
         entries: every field of the task that applies.
         result: of the search.
         pair: whether the drive is an antagonist pair.
+        operation: cycles per year and price of the air.
         profile: strokes [m] and forces [N] of a force over the stroke; empty without one.
         chosen: the reported proposal; None if there is none.
         catalogue: effect id -> declaration.
@@ -191,6 +193,7 @@ class SizingMaterial:
     entries: Sequence[Entry]
     result: SizingResult
     pair: bool
+    operation: TaskOperation
     profile: tuple[Sequence[float], Sequence[float]]
     chosen: Chosen | None
     catalogue: Mapping[str, Effect]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mckibben.documents.task import TaskOperation
 from mckibben.report.document import Tone, bullets, callout, paragraph, tiles
 from mckibben.report.figures import figure, percent, plain
 from mckibben.report.html import Child, Html, html
@@ -46,7 +47,7 @@ def _proposal(material: SizingMaterial, chosen: Chosen) -> Html:
             _chance_words(chosen),
             tone=tone,
         ),
-        tiles(_tiles(chosen)),
+        tiles(_tiles(chosen, material.operation)),
     ]
     remarks = [*proposal.notes, *_crossed(chosen)]
     if material.result.message:
@@ -57,7 +58,7 @@ def _proposal(material: SizingMaterial, chosen: Chosen) -> Html:
     return html(parts)
 
 
-def _tiles(chosen: Chosen) -> list[tuple[Child, Child]]:
+def _tiles(chosen: Chosen, operation: TaskOperation) -> list[tuple[Child, Child]]:
     proposal = chosen.proposal
     nearest = chosen.margins[0]
     pairs: list[tuple[Child, Child]] = [
@@ -65,6 +66,11 @@ def _tiles(chosen: Chosen) -> list[tuple[Child, Child]]:
         ("Time for the return", figure(proposal.time_down, SECONDS, 3)),
         ("Supply pressure", figure(proposal.pressure, BAR, 3)),
         ("Air per cycle (ANR)", figure(proposal.air_volume_anr, LITRES, 3)),
+        ("Air cost per 1000 cycles", f"{proposal.air_cost * 1e3:.3g} {operation.currency}"),
+        (
+            f"Air cost per year ({operation.cycles_per_year:,.0f} cycles)",
+            f"{proposal.air_cost_year:.3g} {operation.currency}",
+        ),
         (
             "Force reserve at rest",
             "ample" if proposal.force_reserve > AMPLE else percent(proposal.force_reserve, 3),

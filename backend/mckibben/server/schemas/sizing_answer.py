@@ -56,6 +56,8 @@ class ProposalAnswer(Strict):
     pressure_start: float = si_field("Pa", "Pressure in the muscle when the load leaves its stop.")
     pressure_end: float = si_field("Pa", "Pressure in the muscle on arrival.")
     air_volume_anr: float = si_field("m^3", "Air of all muscles per cycle at ANR.")
+    air_cost: float = Field(description="Cost of the air of a cycle, in the currency of the task.")
+    air_cost_year: float = Field(description="Cost of the air of a year, in the currency of the task.")
     impact_energy: float = si_field("J", "Kinetic energy of the whole load at the end stop.")
     end_speed: float = si_field("m/s", "Speed of the load there.")
     max_speed: float = si_field("m/s", "Largest speed of the load.")
@@ -72,6 +74,9 @@ class ProposalAnswer(Strict):
     specimens: int = Field(description="Number of specimens simulated for it.")
     margins: dict[str, float] = Field(description=_MARGINS)
     binding: Binding = Field(description="The limit with the least margin.")
+    reservations: list[str] = Field(
+        description="What costs it rank: margins below 5 %, an impact above limits.max_impact_energy."
+    )
     reason: str = Field(description="Explanation of its rank.")
     front: bool = Field(description="On the Pareto front of the proposals.")
     notes: list[str] = Field(description="Remarks for building it.")
@@ -96,6 +101,7 @@ class SizingAnswer(Strict):
     """Proposals, best first, and rejected candidates with reasons; SI, pressures gauge."""
 
     proposals: list[ProposalAnswer] = Field(description="Best first; empty if no candidate fulfils the task.")
+    ranking: str | None = Field(description="Why the first comes before the second, in one sentence.")
     rejected: list[RejectedAnswer] = Field(description="Nearest first.")
     explored: list[ExploredDesign] = Field(
         description="The best design of each choice of parts that fulfils the task."

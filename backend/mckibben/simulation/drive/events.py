@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mckibben.physics.drive_terms import HIGH_STOP, LOW_STOP
-from mckibben.simulation.integrate.engine import CompiledDrive
+from mckibben.simulation.integrate.engine import SLOWEST_REBOUND, CompiledDrive
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,8 +31,10 @@ class Event:
 
     @property
     def impact(self) -> bool:
-        """Whether the load hits an end stop."""
-        return self.switch in (LOW_STOP, HIGH_STOP) and self.speed != 0.0
+        """Whether the load hits an end stop: it stays there, or rebounds."""
+        if self.switch not in (LOW_STOP, HIGH_STOP):
+            return False
+        return (self.begins and self.speed != 0.0) or abs(self.speed) > SLOWEST_REBOUND
 
 
 def events_of(compiled: CompiledDrive, rows: np.ndarray) -> tuple[Event, ...]:

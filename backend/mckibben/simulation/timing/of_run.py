@@ -15,6 +15,7 @@ from mckibben.simulation.command.segments import Interval, Segments, phases
 from mckibben.simulation.drive.events import Event
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import Run, dead_times
+from mckibben.simulation.integrate.engine import SLOWEST_REBOUND
 from mckibben.simulation.timing.table import TimingTable, timing
 from mckibben.simulation.timing.trace import Impact, Trace
 from mckibben.simulation.timing.tracking import Tracking, tracking
@@ -101,7 +102,8 @@ def trace_of(run: Run) -> Trace | None:
     if count < 2:
         return None
     columns = {name: column[:count] for name, column in columns.items()}
-    events = [event for event in run.events if event.speed and event.time < columns["time"][-1]]
+    moving = [event for event in run.events if event.impact or abs(event.speed) > SLOWEST_REBOUND]
+    events = [event for event in moving if event.time < columns["time"][-1]]
     impacts = tuple(
         Impact(event.time, stop_of(drive, event) / lever, event.speed / lever)
         for event in events

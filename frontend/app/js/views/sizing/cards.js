@@ -187,10 +187,11 @@ export function taskCards() {
       taskField("limits.max_length"),
       taskField("limits.max_diameter"),
       taskField("limits.max_parallel"),
-      folded("Contraction, reserves, fittings, life", [
+      folded("Contraction, reserves, impact, fittings, life", [
         "limits.max_contraction",
         "limits.force_reserve",
         "limits.pressure_reserve",
+        "limits.max_impact_energy",
         "limits.end_fittings",
         "limits.life",
       ]),
@@ -217,6 +218,7 @@ export function taskCards() {
         "uncertainty.hysteresis",
         "max_proposals",
       ]),
+      folded("Cost of the air", ["operation.cycles_per_year", "operation.air_price"]),
     ),
   ];
 }

@@ -17,7 +17,7 @@ const ARRANGEMENTS = ["lift", "lever", "antagonist"];
 const LEVER = 0.5;
 const USUAL_PAIR = { angle: Math.PI / 3, torque: 2, inertia: 0.02 };
 
-/** @returns {Sizing} an example task */
+/** @returns {Sizing} an example task: that of the preset lift-20kg */
 const defaultSizing = () => ({
   mode: "muscle",
   arrangement: "lift",
@@ -26,8 +26,8 @@ const defaultSizing = () => ({
     load: { mass: 20 },
     stroke: 0.06,
     time: 0.5,
-    limits: { max_length: 0.6 },
-    catalogue: { valves: ["MPYE-5-1/8-HF"] },
+    limits: { max_length: 0.6, max_diameter: 0.06 },
+    catalogue: { muscles: ["DMSP-10", "DMSP-20", "DMSP-40"], valves: ["MPYE-5-1/8-HF"] },
   },
   selected: 0,
   axes: ["air", "time"],

@@ -6,7 +6,7 @@ import { effect, signal } from "../../reactive.js";
 import { menuButton } from "../../ui/menu.js";
 import { saveCsv, saveTask } from "./actions.js";
 import { marginBars } from "./margins.js";
-import { answer, chosenIndex, lookSizing, proposals } from "./model.js";
+import { answer, answeredTask, chosenIndex, lookSizing, proposals } from "./model.js";
 import { asText, driveWords, limitName, partsOf, percent, spare } from "./words.js";
 
 /** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
@@ -27,7 +27,9 @@ const HEAD = [
   ["", "Time"],
   ["", "Probability"],
   ["wide", "Air per cycle"],
+  ["wide roomy", "Impact"],
   ["wide roomy", "Force reserve"],
+  ["wide", "Margin"],
   ["wide text", "Nearest limit"],
   ["", ""],
 ];
@@ -90,13 +92,14 @@ function row(p, i) {
         p.probability === null ? "–" : percent(p.probability),
       ),
       h("td", { class: "wide" }, () => asText(p.air_volume_anr, "normal").replace(/\s*\(ANR\)/, "")),
+      h("td", { class: "wide roomy" }, () => asText(p.impact_energy, "energy")),
       h("td", { class: "wide roomy" }, percent(p.force_reserve)),
       h(
         "td",
-        { class: "wide text" },
-        limitName(p.binding),
-        h("small", null, spare(p.margins[p.binding])),
+        { class: p.reservations.length ? "wide doubtful" : "wide", title: p.reservations.join("; ") || null },
+        spare(p.margins[p.binding]),
       ),
+      h("td", { class: "wide text" }, limitName(p.binding)),
       h(
         "td",
         null,
@@ -144,8 +147,17 @@ const figures = (p) => [
   ["Pressure at the end", asText(p.pressure_end, "pressure")],
   ["Stiffness, valve open", asText(p.stiffness, "stiffness")],
   ["Stiffness, valve closed", asText(p.stiffness_closed, "stiffness")],
-  ["Impact energy", asText(p.impact_energy, "energy")],
+  ["Air cost per 1000 cycles", money(1e3 * p.air_cost)],
+  ["Air cost per year", money(p.air_cost_year)],
 ];
+
+/** In the currency of the task; a price that nobody stated is an assumption.
+ * @param {number} amount */
+function money(amount) {
+  const stated = /** @type {{ currency?: string, air_price?: unknown }} */ (answeredTask().operation ?? {});
+  const assumed = stated.air_price === undefined ? " at an assumed price of air" : "";
+  return `${amount.toPrecision(3)} ${stated.currency ?? "EUR"}${assumed}`;
+}
 
 export function proposalsCard() {
   effect(() => {
@@ -170,6 +182,7 @@ export function proposalsCard() {
         ],
       }),
     ),
+    () => answer.value?.ranking ? h("p", { class: "hint ranking" }, answer.value.ranking) : null,
     h(
       "div",
       { class: "scroll", tabindex: 0, role: "region", "aria-label": "Ranked drives" },

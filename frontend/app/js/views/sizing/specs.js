@@ -199,6 +199,16 @@ export const FIELDS = {
     why:
       "Share of the supply pressure that is not used. Default 0: the tolerance of the supply is entered below.",
   },
+  "limits.max_impact_energy": {
+    label: "Impact",
+    quantity: "energy",
+    bounds: [0.01, 100],
+    log: true,
+    usual: null,
+    empty: "no limit",
+    why:
+      "Energy that the end stop can take. A drive above it is proposed behind those below it. Leave empty for no limit.",
+  },
   "limits.life": {
     label: "Life",
     quantity: "number",
@@ -238,6 +248,21 @@ export const FIELDS = {
     empty: "catalogue",
     why:
       "Largest width of the loop as a share of the nominal length. Leave empty for the value of the catalogue.",
+  },
+  "operation.cycles_per_year": {
+    label: "Cycles per year",
+    quantity: "number",
+    bounds: [1e3, 1e8],
+    log: true,
+    usual: 1e6,
+    why: "For the cost of the air. Default one million.",
+  },
+  "operation.air_price": {
+    label: "Price per m³ of air",
+    quantity: "number",
+    bounds: [0, 0.1],
+    usual: 0.025,
+    why: "Of a cubic metre at ANR. Default 0.025 euro, general knowledge, not verified: 0.01 to 0.03.",
   },
   "uncertainty.specimens": {
     label: "Specimens",
