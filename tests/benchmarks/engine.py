@@ -3,9 +3,10 @@
     python -m tests.benchmarks.engine
 
 The reference lift: a muscle of 20 mm and 0.8 m lifts 20 kg for 2 s and lets it down again; 4 s, 4001 rows
-with all outputs. Eight states act on each other:
+with all outputs. Nine states act on each other:
 
-- stroke and speed of the load, with hard stops at 0 and 25 % contraction (critically damped springs);
+- stroke and speed of the load, with rigid stops at 0 and 25 % contraction;
+- the length of the muscle, which may hang slack;
 - pressure in the muscle (polytropic, with a dead volume) and in the tube, between ISO 6358 restrictions: a
   valve with a dead time of 5 ms and the tube itself;
 - Dahl friction: its share of full friction;
@@ -14,6 +15,8 @@ with all outputs. Eight states act on each other:
 Beside them run two integrals, the air taken in and let out, and the clock. Static: effectiveness with a
 threshold, linear elasticity, viscous damping. In "lift with spool" a spool of second order moves behind the
 command and a bladder of rubber takes the place of the spring.
+
+Contact and slack are events. Ours finds them; the integrators of others are told when they happen.
 
 Each integrator gets the loosest tolerance at which the position stays within 1e-5 m of scipy's Radau at
 1e-10 on five parameter sets; then their runs are timed in turns. CasADi's line is left out when it is not
@@ -30,7 +33,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
-from scipy.integrate import odeint, solve_ivp
+from scipy.integrate import odeint
 
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
@@ -38,8 +41,9 @@ from mckibben.documents.studio import Studio
 from mckibben.resources import presets_folder
 from mckibben.simulation.drive.transient import simulate
 from mckibben.simulation.integrate.engine import compiled_drive, integrate, kernel
-from tests.benchmarks.lift import DOCUMENT, ROWS, SETS, WITH_SPOOL, Lift, Positions, by_segments
+from tests.benchmarks.lift import DOCUMENT, ROWS, WITH_SPOOL, Lift, Positions, by_pieces
 from tests.benchmarks.translated import translated
+from tests.simulation.event_radau import Piece
 
 ACCURACY, ROUNDS = 1e-5, 15
 TOLERANCES = 10.0 ** np.arange(-3.5, -10.1, -0.25)
@@ -49,38 +53,14 @@ def kernel_positions(lift: Lift, engine: str) -> Positions:
     """Our engine: the kernel, or the same machine code under scipy's solve_ivp."""
 
     def positions(number: int, tolerance: float) -> np.ndarray:
+        start = lift.start(number)
         rows = integrate(
-            lift.compiled, parameters=lift.parameters[number], start=lift.start(number), times=lift.times,
-            inputs=lift.inputs, grid=lift.grid, tolerance=tolerance, engine=engine,
+            lift.compiled, parameters=lift.parameters[number], start=start.state, switches=start.switches,
+            times=lift.times, inputs=lift.inputs, grid=lift.grid, tolerance=tolerance, engine=engine,
         ).rows  # fmt: skip
         return rows[:, lift.stroke].copy()  # a view would keep all rows of a thousand runs
 
     return positions
-
-
-def reference_positions(lift: Lift, number: int) -> np.ndarray:
-    """Radau at 1e-10 over our machine code."""
-    size, parameters = lift.compiled.size, lift.parameters[number]
-
-    def solve(
-        state: np.ndarray, index: int, begin: float, end: float, instants: np.ndarray, number: int
-    ) -> np.ndarray:
-        packed = np.concatenate([state, parameters, lift.inputs[index]])
-
-        def rates(_time: float, y: np.ndarray) -> np.ndarray:
-            packed[:size] = y
-            return lift.compiled.rates(packed)[:size]
-
-        def jacobian(_time: float, y: np.ndarray) -> np.ndarray:
-            packed[:size] = y
-            return lift.compiled.jacobian(packed)[size:].reshape(size, size)
-
-        found = solve_ivp(
-            rates, (begin, end), state, "Radau", instants, jac=jacobian, rtol=1e-10, atol=1e-11 * lift.scales
-        )
-        return found.y.T
-
-    return by_segments(lift, solve)(number, lift.start(number))
 
 
 def python_positions(lift: Lift) -> Positions:
@@ -90,16 +70,14 @@ def python_positions(lift: Lift) -> Positions:
     def positions(number: int, tolerance: float) -> np.ndarray:
         parameters = list(lift.parameters[number])
 
-        def solve(
-            state: np.ndarray, index: int, begin: float, end: float, instants: np.ndarray, number: int
-        ) -> np.ndarray:
-            rest = [*parameters, *lift.inputs[index]]
+        def solve(state: np.ndarray, piece: Piece, instants: np.ndarray, number: int) -> np.ndarray:
+            rest = [*parameters, *piece.inputs, *piece.switches]
             return odeint(
                 lambda y, t: rates([*y.tolist(), *rest]), state, instants,
                 rtol=tolerance, atol=tolerance * lift.scales, mxstep=100_000,
             )  # fmt: skip
 
-        return by_segments(lift, solve)(number, lift.start(number))
+        return by_pieces(lift, solve)(number)
 
     return positions
 
@@ -110,7 +88,7 @@ def casadi_positions(lift: Lift) -> Positions | None:
         import casadi
     except ImportError:
         return None
-    size, width = lift.compiled.size, lift.inputs.shape[1]
+    size, width = lift.compiled.size, lift.inputs.shape[1] + len(lift.compiled.model.switches)
     y = casadi.SX.sym("y", size)
     p = casadi.SX.sym("p", len(lift.parameters[0]) + width)
     scales = casadi.DM(lift.scales)
@@ -119,19 +97,18 @@ def casadi_positions(lift: Lift) -> Positions | None:
     made: dict[Any, Any] = {}
 
     def positions(number: int, tolerance: float) -> np.ndarray:
-        def solve(
-            state: np.ndarray, index: int, begin: float, end: float, instants: np.ndarray, number: int
-        ) -> np.ndarray:
-            if (index, tolerance) not in made:
+        def solve(state: np.ndarray, piece: Piece, instants: np.ndarray, number: int) -> np.ndarray:
+            key = (number, piece.begin, tolerance)
+            if key not in made:
                 options = {"reltol": tolerance, "abstol": tolerance, "max_num_steps": 100_000}
-                made[index, tolerance] = casadi.integrator(
-                    "lift", "cvodes", {"x": y, "p": p, "ode": ode}, begin, instants[1:], options
+                made[key] = casadi.integrator(
+                    "lift", "cvodes", {"x": y, "p": p, "ode": ode}, piece.begin, instants[1:], options
                 )
-            given = np.concatenate([lift.parameters[number], lift.inputs[index]])
-            found = np.array(made[index, tolerance](x0=state / lift.scales, p=given)["xf"]).T * lift.scales
+            given = np.concatenate([lift.parameters[number], piece.inputs, piece.switches])
+            found = np.array(made[key](x0=state / lift.scales, p=given)["xf"]).T * lift.scales
             return np.vstack([state, found])
 
-        return by_segments(lift, solve)(number, lift.start(number))
+        return by_pieces(lift, solve)(number)
 
     return positions
 
@@ -160,7 +137,7 @@ def say(text: str) -> None:
 
 def compare_engines(lift: Lift, better: Lift) -> float:
     """The table of integrators, ours with quick and with better machine code; returns our tolerance."""
-    references = [reference_positions(lift, number) for number in range(SETS)]
+    references = [run.strokes for run in lift.references]
     candidates: dict[str, Positions | None] = {
         "machine code, Rodas4 kernel": kernel_positions(lift, "rodas"),
         "the same at level 1": kernel_positions(better, "rodas"),

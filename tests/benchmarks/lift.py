@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -10,8 +11,10 @@ import numpy as np
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
-from mckibben.simulation.drive.transient import parameters_of, segments_of, start_of
+from mckibben.simulation.drive.initial_state import Start, start_of
+from mckibben.simulation.drive.transient import parameters_of, segments_of
 from mckibben.simulation.integrate.engine import compiled_drive
+from tests.simulation.event_radau import EventRadau, Piece
 
 ROWS, SETS = 4001, 5
 DOCUMENT: dict[str, Any] = {
@@ -46,8 +49,8 @@ WITH_SPOOL: dict[str, Any] = {
     "gas": {},
 }  # fmt: skip
 Positions = Callable[[int, float], np.ndarray]
-# (state, segment, begin, end, instants, parameter set) -> states at the instants
-Solver = Callable[[np.ndarray, int, float, float, np.ndarray, int], np.ndarray]
+# (state, piece, instants, parameter set) -> states at the instants
+Solver = Callable[[np.ndarray, Piece, np.ndarray, int], np.ndarray]
 
 
 class Lift:
@@ -73,32 +76,41 @@ class Lift:
         self.scales = np.array([state.scale for state in self.compiled.model.states])
         self.stroke = [state.name for state in self.compiled.model.states].index("stroke")
 
-    def start(self, number: int) -> np.ndarray:
-        """States at rest of a parameter set."""
+    def start(self, number: int) -> Start:
+        """States and switches at rest of a parameter set."""
         return self.starts[number % SETS]
 
-    def rows_of_segments(self) -> list[tuple[int, float, float, np.ndarray]]:
-        """Segments with the instants of the rows in them."""
-        found, written = [], 0
-        for index in range(len(self.inputs)):
-            begin, end = self.times[index], self.times[index + 1]
-            last = index == len(self.inputs) - 1
-            stop = int(np.searchsorted(self.grid, end, side="right" if last else "left"))
-            found.append((index, begin, end, self.grid[written:stop]))
-            written = stop
+    @cached_property
+    def references(self) -> list[EventRadau]:
+        """Radau at 1e-10 on the first parameter sets: rows in ``strokes``, its pieces from event to event."""
+        found = []
+        for number in range(SETS):
+            run = EventRadau(self.drive, self.start(number), self.parameters[number])
+            rows = []
+            for index, inputs in enumerate(self.inputs):
+                begin, end = self.times[index], self.times[index + 1]
+                last = index == len(self.inputs) - 1
+                rows.append(run.advance(begin, end, inputs, self.grid[self._within(begin, end, last)]))
+            run.strokes = np.concatenate(rows)[:, self.stroke]
+            found.append(run)
         return found
 
+    def _within(self, begin: float, end: float, last: bool) -> np.ndarray:
+        return (self.grid >= begin) & ((self.grid < end) | last)
 
-def by_segments(lift: Lift, solve: Solver) -> Callable[[int, np.ndarray], np.ndarray]:
-    """Positions of a run from a solver of one segment."""
 
-    def positions(number: int, state: np.ndarray) -> np.ndarray:
-        found = []
-        for index, begin, end, wanted in lift.rows_of_segments():
-            instants = np.unique(np.concatenate([[begin], wanted, [end]]))
-            states = solve(state, index, begin, end, instants, number)
-            found.append(states[np.searchsorted(instants, wanted), lift.stroke])
-            state = states[-1]
+def by_pieces(lift: Lift, solve: Solver) -> Callable[[int], np.ndarray]:
+    """Positions of a run from a solver without events: it is told the instants of the events."""
+
+    def positions(number: int) -> np.ndarray:
+        found, state = [], lift.start(number).state
+        for piece in lift.references[number].pieces:
+            instants = np.unique(np.concatenate([[piece.begin], piece.wanted, [piece.end]]))
+            states = solve(state, piece, instants, number)
+            found.append(states[np.searchsorted(instants, piece.wanted), lift.stroke])
+            state = states[-1].copy()
+            for index, value in piece.sets.items():
+                state[index] = value
         return np.concatenate(found)
 
     return positions

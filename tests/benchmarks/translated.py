@@ -12,8 +12,9 @@ from mckibben.physics.drive import DriveModel
 
 
 def translated(model: DriveModel, language: str) -> Callable[[Sequence[Any]], list[Any]]:
-    """Packed states, parameters and inputs -> rates, as plain Python or over CasADi's symbols."""
-    arguments = [*model.symbols.values(), *model.parameters.values(), *model.inputs.values()]
+    """Packed states, parameters, inputs and switches -> rates, as Python or over CasADi's symbols."""
+    switches = [switch.symbol for switch in model.switches]
+    arguments = [*model.symbols.values(), *model.parameters.values(), *model.inputs.values(), *switches]
     plain = {symbol: se.Symbol(f"v{index}") for index, symbol in enumerate(arguments)}
     replacements, reduced = se.cse([rate.subs(plain) for rate in model.rates])
     lines = ["def rates(given):"]

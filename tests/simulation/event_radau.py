@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from scipy.integrate import solve_ivp
 
@@ -13,13 +15,26 @@ from mckibben.simulation.integrate.engine import CompiledDrive, compiled_drive
 RTOL = 1e-10
 
 
+class Piece(NamedTuple):
+    """A run between two events, with the instants of its rows, and what the event at its end sets."""
+
+    begin: float
+    end: float
+    inputs: np.ndarray
+    switches: np.ndarray
+    wanted: np.ndarray
+    sets: dict[int, float]
+
+
 class EventRadau:
     """A run from event to event; ``state`` and ``switches`` are those reached so far."""
 
-    def __init__(self, drive: Drive, start: Start) -> None:
+    def __init__(self, drive: Drive, start: Start, parameters: np.ndarray | None = None) -> None:
         self.compiled: CompiledDrive = compiled_drive(drive.structure)
-        self.parameters = parameters_of(drive, self.compiled)
+        self.parameters = parameters_of(drive, self.compiled) if parameters is None else parameters
         self.state, self.switches = start.state.copy(), start.switches.copy()
+        self.pieces: list[Piece] = []
+        self.strokes = np.empty(0)
         self.names = [state.name for state in self.compiled.model.states]
         self.scale = np.array([state.scale for state in self.compiled.model.states])
         self.kinds = self.compiled.model.switches
@@ -73,9 +88,14 @@ class EventRadau:
             inside = wanted[(wanted >= begin) & ((wanted < reached) | (reached == end))]
             if len(inside):
                 found.append(solution.sol(np.clip(inside, begin, reached)).T)
-            wanted, begin, self.state = wanted[len(inside) :], reached, solution.y[:, -1]
+            used = self.switches.copy()
+            wanted, started, begin, self.state = wanted[len(inside) :], begin, reached, solution.y[:, -1]
+            before = self.state.copy()
             if solution.status == 1:
                 self._change(next(k for k, times in enumerate(solution.t_events) if len(times)))
+            changed = np.flatnonzero(self.state != before)
+            sets = {int(index): float(self.state[index]) for index in changed}
+            self.pieces.append(Piece(started, reached, inputs, used, inside, sets))
         return np.concatenate(found)
 
     def _settle(self, inputs: np.ndarray) -> None:
