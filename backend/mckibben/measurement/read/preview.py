@@ -82,7 +82,7 @@ def preview(data: bytes, name: str, correction: Correction | None = None) -> Pre
         InputError: no table can be found in the file at all, or the correction names what is not there.
     """
     correction = correction or Correction()
-    source = open_source(data, name)
+    source = open_source(data, name, correction)
     meaning = meaning_of(source, correction, collect=True)
     problem: InputError | None = next(iter(meaning.problems.values()), None)
     conditions: dict[str, float | str] = {}
