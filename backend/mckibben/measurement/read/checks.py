@@ -15,7 +15,7 @@ from mckibben.measurement.read.correction import SAMPLE
 from mckibben.measurement.read.header import HeaderColumn, Meaning
 from mckibben.measurement.read.plausible import ENOUGH, is_plausible, median_step, proposal
 from mckibben.measurement.read.questions import column_option, ignore_option
-from mckibben.measurement.read.recognise import taken_apart
+from mckibben.measurement.read.recognise import BY_WORDS, taken_apart
 from mckibben.measurement.read.unit_words import dimension_of
 from mckibben.physics.units import convert
 
@@ -25,6 +25,7 @@ _CARRIES = {"a force": "force", "a pressure": "pressure", "a length": "length"}
 _KNOWN_REASONS = ("the supply", "the surrounding air", "a length at rest", "a size of the tube", "a preload",
                   "a deviation", "you do not want it")  # fmt: skip
 _SAME = 0.01  # of the range; columns that differ by less are the same reading
+_CLIPPED = 100  # the penalty of a clipped column
 _RAW_PENALTY = 1  # between a column and its raw, filtered or clipped form
 
 
@@ -103,6 +104,7 @@ def _units(evidence: Evidence) -> list[Question]:
                 )
             )  # fmt: skip
         elif not is_plausible(channel, values):
+            stops = channel != "pressure" or float(np.max(np.abs(values))) > _HARDLY or _forced(evidence, values)
             better = [u for u in proposal(channel, raw).choices if u != unit]
             if channel == "time":
                 step = median_step(values) or 0.0
@@ -116,10 +118,22 @@ def _units(evidence: Evidence) -> list[Question]:
             asked.append(
                 Question(
                     f"unit of {channel}", f"{what}; is its unit {' or '.join([*better[:2], unit])}",
-                    column_option(channel, _bare(column), hint), column.header, hint, (*better, unit),
+                    column_option(channel, _bare(column), hint), column.header, hint, (*better, unit), stops,
                 )
             )  # fmt: skip
     return asked
+
+
+_HARDLY = 2e3  # Pa; below it a pressure moves no muscle
+_LARGEST_AREA = 0.5  # m2, force over pressure; the largest catalogue muscle has 0.04
+
+
+def _forced(evidence: Evidence, pressure: Array) -> bool:
+    """Whether the force is more than any muscle gives at such a pressure."""
+    force = evidence.channels.get("force")
+    if force is None:
+        return False
+    return bool(np.max(np.abs(force)) > _LARGEST_AREA * max(float(np.max(np.abs(pressure))), 1e-9))
 
 
 def _back(values: Array, unit: str, si: str) -> Array:
@@ -182,7 +196,7 @@ def _rivals(evidence: Evidence) -> list[Question]:
             continue
         if winner.use not in ("force", "pressure", *STROKES):
             continue
-        if abs(other.penalty % 10 - winner.penalty % 10) >= _RAW_PENALTY or not evidence.numeric(other.place):
+        if abs(_plainness(other) - _plainness(winner)) >= _RAW_PENALTY or not evidence.numeric(other.place):
             continue
         both = evidence.pair(winner.place, other.place)
         if both is None:
@@ -201,6 +215,11 @@ def _rivals(evidence: Evidence) -> list[Question]:
             )
         )  # fmt: skip
     return asked
+
+
+def _plainness(column: HeaderColumn) -> int:
+    """How raw, filtered or clipped a column says to be, however its name was recognised."""
+    return column.penalty if column.penalty >= _CLIPPED else column.penalty % BY_WORDS
 
 
 def _specimens(evidence: Evidence) -> list[Question]:
@@ -285,7 +304,9 @@ _REST_BAND = (0.9e5, 1.1e5)  # Pa; the air outside
 def _reference(evidence: Evidence) -> list[Question]:
     """A pressure that shows about 1 bar while the muscle does nothing may count from vacuum."""
     pressure, column = evidence.channels.get("pressure"), evidence.used.get("pressure")
-    if pressure is None or column is None or column.absolute is not None or "pressure" in evidence.conditions:
+    if pressure is None or column is None or column.absolute is not None or column.origin == "you":
+        return []
+    if "pressure" in evidence.conditions:
         return []
     lowest = float(np.min(pressure))
     if not _REST_BAND[0] <= lowest <= _REST_BAND[1] or np.ptp(pressure) < 0.2e5:
@@ -308,12 +329,12 @@ def _idle(evidence: Evidence, rows: NDArray[np.bool_]) -> bool:
     """Whether the muscle neither pulls nor moves in these rows."""
     force = evidence.channels.get("force")
     if force is not None and np.ptp(force) > 0.05 * np.max(np.abs(force)):
-        return bool(np.median(np.abs(force[rows])) <= 0.04 * np.max(np.abs(force)))
-    for channel in ("displacement", "contraction", "length"):
+        shown = force[rows][force[rows] != 0.0]  # an exact 0 is a slack muscle or a clipped table
+        return len(shown) > 0 and bool(np.max(np.abs(shown)) <= 0.05 * np.max(np.abs(force)))
+    for channel in ("displacement", "contraction"):
         stroke = evidence.channels.get(channel)
         if stroke is not None and np.ptp(stroke) > 0.0:
-            shortened = stroke if channel != "length" else np.max(stroke) - stroke
-            return bool(np.median(np.abs(shortened[rows])) <= 0.05 * np.max(np.abs(shortened)))
+            return bool(np.max(np.abs(stroke[rows])) <= 0.05 * np.max(np.abs(stroke)))
     return False
 
 

@@ -69,6 +69,8 @@ def open_csv(data: bytes, name: str, correction: Correction | None = None) -> Ra
     if plain is not None and sure and correction.head is None:
         return plain
     located = located_text(text, name, correction, messages)
+    if refusal is not None and located is not None and refusal.field == f"row {located.header_row}":
+        raise refusal
     if located is not None:
         return located
     if plain is None:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.read.correction import SAMPLE, SLACK, Choice
 from mckibben.measurement.read.marks import MARK_WORDS, split_mark
-from mckibben.measurement.read.recognise import recognise, taken_apart
+from mckibben.measurement.read.recognise import BY_UNIT, recognise, taken_apart
 from mckibben.measurement.read.unit_words import CLOCK, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import factor, is_unit, meaning
@@ -134,11 +134,15 @@ def map_headers(
                     field=field, hint=f"give every {noun} its own name",
                 )  # fmt: skip
             else:
-                column = None
+                column, said = None, []
                 if CLOCK not in (recognise(header).unit, apart[index]):
                     text = _with(header, apart[index])
-                    column = _column(index, text, f"{where}, {noun} '{header}'", noun, messages)
-                column = _in_other_words(index, header, apart[index], reasons, messages) if column is None else column
+                    column = _column(index, text, f"{where}, {noun} '{header}'", noun, said)
+                if column is None and not (said and recognise(header, apart[index]).unit is None):
+                    other: list[str] = []
+                    column = _in_other_words(index, header, apart[index], reasons, other)
+                    said = said if column is None else other
+                messages += said
                 column = column if column is None else column._replace(header=header)
         except InputError as error:
             if not collect:
@@ -148,6 +152,8 @@ def map_headers(
         seen.add(header.casefold())
         if column is not None:
             found.append(column)
+    if not any(column.penalty < BY_UNIT for column in found) and not all(map(_is_unit, names)):
+        found.clear()  # units alone make no table
     found.sort(
         key=lambda c: (c.place not in choices, c.penalty, not c.header.lower().startswith(c.use), c.place)
     )
@@ -193,6 +199,10 @@ def _in_other_words(
     if known.unit in (None, CLOCK):
         return column
     return _with_unit(column, "", header, "column", messages)
+
+
+def _is_unit(header: str) -> bool:
+    return not header or unit_of(header) is not None
 
 
 def plainly_known(headers: Sequence[str]) -> list[int]:

@@ -117,7 +117,8 @@ def main_runs(grid: Grid, runs: Sequence[Run]) -> list[Run]:
             kept.append(run)
         elif alike and follows and not _is_footer(grid, run):
             last = kept[-1]
-            last.pieces = [*(last.pieces or [(last.first, last.last)]), (run.first, run.last)]
+            broken = [(i, i + 1) for i in range(last.last, run.first) if _holds_number(grid, i)]
+            last.pieces = [*(last.pieces or [(last.first, last.last)]), *broken, (run.first, run.last)]
             last.last, last.rows, last.filled = run.last, last.rows + run.rows, last.filled + run.filled
     return kept
 
@@ -133,6 +134,31 @@ def _is_headed(grid: Grid, run: Run) -> bool:
         if sum(_names_channel(name) for name in names) >= min(2, len(run.numbers)):
             return True
     return False
+
+
+def _holds_number(grid: Grid, index: int) -> bool:
+    return any(kind_of(cell) in (NUMBER, CLOCK) for cell in grid.cells(index))
+
+
+def with_broken_rows(grid: Grid, run: Run, head: TableHead) -> None:
+    """Take the rows next to a run into it that are readings with a wrong cell: reading them tells what is wrong.
+
+    Above, those between the head and the run that hold numbers; below, those that begin with one.
+    """
+    top = max((row for row in (head.row, head.units_at) if row is not None and row < run.first), default=run.first)
+    above = [index for index in range(top + 1, run.first) if _holds_number(grid, index)] if head.row is not None else []
+    last = run.last
+    while last < len(grid) and (cells := [c for c in grid.cells(last) if kind_of(c) != GAP]):
+        if kind_of(cells[0]) not in (NUMBER, CLOCK):
+            break
+        last += 1
+    pieces = run.pieces or [(run.first, run.last)]
+    if above:
+        pieces = [(above[0], pieces[0][1]), *pieces[1:]]
+    if last > run.last:
+        pieces = [*pieces[:-1], (pieces[-1][0], last)]
+    run.pieces = pieces if len(pieces) > 1 else []
+    run.first, run.last = pieces[0][0], pieces[-1][1]
 
 
 def _is_footer(grid: Grid, run: Run) -> bool:

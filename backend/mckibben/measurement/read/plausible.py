@@ -11,11 +11,11 @@ from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.physics.units import convert
 
 #: Fewer readings show no range; what they say is taken as it stands.
-ENOUGH = 3
+ENOUGH = 5
 
 
 class Range(NamedTuple):
-    """Bounds of the largest magnitude of a channel [SI].
+    """Bounds of a channel [SI]: what its largest magnitude reaches, and its median does not exceed.
 
     Muscles of 5 to 80 mm diameter, up to 12 bar and 10 m; pressures too low to move one are none.
     """
@@ -28,7 +28,7 @@ class Range(NamedTuple):
 RANGES = {
     "pressure": Range(2e3, 1.3e6),
     "force": Range(0.05, 3e4),
-    "length": Range(5e-3, 12.0),
+    "length": Range(1e-3, 12.0),
     "displacement": Range(2e-5, 2.0),
     "diameter": Range(1e-3, 0.3),
     "contraction": Range(1e-4, 0.75),
@@ -73,8 +73,12 @@ def is_plausible(channel: str, values: NDArray[np.float64], *, narrow: bool = Fa
     bounds = (_NARROW if narrow else RANGES).get(channel)
     if bounds is None:
         return True
-    largest = float(np.max(np.abs(values), initial=0.0))
-    return largest == 0.0 or bounds.lowest <= largest <= bounds.highest
+    sizes = np.abs(values)
+    largest = float(np.max(sizes, initial=0.0))
+    if largest == 0.0:
+        return True
+    # One spike or a short peak is no reason to doubt the unit of all readings.
+    return largest >= bounds.lowest and float(np.median(sizes[sizes > 0.0])) <= bounds.highest
 
 
 def median_step(time: NDArray[np.float64]) -> float | None:

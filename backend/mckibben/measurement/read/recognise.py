@@ -139,6 +139,9 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
         reason = other_quantity(word, named[-1] if named else None)
         if reason is not None and (named or dimension):
             return Recognised(None, head.unit, None, 0, f"it is {reason}")
+    distinct = set(named)
+    if len(distinct) > 1 and ("command" in distinct or not dimension):
+        return Recognised(None, head.unit, None, 0, f"its name says {' and '.join(sorted(distinct))}")
     penalty = BY_WORDS + sum(LESS_WANTED.get(word, 0) for word in words)
     channel = _of_names(named, dimension) or _of_letter(words, dimension)
     if channel is not None and (not dimension or dimension in DIMENSIONS[channel]):
@@ -203,6 +206,8 @@ def _sure(name: str, text: str, unit: UnitText) -> bool:
     named = [channel for word in words_of(name) if (channel := channel_of_word(word)) is not None]
     letter = _of_letter(words_of(name), dimension)
     if any(dimension in DIMENSIONS[channel] for channel in named) or letter is not None:
+        return True
+    if named and text in ("V", "mV", "mA"):
         return True
     return len(text) >= 2 and text in ("mm", "bar", "mbar", "kPa", "MPa", "kN", "ms", "mV", "kg", "cm", "psi", "lbf", "daN", "kgf")
 

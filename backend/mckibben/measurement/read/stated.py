@@ -89,7 +89,7 @@ def _of_text(text: str) -> Iterator[tuple[str, str]]:
             yield key, f"{quantity.value} {quantity.unit}" if quantity.unit else quantity.value
     if words and words[0] in _SAMPLES:
         value = re.sub(r"^\s*[^\s:;=,]+\s*(?:label|name|nr\.?|no\.?|id)?\s*[:;=,]?\s*", "", text).strip()
-        if value:
+        if value and not re.match(r"(?i)rate|freq|interval|s\b|time|period|=|\d+\s*(Hz|ms|s)\b", value):
             yield "sample", value
     if words and words[0] in _DATES and (day := re.search(r"[0-9]{1,4}[./-][0-9]{1,2}[./-][0-9]{1,4}", text)):
         yield "date", day[0]

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from mckibben.measurement.measurement import CHANNEL_UNITS
-from mckibben.measurement.read.blocks import Table, tables_of_run
+from mckibben.measurement.read.blocks import MapPart, Table, tables_of_run
 from mckibben.measurement.read.grid import Grid, TextGrid
 from mckibben.measurement.read.header import map_headers
-from mckibben.measurement.read.locate import Run, TableHead, find_runs, head_of, main_runs, texts_of
+from mckibben.measurement.read.locate import Run, TableHead, find_runs, head_of, main_runs, texts_of, with_broken_rows
 from mckibben.physics.errors import InputError, did_you_mean
 
 _TEXT_ROWS = 400  # rows beside the tables of which the texts are kept
@@ -56,9 +56,11 @@ def tables_of_grid(grid: Grid, *, head: int | None = None, until: int | None = N
     for run in kept:
         own = at if at is not None and at >= after and run is kept[0] else None
         table_head = head_of(grid, run, after=after, at=own)
+        with_broken_rows(grid, run, table_head)
         titles = _titles(grid, run, table_head, after)
         table = tables_of_run(grid, run, table_head, titles)
-        taken.update(row for row in (table_head.row, table_head.units_at) if row is not None)
+        if not isinstance(table.parts[0], MapPart):  # above a map stand titles only
+            taken.update(row for row in (table_head.row, table_head.units_at) if row is not None)
         after = run.last - 1
         same = next((t for t in tables if t.signature == table.signature and t.names), None)
         if same is not None:
@@ -205,4 +207,5 @@ def _left_out(tables: Sequence[Table], noun: str) -> list[str]:
         f"another table{f' in {noun} ' + repr(table.title) if table.title else ''} is not read: columns "
         f"{', '.join(repr(name) for name in table.names if name)[:120] or 'without names'}"
         for table in tables
+        if channels_of(table) or sum(last - first for part in table.parts for first, last in part.pieces) > 2
     ]
