@@ -17,6 +17,7 @@ from mckibben.cli.output import (
     write_table,
 )
 from mckibben.documents.studio import Studio
+from mckibben.measurement.read import Correction
 
 
 def run(
@@ -29,6 +30,7 @@ def run(
     drive: str,
     fit: bool,
     free: Sequence[str],
+    correction: Correction,
     as_json: bool,
 ) -> None:
     """Print the comparison.
@@ -36,7 +38,7 @@ def run(
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
-    points = points_of(files, studio)
+    points = points_of(files, studio, correction)
     question = model_question(
         studio, points, muscle=muscle, ideal=ideal, effects=effects, drive=drive, free=free
     )

@@ -105,11 +105,13 @@ def start_model(
     effects: Sequence[str],
     drive: str = "",
     named: str = "",
+    rest_length: float | None = None,
 ) -> StartModel:
     """The muscle of ``--muscle`` with the effects of ``--ideal`` or ``--effect``.
 
     What the options do not name comes from the drive document: muscle and effects. The last choice is the
-    muscle that a measurement names.
+    muscle that a measurement names. Where nothing else gives the length of the muscle, it is the rest length
+    of the measurement [m].
 
     Raises:
         InputError: names the file or option, what is wrong and what would be right.
@@ -126,17 +128,24 @@ def start_model(
     if chosen is None and "effects" in document:
         chosen = cast(Effects, document["effects"])
     if not muscle and "muscle" in document:
-        return _start_of_input(studio, document["muscle"], chosen, drive)
+        return _start_of_input(studio, _with_length(document["muscle"], rest_length), chosen, drive)
     muscle = muscle or named
     name, separator, length = muscle.partition(":")
     if not name:
         raise InputError("--muscle is missing", hint="e.g. --muscle DMSP-20:300mm")
     if _is_file(muscle, studio):
-        return _start_of_file(studio, Path(muscle), chosen)
+        return _start_of_file(studio, Path(muscle), chosen, rest_length)
     document: dict[str, object] = {"preset": name}
     if separator:
         document["nominal_length"] = length
-    return _start_of_input(studio, document, chosen, f"--muscle {muscle}")
+    return _start_of_input(studio, _with_length(document, rest_length), chosen, f"--muscle {muscle}")
+
+
+def _with_length(document: object, rest_length: float | None) -> object:
+    """A muscle of a document, with this length where it has none."""
+    if not isinstance(document, dict) or rest_length is None or "nominal_length" in document:
+        return document
+    return {**document, "nominal_length": rest_length}
 
 
 def model_question(
@@ -165,7 +174,15 @@ def model_question(
             raise InputError(f"--free {name}: there is no such geometry", hint=did_you_mean(name, GEOMETRY))
     measurement = points.measurement
     named = str(measurement.conditions.get("muscle", ""))
-    start = start_model(studio, muscle, ideal=ideal, effects=effects, drive=drive, named=named)
+    start = start_model(
+        studio,
+        muscle,
+        ideal=ideal,
+        effects=effects,
+        drive=drive,
+        named=named,
+        rest_length=points.nominal_length,
+    )
     stated_drive = _drive_of(studio, drive, start) if drive and measurement.kind == "transient" else None
     return question_of(start, studio, points, drive=stated_drive, free=tuple(free), noise=noise)
 
@@ -216,7 +233,9 @@ def _is_file(muscle: str, studio: Studio) -> bool:
     return muscle.partition(":")[0].lower() not in known and Path(muscle).exists()
 
 
-def _start_of_file(studio: Studio, path: Path, effects: Effects | None) -> StartModel:
+def _start_of_file(
+    studio: Studio, path: Path, effects: Effects | None, rest_length: float | None
+) -> StartModel:
     """A muscle by geometry, or a whole preset file."""
     from mckibben.documents.start_model import GivenMuscle, preset_facts, start_model
     from mckibben.presets import MusclePreset
@@ -225,7 +244,7 @@ def _start_of_file(studio: Studio, path: Path, effects: Effects | None) -> Start
     try:
         document = read_file(path, follow_links=True)
         if not isinstance(document, dict) or "kind" not in document:
-            return _start_of_input(studio, document, effects, str(path))
+            return _start_of_input(studio, _with_length(document, rest_length), effects, str(path))
         preset = parse(MusclePreset, document, studio.effect_table)
     except BadDocumentError as bad:
         finding = bad.findings[0]

@@ -30,8 +30,8 @@ from mckibben.measurement.sweeps import Sweeps, sweeps_of
 from mckibben.physics.errors import InputError, did_you_mean
 
 __all__ = [
-    "CHANNEL_UNITS", "FORCE_KINDS", "KINDS", "STROKES", "MeasuredChannel", "Measurement", "StatedValue", "build",
-    "detect_kind", "group_rows", "lengths",
+    "CHANNEL_UNITS", "FORCE_KINDS", "KINDS", "STROKES", "MeasuredChannel", "Measurement", "StatedValue",
+    "build", "detect_kind", "group_rows", "lengths",
 ]  # fmt: skip
 
 #: Canonical channel name -> SI unit. Pressure is gauge; displacement is a contraction stroke (positive =

@@ -42,7 +42,9 @@ def italian() -> LabFile:
     """Semicolons, thousands dots, decimal commas, Italian heads, a preamble."""
     r = isobaric(2e5, 3e5, 5e5, rest=0.3)
     rows = [
-        ";".join([decimal_comma(t, 2), decimal_comma(p / 100, 1), decimal_comma(x * 1e3, 2), decimal_comma(f, 2)])
+        ";".join(
+            [decimal_comma(t, 2), decimal_comma(p / 100, 1), decimal_comma(x * 1e3, 2), decimal_comma(f, 2)]
+        )
         for t, p, x, f in zip(r.time, r.pressure, r.stroke, r.force, strict=True)
     ]
     head = ["Prova statica muscolo pneumatico", "Operatore;Rossi", "Lunghezza a riposo;300,0;mm", ""]
@@ -55,12 +57,12 @@ def italian() -> LabFile:
 
 
 def scanner() -> LabFile:
-    """A scanning multimeter: scan number, ISO time stamps, channel numbers, imperial units, raw volts beside."""
+    """A scanning multimeter: scan number, ISO time stamps, channel numbers, imperial units, raw volts."""
     r = isobaric(2e5, 4e5, rest=0.25)
     start = np.datetime64("2024-05-02T08:15:00.000")
     lines = ["Scan,Time stamp,101 Force cell raw (mV),102 Pressure (psig),103 Force (lbf),104 Length (in)"]
     for n in range(len(r.time)):
-        stamp = str(start + np.timedelta64(int(round(r.time[n] * 1e3)), "ms")) + "Z"
+        stamp = str(start + np.timedelta64(round(r.time[n] * 1e3), "ms")) + "Z"
         lines.append(
             f"{n + 1},{stamp},{r.force[n] / 400:.4f},{r.pressure[n] / 6894.757293168:.3f},"
             f"{r.force[n] / 4.4482216152605:.3f},{(0.25 - r.stroke[n]) / 0.0254:.4f}"
@@ -97,7 +99,9 @@ def stacked_workbook() -> LabFile:
     line = 4
     for run, title in enumerate(["Druck: 2 bar", "Druck: 3,5 bar", "Druck: 5 bar"]):
         sheet.cell(line, 1, title)
-        for column, (name, unit) in enumerate([("Zeit", "s"), ("Hub", "mm"), ("Kraft", "N"), ("Bemerkung", None)], 1):
+        for column, (name, unit) in enumerate(
+            [("Zeit", "s"), ("Hub", "mm"), ("Kraft", "N"), ("Bemerkung", None)], 1
+        ):
             sheet.cell(line + 1, column, name)
             sheet.cell(line + 2, column, unit)
         line += 3
@@ -119,10 +123,18 @@ def stacked_workbook() -> LabFile:
 def french_clock() -> LabFile:
     """Times of day with milliseconds behind a comma, force in daN, French heads, tabs, Latin-1."""
     r = isobaric(2e5, 4e5, 6e5, rest=0.28)
-    lines = ["Banc d'essai n°2", "Longueur à vide : 280 mm", "", "Heure\tPression\tEffort\tCourse", "hh:mm:ss,ms\tmbar\tdaN\tmm"]
+    lines = [
+        "Banc d'essai n°2",
+        "Longueur à vide : 280 mm",
+        "",
+        "Heure\tPression\tEffort\tCourse",
+        "hh:mm:ss,ms\tmbar\tdaN\tmm",
+    ]
     for t, p, x, f in zip(r.time, r.pressure, r.stroke, r.force, strict=True):
-        total = 10 * 3_600_000 + 59 * 60_000 + 55_000 + int(round(t * 1e3))
-        clock = f"{total // 3_600_000:02d}:{total // 60_000 % 60:02d}:{total // 1000 % 60:02d},{total % 1000:03d}"
+        total = 10 * 3_600_000 + 59 * 60_000 + 55_000 + round(t * 1e3)
+        clock = (
+            f"{total // 3_600_000:02d}:{total // 60_000 % 60:02d}:{total // 1000 % 60:02d},{total % 1000:03d}"
+        )
         lines.append(f"{clock}\t{p / 100:.1f}\t{f / 10:.3f}\t{x * 1e3:.2f}".replace(".", ","))
     channels = {
         "time": (r.time, 1e-3), "pressure": (r.pressure, 10.0), "force": (r.force, 0.01),
@@ -138,11 +150,16 @@ def wide() -> LabFile:
     r = isobaric(*pressures)
     rows = len(r.time) // len(pressures)
     force = r.force.reshape(len(pressures), rows)
-    lines = ["# rest length: 250 mm", "stroke [mm]," + ",".join(f"F @ {p / 1e5:g} bar [N]" for p in pressures)]
+    lines = [
+        "# rest length: 250 mm",
+        "stroke [mm]," + ",".join(f"F @ {p / 1e5:g} bar [N]" for p in pressures),
+    ]
     lines += [f"{r.stroke[n] * 1e3:.3f}," + ",".join(f"{f:.2f}" for f in force[:, n]) for n in range(rows)]
     held = np.array(pressures)[r.run]
     channels = {"displacement": (r.stroke, 1e-6), "force": (r.force, 0.01), "pressure": (held, 1.0)}
-    return LabFile("wide.csv", "\n".join(lines).encode(), ("isobaric", "static"), channels, {"nominal_length": 0.25})
+    return LabFile(
+        "wide.csv", "\n".join(lines).encode(), ("isobaric", "static"), channels, {"nominal_length": 0.25}
+    )
 
 
 def spanish() -> LabFile:
@@ -165,11 +182,27 @@ def simulink() -> LabFile:
     r = isobaric(2e5, 4e5)
     signals = np.empty(3, object)
     for n, (label, values) in enumerate(
-        [("pressure [bar]", r.pressure / 1e5), ("length [mm]", (0.25 - r.stroke) * 1e3), ("force [N]", r.force)]
+        [
+            ("pressure [bar]", r.pressure / 1e5),
+            ("length [mm]", (0.25 - r.stroke) * 1e3),
+            ("force [N]", r.force),
+        ]
     ):
-        signals[n] = {"values": values[:, None], "dimensions": 1.0, "label": label, "blockName": f"rig/scope{n}"}
+        signals[n] = {
+            "values": values[:, None],
+            "dimensions": 1.0,
+            "label": label,
+            "blockName": f"rig/scope{n}",
+        }
     stream = io.BytesIO()
-    savemat(stream, {"out": {"time": r.time[:, None], "signals": signals, "blockName": "rig/scope"}, "K": np.eye(4), "ans": 3.0})
+    savemat(
+        stream,
+        {
+            "out": {"time": r.time[:, None], "signals": signals, "blockName": "rig/scope"},
+            "K": np.eye(4),
+            "ans": 3.0,
+        },
+    )
     channels = {
         "time": (r.time, 1e-9), "pressure": (r.pressure, 1e-3), "length": (0.25 - r.stroke, 1e-12),
         "force": (r.force, 1e-9),
@@ -213,7 +246,8 @@ def three_heads() -> LabFile:
 
 
 WRITERS: tuple[Callable[[], LabFile], ...] = (
-    italian, scanner, valid_names, stacked_workbook, french_clock, wide, spanish, simulink, aligned, three_heads,
+    italian, scanner, valid_names, stacked_workbook, french_clock, wide, spanish, simulink, aligned,
+    three_heads,
 )  # fmt: skip
 
 

@@ -10,7 +10,8 @@ from mckibben.measurement.read.formats import open_source
 from mckibben.measurement.read.preview import Preview, preview
 
 __all__ = [
-    "Correction", "Preview", "preview", "read_correction", "read_csv", "read_measurement", "spoken_correction",
+    "Correction", "Preview", "preview", "read_correction", "read_csv", "read_measurement",
+    "spoken_correction",
 ]  # fmt: skip
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -120,8 +120,8 @@ def assemble(
     )
     measurement = replace(
         measurement,
-        unread=_unread(source, meaning, reading),
-        stated=_stated(source, conditions, correction),
+        unread=unread_columns(source, meaning, reading.ignored),
+        stated=stated_values(source, conditions, correction),
         questions=tuple(questions),
     )
     return Read(measurement, list(by_use.values()), skipped, questions)
@@ -135,18 +135,29 @@ def _starts(columns: Mapping[str, NDArray]) -> tuple[int, ...]:
     return (0, *(int(row) + 1 for row in np.flatnonzero(apart)))
 
 
-def _unread(source: RawTable, meaning: Meaning, reading: ChannelReading) -> tuple[tuple[str, str], ...]:
-    """All columns that nothing is read from, and why."""
-    taken = {column.place for column in meaning.columns if column.header not in reading.ignored}
+def unread_columns(source: RawTable, meaning: Meaning, dropped: Sequence[str]) -> tuple[tuple[str, str], ...]:
+    """All columns that nothing is read from, and why; ``dropped`` are those whose numbers showed it."""
+    ignored = set(dropped)
+    taken = {column.place for column in meaning.columns if column.header not in ignored}
     found = [
-        (header or f"column {index + 1}", meaning.reasons.get(index) or "its name is not known")
+        (header or f"column {index + 1}", _why_unread(meaning, index))
         for index, header in enumerate(source.headers)
         if index not in taken
     ]
     return (*found, *source.unread)
 
 
-def _stated(
+def _why_unread(meaning: Meaning, index: int) -> str:
+    if index in meaning.reasons:
+        return meaning.reasons[index]
+    if index in meaning.problems:
+        return meaning.problems[index].message
+    if any(column.place == index for column in meaning.columns):
+        return "its numbers are not what its name says"
+    return "its name is not known"
+
+
+def stated_values(
     source: RawTable, conditions: Mapping[str, float | str], correction: Correction
 ) -> tuple[StatedValue, ...]:
     """What the test was, each value with its origin."""

@@ -49,7 +49,10 @@ class Part:
             for index in range(first, last):
                 cells = self.grid.cells(index)
                 count = len(cells)
-                if all(column >= count or kind_of(cells[column]) == GAP and not _bad(cells[column]) for column in self.own):
+                if all(
+                    column >= count or (kind_of(cells[column]) == GAP and not _bad(cells[column]))
+                    for column in self.own
+                ):
                     continue
                 yield self.grid.line(index), [cells[c] if c < count else None for c in self.columns]
 
@@ -104,7 +107,7 @@ class Table:
 
 def _bad(cell: Cell) -> bool:
     """A gap that is written down ("NaN") is a reading that failed, not the end of a shorter column."""
-    return isinstance(cell, str) and cell.strip() != "" or (isinstance(cell, float) and cell != cell)  # noqa: PLR0124
+    return (isinstance(cell, str) and cell.strip() != "") or (isinstance(cell, float) and cell != cell)
 
 
 def tables_of_run(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[int, int, str]]) -> Table:
@@ -124,7 +127,9 @@ def tables_of_run(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[
     order = [*shared, *first]
     table.names = [bases.get(c, names[c]) for c in order]
     table.units = [units[c] for c in order]
-    spans = [(min(group), min(groups[i + 1]) if i + 1 < len(groups) else 10**6) for i, group in enumerate(groups)]
+    spans = [
+        (min(group), min(groups[i + 1]) if i + 1 < len(groups) else 10**6) for i, group in enumerate(groups)
+    ]
     for group, span in zip(groups, spans, strict=True):
         own = tuple(c for c in group if c in run.numbers) or tuple(group)
         held = _held_of_group(grid, names, group, titles, span if len(groups) > 1 else None, head)
@@ -161,7 +166,9 @@ def _groups(
         bases = {c: _without_held(names[c]) for group in groups for c in group}
         keys = [[folded(bases[c]) for c in group] for group in groups]
         if all(sorted(key) == sorted(keys[0]) and len(set(key)) == len(key) for key in keys):
-            ordered = [[group[key.index(k)] for k in keys[0]] for group, key in zip(groups, keys, strict=True)]
+            ordered = [
+                [group[key.index(k)] for k in keys[0]] for group, key in zip(groups, keys, strict=True)
+            ]
             return [c for c in shared if names[c]], ordered, bases
     return _repeated(names, used, run)
 
@@ -171,7 +178,10 @@ def _repeated(
 ) -> tuple[list[int], list[list[int]], dict[int, str]]:
     """Columns in groups that begin wherever a name comes again."""
     named = [c for c in used if names[c]]
-    keys = {c: re.sub(r"[._ ][0-9]{1,2}$", "", folded(names[c])) if "." in names[c][-3:] else folded(names[c]) for c in named}
+    keys = {
+        c: re.sub(r"[._ ][0-9]{1,2}$", "", folded(names[c])) if "." in names[c][-3:] else folded(names[c])
+        for c in named
+    }
     groups: list[list[int]] = []
     for c in named:
         if not groups or keys[c] in {keys[o] for o in groups[-1]}:
@@ -210,7 +220,11 @@ def _map(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[int, int,
     if len(across) < 2 or any(kind == TEXT for kind in kinds[axis + 1 :]):
         return None
     above = [text for _, _, text in titles] + [name for name in head.names if name]
-    parts = [p.strip() for p in re.split(r"\\|\||/(?![^\[(]*[\])])| vs\.? | x |×|→|↓", texts_of(corner)[axis]) if p.strip()]
+    parts = [
+        p.strip()
+        for p in re.split(r"\\|\||/(?![^\[(]*[\])])| vs\.? | x |×|→|↓", texts_of(corner)[axis])
+        if p.strip()
+    ]
     names = parts if len(parts) == 2 else [*parts[:1], *[text for text in above if _is_axis(text)][:1]]
     channels = [recognise(name).channel for name in names]
     if len(names) != 2 or None in channels or channels[0] == channels[1]:
@@ -224,7 +238,9 @@ def _map(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[int, int,
         head_row=grid.line(run.first), parts=[],
     )  # fmt: skip
     table.parts.append(MapPart(grid, [(run.first, run.last)], (axis, axis, axis), (axis,), None))
-    table.messages.append(f"{place}: a map, read as {channels[0]} down, {channels[1]} across, '{value}' in the cells")
+    table.messages.append(
+        f"{place}: a map, read as {channels[0]} down, {channels[1]} across, '{value}' in the cells"
+    )
     return table
 
 

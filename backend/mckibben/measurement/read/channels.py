@@ -100,7 +100,9 @@ def _with_known_unit(column: HeaderColumn, reading: ChannelReading) -> HeaderCol
     use, unit, origin = column.use, column.unit, column.unit_origin
     if use == "time" and (unit == CLOCK or column.place in reading.clocks):
         unit = "s"
-        reading.messages.append(f"{reading.noun} '{column.header}' holds times: they count from the first row")
+        reading.messages.append(
+            f"{reading.noun} '{column.header}' holds times: they count from the first row"
+        )
     if unit is None:
         unit, origin = CHANNEL_UNITS[use], "proposed"
         largest = float(np.max(np.abs(raw)))

@@ -85,7 +85,9 @@ def _tables(values: Mapping[str, Any], path: str, name: str, noun: str, depth: i
         table.columns, table.notes, table.messages = sorted_out(own, place=place, noun=noun)
     except InputError as error:
         table.problem = error
-    table.rest += [(text, f"{noun} '{key}'") for key, text in own.items() if isinstance(text, str) and text.strip()]
+    table.rest += [
+        (text, f"{noun} '{key}'") for key, text in own.items() if isinstance(text, str) and text.strip()
+    ]
     yield table
     if depth >= _DEEPEST:
         return
@@ -166,11 +168,18 @@ def _signals(value: Any) -> dict[str, Any] | None:
     found: dict[str, Any] = {}
     for struct in structs:
         vectors = [v for v in struct.values() if _is_vector(v)]
-        text = next((v.strip() for k, v in struct.items() if isinstance(v, str) and _NAME.fullmatch(k) and v.strip()), "")
+        text = next(
+            (v.strip() for k, v in struct.items() if isinstance(v, str) and _NAME.fullmatch(k) and v.strip()),
+            "",
+        )
         if len(vectors) != 1 or not text:
             return None
         unit = next((v.strip() for k, v in struct.items() if isinstance(v, str) and _UNIT.fullmatch(k)), "")
-        head = f"{text} [{unit}]" if unit and unit_of(unit) is not None and recognise(text).unit is None else text
+        head = (
+            f"{text} [{unit}]"
+            if unit and unit_of(unit) is not None and recognise(text).unit is None
+            else text
+        )
         while head in found:
             head += "'"
         found[head] = vectors[0]
@@ -178,13 +187,20 @@ def _signals(value: Any) -> dict[str, Any] | None:
 
 
 def _is_vector(value: Any) -> bool:
-    return isinstance(value, np.ndarray) and value.dtype.kind in "biuf" and value.size > 1 and as_column(value) is not None
+    return (
+        isinstance(value, np.ndarray)
+        and value.dtype.kind in "biuf"
+        and value.size > 1
+        and as_column(value) is not None
+    )
 
 
 def _matrices_apart(values: Mapping[str, Any]) -> dict[str, Any]:
     """Matrices as columns, named by the list of as many texts beside them."""
     result: dict[str, Any] = {}
-    lists = [v for v in values.values() if isinstance(v, list) and v and all(isinstance(word, str) for word in v)]
+    lists = [
+        v for v in values.values() if isinstance(v, list) and v and all(isinstance(word, str) for word in v)
+    ]
     for key, value in values.items():
         if isinstance(value, np.ndarray) and value.ndim == 2 and value.dtype.kind in "biuf":
             if value.shape[1] > value.shape[0] and any(len(names) == value.shape[0] for names in lists):
@@ -210,5 +226,3 @@ def _texts(value: Any, where: str) -> list[tuple[str, str]]:
         for key, text in struct.items()
         if isinstance(text, str) and text.strip() and not _NAME.fullmatch(key) and not _UNIT.fullmatch(key)
     ]
-
-

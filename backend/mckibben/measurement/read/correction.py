@@ -1,10 +1,10 @@
 """What a user says about a file beyond what it says itself: columns, kind, conditions, bad rows.
 
 As JSON: ``{"columns": {"<header>": {"channel": "pressure", "unit": "bar"} | null}, "kind": "isobaric",
-"conditions": {"load_mass": "6 kg"}, "bad_rows": "skip"}``, and in the words of the command line ``{"sheet": "300 mm",
-"head": 3, "column": ["force=-Kraft [kN]"], "ignore": ["Traverse"], "rest_length": "300 mm", "load": "6 kg",
-"supply": "6 bar"}``; every part may be left out. A column is named by its header (with or without its unit), or
-by its place ("column 3") where it has none of its own.
+"conditions": {"load_mass": "6 kg"}, "bad_rows": "skip"}``, and in the words of the command line
+``{"sheet": "300 mm", "head": 3, "column": ["force=-Kraft [kN]"], "ignore": ["Traverse"], "rest_length":
+"300 mm", "load": "6 kg", "supply": "6 bar"}``; every part may be left out. A column is named by its header
+(with or without its unit), or by its place ("column 3") where it has none of its own.
 """
 
 from __future__ import annotations
@@ -154,9 +154,9 @@ def read_correction(text: str) -> Correction:
 
 
 def spoken_correction(
-    *, sheet: str | None = None, head: int | None = None, columns: Sequence[str] = (), ignore: Sequence[str] = (),
-    rest_length: str | float | None = None, load: str | float | None = None, supply: str | float | None = None,
-    strict: bool = False, prefix: str = "--",
+    *, sheet: str | None = None, head: int | None = None, columns: Sequence[str] = (),
+    ignore: Sequence[str] = (), rest_length: str | float | None = None, load: str | float | None = None,
+    supply: str | float | None = None, strict: bool = False, prefix: str = "--",
 ) -> Correction:  # fmt: skip
     """A correction in the words of the command line.
 
@@ -202,12 +202,16 @@ def column_choice(text: str, *, where: str) -> tuple[str, Choice]:
     found = _COLUMN.fullmatch(text)
     if found is None or not found[3]:
         raise InputError(
-            f"{where} {text[:80]!r}: is not 'channel=name [unit]'", field=where, hint="e.g. \"force=-Kraft [kN]\""
+            f"{where} {text[:80]!r}: is not 'channel=name [unit]'",
+            field=where,
+            hint='e.g. "force=-Kraft [kN]"',
         )
     channel, sign, name = found.groups()
     if channel not in USES:
         raise InputError(
-            f"{where} {text[:80]!r}: there is no channel '{channel}'", field=where, hint=did_you_mean(channel, USES)
+            f"{where} {text[:80]!r}: there is no channel '{channel}'",
+            field=where,
+            hint=did_you_mean(channel, USES),
         )
     minus = -1 if sign == "-" else 1
     split = _WITH_UNIT.fullmatch(name)

@@ -85,7 +85,7 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
     body, below = without_footer(body, separator, row + 1)
     sample = first_rows(body, separator, SAMPLE_ROWS)
     known = plainly_known(headers)
-    first = [cell for cell in sample[0]] if sample else []
+    first = list(sample[0]) if sample else []
     words = [i for i in known if i < len(first) and kind_of(first[i]) in (TEXT, CLOCK)]
     sure = bool(known) and not words and not _has_thousands(body, separator)
 

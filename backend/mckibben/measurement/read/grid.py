@@ -121,7 +121,10 @@ def split_line(line: str, separator: str) -> list[str]:
         return re.sub(r"\s+(?=[\[(])", "", line).split()
     if '"' in line:
         try:
-            return [cell.strip() for cell in next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])]
+            return [
+                cell.strip()
+                for cell in next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])
+            ]
         except csv.Error:
             pass
     return [cell.strip() for cell in line.split(separator)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from types import MappingProxyType
 from typing import NamedTuple
 
 from mckibben.measurement.measurement import CHANNEL_UNITS
@@ -81,7 +82,7 @@ class Meaning(NamedTuple):
     ignored: list[str]
     messages: list[str]
     problems: dict[int, InputError]
-    reasons: dict[int, str] = {}
+    reasons: Mapping[int, str] = MappingProxyType({})
     rivals: tuple[tuple[HeaderColumn, HeaderColumn], ...] = ()
     dismissed: frozenset[int] = frozenset()
 
@@ -241,9 +242,7 @@ def _positions(chosen: Mapping[str, Choice | None], names: Sequence[str]) -> dic
     return result
 
 
-def _chosen(
-    index: int, header: str, choice: Choice | None, apart: str | None
-) -> HeaderColumn | None:
+def _chosen(index: int, header: str, choice: Choice | None, apart: str | None) -> HeaderColumn | None:
     """A column as the user wants it; a unit that is not said is the header's, where it fits."""
     if choice is None:
         return None
@@ -257,8 +256,10 @@ def _chosen(
         guess = guess or _in_other_words(index, header, apart, {}, [])
         if guess is None and (known := recognise(header, apart)).unit is not None:
             guess = HeaderColumn(index, header, choice.channel, known.unit, known.absolute)
-        if guess is not None and guess.unit is not None and (
-            guess.unit == CLOCK or _fits(guess.unit, CHANNEL_UNITS[choice.channel])
+        if (
+            guess is not None
+            and guess.unit is not None
+            and (guess.unit == CLOCK or _fits(guess.unit, CHANNEL_UNITS[choice.channel]))
         ):
             unit, absolute = guess.unit, guess.absolute if absolute is None else absolute
     name = header or f"column {index + 1}"

@@ -1,4 +1,7 @@
-"""The table of a text that is not plain: preambles, head lines, unit rows, blocks, logs of keys and values."""
+"""The table of a text that is not plain: preambles, head lines, unit rows, blocks, logs of keys and values.
+
+Every line keeps its number.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +9,7 @@ import re
 from collections.abc import Sequence
 
 from mckibben.measurement.read.blocks import Table
-from mckibben.measurement.read.conditions import Note, note_of_line
+from mckibben.measurement.read.conditions import note_of_line
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.grid import TextGrid, separator_of
 from mckibben.measurement.read.limits import check_columns, check_rows
@@ -20,7 +23,8 @@ _ALL_LINES = 100_000  # a longer text is taken as one table after its first line
 _FIRST_LINES = 5000
 _LONGEST_LINE = 200_000  # characters
 _PAIR = re.compile(
-    r"""["']?(?P<key>[A-Za-zµκ][A-Za-z0-9_ ]{0,30}?)["']?\s*[:=]\s*(?P<value>[+-]?[0-9]+(?:\.[0-9]*)?(?:[eE][+-]?[0-9]+)?)(?![\w:.])"""
+    r"""["']?(?P<key>[A-Za-zµκ][A-Za-z0-9_ ]{0,30}?)["']?\s*[:=]\s*"""
+    r"""(?P<value>[+-]?[0-9]+(?:\.[0-9]*)?(?:[eE][+-]?[0-9]+)?)(?![\w:.])"""
 )
 _KEYED_SHARE = 0.5  # of the lines, from which a text is a log of keys and values
 
@@ -51,7 +55,9 @@ def located_text(text: str, name: str, correction: Correction, messages: Sequenc
         hint = next((line[4] for line in lines[:20] if re.fullmatch(r"sep=[,;\t]", line.strip())), None)
         grid = TextGrid(lines, name, hint or separator_of(_sampled(lines)))
         remarks = []
-    tables = tables_of_grid(grid, head=correction.head, until=_FIRST_LINES if len(lines) > _ALL_LINES else None)
+    tables = tables_of_grid(
+        grid, head=correction.head, until=_FIRST_LINES if len(lines) > _ALL_LINES else None
+    )
     tables = [table for table in tables if any(table.names) or any(table.units)]
     if not tables:
         return None
@@ -66,8 +72,6 @@ def located_text(text: str, name: str, correction: Correction, messages: Sequenc
     return source_of(table, format="csv", notes=found, messages=[*said, *chosen.messages])
 
 
-
-
 def _sampled(lines: Sequence[str]) -> list[str]:
     """Lines from which the separator is told: the first ones, and some further down."""
     return [*lines[:400], *lines[len(lines) // 2 : len(lines) // 2 + 200]]
@@ -77,7 +81,10 @@ def _name_abscissa(table: Table) -> None:
     """What a preamble says of the first column, where its head is "X_Value": the time in seconds."""
     for index, column in enumerate(table.names):
         if re.fullmatch(r"(?i)x[_ ]?values?", column) and table.units[index] is None:
-            said = next(((text, where) for text, where in table.rest if re.match(r"(?i)x[_ ]dimension\W+time", text)), None)
+            said = next(
+                ((text, where) for text, where in table.rest if re.match(r"(?i)x[_ ]dimension\W+time", text)),
+                None,
+            )
             if said is not None:
                 table.names[index], table.units[index] = f"{column} (time)", "s"
                 table.messages.append(f"'{column}' is the time in s ({said[1]}: '{said[0][:40]}')")
@@ -118,7 +125,7 @@ def _pairs(line: str) -> dict[str, str]:
 
 
 def _head_of_key(key: str, texts: Sequence[str]) -> str:
-    """A key with the unit that another line gives it: ``x`` and "x[mm shortening]" -> ``x shortening [mm]``."""
+    """A key with the unit of another line: ``x`` and "x[mm shortening]" -> ``x shortening [mm]``."""
     for text in texts:
         for found in re.finditer(rf"(?<![\w]){re.escape(key)}\s*[\[(]([^\])]*)[\])]", text):
             inside = found[1].strip()

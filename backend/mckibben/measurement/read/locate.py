@@ -1,4 +1,4 @@
-"""Where the tables of a grid are: runs of rows of numbers, the head above each, and the lines that are neither."""
+"""Where the tables of a grid are: runs of rows of numbers, and the head above each."""
 
 from __future__ import annotations
 
@@ -62,7 +62,11 @@ def find_runs(grid: Grid, until: int | None = None) -> list[Run]:
     for index in range(len(grid) if until is None else min(until, len(grid))):
         if run is not None and isinstance(grid, TextGrid) and len(grid.separator.strip() or "\t") == 1:
             line = grid.lines[index]
-            if line.count(grid.separator) == separators and _QUICK.fullmatch(line) and _tidy(line, grid.separator):
+            if (
+                line.count(grid.separator) == separators
+                and _QUICK.fullmatch(line)
+                and _tidy(line, grid.separator)
+            ):
                 run.last, run.rows, run.filled = index + 1, run.rows + 1, run.filled + separators + 1
                 continue
         cells = grid.cells(index)
@@ -89,7 +93,11 @@ def find_runs(grid: Grid, until: int | None = None) -> list[Run]:
 
 def _tidy(line: str, separator: str) -> bool:
     """Whether no cell of a line of numbers is empty."""
-    return separator + separator not in line and not line.startswith(separator) and not line.rstrip().endswith(separator)
+    return (
+        separator + separator not in line
+        and not line.startswith(separator)
+        and not line.rstrip().endswith(separator)
+    )
 
 
 def _continues(run: Run, kinds: Sequence[str], numbers: set[int], clocks: frozenset[int]) -> bool:
@@ -101,7 +109,7 @@ def _continues(run: Run, kinds: Sequence[str], numbers: set[int], clocks: frozen
 
 
 def main_runs(grid: Grid, runs: Sequence[Run]) -> list[Run]:
-    """The runs that are tables of readings: the largest one, pieces of it behind odd rows, and blocks like it.
+    """The runs that are tables of readings: the largest one, its pieces behind odd rows, and blocks like it.
 
     What is left are statistics, counts of channels, small tables of results.
     """
@@ -110,7 +118,9 @@ def main_runs(grid: Grid, runs: Sequence[Run]) -> list[Run]:
     largest = max(runs, key=lambda run: (run.filled, run.rows))
     kept: list[Run] = []
     for run in runs:
-        alike = run.numbers == largest.numbers or (run.width == largest.width and run.numbers <= largest.numbers)
+        alike = run.numbers == largest.numbers or (
+            run.width == largest.width and run.numbers <= largest.numbers
+        )
         headed = alike and _is_headed(grid, run)
         follows = bool(kept) and run.first - kept[-1].last <= 3 and not headed
         if run is largest or (headed and run.rows >= 2 and alike and 20 * run.rows >= largest.rows):
@@ -141,12 +151,18 @@ def _holds_number(grid: Grid, index: int) -> bool:
 
 
 def with_broken_rows(grid: Grid, run: Run, head: TableHead) -> None:
-    """Take the rows next to a run into it that are readings with a wrong cell: reading them tells what is wrong.
+    """Take the rows next to a run into it that are readings with a wrong cell: reading them says so.
 
     Above, those between the head and the run that hold numbers; below, those that begin with one.
     """
-    top = max((row for row in (head.row, head.units_at) if row is not None and row < run.first), default=run.first)
-    above = [index for index in range(top + 1, run.first) if _holds_number(grid, index)] if head.row is not None else []
+    top = max(
+        (row for row in (head.row, head.units_at) if row is not None and row < run.first), default=run.first
+    )
+    above = (
+        [index for index in range(top + 1, run.first) if _holds_number(grid, index)]
+        if head.row is not None
+        else []
+    )
     last = run.last
     while last < len(grid) and (cells := [c for c in grid.cells(last) if kind_of(c) != GAP]):
         if kind_of(cells[0]) not in (NUMBER, CLOCK):
@@ -234,7 +250,9 @@ def _row_of_units(texts: dict[int, list[str]], rows: Sequence[int], names: Seque
     for index in rows:
         filled = [(column, cell) for column, cell in enumerate(texts[index]) if cell and column < len(names)]
         units = sum(unit_of(cell) is not None for _, cell in filled)
-        physical = sum(bool(dimension_of(unit.unit)) for _, cell in filled if (unit := unit_of(cell)) is not None)
+        physical = sum(
+            bool(dimension_of(unit.unit)) for _, cell in filled if (unit := unit_of(cell)) is not None
+        )
         if physical and 2 * units >= len(filled) and units > most:
             best, most = index, units
     return best
@@ -248,7 +266,9 @@ def _units_in_preamble(grid: Grid, named: int, names: Sequence[str]) -> int | No
         for name, cell in zip(names, cells, strict=False):
             unit = unit_of(cell) if cell else None
             channel = recognise(name).channel if name else None
-            fitting += bool(unit and channel and dimension_of(unit.unit) and recognise(name, cell).channel == channel)
+            fitting += bool(
+                unit and channel and dimension_of(unit.unit) and recognise(name, cell).channel == channel
+            )
         if fitting >= 2:
             return index
     return None
@@ -259,7 +279,9 @@ def _names_channel(name: str) -> bool:
     if not name or len(name) > 120:
         return False
     known = recognise(name)
-    return known.channel is not None and known.penalty < BY_UNIT and unit_of(name) is None or _is_letter(name)
+    return (known.channel is not None and known.penalty < BY_UNIT and unit_of(name) is None) or _is_letter(
+        name
+    )
 
 
 def _is_letter(name: str) -> bool:
@@ -272,4 +294,6 @@ def _padded(cells: Sequence[str], width: int) -> list[str]:
 
 def rows_with(grid: Grid, first: int, last: int) -> list[int]:
     """The rows of a part of the grid in which anything stands."""
-    return [index for index in range(max(0, first), last) if any(kind_of(c) != GAP for c in grid.cells(index))]
+    return [
+        index for index in range(max(0, first), last) if any(kind_of(c) != GAP for c in grid.cells(index))
+    ]

@@ -52,7 +52,9 @@ def choose(values: dict[str, Any], name: str, correction: Correction | None = No
         if not usable:
             titles = [table.title for table in tables if table.title]
             raise InputError(
-                f"{name}: there is no struct '{wanted}' with vectors", field="sheet", hint=did_you_mean(wanted, titles)
+                f"{name}: there is no struct '{wanted}' with vectors",
+                field="sheet",
+                hint=did_you_mean(wanted, titles),
             )
     best = max(usable, key=NamedTable.known, default=None)
     most = best.known() if best is not None else -1
@@ -76,7 +78,10 @@ def choose(values: dict[str, Any], name: str, correction: Correction | None = No
     known_notes = in_known_words(notes)
     known = {note.key for note in known_notes}
     known_notes += [note for note in statements(rest, name) if note.key not in known]
-    messages = [*best.messages, *(f"{_NOUN} '{key}' is not used: it is a {kind}" for key, kind in foreign.items())]
+    messages = [
+        *best.messages,
+        *(f"{_NOUN} '{key}' is not used: it is a {kind}" for key, kind in foreign.items()),
+    ]
     if problem is not None:
         messages.append(problem.message)
     place = f"{name}, struct '{best.title}'" if best.title else name

@@ -1,4 +1,4 @@
-"""What the numbers of a channel can be: ranges of muscles on test benches, and the units that lead into them."""
+"""What the numbers of a channel can be: ranges of muscles on test benches, and units that lead there."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ _STEPS = Range(1e-6, 4.0)  # s between the readings of a moving muscle
 
 
 class Proposal(NamedTuple):
-    """A unit for numbers without one, and all that would do; ``sure``: SI, as it stands, is among the likely."""
+    """A unit for numbers without one, and all that would do; ``si_will_do``: SI is likely as it stands."""
 
     unit: str
     choices: tuple[str, ...]
@@ -83,7 +83,7 @@ def is_plausible(channel: str, values: NDArray[np.float64], *, narrow: bool = Fa
 
 def median_step(time: NDArray[np.float64]) -> float | None:
     """Median step of a time axis [s]; None without two different times."""
-    steps = np.diff(time[: 100_000])
+    steps = np.diff(time[:100_000])
     steps = steps[steps > 0.0]
     return float(np.median(steps)) if len(steps) else None
 

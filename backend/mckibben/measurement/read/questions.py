@@ -22,7 +22,7 @@ def refusal(name: str, questions: Sequence[Question], *, strict: bool = False) -
     asked = "; ".join(f"{question.text}: {question.option}" for question in open_ones)
     return InputError(
         f"{name}: {asked}",
-        field=first.column and f"column {first.column}" or first.about,
+        field=(first.column and f"column {first.column}") or first.about,
         hint="answer with these options" if len(open_ones) > 1 else "answer with this option",
     )
 

@@ -83,7 +83,9 @@ def held_pressure(text: str) -> HeldPressure | None:
     absolute = None if not match["mark"] else reference_of(match["mark"])
     if absolute is None:
         absolute = _reference_among(words_of(text))
-    unit = next(u for u in ("mbar", "bar", "kPa", "MPa", "hPa", "Pa", "psi") if u.lower() == match["unit"].lower())
+    unit = next(
+        u for u in ("mbar", "bar", "kPa", "MPa", "hPa", "Pa", "psi") if u.lower() == match["unit"].lower()
+    )
     return HeldPressure(number, unit, absolute, match[0].strip())
 
 
@@ -96,7 +98,9 @@ def taken_apart(header: str, unit_below: str | None = None) -> Head:
     held = held_pressure(text)
     unit: UnitText | None = None
     absolute: bool | None = None
-    while (found := re.fullmatch(r"(.*?)\s*[\[({<]([^\[\](){}<>]*(?:\([^()]*\))?)[\])}>]\s*", text)) is not None:
+    while (
+        found := re.fullmatch(r"(.*?)\s*[\[({<]([^\[\](){}<>]*(?:\([^()]*\))?)[\])}>]\s*", text)
+    ) is not None:
         inside = found[2].strip()
         mark = reference_of(inside)
         if mark is not None:
@@ -145,18 +149,29 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
     penalty = BY_WORDS + sum(LESS_WANTED.get(word, 0) for word in words)
     channel = _of_names(named, dimension) or _of_letter(words, dimension)
     if channel is not None and (not dimension or dimension in DIMENSIONS[channel]):
-        if channel in ("force",) and not dimension and set(words) & {"last", "charge", "carga", "load"} and len(words) > 2:
+        if (
+            channel in ("force",)
+            and not dimension
+            and set(words) & {"last", "charge", "carga", "load"}
+            and len(words) > 2
+        ):
             return Recognised(None, None, None, 0, "its name is not known")
-        return Recognised(_proper(channel), head.unit, head.absolute, penalty, "by its name", channel == "extension")
+        return Recognised(
+            _proper(channel), head.unit, head.absolute, penalty, "by its name", channel == "extension"
+        )
     if channel is not None and dimension:
         return Recognised(None, head.unit, None, 0, f"its name says {channel}, '{head.unit}' is {dimension}")
     if not dimension or dimension == "a plain number or a share":
         no_channel = next((NO_CHANNEL[word] for word in words if word in NO_CHANNEL), None)
-        return Recognised(None, head.unit, None, 0, f"it is {no_channel}" if no_channel else "its name is not known")
+        return Recognised(
+            None, head.unit, None, 0, f"it is {no_channel}" if no_channel else "its name is not known"
+        )
     by_unit = {"a force": "force", "a pressure": "pressure", "a time": "time"}.get(dimension)
     if by_unit is None:
         return Recognised(None, head.unit, None, 0, "its name is not known")
-    return Recognised(by_unit, head.unit, head.absolute, penalty + BY_UNIT, f"by its unit '{head.unit}' alone")
+    return Recognised(
+        by_unit, head.unit, head.absolute, penalty + BY_UNIT, f"by its unit '{head.unit}' alone"
+    )
 
 
 def _proper(channel: str) -> str:
@@ -209,7 +224,22 @@ def _sure(name: str, text: str, unit: UnitText) -> bool:
         return True
     if named and text in ("V", "mV", "mA"):
         return True
-    return len(text) >= 2 and text in ("mm", "bar", "mbar", "kPa", "MPa", "kN", "ms", "mV", "kg", "cm", "psi", "lbf", "daN", "kgf")
+    return len(text) >= 2 and text in (
+        "mm",
+        "bar",
+        "mbar",
+        "kPa",
+        "MPa",
+        "kN",
+        "ms",
+        "mV",
+        "kg",
+        "cm",
+        "psi",
+        "lbf",
+        "daN",
+        "kgf",
+    )
 
 
 def _reference_among(words: list[str]) -> bool | None:
@@ -221,4 +251,6 @@ def fits_channel(unit: str, channel: str) -> bool:
     """Whether a unit can be that of a channel."""
     if unit == CLOCK:
         return channel == "time"
-    return channel in DIMENSIONS and (dimension_of(unit) in DIMENSIONS[channel] or unit == CHANNEL_UNITS.get(channel))
+    return channel in DIMENSIONS and (
+        dimension_of(unit) in DIMENSIONS[channel] or unit == CHANNEL_UNITS.get(channel)
+    )

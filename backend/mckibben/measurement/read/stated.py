@@ -21,20 +21,101 @@ _NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
 _QUANTITY = re.compile(rf"(?<![\w.,-])({_NUMBER})\s*([A-Za-zµ°%\"]+(?:\s*\([a-zü]+\))?)?(?![\w.,]*\d)")
 _UNIT_FIRST = re.compile(rf"[\[(]\s*([^\])]+?)\s*[\])]\s*[:=;]?\s*({_NUMBER})(?!\s*[A-Za-z])")
 _AT_REST = frozenset(
-    "l0 rest unloaded relaxed free initial nominal gauge start ruhe anfang anfangs nenn einspann ausgangs "
-    "vide repos initiale libre riposo iniziale libera reposo inicial sample specimen".split()
+    [
+        "l0",
+        "rest",
+        "unloaded",
+        "relaxed",
+        "free",
+        "initial",
+        "nominal",
+        "gauge",
+        "start",
+        "ruhe",
+        "anfang",
+        "anfangs",
+        "nenn",
+        "einspann",
+        "ausgangs",
+        "vide",
+        "repos",
+        "initiale",
+        "libre",
+        "riposo",
+        "iniziale",
+        "libera",
+        "reposo",
+        "inicial",
+        "sample",
+        "specimen",
+    ]
 )
 _REST_LENGTHS = re.compile(r"(ruhe|einspann|anfangs|nenn|ausgangs|probe[nr]?)[a-z]{0,2}(lange|laenge)")
-_LOADS = frozenset("load last mass masse weight gewicht charge carico carga massa peso poids masa".split())
+_LOADS = frozenset(
+    [
+        "load",
+        "last",
+        "mass",
+        "masse",
+        "weight",
+        "gewicht",
+        "charge",
+        "carico",
+        "carga",
+        "massa",
+        "peso",
+        "poids",
+        "masa",
+    ]
+)
 _NO_LOADS = frozenset(
-    "preload vorkraft vorlast max maximum maximal cell zelle capacity grenze limit range pre sensor moving".split()
+    [
+        "preload",
+        "vorkraft",
+        "vorlast",
+        "max",
+        "maximum",
+        "maximal",
+        "cell",
+        "zelle",
+        "capacity",
+        "grenze",
+        "limit",
+        "range",
+        "pre",
+        "sensor",
+        "moving",
+    ]
 )
 _SUPPLIES = frozenset(
-    "supply versorgung versorgungsdruck speisedruck vordruck netzdruck alimentation alimentazione "
-    "alimentacion".split()
+    [
+        "supply",
+        "versorgung",
+        "versorgungsdruck",
+        "speisedruck",
+        "vordruck",
+        "netzdruck",
+        "alimentation",
+        "alimentazione",
+        "alimentacion",
+    ]
 )
-_SAMPLES = frozenset("specimen sample probe prufling eprouvette provino probeta muestra muster dut campione".split())
-_DATES = frozenset("date datum fecha data giorno".split())
+_SAMPLES = frozenset(
+    [
+        "specimen",
+        "sample",
+        "probe",
+        "prufling",
+        "eprouvette",
+        "provino",
+        "probeta",
+        "muestra",
+        "muster",
+        "dut",
+        "campione",
+    ]
+)
+_DATES = frozenset(["date", "datum", "fecha", "data", "giorno"])
 _COMPRESSION = re.compile(
     r"(compress\w*|druckkraft)\W+(?:\w+\W+){0,2}positi|(tension|traction|pull\w*|zug\w*|trazione)\W+(?:\w+\W+){0,3}negati"
 )
@@ -68,7 +149,11 @@ def statements(rest: Iterable[tuple[str, str]], name: str) -> list[Note]:
         for key, value in _of_code(text):
             found.setdefault(key, Note(where, key, value))
     for quantity in _quantities(stem.replace("_", " ")):
-        if quantity.unit is not None and dimension_of(quantity.unit) == "a mass" and "load_force" not in found:
+        if (
+            quantity.unit is not None
+            and dimension_of(quantity.unit) == "a mass"
+            and "load_force" not in found
+        ):
             found.setdefault("load_mass", Note(NAME, "load_mass", f"{quantity.value} {quantity.unit}"))
     if "load_mass" in found and "load_force" in found and found["load_mass"].where == NAME:
         del found["load_mass"]
@@ -119,10 +204,12 @@ def _key_of(quantity: _Quantity) -> str | None:
     if words & _NO_LOADS:
         return None
     lengthy = any(channel_of_word(word) == "length" for word in quantity.words)
-    at_rest = bool(words & _AT_REST) and (lengthy or "l0" in words) or bool(_REST_LENGTHS.search(joined))
+    at_rest = (bool(words & _AT_REST) and (lengthy or "l0" in words)) or bool(_REST_LENGTHS.search(joined))
     if at_rest and measured in ("", "a length"):
         return "nominal_length"
-    loaded = words & _LOADS or any(channel_of_word(w) == "force" and w.endswith("last") for w in quantity.words)
+    loaded = words & _LOADS or any(
+        channel_of_word(w) == "force" and w.endswith("last") for w in quantity.words
+    )
     if loaded and measured == "a mass":
         return "load_mass"
     if loaded and measured == "a force":
@@ -160,7 +247,9 @@ def in_known_words(notes: Iterable[Note]) -> list[Note]:
             quantity = next(iter(_quantities(f"{head.name.replace('_', ' ')}: {note.value}")), None)
             words = words_of(head.name)
             unit = head.unit or (quantity.unit if quantity else None)
-            known = _key_of(_Quantity(words, "", unit)) if quantity or not isinstance(note.value, str) else None
+            known = (
+                _key_of(_Quantity(words, "", unit)) if quantity or not isinstance(note.value, str) else None
+            )
             if known is None and words and words[0] in _SAMPLES and isinstance(note.value, str):
                 renamed += [note._replace(key="sample"), *_notes_of_code(note)]
                 continue

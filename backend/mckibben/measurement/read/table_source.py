@@ -32,7 +32,9 @@ def source_of(table: Table, *, format: str, notes: Sequence[Note], messages: Seq
     if numbered:
         names.append(PART)
         units.append(None)
-    style = style_of(cell for part in table.parts for _, row in islice(part.rows(), _STYLE_ROWS) for cell in row)
+    style = style_of(
+        cell for part in table.parts for _, row in islice(part.rows(), _STYLE_ROWS) for cell in row
+    )
 
     def rows(clocks: bool) -> Iterator[tuple[int, list[Cell]]]:
         for number, part in enumerate(table.parts):
@@ -57,7 +59,9 @@ def source_of(table: Table, *, format: str, notes: Sequence[Note], messages: Seq
         problems = Problems(table.place, "column", skip=skip)
         return read_cells(rows(True), names, numeric=numeric, text=text, problems=problems)
 
-    sample = [["" if cell is None else str(cell) for cell in row] for _, row in islice(rows(False), SAMPLE_ROWS)]
+    sample = [
+        ["" if cell is None else str(cell) for cell in row] for _, row in islice(rows(False), SAMPLE_ROWS)
+    ]
     if with_pressure:
         places = ", ".join(dict.fromkeys(f"'{part.held.pressure.text}'" for part in table.parts if part.held))
         where = table.parts[0].held.where if table.parts[0].held else ""
@@ -105,7 +109,12 @@ def _quick(
     """A long plain text by the way for plain texts; None = it is not as plain as that."""
     part = table.parts[0]
     grid = part.grid
-    if len(table.parts) > 1 or isinstance(part, MapPart) or not isinstance(grid, TextGrid) or len(part.pieces) > 1:
+    if (
+        len(table.parts) > 1
+        or isinstance(part, MapPart)
+        or not isinstance(grid, TextGrid)
+        or len(part.pieces) > 1
+    ):
         return None
     first, last = part.pieces[0]
     if grid.separator == BLANKS or style.thousands or part.columns != tuple(range(len(names))):
@@ -116,7 +125,12 @@ def _quick(
     if len(body) < FAST_FROM:
         return None
     return read_table(
-        body, grid.separator, names, numeric=numeric, text=text, name=table.place, first_line=first + 1, skip=skip
+        body,
+        grid.separator,
+        names,
+        numeric=numeric,
+        text=text,
+        name=table.place,
+        first_line=first + 1,
+        skip=skip,
     )
-
-

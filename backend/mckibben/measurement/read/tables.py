@@ -1,4 +1,4 @@
-"""From grids to the one table that is read: all tables of a file, those that belong together, the best one."""
+"""From grids to the one table that is read: all tables, those that belong together, the best one."""
 
 from __future__ import annotations
 
@@ -9,7 +9,15 @@ from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.read.blocks import MapPart, Table, tables_of_run
 from mckibben.measurement.read.grid import Grid, TextGrid
 from mckibben.measurement.read.header import map_headers
-from mckibben.measurement.read.locate import Run, TableHead, find_runs, head_of, main_runs, texts_of, with_broken_rows
+from mckibben.measurement.read.locate import (
+    Run,
+    TableHead,
+    find_runs,
+    head_of,
+    main_runs,
+    texts_of,
+    with_broken_rows,
+)
 from mckibben.physics.errors import InputError, did_you_mean
 
 _TEXT_ROWS = 400  # rows beside the tables of which the texts are kept
@@ -17,7 +25,7 @@ _MAX_TEXT = 300  # characters of one
 
 
 class Chosen(NamedTuple):
-    """The table that is read, what was left out, and other tables that could be meant (option, what it is)."""
+    """The table that is read, what was left out, other tables that could be meant (name, columns)."""
 
     table: Table
     messages: list[str]
@@ -165,7 +173,8 @@ def choose(tables: Sequence[Table], *, sheet: str | None, noun: str = "sheet") -
         if not named:
             titles = [table.title for table in tables if table.title]
             raise InputError(
-                f"{tables[0].place.partition(',')[0]}: there is no {noun} '{sheet}' with a table", field="sheet",
+                f"{tables[0].place.partition(',')[0]}: there is no {noun} '{sheet}' with a table",
+                field="sheet",
                 hint=did_you_mean(sheet, titles) or f"the file has {', '.join(titles)}",
             )  # fmt: skip
         return Chosen(_best(named), [], ())
@@ -179,7 +188,9 @@ def choose(tables: Sequence[Table], *, sheet: str | None, noun: str = "sheet") -
     rivals = [t for t in tables if t is not best and len(wanted) >= 2 and len(channels_of(t)) >= len(wanted)]
     choices: tuple[tuple[str, str], ...] = ()
     if rivals:
-        choices = tuple((table.title, ", ".join(n for n in table.names if n)[:80]) for table in (best, *rivals))
+        choices = tuple(
+            (table.title, ", ".join(n for n in table.names if n)[:80]) for table in (best, *rivals)
+        )
     return Chosen(best, _left_out([t for t in tables if t is not best], noun), choices)
 
 

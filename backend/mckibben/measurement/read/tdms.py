@@ -57,7 +57,9 @@ def open_tdms(data: bytes, name: str, correction: Correction | None = None) -> R
             problem = problem or error
             continue
         if columns:
-            tables.append(NamedTable(title, columns, _notes(own, place, every=True), _texts(own, place), messages))
+            tables.append(
+                NamedTable(title, columns, _notes(own, place, every=True), _texts(own, place), messages)
+            )
     if wanted is not None:
         chosen = [table for table in tables if table.title == wanted]
         if tables and not chosen:
@@ -88,7 +90,12 @@ def open_tdms(data: bytes, name: str, correction: Correction | None = None) -> R
     known = {note.key for note in (*notes, *own_notes)}
     stated = [note for note in statements(rest, name) if note.key not in known]
     source = array_source(
-        best.columns, place=place, format="tdms", noun=_NOUN, notes=[*notes, *own_notes, *stated], messages=messages
+        best.columns,
+        place=place,
+        format="tdms",
+        noun=_NOUN,
+        notes=[*notes, *own_notes, *stated],
+        messages=messages,
     )
     if rivals and wanted is None:
         choices = tuple((table.title, ", ".join(table.columns)[:80]) for table in (alike[0], *rivals))

@@ -13,11 +13,15 @@ from mckibben.measurement.read.cells import Cell
 NUMBER, CLOCK, TEXT, GAP = "n", "c", "t", ""
 
 _PLAIN = re.compile(r"[+-]?(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:[eE][+-]?[0-9]+)?")
-_GROUPED = re.compile(r"[+-]?[0-9]{1,3}(?:(?P<mark>[.,'’ \u00a0\u202f])[0-9]{3})(?:(?P=mark)[0-9]{3})*(?P<rest>[.,][0-9]*)?")
+_GROUPED = re.compile(
+    r"[+-]?[0-9]{1,3}(?:(?P<mark>[.,'’ \u00a0\u202f])[0-9]{3})(?:(?P=mark)[0-9]{3})*(?P<rest>[.,][0-9]*)?"
+)
 _DAY = r"(?:[0-9]{4}[-/.][0-9]{1,2}[-/.][0-9]{1,2}|[0-9]{1,2}[./-][0-9]{1,2}[./-][0-9]{2,4})"
 _TIME = r"[0-9]{1,2}:[0-9]{2}(?::[0-9]{2}(?:[.,:][0-9]{1,9})?)?(?:\s*[aApP][mM])?"
 _CLOCK = re.compile(rf"{_TIME}|{_DAY}(?:[T ]+{_TIME}(?:Z|\s*[+-][0-9]{{2}}:?[0-9]{{2}})?)?")
-_GAPS = frozenset({"", "-", "--", "---", "nan", "na", "n/a", "#n/a", "#na", "null", "none", "#nv", "#div/0!", "*"})
+_GAPS = frozenset(
+    {"", "-", "--", "---", "nan", "na", "n/a", "#n/a", "#na", "null", "none", "#nv", "#div/0!", "*"}
+)
 
 
 class NumberStyle(NamedTuple):
@@ -50,7 +54,7 @@ def kind_of(cell: Cell) -> str:
         return TEXT
     if isinstance(cell, (datetime, timedelta)):
         return CLOCK
-    return NUMBER if cell == cell else GAP  # noqa: PLR0124 - nan
+    return NUMBER if cell == cell else GAP
 
 
 def style_of(cells: Iterable[Cell]) -> NumberStyle:
@@ -134,7 +138,9 @@ def _absolute_seconds(cell: Cell) -> tuple[float, bool] | None:
         return None
     text = cell.strip()
     day, rest = re.match(rf"({_DAY})?[T ]*(.*)", text).groups()  # type: ignore[union-attr]
-    found = re.match(r"([0-9]{1,2}):([0-9]{2})(?::([0-9]{2})(?:[.,:]([0-9]{1,9}))?)?\s*([aApP][mM])?", rest or "0:00")
+    found = re.match(
+        r"([0-9]{1,2}):([0-9]{2})(?::([0-9]{2})(?:[.,:]([0-9]{1,9}))?)?\s*([aApP][mM])?", rest or "0:00"
+    )
     if found is None:
         return None
     hours, minutes, seconds, fraction, half = found.groups()
@@ -153,5 +159,3 @@ def _absolute_seconds(cell: Cell) -> tuple[float, bool] | None:
         return datetime(parts[0], parts[1], parts[2], tzinfo=UTC).timestamp() + value, True
     except ValueError:
         return None
-
-

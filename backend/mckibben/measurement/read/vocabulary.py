@@ -10,27 +10,25 @@ import re
 import unicodedata
 from functools import lru_cache
 
-#: Channel -> words for it.
-CHANNEL_WORDS: dict[str, tuple[str, ...]] = {
-    "time": tuple("time zeit temps tiempo tempo timestamp uhrzeit heure hora ora clock elapsed dauer".split()),
-    "pressure": tuple("pressure druck pression presion pressione press".split()),
-    "force": tuple("force kraft effort forza fuerza load last charge carga carico weight gewicht".split()),
-    "length": tuple("length laenge lange longueur longitud lunghezza".split()),
-    "displacement": tuple(
-        "displacement displ weg hub stroke course corsa carrera verschiebung deplacement desplazamiento "
-        "spostamento position posicion posizione travel verkuerzung verkurzung raccourcissement "
-        "accorciamento acortamiento shortening auslenkung verfahrweg".split()
-    ),
-    "extension": tuple(
-        "extension elongation dehnung verlaengerung verlangerung allongement allungamento alargamiento".split()
-    ),
-    "contraction": tuple("contraction kontraktion contrazione contraccion strain kappa".split()),
-    "diameter": tuple("diameter durchmesser diametre diametro".split()),
-    "velocity": tuple("velocity speed geschwindigkeit vitesse velocidad velocita".split()),
-    "command": tuple("command ventil valve stellgroesse stellgrosse comando vanne valvola".split()),
-    "temperature": tuple("temperature temperatur temperatura temp".split()),
-    "group": tuple("cycle zyklus ciclo versuch essai prova lauf sweep".split()),
+_CHANNEL_TEXTS = {
+    "time": "time zeit temps tiempo tempo timestamp uhrzeit heure hora ora clock elapsed dauer",
+    "pressure": "pressure druck pression presion pressione press",
+    "force": "force kraft effort forza fuerza load last charge carga carico weight gewicht",
+    "length": "length laenge lange longueur longitud lunghezza",
+    "displacement": "displacement displ weg hub stroke course corsa carrera verschiebung deplacement "
+    "desplazamiento spostamento position posicion posizione travel verkuerzung verkurzung "
+    "raccourcissement accorciamento acortamiento shortening auslenkung verfahrweg",
+    "extension": "extension elongation dehnung verlaengerung verlangerung allongement allungamento "
+    "alargamiento",
+    "contraction": "contraction kontraktion contrazione contraccion strain kappa",
+    "diameter": "diameter durchmesser diametre diametro",
+    "velocity": "velocity speed geschwindigkeit vitesse velocidad velocita",
+    "command": "command ventil valve stellgroesse stellgrosse comando vanne valvola",
+    "temperature": "temperature temperatur temperatura temp",
+    "group": "cycle zyklus ciclo versuch essai prova lauf sweep",
 }
+#: Channel -> words for it.
+CHANNEL_WORDS = {channel: tuple(words.split()) for channel, words in _CHANNEL_TEXTS.items()}
 #: Letters that stand for a channel where their unit agrees.
 LETTERS = {
     "t": "time", "p": "pressure", "f": "force", "l": "length", "x": "displacement", "s": "displacement",
@@ -54,21 +52,72 @@ OTHER_QUANTITIES = {
     for word in words.split()
 }
 #: These leave a pressure or a time what it is, but not a diameter.
-_ONLY_OF_DIAMETERS = frozenset("inside inner innen outside outer aussen wall bore".split())
+_ONLY_OF_DIAMETERS = frozenset(["inside", "inner", "innen", "outside", "outer", "aussen", "wall", "bore"])
 #: A column with one of these is wanted less than one without.
 LESS_WANTED = {
-    **dict.fromkeys("raw roh brut grezzo crudo adc counts digits uncalibrated unkalibriert".split(), 3),
-    **dict.fromkeys("filtered gefiltert smoothed geglaettet filtre filtrato filtrado mean mittel".split(), 2),
+    **dict.fromkeys(
+        ["raw", "roh", "brut", "grezzo", "crudo", "adc", "counts", "digits", "uncalibrated", "unkalibriert"],
+        3,
+    ),
+    **dict.fromkeys(
+        [
+            "filtered",
+            "gefiltert",
+            "smoothed",
+            "geglaettet",
+            "filtre",
+            "filtrato",
+            "filtrado",
+            "mean",
+            "mittel",
+        ],
+        2,
+    ),
 }
 #: Words for a running number, a remark: columns of these names are no channel.
 NO_CHANNEL = {
     **dict.fromkeys(
-        "nr no number nummer lfd index idx punkt point id scan sample zeile row row# n i #".split(),
+        [
+            "nr",
+            "no",
+            "number",
+            "nummer",
+            "lfd",
+            "index",
+            "idx",
+            "punkt",
+            "point",
+            "id",
+            "scan",
+            "sample",
+            "zeile",
+            "row",
+            "row#",
+            "n",
+            "i",
+            "#",
+        ],
         "a running number",
     ),
     **dict.fromkeys(
-        "bemerkung remark remarks comment comments note notes kommentar remarque observaciones osservazioni "
-        "nota anmerkung status state flag".split(),
+        [
+            "bemerkung",
+            "remark",
+            "remarks",
+            "comment",
+            "comments",
+            "note",
+            "notes",
+            "kommentar",
+            "remarque",
+            "observaciones",
+            "osservazioni",
+            "nota",
+            "anmerkung",
+            "status",
+            "state",
+            "flag",
+        ],
         "a remark",
     ),
 }

@@ -41,7 +41,7 @@ Rows = list[tuple[int, tuple[Cell, ...]]]
 
 
 def open_xlsx(data: bytes, name: str, correction: Correction | None = None) -> RawTable:
-    """The table of a workbook: of the sheet that names most channels, or of several sheets that belong together.
+    """The table of a workbook: of the sheet with most channels, or of several sheets that belong together.
 
     Raises:
         InputError: not a workbook, damaged, packed beyond measure, without a table, or without the sheet that
@@ -68,10 +68,12 @@ def open_xlsx(data: bytes, name: str, correction: Correction | None = None) -> R
         pressure = held_pressure(title)
         for table in found:
             for part in table.parts:
-                part.held = part.held or (None if pressure is None else Held(pressure, f"name of sheet '{title}'"))
+                part.held = part.held or (
+                    None if pressure is None else Held(pressure, f"name of sheet '{title}'")
+                )
         tables += found
         rest += found[0].rest if found else _texts(grid)
-    if wanted is None and not any(channels_of(table) for table in tables) or not tables:
+    if (wanted is None and not any(channels_of(table) for table in tables)) or not tables:
         return _refused_or_empty(sheets, name, wanted)
     chosen = choose(tables, sheet=wanted)
     table = chosen.table
@@ -90,7 +92,9 @@ def _refused_or_empty(sheets: Sequence[tuple[str, Rows]], name: str, wanted: str
     if wanted is not None and title != wanted:
         titles = [sheet[0] for sheet in sheets]
         raise InputError(
-            f"{name}: there is no sheet '{wanted}' with a table", field="sheet", hint=did_you_mean(wanted, titles)
+            f"{name}: there is no sheet '{wanted}' with a table",
+            field="sheet",
+            hint=did_you_mean(wanted, titles),
         )
     return _table(rows, f"{name}, sheet '{title}'")
 
@@ -105,7 +109,9 @@ def _comments(rows: Rows, place: str) -> list[Note]:
     found = []
     for number, cells in rows[:_HEADER_WITHIN]:
         if _is_comment(cells):
-            note = _note(["" if cell is None else str(cell).strip() for cell in cells], f"{place}, row {number}")
+            note = _note(
+                ["" if cell is None else str(cell).strip() for cell in cells], f"{place}, row {number}"
+            )
             found += [note] if note else []
     return found
 
@@ -232,5 +238,3 @@ def _known(texts: list[str], place: str) -> bool:
     """Whether a row is a header: it names at least one channel, or nearly does."""
     meaning = map_headers(texts, place=place, collect=True)
     return bool(meaning.columns or meaning.problems)
-
-
