@@ -28,7 +28,7 @@ def points_of(files: Sequence[str], studio: Studio, correction: Correction | Non
 
 def _read(name: str, studio: Studio, correction: Correction) -> Points:
     """A file, or a preset measurement or curve when there is no such file."""
-    if not Path(name).exists():
+    if not _exists(name):
         preset = find_preset(name, studio.library)
         if preset is not None:
             if correction != Correction():
@@ -39,6 +39,13 @@ def _read(name: str, studio: Studio, correction: Correction) -> Points:
     measurement = read_file(name, correction)
     rest = measurement.conditions.get("nominal_length")
     return Points(measurement, nominal_length=rest if isinstance(rest, float) else None)
+
+
+def _exists(name: str) -> bool:
+    try:
+        return Path(name).exists()
+    except (OSError, ValueError):  # no name of a file
+        return False
 
 
 def read_file(name: str, correction: Correction) -> Measurement:

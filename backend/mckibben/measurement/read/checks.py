@@ -36,6 +36,11 @@ _RAW_PENALTY = 1  # between a column and its raw, filtered or clipped form
 
 def questions_of(evidence: Evidence) -> list[Question]:
     """All questions, those that stop the reading first."""
+    with np.errstate(all="ignore"):  # numbers near the largest there are
+        return _questions(evidence)
+
+
+def _questions(evidence: Evidence) -> list[Question]:
     rows = len(next(iter(evidence.channels.values()), ()))
     asked = _tables(evidence)
     if rows >= ENOUGH:

@@ -20,6 +20,7 @@ from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
 from mckibben.measurement.read.stated import in_known_words
 from mckibben.measurement.read.table import first_rows, read_table, split_header
 from mckibben.measurement.read.values import CLOCK, NUMBER, TEXT, kind_of
+from mckibben.measurement.read.vocabulary import STATISTICS, words_of
 from mckibben.physics.errors import InputError
 
 _CONTROL = re.compile(rb"[\x00-\x08\x0b\x0e-\x1f\x7f]")
@@ -125,20 +126,30 @@ def without_footer(body: str, separator: str, first_line: int) -> tuple[str, lis
         return body, []
     end = len(body.rstrip())
     lines: list[str] = []
+    gap = False  # an empty line above the first of them
     while end > 0 and len(lines) < _FOOTER_LINES:
         begin = body.rfind("\n", 0, end) + 1
         line = body[begin:end].strip()
         if line.strip(separator + " ") and not _WORD.match(line):
             break
-        if line.strip(separator + " "):
+        gap = not line.strip(separator + " ")
+        if not gap:
             lines.append(line)
         end = begin - 1
-    if not lines or end <= 0:
+    if not lines or end <= 0 or not (gap or all(_is_no_reading(line, separator) for line in lines)):
         return body, []
     kept = body[:end]
     row = first_line + kept.count("\n") + 1
     shown = ", ".join(f"'{line[:40]}'" for line in lines[::-1][:4])
     return kept, [f"what stands below the table, from row {row} on, is not read: {shown}"]
+
+
+def _is_no_reading(line: str, separator: str) -> bool:
+    """Whether a line that begins with a word holds no number, or is a line of statistics."""
+    cells = line.split(separator)
+    words = words_of(cells[0])
+    statistic = bool(words) and words[0] in STATISTICS
+    return statistic or not any(kind_of(cell) == NUMBER for cell in cells)
 
 
 def _decoded(data: bytes, name: str, messages: list[str]) -> str:

@@ -45,6 +45,8 @@ def located_text(text: str, name: str, correction: Correction, messages: Sequenc
         if line.lstrip(' "').startswith("#")
         and (note := note_of_line(line.strip(';,\t "'), f"{name}, row {row}")) is not None
     ]
+    stated = {int(note.where.rpartition(" ")[2]) for note in notes}
+    lines = ["" if number in stated else line for number, line in enumerate(lines, start=1)]
     said = list(messages)
     keyed = _keyed(lines)
     if keyed is not None:

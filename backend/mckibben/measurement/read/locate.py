@@ -11,6 +11,7 @@ from mckibben.measurement.read.grid import Grid, TextGrid
 from mckibben.measurement.read.recognise import BY_UNIT, recognise
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.values import CLOCK, GAP, NUMBER, TEXT, kind_of
+from mckibben.measurement.read.vocabulary import STATISTICS, words_of
 
 _HEAD_ROWS = 8  # most rows of a head
 _UNITS_WITHIN = 40  # rows above a head in which its units may stand
@@ -178,10 +179,14 @@ def with_broken_rows(grid: Grid, run: Run, head: TableHead) -> None:
 
 
 def _is_footer(grid: Grid, run: Run) -> bool:
-    """Whether a piece below a table is its statistics: every row begins with a word ("Mean", "Max")."""
+    """Whether a piece below a table is its statistics: every row begins with a word ("Mean", "Max").
+
+    Without an empty row above it has to be a word of statistics; any other may be a reading gone wrong.
+    """
+    parted = not any(texts_of(grid.cells(run.first - 1)))
     for index in range(run.first, run.last):
-        first = next((text for text in texts_of(grid.cells(index)) if text), "")
-        if not re.match(r"[^\W\d_]{3,}", first):
+        words = words_of(next((text for text in texts_of(grid.cells(index)) if text), ""))
+        if not words or not (words[0] in STATISTICS or (parted and re.match(r"[^\W\d_]{3,}", words[0]))):
             return False
     return True
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, Note, key_of
 from mckibben.measurement.read.recognise import taken_apart
 from mckibben.measurement.read.unit_words import REFERENCE_WORDS, dimension_of, unit_of
-from mckibben.measurement.read.vocabulary import channel_of_word, folded, words_of
+from mckibben.measurement.read.vocabulary import channel_of_word, folded, word_set, words_of
 from mckibben.resources import presets_folder
 
 NAME = "the file's name"
@@ -20,102 +20,21 @@ SIGN = "force_sign"  # text: "compression positive"
 _NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
 _QUANTITY = re.compile(rf"(?<![\w.,-])({_NUMBER})\s*([A-Za-zµ°%\"]+(?:\s*\([a-zü]+\))?)?(?![\w.,]*\d)")
 _UNIT_FIRST = re.compile(rf"[\[(]\s*([^\])]+?)\s*[\])]\s*[:=;]?\s*({_NUMBER})(?!\s*[A-Za-z])")
-_AT_REST = frozenset(
-    [
-        "l0",
-        "rest",
-        "unloaded",
-        "relaxed",
-        "free",
-        "initial",
-        "nominal",
-        "gauge",
-        "start",
-        "ruhe",
-        "anfang",
-        "anfangs",
-        "nenn",
-        "einspann",
-        "ausgangs",
-        "vide",
-        "repos",
-        "initiale",
-        "libre",
-        "riposo",
-        "iniziale",
-        "libera",
-        "reposo",
-        "inicial",
-        "sample",
-        "specimen",
-    ]
+_AT_REST = word_set(
+    "l0 rest unloaded relaxed free initial nominal gauge start ruhe anfang anfangs nenn einspann ausgangs "
+    "vide repos initiale libre riposo iniziale libera reposo inicial sample specimen"
 )
 _REST_LENGTHS = re.compile(r"(ruhe|einspann|anfangs|nenn|ausgangs|probe[nr]?)[a-z]{0,2}(lange|laenge)")
-_LOADS = frozenset(
-    [
-        "load",
-        "last",
-        "mass",
-        "masse",
-        "weight",
-        "gewicht",
-        "charge",
-        "carico",
-        "carga",
-        "massa",
-        "peso",
-        "poids",
-        "masa",
-    ]
+_LOADS = word_set("load last mass masse weight gewicht charge carico carga massa peso poids masa")
+_NO_LOADS = word_set(
+    "preload vorkraft vorlast max maximum maximal cell zelle capacity grenze limit range pre sensor moving"
 )
-_NO_LOADS = frozenset(
-    [
-        "preload",
-        "vorkraft",
-        "vorlast",
-        "max",
-        "maximum",
-        "maximal",
-        "cell",
-        "zelle",
-        "capacity",
-        "grenze",
-        "limit",
-        "range",
-        "pre",
-        "sensor",
-        "moving",
-    ]
+_SUPPLIES = word_set(
+    "supply versorgung versorgungsdruck speisedruck vordruck netzdruck alimentation alimentazione "
+    "alimentacion"
 )
-_SUPPLIES = frozenset(
-    [
-        "supply",
-        "versorgung",
-        "versorgungsdruck",
-        "speisedruck",
-        "vordruck",
-        "netzdruck",
-        "alimentation",
-        "alimentazione",
-        "alimentacion",
-    ]
-)
-_SAMPLES = frozenset(
-    [
-        "specimen",
-        "sample",
-        "probe",
-        "prufling",
-        "eprouvette",
-        "provino",
-        "probeta",
-        "muestra",
-        "muster",
-        "dut",
-        "campione",
-    ]
-)
-_DATES = frozenset(["date", "datum", "fecha", "data", "giorno"])
+_SAMPLES = word_set("specimen sample probe prufling eprouvette provino probeta muestra muster dut campione")
+_DATES = word_set("date datum fecha data giorno")
 _COMPRESSION = re.compile(
     r"(compress\w*|druckkraft)\W+(?:\w+\W+){0,2}positi|(tension|traction|pull\w*|zug\w*|trazione)\W+(?:\w+\W+){0,3}negati"
 )

@@ -7,6 +7,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from mckibben.measurement.read.marks import MARK_WORDS, split_mark
+from mckibben.measurement.read.vocabulary import word_set
 from mckibben.physics.units import is_unit, meaning
 
 #: Spellings that the unit library lacks, lower case.
@@ -15,7 +16,7 @@ _SPELLINGS = {
     "kp": "kgf", "kg-force": "kgf", "kg(f)": "kgf", "kp/cm2": "kgf/cm2", "kg/cm2": "kgf/cm2",
     "kg/cm²": "kgf/cm2", "kgf/cm²": "kgf/cm2", "lbs": "lbf", "lb": "lbf", "lbs.": "lbf", "pounds": "lbf",
     "zoll": "in", '"': "in", "inch": "in", "inches": "in", "pouces": "in", "pollici": "in",
-    "percent": "%", "prozent": "%", "vol": "V", "kn": "kN", "mpa": "MPa", "um": "µm",
+    "percent": "%", "prozent": "%", "vol": "V", "kn": "kN", "um": "µm",
 }  # fmt: skip
 #: What a column of a laboratory is measured in; other meanings of a short text are not its unit.
 _MEANINGS = frozenset({
@@ -24,7 +25,7 @@ _MEANINGS = frozenset({
     "an angle", "a power",
 })  # fmt: skip
 _CLOCK = re.compile(r"(?i)h{1,2}\s*:\s*m{1,2}(\s*:\s*s{1,2})?([.,:]\s*(m|ms|f|s|z|0)+)?|clock|iso ?8601")
-_COUNTS = frozenset({"count", "counts", "cts", "digit", "digits", "lsb", "bit", "bits", "raw", "adc", "inc"})
+_COUNTS = word_set("count counts cts digit digits lsb bit bits raw adc inc")
 #: On its own in a head it is a reference as well, "Innendruck (Ü)".
 _OVERPRESSURE = {"ü": False, "ue": False, "r": False, "a": True, "g": False}
 CLOCK = "clock"  # times of day or dates; they count from the first row
@@ -58,8 +59,10 @@ def unit_of(text: str) -> UnitText | None:
     if absolute is None:
         plain, absolute = _reference_in(bare)
     plain = _without_brackets(plain.strip(" ,"))
-    unit = _SPELLINGS.get(plain.lower(), plain) if plain not in ("kN", "MPa") else plain
-    for spelling in (unit, unit.lower()):
+    unit = _SPELLINGS.get(plain.lower(), plain)
+    # "mPa" is a thousandth of a pascal; "Mpa" and "mpa" are written for MPa.
+    spellings = ("MPa",) if unit in ("Mpa", "mpa") else (unit, unit.lower())
+    for spelling in spellings:
         if is_unit(spelling) and (meaning(spelling) in _MEANINGS or spelling in ("-", "1")):
             return UnitText(spelling, absolute)
     if bare in ("-", "–", "—"):

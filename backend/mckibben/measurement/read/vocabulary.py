@@ -10,6 +10,12 @@ import re
 import unicodedata
 from functools import lru_cache
 
+
+def word_set(text: str) -> frozenset[str]:
+    """The words of a text, parted by blanks."""
+    return frozenset(text.split())
+
+
 _CHANNEL_TEXTS = {
     "time": "time zeit temps tiempo tempo timestamp uhrzeit heure hora ora clock elapsed dauer",
     "pressure": "pressure druck pression presion pressione press",
@@ -52,75 +58,34 @@ OTHER_QUANTITIES = {
     for word in words.split()
 }
 #: These leave a pressure or a time what it is, but not a diameter.
-_ONLY_OF_DIAMETERS = frozenset(["inside", "inner", "innen", "outside", "outer", "aussen", "wall", "bore"])
+_ONLY_OF_DIAMETERS = word_set("inside inner innen outside outer aussen wall bore")
 #: A column with one of these is wanted less than one without.
 LESS_WANTED = {
+    **dict.fromkeys(word_set("raw roh brut grezzo crudo adc counts digits uncalibrated unkalibriert"), 3),
     **dict.fromkeys(
-        ["raw", "roh", "brut", "grezzo", "crudo", "adc", "counts", "digits", "uncalibrated", "unkalibriert"],
-        3,
-    ),
-    **dict.fromkeys(
-        [
-            "filtered",
-            "gefiltert",
-            "smoothed",
-            "geglaettet",
-            "filtre",
-            "filtrato",
-            "filtrado",
-            "mean",
-            "mittel",
-        ],
-        2,
+        word_set("filtered gefiltert smoothed geglaettet filtre filtrato filtrado mean mittel"), 2
     ),
 }
 #: Words for a running number, a remark: columns of these names are no channel.
 NO_CHANNEL = {
     **dict.fromkeys(
-        [
-            "nr",
-            "no",
-            "number",
-            "nummer",
-            "lfd",
-            "index",
-            "idx",
-            "punkt",
-            "point",
-            "id",
-            "scan",
-            "sample",
-            "zeile",
-            "row",
-            "row#",
-            "n",
-            "i",
-            "#",
-        ],
+        word_set("nr no number nummer lfd index idx punkt point id scan sample zeile row row# n i #"),
         "a running number",
     ),
     **dict.fromkeys(
-        [
-            "bemerkung",
-            "remark",
-            "remarks",
-            "comment",
-            "comments",
-            "note",
-            "notes",
-            "kommentar",
-            "remarque",
-            "observaciones",
-            "osservazioni",
-            "nota",
-            "anmerkung",
-            "status",
-            "state",
-            "flag",
-        ],
+        word_set(
+            "bemerkung remark remarks comment comments note notes kommentar remarque observaciones "
+            "osservazioni nota anmerkung status state flag"
+        ),
         "a remark",
     ),
 }
+#: Words with which the statistics below a table begin.
+STATISTICS = word_set(
+    "mean mittel mittelwert average avg moyenne media promedio durchschnitt max maximum maxi min minimum "
+    "mini std stdev stdabw sigma sd sum summe total totale somme suma count anzahl median range spannweite "
+    "end ende fin fine statistics statistik"
+)
 
 
 def folded(text: str) -> str:
@@ -160,7 +125,7 @@ def channel_of_word(word: str) -> str | None:
 
 
 #: Short words that German compounds are made of.
-_COMPOUNDS = frozenset(("zeit", "weg", "hub", "last"))
+_COMPOUNDS = word_set("zeit weg hub last")
 
 
 @lru_cache(maxsize=4096)

@@ -6,6 +6,7 @@ with the values they had when the file was saved; nothing of a workbook is ever 
 
 from __future__ import annotations
 
+import re
 import threading
 import warnings
 from collections.abc import Iterator, Sequence
@@ -34,6 +35,7 @@ _MAX_SHEETS = 20
 _MAX_CELLS = 8_000_000  # of all sheets; a cell takes 40 bytes and more
 _HEADER_WITHIN = 200  # rows
 _AT_ONCE = 64  # cells
+_ERROR_VALUE = re.compile(r"#(?:[A-Z0-9/]+[!?]|N/A|NV)")  # of a formula
 _LONGEST_TEXT = 300  # characters of a row of texts
 _warnings_lock = threading.Lock()  # catch_warnings is not safe between threads
 
@@ -101,7 +103,7 @@ def _refused_or_empty(sheets: Sequence[tuple[str, Rows]], name: str, wanted: str
 
 def _is_comment(cells: Sequence[Cell]) -> bool:
     first = next((str(cell).strip() for cell in cells if cell is not None and str(cell).strip()), "")
-    return first.startswith("#")
+    return first.startswith("#") and _ERROR_VALUE.fullmatch(first) is None
 
 
 def _comments(rows: Rows, place: str) -> list[Note]:
