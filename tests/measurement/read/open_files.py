@@ -251,6 +251,6 @@ def untared() -> OpenFile:
 
 
 WRITERS: tuple[Callable[[], OpenFile], ...] = (
-    no_unit, bare_psi, no_rest_length, no_load, milliseconds, absolute, second_force, two_specimens, crosshead,
-    compression, descending, two_sheets, impossible, long_stroke, untared,
+    no_unit, bare_psi, no_rest_length, no_load, milliseconds, absolute, second_force, two_specimens,
+    crosshead, compression, descending, two_sheets, impossible, long_stroke, untared,
 )  # fmt: skip

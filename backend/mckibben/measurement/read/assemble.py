@@ -4,24 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from pathlib import PurePath
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.measurement.measurement import CHANNEL_UNITS, Measurement, StatedValue, build
+from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES, Measurement, StatedValue, build
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.cells import CellTable, Skip
 from mckibben.measurement.read.channels import ChannelReading, read_channels
 from mckibben.measurement.read.checks import Evidence, questions_of
-from mckibben.measurement.read.conditions import key_of, read_conditions
+from mckibben.measurement.read.conditions import ATMOSPHERE, key_of, read_conditions
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning, map_headers
 from mckibben.measurement.read.questions import refusal
+from mckibben.measurement.read.recognise import held_pressure
 from mckibben.measurement.read.source import RawTable
-from mckibben.measurement.read.stated import SIGN
+from mckibben.measurement.read.stated import NAME, SIGN
 from mckibben.measurement.read.values import NUMBER, TEXT, kind_of
 from mckibben.physics.errors import InputError
+from mckibben.physics.units import convert
+
+_LOOKED_AT = 20_000  # readings from which questions are asked
 
 
 class Read(NamedTuple):
@@ -92,6 +97,7 @@ def assemble(
         source.place, source.noun, table, conditions, messages, list(meaning.ignored), skip, source.clocks
     )
     columns, by_use, slack = read_channels(meaning.columns, reading)
+    _hold_pressure_of_name(columns, by_use, name, messages)
     skipped = dict(reading.table.skipped)
     for reason, left_out in skipped.items():
         messages.append(f"{left_out.rows} rows left out: {reason} (first: {left_out.first})")
@@ -125,6 +131,19 @@ def assemble(
         questions=tuple(questions),
     )
     return Read(measurement, list(by_use.values()), skipped, questions)
+
+
+def _hold_pressure_of_name(
+    columns: dict[str, NDArray], by_use: dict[str, HeaderColumn], name: str, messages: list[str]
+) -> None:
+    """Forces over a stroke without any pressure are at that of the file's name, where it says one."""
+    said = held_pressure(PurePath(name).stem)
+    if said is None or "pressure" in columns or "force" not in columns or not set(columns) & set(STROKES):
+        return
+    value = float(convert([said.value], said.unit, "Pa")[0]) - (ATMOSPHERE if said.absolute else 0.0)
+    columns["pressure"] = np.full(len(columns["force"]), value)
+    by_use["pressure"] = HeaderColumn(-1, NAME, "pressure", said.unit, said.absolute)
+    messages.append(f"pressure is taken from the file's name: '{said.text}'")
 
 
 def _starts(columns: Mapping[str, NDArray]) -> tuple[int, ...]:
@@ -185,10 +204,15 @@ def _evidence(
             return None
         return table.numbers[first], table.numbers[second]
 
+    rows = len(next(iter(channels.values()), ()))
+    step = max(1, rows // _LOOKED_AT)  # what is asked of a million readings shows in some thousands of them
+    thinned = {
+        use: values[:_LOOKED_AT] if use == "time" else values[::step] for use, values in channels.items()
+    }
     return Evidence(
         headers=source.headers, apart=source.units, meaning=meaning,
         used={use: column for use, column in by_use.items() if use in channels or use not in CHANNEL_UNITS},
-        channels=channels, numeric=numeric, pair=pair, labels=reading.table.labels,
+        channels=thinned, numeric=numeric, pair=pair, labels=reading.table.labels,
         conditions=reading.conditions, choices=source.choices if correction.sheet is None else (),
         noun=source.noun,
     )  # fmt: skip

@@ -9,17 +9,19 @@ from dataclasses import dataclass, field
 from mckibben.measurement.read.cells import Cell
 from mckibben.measurement.read.grid import Grid
 from mckibben.measurement.read.locate import Run, TableHead, texts_of
-from mckibben.measurement.read.recognise import HeldPressure, held_pressure, recognise, taken_apart
+from mckibben.measurement.read.recognise import HeldQuantity, held_quantities, recognise, taken_apart
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.values import GAP, NUMBER, TEXT, kind_of
 from mckibben.measurement.read.vocabulary import folded
 
+UNNAMED = "values at each pressure"  # a column of which only the pressure is said
+
 
 @dataclass(frozen=True)
 class Held:
-    """A pressure held throughout a part, and where the file says so."""
+    """A quantity held throughout a part, and where the file says so."""
 
-    pressure: HeldPressure
+    quantity: HeldQuantity
     where: str
 
 
@@ -32,7 +34,7 @@ class Part:
         pieces: first and last (exclusive) rows; between them stand odd rows.
         columns: column of the grid of each head.
         own: those that are this part's alone; a row in which they are empty is not of this part.
-        held: the pressure of the part, where only a title or head says it.
+        held: channel -> pressure, stroke or load of the part, where a title or head says it.
         clocks: columns of the grid with times of day or dates.
     """
 
@@ -40,7 +42,7 @@ class Part:
     pieces: list[tuple[int, int]]
     columns: tuple[int, ...]
     own: tuple[int, ...]
-    held: Held | None = None
+    held: dict[str, Held] = field(default_factory=dict)
     clocks: frozenset[int] = frozenset()
 
     def rows(self) -> Iterator[tuple[int, list[Cell]]]:
@@ -126,6 +128,10 @@ def tables_of_run(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[
     first = groups[0]
     order = [*shared, *first]
     table.names = [bases.get(c, names[c]) for c in order]
+    if bases and not any(bases.values()) and len(first) == 1:  # heads of nothing but pressures
+        known = [recognise(names[c]).channel for c in shared]
+        value = _value_of_map([*(text for _, _, text in titles), grid.title], ["pressure", *known])
+        table.names[-1] = value or UNNAMED
     table.units = [units[c] for c in order]
     spans = [
         (min(group), min(groups[i + 1]) if i + 1 < len(groups) else 10**6) for i, group in enumerate(groups)
@@ -140,16 +146,17 @@ def tables_of_run(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[
 def _held_of_group(
     grid: Grid, names: Sequence[str], group: Sequence[int], titles: Sequence[tuple[int, int, str]],
     span: tuple[int, int] | None, head: TableHead,
-) -> Held | None:  # fmt: skip
+) -> dict[str, Held]:  # fmt: skip
+    found = {
+        quantity.channel: Held(quantity, grid.where(row, column))
+        for row, column, text in titles
+        if span is None or span[0] <= column < span[1]
+        for quantity in held_quantities(text)
+    }
     inside = {(h.value, h.unit): h for c in group if (h := taken_apart(names[c]).held) is not None}
     if len(inside) == 1 and head.row is not None:
-        return Held(next(iter(inside.values())), grid.where(head.row))
-    found = [
-        Held(pressure, grid.where(row, column))
-        for row, column, text in titles
-        if (span is None or span[0] <= column < span[1]) and (pressure := held_pressure(text)) is not None
-    ]
-    return found[-1] if found else None
+        found["pressure"] = Held(next(iter(inside.values())), grid.where(head.row))
+    return found
 
 
 def _groups(
@@ -237,7 +244,7 @@ def _map(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[int, int,
         place=grid.place, title=grid.title, names=[*names, value], units=[None] * 3, unit_where="",
         head_row=grid.line(run.first), parts=[],
     )  # fmt: skip
-    table.parts.append(MapPart(grid, [(run.first, run.last)], (axis, axis, axis), (axis,), None))
+    table.parts.append(MapPart(grid, [(run.first, run.last)], (axis, axis, axis), (axis,)))
     table.messages.append(
         f"{place}: a map, read as {channels[0]} down, {channels[1]} across, '{value}' in the cells"
     )

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.question import Question
+from mckibben.measurement.read.blocks import UNNAMED
 from mckibben.measurement.read.correction import SAMPLE
 from mckibben.measurement.read.evidence import Evidence, bare_name
 from mckibben.measurement.read.header import HeaderColumn
@@ -164,7 +165,7 @@ def _unread(evidence: Evidence) -> list[Question]:
         if index in used or index in meaning.dismissed or index in rivals or not evidence.numeric(index):
             continue
         head = taken_apart(header, evidence.apart[index] if index < len(evidence.apart) else None)
-        channel = _CARRIES.get(dimension_of(head.unit))
+        channel = "force" if header == UNNAMED else _CARRIES.get(dimension_of(head.unit))
         reason = meaning.reasons.get(index, "")
         if channel is None or any(known in reason for known in _KNOWN_REASONS):
             continue
@@ -177,7 +178,7 @@ def _unread(evidence: Evidence) -> list[Question]:
         asked.append(
             Question(
                 f"column '{name}'",
-                f"{evidence.noun} '{header or name}' is in {head.unit} and is not read"
+                f"{evidence.noun} '{header or name}' is in {head.unit or 'no unit'} and is not read"
                 f"{' (' + reason + ')' if reason else ''}; what is it",
                 f"{ignore_option(name)} or {column_option(target, name)}",
                 header or name,

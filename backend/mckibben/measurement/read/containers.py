@@ -26,6 +26,7 @@ _NAME = re.compile(r"(?i)(signal_?)?(name|label|title|bezeichnung|channel)")
 _UNIT = re.compile(r"(?i)(signal_?)?(unit|units|einheit|dim|unit_?label)")
 _MAX_COLUMNS = 60  # of a matrix that is taken apart
 _DEEPEST = 4
+_FEWEST_ROWS = 4  # of a matrix that can be readings
 RUN = "group"
 
 
@@ -66,6 +67,42 @@ def named_tables(values: Mapping[str, Any], *, name: str, noun: str) -> list[Nam
     return list(_tables(values, "", name, noun, 0))
 
 
+def matrix_tables(values: Mapping[str, Any], *, prefix: str = "") -> list[NamedTable]:
+    """The matrices of a file whose columns nothing names, as columns ``M(:,1)``."""
+    found = []
+    for key, value in values.items():
+        where = f"{prefix}{key}"
+        if isinstance(value, dict):
+            found += matrix_tables(value, prefix=f"{where}.")
+        elif isinstance(value, np.ndarray) and value.ndim == 2 and value.dtype.kind in "biuf":
+            columns = value if value.shape[0] >= value.shape[1] else value.T
+            if columns.shape[0] > _FEWEST_ROWS and 1 < columns.shape[1] <= _MAX_COLUMNS:
+                heads = [f"{where}(:,{number})" for number in range(1, columns.shape[1] + 1)]
+                named = {h: columns[:, n].astype(np.float64) for n, h in enumerate(heads)}
+                found.append(NamedTable(where, dict(named)))
+    return found
+
+
+def _with_units(values: dict[str, Any], inner: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Vectors with the unit that a text of a like name gives: ``Kraft_unit = 'N'``, ``units.Kraft = 'N'``."""
+    texts = {key: value for key, value in values.items() if isinstance(value, str)}
+    structs = [value for _, value in inner if isinstance(value, dict)]
+    result = {}
+    for key, value in values.items():
+        unit = next((texts[t] for t in (f"{key}_unit", f"{key}_units", f"unit_{key}") if t in texts), None)
+        unit = unit or next((s[key] for s in structs if isinstance(s.get(key), str)), None)
+        if (
+            unit is not None
+            and _is_vector(value)
+            and unit_of(unit) is not None
+            and recognise(key).unit is None
+        ):
+            result[f"{key} [{unit}]"] = value
+        else:
+            result[key] = value
+    return result
+
+
 def _tables(values: Mapping[str, Any], path: str, name: str, noun: str, depth: int) -> Iterator[NamedTable]:
     place = f"{name}, struct '{path}'" if path else name
     own: dict[str, Any] = {}
@@ -80,7 +117,7 @@ def _tables(values: Mapping[str, Any], path: str, name: str, noun: str, depth: i
             inner.append((key, value))
         else:
             own[key] = value
-    own = _matrices_apart(own)
+    own = _with_units(_matrices_apart(own), inner)
     try:
         table.columns, table.notes, table.messages = sorted_out(own, place=place, noun=noun)
     except InputError as error:

@@ -17,7 +17,7 @@ from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.header import HEADER_EXAMPLE, plainly_known
 from mckibben.measurement.read.lines import located_text
 from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
-from mckibben.measurement.read.stated import in_known_words
+from mckibben.measurement.read.stated import in_known_words, statements
 from mckibben.measurement.read.table import first_rows, read_table, split_header
 from mckibben.measurement.read.values import CLOCK, NUMBER, TEXT, kind_of
 from mckibben.measurement.read.vocabulary import STATISTICS, words_of
@@ -30,6 +30,7 @@ _FOOTER_LINES = 100
 _LONGEST_LINE = 10_000  # characters
 _WORD = re.compile(r'[\s"]*[^\W\d_]{3,}')
 _THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3}(?:\.\d{3})+,\d|(?<![\d.,])\d{1,3}(?:,\d{3})+\.\d")
+_QUOTED_THOUSANDS = re.compile(r'"\s*[+-]?\d{1,3}(?:,\d{3})+\.\d*\s*"')
 _BLANK_THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3}(?:['’\u00a0\u202f]\d{3})+(?![\d])")
 
 
@@ -70,9 +71,10 @@ def open_csv(data: bytes, name: str, correction: Correction | None = None) -> Ra
     if plain is not None and sure and correction.head is None:
         return plain
     located = located_text(text, name, correction, messages)
-    if refusal is not None and located is not None and refusal.field == f"row {located.header_row}":
-        raise refusal
     if located is not None:
+        same_row = refusal is not None and refusal.field == f"row {located.header_row}"
+        if refusal is not None and same_row and "never closed" in refusal.message:
+            raise refusal
         return located
     if plain is None:
         raise refusal or InputError(f"{name}: no table", field="file", hint=HEADER_EXAMPLE)
@@ -101,19 +103,27 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
         headers=headers,
         read=read,
         sample=sample,
-        notes=in_known_words(notes),
+        notes=_with_name(in_known_words(notes), name),
         messages=messages + below,
         header_row=row,
     )
     return source, sure
 
 
+def _with_name(notes: list[Note], name: str) -> list[Note]:
+    """The conditions of a file, and those that its name says."""
+    known = {note.key for note in notes}
+    return notes + [note for note in statements([], name) if note.key not in known]
+
+
 def _has_thousands(body: str, separator: str) -> bool:
     """Whether numbers are written with marks between their thousands."""
     if separator == ",":
-        return False
+        return '"' in body and _QUOTED_THOUSANDS.search(body) is not None
     marked = "." in body and "," in body and _THOUSANDS.search(body)
-    return bool(marked) or _BLANK_THOUSANDS.search(body) is not None
+    if marked:
+        return True
+    return any(mark in body for mark in "'’\u00a0\u202f") and _BLANK_THOUSANDS.search(body) is not None
 
 
 def without_footer(body: str, separator: str, first_line: int) -> tuple[str, list[str]]:

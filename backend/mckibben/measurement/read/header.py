@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from difflib import get_close_matches
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -44,6 +45,7 @@ _QUALIFIERS = dict.fromkeys(
 _BRACKETED = re.compile(r"([^\[(]*)[\[(](.*)[\])]\s*")
 _NUMBERED = re.compile(r"[0-9]+(\.[0-9]+)?[A-Za-z]")
 _MAX_HEADER = 120
+_NEAR = 0.75  # likeness of a word to one that it is probably meant for
 
 HEADER_EXAMPLE = "e.g. a header 'pressure_bar,length_mm,force_N'"
 
@@ -143,6 +145,8 @@ def map_headers(
                     other: list[str] = []
                     column = _in_other_words(index, header, apart[index], reasons, other)
                     said = said if column is None else other
+                if column is None and said:
+                    reasons[index] = said[-1].partition(" is not used: ")[2] or reasons.get(index, "")
                 messages += said
                 column = column if column is None else column._replace(header=header)
         except InputError as error:
@@ -275,8 +279,12 @@ def _no_channel(
     if all(re.fullmatch(r"[-+.,0-9eE\s]*", n) for n in names):
         problem = "numbers where the header should be"
         return InputError(f"{where}: {problem}", field=field, hint=HEADER_EXAMPLE)
-    near = [did_you_mean(re.split(r"[\s_\[(]", n)[0][:40] or "?", SYNONYMS) for n in names[:8]]
-    hint = next((n for n in near if n and n.startswith("Did")), HEADER_EXAMPLE)
+    words = [re.split(r"[\s_\[(]", n)[0][:40] for n in names[:8]]
+    near = [
+        did_you_mean(word, SYNONYMS) for word in words if get_close_matches(word.lower(), SYNONYMS, 1, _NEAR)
+    ]
+    example = next(name for name in names if name)[:40]
+    hint = next(iter(near), None) or f'e.g. --column "pressure={example} [bar]", or {HEADER_EXAMPLE[5:]}'
     why = "".join(f"; {message}" for message in messages)
     problem = f"no known channel among the {noun}s {shown}{why}"
     return InputError(f"{where}: {problem}", field=field, hint=hint)

@@ -20,6 +20,7 @@ from mckibben.measurement.read.tables import choose, tables_of_grid
 from mckibben.measurement.read.unit_words import unit_of
 
 _ALL_LINES = 100_000  # a longer text is taken as one table after its first lines
+_ALL_CHARACTERS = 30_000_000
 _FIRST_LINES = 5000
 _LONGEST_LINE = 200_000  # characters
 _PAIR = re.compile(
@@ -57,9 +58,8 @@ def located_text(text: str, name: str, correction: Correction, messages: Sequenc
         hint = next((line[4] for line in lines[:20] if re.fullmatch(r"sep=[,;\t]", line.strip())), None)
         grid = TextGrid(lines, name, hint or separator_of(_sampled(lines)))
         remarks = []
-    tables = tables_of_grid(
-        grid, head=correction.head, until=_FIRST_LINES if len(lines) > _ALL_LINES else None
-    )
+    long = len(lines) > _ALL_LINES or len(text) > _ALL_CHARACTERS
+    tables = tables_of_grid(grid, head=correction.head, until=_FIRST_LINES if long else None)
     tables = [table for table in tables if any(table.names) or any(table.units)]
     if not tables:
         return None
@@ -68,6 +68,7 @@ def located_text(text: str, name: str, correction: Correction, messages: Sequenc
     check_columns(len(table.names), f"{name}, row {table.head_row}", f"row {table.head_row}")
     _name_abscissa(table)
     table.rest += remarks
+    table.unread = [*table.unread, *chosen.unread]
     found = in_known_words(notes)
     known = {note.key for note in found}
     found += [note for note in statements(table.rest, name) if note.key not in known]

@@ -221,8 +221,29 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
         if index in (named, units_at):
             continue
         other = _padded(texts[index], width)
+        if index > named and _divides(names, other):
+            names = [" ".join(filter(None, pair)) for pair in zip(_filled_on(names), other, strict=False)]
+            continue
         names = [name or (o if _names_channel(o) else "") for name, o in zip(names, other, strict=False)]
     return TableHead(names, units, named, units_at, tuple(rows))
+
+
+def _divides(names: Sequence[str], below: Sequence[str]) -> bool:
+    """Whether a row of names is divided by the one below: "Kraft" over "Ist" and "Soll"."""
+    gaps = sum(not name and bool(b) for name, b in zip(names, below, strict=False))
+    return (
+        gaps > 0
+        and sum(map(bool, below)) >= sum(map(bool, names)) + gaps
+        and not any(_names_channel(b) for b in below if b)
+    )
+
+
+def _filled_on(names: Sequence[str]) -> list[str]:
+    """Names, each also for the columns without one behind it, as merged cells mean it."""
+    filled: list[str] = []
+    for name in names:
+        filled.append(name or (filled[-1] if filled else ""))
+    return filled
 
 
 def _rows_above(grid: Grid, run: Run, after: int) -> list[int]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from mckibben.measurement.read.containers import NamedTable, named_tables
+from mckibben.measurement.read.containers import NamedTable, matrix_tables, named_tables
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.mat5 import DamagedError, Foreign, read_variables
 from mckibben.measurement.read.source import RawTable, array_source
@@ -56,6 +56,8 @@ def choose(values: dict[str, Any], name: str, correction: Correction | None = No
                 field="sheet",
                 hint=did_you_mean(wanted, titles),
             )
+    if problem is None and not any(table.known() for table in usable) and not foreign:
+        usable += matrix_tables(without_foreign(values))[:1] if not usable else []
     best = max(usable, key=NamedTable.known, default=None)
     most = best.known() if best is not None else -1
     if problem is not None and most <= 0:
@@ -88,6 +90,9 @@ def choose(values: dict[str, Any], name: str, correction: Correction | None = No
     source = array_source(
         best.columns, place=place, format="mat", noun=_NOUN, notes=known_notes, messages=messages
     )
+    others = [table for table in usable if table is not best]
+    heads = [f"{table.title}.{head}".lstrip(".") for table in others for head in table.columns]
+    source = replace(source, unread=tuple((head, "it stands in another struct") for head in heads))
     if rivals and wanted is None:
         choices = tuple((t.title or "variables", ", ".join(t.columns)[:80]) for t in (best, *rivals))
         source = replace(source, choices=choices)

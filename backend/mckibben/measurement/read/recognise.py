@@ -21,8 +21,10 @@ from mckibben.measurement.read.unit_words import (
 from mckibben.measurement.read.vocabulary import (
     LESS_WANTED,
     LETTERS,
+    LOADLESS,
     NO_CHANNEL,
     channel_of_word,
+    folded,
     other_quantity,
     words_of,
 )
@@ -44,13 +46,25 @@ _HELD = re.compile(
 )
 
 
-class HeldPressure(NamedTuple):
-    """A pressure that a head or a title names: value, unit, reference, the words themselves."""
+_HELD_OTHER = re.compile(
+    rf"(?:(?P<word>[^\W\d_]+0?)\s*[=:]?\s*)?(?<![\w.,-])(?P<number>{_NUMBER})\s*(?P<unit>mm|cm|m|%|kg|kN|N)(?![\w/])"
+)
+_NOT_HELD = ("the supply", "the surrounding air", "a preload", "a deviation")
+_BARE_LENGTH = 80.0  # mm; a title that says less without a word names a stroke, not a length
 
+
+class HeldQuantity(NamedTuple):
+    """A quantity that a head or a title names: channel, value, unit, reference, the words themselves.
+
+    ``named``: a word beside it says what it is.
+    """
+
+    channel: str
     value: float
     unit: str
     absolute: bool | None
     text: str
+    named: bool = False
 
 
 class Head(NamedTuple):
@@ -59,7 +73,7 @@ class Head(NamedTuple):
     name: str
     unit: str | None
     absolute: bool | None
-    held: HeldPressure | None
+    held: HeldQuantity | None
 
 
 class Recognised(NamedTuple):
@@ -73,20 +87,52 @@ class Recognised(NamedTuple):
     extends: bool = False
 
 
-def held_pressure(text: str) -> HeldPressure | None:
+def held_pressure(text: str) -> HeldQuantity | None:
     """The one pressure that a text names: ``"p = 2,5 bar"``, ``"F @ 3 bar"``; None = none, or several."""
     found = list(_HELD.finditer(text.replace("_", " ")))
     if len(found) != 1:
         return None
     match = found[0]
+    words = words_of(text)
+    if any(word in LOADLESS or other_quantity(word, "pressure") in _NOT_HELD for word in words):
+        return None
     number = float(match["number"].replace(",", "."))
     absolute = None if not match["mark"] else reference_of(match["mark"])
     if absolute is None:
-        absolute = _reference_among(words_of(text))
+        absolute = _reference_among(words)
     unit = next(
         u for u in ("mbar", "bar", "kPa", "MPa", "hPa", "Pa", "psi") if u.lower() == match["unit"].lower()
     )
-    return HeldPressure(number, unit, absolute, match[0].strip())
+    named = any(channel_of_word(word) == "pressure" or word == "p" for word in words)
+    return HeldQuantity("pressure", number, unit, absolute, match[0].strip(), named)
+
+
+def held_quantities(text: str) -> list[HeldQuantity]:
+    """The pressure, stroke and load that a title names, at most one each: ``"L = 280 mm"``, ``"10 %"``."""
+    pressure = held_pressure(text)
+    found = {} if pressure is None else {"pressure": pressure}
+    for match in _HELD_OTHER.finditer(text.replace("_", " ")):
+        number, unit = float(match["number"].replace(",", ".")), match["unit"]
+        channel = _channel_of_held(folded(match["word"] or ""), number, unit)
+        if channel is not None:
+            if channel in found:
+                return []
+            found[channel] = HeldQuantity(channel, number, unit, None, match[0].strip())
+    return list(found.values())
+
+
+def _channel_of_held(word: str, number: float, unit: str) -> str | None:
+    if other_quantity(word, "length") or word in LOADLESS:
+        return None
+    dimension = dimension_of(unit)
+    named = channel_of_word(word) or LETTERS.get(word) if word else None
+    if named is not None:
+        return _proper(named) if dimension in DIMENSIONS[named] else None
+    if dimension == "a length":
+        return (
+            "length" if number * {"mm": 1.0, "cm": 10.0, "m": 1e3}[unit] >= _BARE_LENGTH else "displacement"
+        )
+    return {"a plain number or a share": "contraction", "a mass": "force"}.get(dimension)
 
 
 def taken_apart(header: str, unit_below: str | None = None) -> Head:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, Note, key_of
 from mckibben.measurement.read.recognise import taken_apart
 from mckibben.measurement.read.unit_words import REFERENCE_WORDS, dimension_of, unit_of
-from mckibben.measurement.read.vocabulary import channel_of_word, folded, word_set, words_of
+from mckibben.measurement.read.vocabulary import LOADLESS, channel_of_word, folded, word_set, words_of
 from mckibben.resources import presets_folder
 
 NAME = "the file's name"
@@ -26,9 +26,6 @@ _AT_REST = word_set(
 )
 _REST_LENGTHS = re.compile(r"(ruhe|einspann|anfangs|nenn|ausgangs|probe[nr]?)[a-z]{0,2}(lange|laenge)")
 _LOADS = word_set("load last mass masse weight gewicht charge carico carga massa peso poids masa")
-_NO_LOADS = word_set(
-    "preload vorkraft vorlast max maximum maximal cell zelle capacity grenze limit range pre sensor moving"
-)
 _SUPPLIES = word_set(
     "supply versorgung versorgungsdruck speisedruck vordruck netzdruck alimentation alimentazione "
     "alimentacion"
@@ -120,7 +117,7 @@ def _key_of(quantity: _Quantity) -> str | None:
     words = set(quantity.words)
     joined = "".join(quantity.words)
     measured = dimension_of(quantity.unit) if quantity.unit else ""
-    if words & _NO_LOADS:
+    if words & LOADLESS:
         return None
     lengthy = any(channel_of_word(word) == "length" for word in quantity.words)
     at_rest = (bool(words & _AT_REST) and (lengthy or "l0" in words)) or bool(_REST_LENGTHS.search(joined))

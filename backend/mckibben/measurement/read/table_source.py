@@ -5,30 +5,32 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import islice
 
+from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.read.blocks import MapPart, Part, Table
 from mckibben.measurement.read.cells import Cell, CellTable, Problems, no_rows, read_cells
 from mckibben.measurement.read.conditions import Note
 from mckibben.measurement.read.grid import BLANKS, TextGrid
+from mckibben.measurement.read.header import map_headers
 from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
 from mckibben.measurement.read.table import FAST_FROM, read_table
+from mckibben.measurement.read.tables import told_channels
 from mckibben.measurement.read.values import Clock, NumberStyle, number_of, style_of
+from mckibben.physics.units import factor
 
 PART = "group"  # head of the column that numbers the parts
 _STYLE_ROWS = 2000  # rows from which the way of writing numbers is told
-_HELD_NAME = "pressure"
 
 
 def source_of(table: Table, *, format: str, notes: Sequence[Note], messages: Sequence[str]) -> RawTable:
     """The source of a table; parts get a number each, and the pressure that their titles say."""
     names, units = list(table.names), list(table.units)
-    held = [part.held for part in table.parts]
+    told = told_channels(table)
     several = len(table.parts) > 1
     numbered = several and not _has(table, "group")
     said = list(messages) + table.messages
-    with_pressure = None not in held and not _has(table, "pressure")
-    if with_pressure:
-        names.append(_HELD_NAME)
-        units.append(_unit_of_held(table))
+    for channel in told:
+        names.append(channel)
+        units.append(_unit_of_held(table, channel))
     if numbered:
         names.append(PART)
         units.append(None)
@@ -38,9 +40,9 @@ def source_of(table: Table, *, format: str, notes: Sequence[Note], messages: Seq
 
     def rows(clocks: bool) -> Iterator[tuple[int, list[Cell]]]:
         for number, part in enumerate(table.parts):
-            more: list[Cell] = []
-            if with_pressure and part.held is not None:
-                more.append(part.held.pressure.value * _scale(part, table))
+            more: list[Cell] = [
+                part.held[channel].quantity.value * _scale(part, table, channel) for channel in told
+            ]
             if numbered:
                 more.append(number)
             times = {i: Clock() for i, c in enumerate(part.columns) if clocks and c in part.clocks}
@@ -62,10 +64,9 @@ def source_of(table: Table, *, format: str, notes: Sequence[Note], messages: Seq
     sample = [
         ["" if cell is None else str(cell) for cell in row] for _, row in islice(rows(False), SAMPLE_ROWS)
     ]
-    if with_pressure:
-        places = ", ".join(dict.fromkeys(f"'{part.held.pressure.text}'" for part in table.parts if part.held))
-        where = table.parts[0].held.where if table.parts[0].held else ""
-        said.append(f"the pressure is taken from the titles: {places} ({where})")
+    for channel in told:
+        places = ", ".join(dict.fromkeys(f"'{part.held[channel].quantity.text}'" for part in table.parts))
+        said.append(f"{channel} is taken from the titles: {places} ({table.parts[0].held[channel].where})")
     if several:
         said.append(f"{len(table.parts)} tables with the same columns are read as parts of one measurement")
     return RawTable(
@@ -77,29 +78,24 @@ def source_of(table: Table, *, format: str, notes: Sequence[Note], messages: Seq
 
 
 def _has(table: Table, use: str) -> bool:
-    from mckibben.measurement.read.header import map_headers
-
     meaning = map_headers([*table.names, "?"], place=table.place, collect=True, units=[*table.units, None])
     return any(column.use == use for column in meaning.columns)
 
 
-def _unit_of_held(table: Table) -> str:
-    held = table.parts[0].held
-    if held is None:
-        return "bar"
-    mark = {True: "(a)", False: "(g)", None: ""}[held.pressure.absolute]
-    return f"{held.pressure.unit}{mark}"
+def _unit_of_held(table: Table, channel: str) -> str:
+    quantity = table.parts[0].held[channel].quantity
+    mark = {True: "(a)", False: "(g)", None: ""}[quantity.absolute]
+    return f"{quantity.unit}{mark}"
 
 
-def _scale(part: Part, table: Table) -> float:
-    """The unit of this part's pressure in that of the first part."""
-    from mckibben.physics.units import factor
-
-    first = table.parts[0].held
-    if first is None or part.held is None or first.pressure.unit == part.held.pressure.unit:
+def _scale(part: Part, table: Table, channel: str) -> float:
+    """The unit of this part's quantity in that of the first part."""
+    first, own = table.parts[0].held[channel].quantity.unit, part.held[channel].quantity.unit
+    if first == own:
         return 1.0
-    own, other = factor(part.held.pressure.unit, "Pa"), factor(first.pressure.unit, "Pa")
-    return own.multiplier / own.divisor * other.divisor / other.multiplier
+    si = "kg" if {first, own} <= {"kg", "g"} else CHANNEL_UNITS[channel]
+    this, other = factor(own, si), factor(first, si)
+    return this.multiplier / this.divisor * other.divisor / other.multiplier
 
 
 def _quick(

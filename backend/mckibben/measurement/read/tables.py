@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from mckibben.measurement.measurement import CHANNEL_UNITS
+from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.read.blocks import MapPart, Table, tables_of_run
 from mckibben.measurement.read.grid import Grid, TextGrid
 from mckibben.measurement.read.header import map_headers
@@ -25,11 +25,15 @@ _MAX_TEXT = 300  # characters of one
 
 
 class Chosen(NamedTuple):
-    """The table that is read, what was left out, other tables that could be meant (name, columns)."""
+    """The table that is read, what was left out, other tables that could be meant (name, columns).
+
+    ``unread`` lists the columns of the other tables, with the reason.
+    """
 
     table: Table
     messages: list[str]
     choices: tuple[tuple[str, str], ...]
+    unread: list[tuple[str, str]]
 
 
 def tables_of_grid(grid: Grid, *, head: int | None = None, until: int | None = None) -> list[Table]:
@@ -157,9 +161,31 @@ def channels_of(table: Table) -> set[str]:
         return set()
     meaning = map_headers([*table.names, "?"], place=table.place, collect=True, units=[*table.units, None])
     found = {column.use for column in meaning.columns if column.use in CHANNEL_UNITS}
-    if table.parts and all(part.held is not None for part in table.parts):
-        found.add("pressure")
+    for channel in dict.fromkeys(channel for part in table.parts for channel in part.held):
+        if is_told(table, channel, found):
+            found.add(channel)
     return found - {"group", "direction"}
+
+
+def is_told(table: Table, channel: str, known: set[str]) -> bool:
+    """Whether the titles of all parts tell a channel that no column holds."""
+    there = channel in known or (channel in STROKES and bool(known & set(STROKES)))
+    if there or not all(channel in part.held for part in table.parts):
+        return False
+    # What a preamble says of a single table may be the rest length or the supply: it has to be named.
+    return len(table.parts) > 1 or (channel == "pressure" and table.parts[0].held[channel].quantity.named)
+
+
+def told_channels(table: Table) -> list[str]:
+    """The channels that only the titles tell, in every part; of a single part its named pressure."""
+    meaning = map_headers([*table.names, "?"], place=table.place, collect=True, units=[*table.units, None])
+    known = {column.use for column in meaning.columns}
+    found: list[str] = []
+    for channel in dict.fromkeys(channel for part in table.parts for channel in part.held):
+        if is_told(table, channel, known):
+            found.append(channel)
+            known.add(channel)
+    return found
 
 
 def choose(tables: Sequence[Table], *, sheet: str | None, noun: str = "sheet") -> Chosen:
@@ -177,21 +203,34 @@ def choose(tables: Sequence[Table], *, sheet: str | None, noun: str = "sheet") -
                 field="sheet",
                 hint=did_you_mean(sheet, titles) or f"the file has {', '.join(titles)}",
             )  # fmt: skip
-        return Chosen(_best(named), [], ())
+        best = _best(named)
+        return Chosen(best, [], (), _unread([table for table in tables if table is not best]))
     best = _best(tables)
     wanted = channels_of(best)
     alike = [table for table in tables if table.signature == best.signature]
-    if len(alike) > 1 and all(part.held for table in alike for part in table.parts):
+    told = told_channels(_together(alike)) if len(alike) > 1 else []
+    if len(alike) > 1 and told:
         best = _together(alike)
         others = [table for table in tables if table not in alike]
-        return Chosen(best, _left_out(others, noun), ())
+        return Chosen(best, _left_out(others, noun), (), _unread(others))
     rivals = [t for t in tables if t is not best and len(wanted) >= 2 and len(channels_of(t)) >= len(wanted)]
     choices: tuple[tuple[str, str], ...] = ()
     if rivals:
         choices = tuple(
             (table.title, ", ".join(n for n in table.names if n)[:80]) for table in (best, *rivals)
         )
-    return Chosen(best, _left_out([t for t in tables if t is not best], noun), choices)
+    others = [table for table in tables if table is not best]
+    return Chosen(best, _left_out(others, noun), choices, _unread(others))
+
+
+def _unread(tables: Sequence[Table]) -> list[tuple[str, str]]:
+    """The columns of tables that are not read."""
+    return [
+        (f"{table.title}: {name}" if table.title else name, "it stands in another table")
+        for table in tables
+        for name in table.names
+        if name
+    ]
 
 
 def _best(tables: Sequence[Table]) -> Table:

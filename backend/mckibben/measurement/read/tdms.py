@@ -97,6 +97,10 @@ def open_tdms(data: bytes, name: str, correction: Correction | None = None) -> R
         notes=[*notes, *own_notes, *stated],
         messages=messages,
     )
+    others_unread = tuple(
+        (f"{title}/{head}", "it stands in another group") for title in others for head in groups[title][0]
+    )
+    source = replace(source, unread=others_unread)
     if rivals and wanted is None:
         choices = tuple((table.title, ", ".join(table.columns)[:80]) for table in (alike[0], *rivals))
         source = replace(source, choices=choices)

@@ -21,7 +21,7 @@ _CHANNEL_TEXTS = {
     "pressure": "pressure druck pression presion pressione press",
     "force": "force kraft effort forza fuerza load last charge carga carico weight gewicht",
     "length": "length laenge lange longueur longitud lunghezza",
-    "displacement": "displacement displ weg hub stroke course corsa carrera verschiebung deplacement "
+    "displacement": "displacement displ disp weg hub stroke course corsa carrera verschiebung deplacement "
     "desplazamiento spostamento position posicion posizione travel verkuerzung verkurzung "
     "raccourcissement accorciamento acortamiento shortening auslenkung verfahrweg",
     "extension": "extension elongation dehnung verlaengerung verlangerung allongement allungamento "
@@ -80,6 +80,10 @@ NO_CHANNEL = {
         "a remark",
     ),
 }
+#: Words before a force or mass that is not the load of the muscle.
+LOADLESS = word_set(
+    "preload vorkraft vorlast max maximum maximal cell zelle capacity grenze limit range pre sensor moving"
+)
 #: Words with which the statistics below a table begin.
 STATISTICS = word_set(
     "mean mittel mittelwert average avg moyenne media promedio durchschnitt max maximum maxi min minimum "

@@ -23,7 +23,7 @@ from mckibben.measurement.read.grid import SheetGrid
 from mckibben.measurement.read.header import HEADER_EXAMPLE, map_headers
 from mckibben.measurement.read.limits import WORD, Allowance, check_columns
 from mckibben.measurement.read.locate import texts_of
-from mckibben.measurement.read.recognise import held_pressure
+from mckibben.measurement.read.recognise import held_quantities
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import in_known_words, statements
 from mckibben.measurement.read.table_source import source_of
@@ -35,6 +35,8 @@ _MAX_SHEETS = 20
 _MAX_CELLS = 8_000_000  # of all sheets; a cell takes 40 bytes and more
 _HEADER_WITHIN = 200  # rows
 _AT_ONCE = 64  # cells
+_ALL_ROWS = 100_000  # a longer sheet is taken as one table after its first rows
+_FIRST_ROWS = 5000
 _ERROR_VALUE = re.compile(r"#(?:[A-Z0-9/]+[!?]|N/A|NV)")  # of a formula
 _LONGEST_TEXT = 300  # characters of a row of texts
 _warnings_lock = threading.Lock()  # catch_warnings is not safe between threads
@@ -61,18 +63,20 @@ def open_xlsx(data: bytes, name: str, correction: Correction | None = None) -> R
         grid = SheetGrid([row for row in rows if not _is_comment(row[1])], place, title)
         head = correction.head if wanted in (None, title) else None
         try:
-            found = tables_of_grid(grid, head=head)
+            until = _FIRST_ROWS if len(grid) > _ALL_ROWS else None
+            found = tables_of_grid(grid, head=head, until=until)
         except InputError:
             if wanted == title or len(sheets) == 1:
                 raise
             found = []
         found = [table for table in found if any(table.names) or any(table.units)]
-        pressure = held_pressure(title)
+        named = {
+            quantity.channel: Held(quantity, f"name of sheet '{title}'")
+            for quantity in held_quantities(title)
+        }
         for table in found:
             for part in table.parts:
-                part.held = part.held or (
-                    None if pressure is None else Held(pressure, f"name of sheet '{title}'")
-                )
+                part.held = named | part.held
         tables += found
         rest += found[0].rest if found else _texts(grid)
     if (wanted is None and not any(channels_of(table) for table in tables)) or not tables:
@@ -84,6 +88,7 @@ def open_xlsx(data: bytes, name: str, correction: Correction | None = None) -> R
     found_notes = in_known_words([*(n for t, ns in notes.items() if t != table.title for n in ns), *own])
     known = {note.key for note in found_notes}
     found_notes += [note for note in statements(table.rest, name) if note.key not in known]
+    table.unread = [*table.unread, *chosen.unread]
     source = source_of(table, format="xlsx", notes=found_notes, messages=chosen.messages)
     return replace(source, choices=chosen.choices)
 
