@@ -132,6 +132,7 @@ def tables_of_run(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[
         known = [recognise(names[c]).channel for c in shared]
         value = _value_of_map([*(text for _, _, text in titles), grid.title], ["pressure", *known])
         table.names[-1] = value or UNNAMED
+    table.names = _told_apart(table.names)
     table.units = [units[c] for c in order]
     spans = [
         (min(group), min(groups[i + 1]) if i + 1 < len(groups) else 10**6) for i, group in enumerate(groups)
@@ -141,6 +142,19 @@ def tables_of_run(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[
         held = _held_of_group(grid, names, group, titles, span if len(groups) > 1 else None, head)
         table.parts.append(Part(grid, pieces, (*shared, *group), own, held, run.clocks))
     return table
+
+
+def _told_apart(names: Sequence[str]) -> list[str]:
+    """Names that occur twice get a number: ``"Force [N]"``, ``"Force #2 [N]"``."""
+    seen: dict[str, int] = {}
+    result = []
+    for name in names:
+        count = seen[name.casefold()] = seen.get(name.casefold(), 0) + 1
+        if count > 1 and name:
+            base, bracket, unit = name.partition("[") if "[" in name else name.partition("(")
+            name = f"{base.strip()} #{count} {bracket}{unit}".strip()
+        result.append(name)
+    return result
 
 
 def _held_of_group(

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.read.correction import SAMPLE, SLACK, Choice
 from mckibben.measurement.read.marks import MARK_WORDS, split_mark
-from mckibben.measurement.read.recognise import BY_UNIT, recognise, taken_apart
+from mckibben.measurement.read.recognise import BY_UNIT, is_raw, recognise, taken_apart
 from mckibben.measurement.read.unit_words import CLOCK, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import factor, is_unit, meaning
@@ -45,6 +45,7 @@ _QUALIFIERS = dict.fromkeys(
 _BRACKETED = re.compile(r"([^\[(]*)[\[(](.*)[\])]\s*")
 _NUMBERED = re.compile(r"[0-9]+(\.[0-9]+)?[A-Za-z]")
 _MAX_HEADER = 120
+_CLIPPED = 100  # penalty of a clipped column
 _NEAR = 0.75  # likeness of a word to one that it is probably meant for
 
 HEADER_EXAMPLE = "e.g. a header 'pressure_bar,length_mm,force_N'"
@@ -160,8 +161,19 @@ def map_headers(
     if not any(column.penalty < BY_UNIT for column in found) and not all(map(_is_unit, names)):
         found.clear()  # units alone make no table
     found.sort(
-        key=lambda c: (c.place not in choices, c.penalty, not c.header.lower().startswith(c.use), c.place)
+        key=lambda c: (
+            c.place not in choices,
+            is_raw(c.header),
+            c.penalty,
+            not c.header.lower().startswith(c.use),
+            c.place,
+        )
     )
+    messages += [
+        f"{noun} '{column.header}' is read as {column.use} by its unit '{column.unit}' alone"
+        for column in found
+        if column.penalty >= BY_UNIT and column.penalty < _CLIPPED
+    ]
     used: dict[str, HeaderColumn] = {}
     rivals = []
     for column in found:

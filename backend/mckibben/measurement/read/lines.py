@@ -83,7 +83,7 @@ def _sampled(lines: Sequence[str]) -> list[str]:
 def _name_abscissa(table: Table) -> None:
     """What a preamble says of the first column, where its head is "X_Value": the time in seconds."""
     for index, column in enumerate(table.names):
-        if re.fullmatch(r"(?i)x[_ ]?values?", column) and table.units[index] is None:
+        if re.fullmatch(r"(?i)x[_ ]?values?(?: #[0-9]+)?", column) and table.units[index] is None:
             said = next(
                 ((text, where) for text, where in table.rest if re.match(r"(?i)x[_ ]dimension\W+time", text)),
                 None,

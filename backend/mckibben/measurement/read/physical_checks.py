@@ -34,32 +34,33 @@ def _signs(evidence: Evidence) -> list[Question]:
             )
         )
         force = -force
-    stroke = evidence.channels.get("displacement")
-    column = evidence.used.get("displacement")
-    if stroke is None or column is None or column.origin == "you":
-        return asked
-    against = _against(evidence, stroke, force)
-    if (
-        (_mostly_negative(stroke) and against is not False)
-        or against
-        or (column.extends and against is not False)
-    ):
-        falls = _mostly_negative(stroke)
-        turned = column_option("displacement", bare_name(column), sign=-1)
-        as_length = f" or {column_option('length', bare_name(column))}" if np.min(stroke) > 0.0 else ""
-        asked.append(
-            Question(
-                "sign of displacement",
-                f"{evidence.noun} '{column.header}' {'falls' if falls else 'grows'} as the muscle "
-                f"{'shortens' if falls else 'becomes longer'}, a stroke counts shortening as positive; is it "
-                "to be turned",
-                f"{turned}{as_length}",
-                column.header,
-                "turned",
-                ("turned", "as it is"),
-            )
-        )
+    for channel in ("displacement", "contraction"):
+        stroke, column = evidence.channels.get(channel), evidence.used.get(channel)
+        if stroke is not None and column is not None and column.origin != "you":
+            asked += _sign_of_stroke(evidence, channel, stroke, force)
     return asked
+
+
+def _sign_of_stroke(evidence: Evidence, channel: str, stroke: Array, force: Array | None) -> list[Question]:
+    column = evidence.used[channel]
+    against = _against(evidence, stroke, force)
+    falls = _mostly_negative(stroke)
+    if against is False or not (falls or against or column.extends):
+        return []
+    turned = column_option(channel, bare_name(column), sign=-1)
+    could_be_length = channel == "displacement" and float(np.min(stroke)) > 0.0
+    as_length = f" or {column_option('length', bare_name(column))}" if could_be_length else ""
+    return [
+        Question(
+            f"sign of {channel}",
+            f"{evidence.noun} '{column.header}' {'falls' if falls else 'grows'} as the muscle "
+            f"{'shortens' if falls else 'becomes longer'}, shortening counts positive here; turn it",
+            f"{turned}{as_length}",
+            column.header,
+            "turned",
+            ("turned", "as it is"),
+        )
+    ]
 
 
 def _mostly_negative(values: Array) -> bool:

@@ -39,6 +39,8 @@ DIMENSIONS = {
     "group": ("a plain number or a share",),
 }  # fmt: skip
 BY_WORDS, BY_UNIT = 10, 60  # how much less such a column is wanted than one named the plain way
+_CHANGES = frozenset(("change", "delta", "anderung", "variation", "difference"))
+_RAW = 3  # of LESS_WANTED: a raw column
 _NUMBER = r"[0-9]+(?:[.,][0-9]+)?"
 _HELD = re.compile(
     rf"(?i)(?:(?:\b(?:bei|at|à|a|con|für|for|mit|avec|with|of|von)\b|@|[a-zκ]\s*[=:])\s*)?"
@@ -194,6 +196,8 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
         return Recognised(None, head.unit, None, 0, f"its name says {' and '.join(sorted(distinct))}")
     penalty = BY_WORDS + sum(LESS_WANTED.get(word, 0) for word in words)
     channel = _of_names(named, dimension) or _of_letter(words, dimension)
+    if channel == "length" and set(words) & _CHANGES:
+        channel = "extension"
     if channel is not None and (not dimension or dimension in DIMENSIONS[channel]):
         if (
             channel in ("force",)
@@ -218,6 +222,11 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
     return Recognised(
         by_unit, head.unit, head.absolute, penalty + BY_UNIT, f"by its unit '{head.unit}' alone"
     )
+
+
+def is_raw(header: str) -> bool:
+    """Whether a head says that its values are raw: counts, volts before calibration."""
+    return any(LESS_WANTED.get(word, 0) >= _RAW for word in words_of(header))
 
 
 def _proper(channel: str) -> str:

@@ -58,7 +58,7 @@ def unit_of(text: str) -> UnitText | None:
     plain, absolute = split_mark(bare)
     if absolute is None:
         plain, absolute = _reference_in(bare)
-    plain = _without_brackets(plain.strip(" ,"))
+    plain = _without_brackets(plain.strip(" ,."))
     unit = _SPELLINGS.get(plain.lower(), plain)
     # "mPa" is a thousandth of a pascal; "Mpa" and "mpa" are written for MPa.
     spellings = ("MPa",) if unit in ("Mpa", "mpa") else (unit, unit.lower())

@@ -24,7 +24,7 @@ _CHANNEL_TEXTS = {
     "displacement": "displacement displ disp weg hub stroke course corsa carrera verschiebung deplacement "
     "desplazamiento spostamento position posicion posizione travel verkuerzung verkurzung "
     "raccourcissement accorciamento acortamiento shortening auslenkung verfahrweg",
-    "extension": "extension elongation dehnung verlaengerung verlangerung allongement allungamento "
+    "extension": "extension elongation langenanderung dehnung verlaengerung verlangerung allongement allungamento "
     "alargamiento",
     "contraction": "contraction kontraktion contrazione contraccion strain kappa",
     "diameter": "diameter durchmesser diametre diametro",

@@ -138,6 +138,7 @@ def _texts(grid: SheetGrid) -> list[tuple[str, str]]:
 def _sheets(data: bytes, name: str) -> list[tuple[str, Rows]]:
     """Title and rows of the sheets that are not empty; rows by their number in the sheet."""
     found = []
+    problem: InputError | None = None
     try:
         with _warnings_lock, warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of features that hold no data
@@ -145,7 +146,11 @@ def _sheets(data: bytes, name: str) -> list[tuple[str, Rows]]:
             cells = _Cells(name, len(data))
             for sheet in book.worksheets[:_MAX_SHEETS]:
                 title = str(sheet.title)[:40]
-                rows = list(cells.rows(sheet, title))
+                try:
+                    rows = list(cells.rows(sheet, title))
+                except InputError as error:  # of this sheet: the others may be what is wanted
+                    problem = problem or error
+                    continue
                 if rows:
                     found.append((title, rows))
             book.close()
@@ -158,7 +163,9 @@ def _sheets(data: bytes, name: str) -> list[tuple[str, Rows]]:
             field="file", hint="save it again, or as CSV",
         ) from error  # fmt: skip
     if not found:
-        raise InputError(f"{name}, sheet 1: the workbook holds no rows", field="sheet 1", hint=HEADER_EXAMPLE)
+        raise problem or InputError(
+            f"{name}, sheet 1: the workbook holds no rows", field="sheet 1", hint=HEADER_EXAMPLE
+        )
     return found
 
 
