@@ -116,7 +116,10 @@ def stacked_workbook() -> LabFile:
     stream = io.BytesIO()
     book.save(stream)
     held = np.array([2e5, 3.5e5, 5e5])[r.run]
-    channels = {"displacement": (r.stroke, 1e-6), "force": (r.force, 0.01), "pressure": (held, 1.0)}
+    channels = {
+        "time": (r.time, 0.1), "displacement": (r.stroke, 1e-6), "force": (r.force, 0.01),
+        "pressure": (held, 1.0),
+    }  # fmt: skip
     return LabFile("Versuche.xlsx", stream.getvalue(), ("isobaric",), channels, {"nominal_length": 0.25})
 
 

@@ -16,6 +16,7 @@ from mckibben.measurement.read.conditions import Note, note_of_line
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.header import HEADER_EXAMPLE, plainly_known
 from mckibben.measurement.read.lines import located_text
+from mckibben.measurement.read.recognise import held_pressure
 from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
 from mckibben.measurement.read.stated import in_known_words, statements
 from mckibben.measurement.read.table import first_rows, read_table, split_header
@@ -90,7 +91,8 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
     known = plainly_known(headers)
     first = list(sample[0]) if sample else []
     words = [i for i in known if i < len(first) and kind_of(first[i]) in (TEXT, CLOCK)]
-    sure = bool(known) and not words and not _has_thousands(body, separator)
+    pressures = {(held.value, held.unit) for header in headers if (held := held_pressure(header)) is not None}
+    sure = bool(known) and not words and len(pressures) < 2 and not _has_thousands(body, separator)
 
     def read(numeric: Sequence[int], words: Sequence[int], skip: bool) -> CellTable:
         return read_table(

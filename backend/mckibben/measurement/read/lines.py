@@ -60,8 +60,7 @@ def located_text(text: str, name: str, correction: Correction, messages: Sequenc
         remarks = []
     long = len(lines) > _ALL_LINES or len(text) > _ALL_CHARACTERS
     tables = tables_of_grid(grid, head=correction.head, until=_FIRST_LINES if long else None)
-    tables = [table for table in tables if any(table.names) or any(table.units)]
-    if not tables:
+    if not any(any(table.names) or any(table.units) for table in tables):
         return None
     chosen = choose(tables, sheet=None)
     table = chosen.table

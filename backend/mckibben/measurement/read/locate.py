@@ -124,13 +124,13 @@ def main_runs(grid: Grid, runs: Sequence[Run]) -> list[Run]:
         )
         headed = alike and _is_headed(grid, run)
         follows = bool(kept) and run.first - kept[-1].last <= 3 and not headed
-        if run is largest or (headed and run.rows >= 2 and alike and 20 * run.rows >= largest.rows):
-            kept.append(run)
-        elif alike and follows and not _is_footer(grid, run):
+        if alike and follows and not _is_footer(grid, run):
             last = kept[-1]
             broken = [(i, i + 1) for i in range(last.last, run.first) if _holds_number(grid, i)]
             last.pieces = [*(last.pieces or [(last.first, last.last)]), *broken, (run.first, run.last)]
             last.last, last.rows, last.filled = run.last, last.rows + run.rows, last.filled + run.filled
+        elif run is largest or (headed and run.rows >= 2 and alike and 20 * run.rows >= largest.rows):
+            kept.append(run)
     return kept
 
 
@@ -213,6 +213,8 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
     units_at = _row_of_units(texts, [index for index in rows if index != named], names)
     if units_at is None and not any(recognise(name).unit for name in names if name):
         units_at = _units_in_preamble(grid, named, names)
+    if units_at is not None and units_at > named and _divides(names, _padded(texts[units_at], width)):
+        units_at = None  # units, and words that divide the names above
     units: list[str | None] = [None] * width
     if units_at is not None:
         below = _padded(texts.get(units_at) or texts_of(grid.cells(units_at)), width)

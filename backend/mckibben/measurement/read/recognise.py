@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from mckibben.measurement.measurement import CHANNEL_UNITS
+from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.read.unit_words import (
     CLOCK,
     COUNT,
@@ -43,7 +43,7 @@ _CHANGES = frozenset(("change", "delta", "anderung", "variation", "difference"))
 _RAW = 3  # of LESS_WANTED: a raw column
 _NUMBER = r"[0-9]+(?:[.,][0-9]+)?"
 _HELD = re.compile(
-    rf"(?i)(?:(?:\b(?:bei|at|à|a|con|für|for|mit|avec|with|of|von)\b|@|[a-zκ]\s*[=:])\s*)?"
+    rf"(?i)(?:(?:\b(?:bei|at|à|a|con|für|for|mit|avec|with|of|von)\b|@|\b[a-zκ]\s*[=:])\s*)?"
     rf"(?P<number>{_NUMBER})\s*(?P<unit>mbar|bar|kPa|MPa|hPa|Pa|psi)(?:\s*\(?(?P<mark>abs|a|g|ü|rel)\b\.?\)?)?(?![\w/])"
 )
 
@@ -113,10 +113,11 @@ def held_quantities(text: str) -> list[HeldQuantity]:
     """The pressure, stroke and load that a title names, at most one each: ``"L = 280 mm"``, ``"10 %"``."""
     pressure = held_pressure(text)
     found = {} if pressure is None else {"pressure": pressure}
+    at_rest = any(other_quantity(word, "length") is not None for word in words_of(text))
     for match in _HELD_OTHER.finditer(text.replace("_", " ")):
         number, unit = float(match["number"].replace(",", ".")), match["unit"]
         channel = _channel_of_held(folded(match["word"] or ""), number, unit)
-        if channel is not None:
+        if channel is not None and not (at_rest and channel in STROKES):
             if channel in found:
                 return []
             found[channel] = HeldQuantity(channel, number, unit, None, match[0].strip())

@@ -173,7 +173,7 @@ def is_told(table: Table, channel: str, known: set[str]) -> bool:
     if there or not all(channel in part.held for part in table.parts):
         return False
     # What a preamble says of a single table may be the rest length or the supply: it has to be named.
-    return len(table.parts) > 1 or (channel == "pressure" and table.parts[0].held[channel].quantity.named)
+    return len(table.parts) > 1 or table.parts[0].held[channel].quantity.named
 
 
 def told_channels(table: Table) -> list[str]:

@@ -17,15 +17,16 @@ def word_set(text: str) -> frozenset[str]:
 
 
 _CHANNEL_TEXTS = {
-    "time": "time zeit temps tiempo tempo timestamp uhrzeit heure hora ora clock elapsed dauer",
+    "time": "time zeit sekunden seconds temps tiempo tempo timestamp uhrzeit heure hora ora clock elapsed "
+    "dauer",
     "pressure": "pressure druck pression presion pressione press",
     "force": "force kraft effort forza fuerza load last charge carga carico weight gewicht",
     "length": "length laenge lange longueur longitud lunghezza",
     "displacement": "displacement displ disp weg hub stroke course corsa carrera verschiebung deplacement "
     "desplazamiento spostamento position posicion posizione travel verkuerzung verkurzung "
     "raccourcissement accorciamento acortamiento shortening auslenkung verfahrweg",
-    "extension": "extension elongation langenanderung dehnung verlaengerung verlangerung allongement allungamento "
-    "alargamiento",
+    "extension": "extension elongation langenanderung dehnung verlaengerung verlangerung allongement "
+    "allungamento alargamiento",
     "contraction": "contraction kontraktion contrazione contraccion strain kappa",
     "diameter": "diameter durchmesser diametre diametro",
     "velocity": "velocity speed geschwindigkeit vitesse velocidad velocita",

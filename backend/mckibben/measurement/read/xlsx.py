@@ -69,11 +69,8 @@ def open_xlsx(data: bytes, name: str, correction: Correction | None = None) -> R
             if wanted == title or len(sheets) == 1:
                 raise
             found = []
-        found = [table for table in found if any(table.names) or any(table.units)]
-        named = {
-            quantity.channel: Held(quantity, f"name of sheet '{title}'")
-            for quantity in held_quantities(title)
-        }
+        where = f"name of sheet '{title}'"
+        named = {q.channel: Held(q._replace(named=True), where) for q in held_quantities(title)}
         for table in found:
             for part in table.parts:
                 part.held = named | part.held
