@@ -410,3 +410,16 @@ def test_a_wrong_option_is_named(options: dict[str, object]) -> None:
         spoken_correction(**options)  # type: ignore[arg-type]
     assert str(caught.value.field).startswith(f"--{next(iter(options)).replace('columns', 'column')}")
     assert caught.value.hint
+
+
+def test_names_that_occur_twice() -> None:
+    head = "Zeit [s];Druck [bar];Kraft [N];Länge [mm];Kraft [N]"
+    text = [head, *[f"{line};{7 * n},0" for n, line in enumerate(lines())]]
+    with pytest.raises(InputError, match=r"'Kraft \[N\]' and 'Kraft #2 \[N\]' are both force and differ"):
+        read(["Messung 4", *text])
+    assert_read(read(["Messung 4", *text], ignore=["Kraft #2"]))
+    english = [text[0].replace("Kraft", "force"), *text[1:]]
+    with pytest.raises(InputError, match="occurs twice") as caught:
+        read(english)
+    assert '--ignore "column 5"' in str(caught.value.hint)
+    assert_read(read(english, ignore=["column 5"]))

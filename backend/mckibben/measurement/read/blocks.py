@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 from mckibben.measurement.read.cells import Cell
 from mckibben.measurement.read.grid import Grid
+from mckibben.measurement.read.header import plainly_known
 from mckibben.measurement.read.locate import Run, TableHead, texts_of
 from mckibben.measurement.read.recognise import HeldQuantity, held_quantities, recognise, taken_apart
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
@@ -145,12 +146,16 @@ def tables_of_run(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[
 
 
 def _told_apart(names: Sequence[str]) -> list[str]:
-    """Names that occur twice get a number: ``"Force [N]"``, ``"Force #2 [N]"``."""
+    """Names that occur twice get a number: ``"Kraft [N]"``, ``"Kraft #2 [N]"``.
+
+    Those of the plain kind do not: two columns ``force_N`` are refused.
+    """
+    plain = {names[index].casefold() for index in plainly_known(names)}
     seen: dict[str, int] = {}
     result = []
     for name in names:
         count = seen[name.casefold()] = seen.get(name.casefold(), 0) + 1
-        if count > 1 and name:
+        if count > 1 and name and name.casefold() not in plain:
             base, bracket, unit = name.partition("[") if "[" in name else name.partition("(")
             name = f"{base.strip()} #{count} {bracket}{unit}".strip()
         result.append(name)

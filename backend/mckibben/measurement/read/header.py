@@ -135,7 +135,8 @@ def map_headers(
             elif header and header.casefold() in seen:
                 raise InputError(
                     f"{where}, {noun} '{header[:_MAX_HEADER]}': the name occurs twice",
-                    field=field, hint=f"give every {noun} its own name",
+                    field=field,
+                    hint=f'give every {noun} its own name, or leave one out: --ignore "column {index + 1}"',
                 )  # fmt: skip
             else:
                 column, said = None, []
@@ -155,7 +156,8 @@ def map_headers(
                 raise
             problems[index] = error
             column = None
-        seen.add(header.casefold())
+        if index not in choices:
+            seen.add(header.casefold())
         if column is not None:
             found.append(column)
     if not any(column.penalty < BY_UNIT for column in found) and not all(map(_is_unit, names)):
