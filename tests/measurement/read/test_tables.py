@@ -408,7 +408,8 @@ def test_the_head_and_unknown_names() -> None:
 def test_a_wrong_option_is_named(options: dict[str, object]) -> None:
     with pytest.raises(InputError) as caught:
         spoken_correction(**options)  # type: ignore[arg-type]
-    assert str(caught.value.field).startswith(f"--{next(iter(options)).replace('columns', 'column')}")
+    option = next(iter(options)).replace("columns", "column").replace("_", "-")
+    assert str(caught.value.field).startswith(f"--{option}")
     assert caught.value.hint
 
 

@@ -183,7 +183,8 @@ def spoken_correction(
     choices |= dict.fromkeys(ignore)
     conditions: dict[str, float | str | None] = {}
     if rest_length is not None:
-        conditions["nominal_length"] = _given(rest_length, "nominal_length", f"{prefix}rest_length")
+        option = "--rest-length" if prefix == "--" else f"{prefix}rest_length"
+        conditions["nominal_length"] = _given(rest_length, "nominal_length", option)
     if load is not None:
         is_force = isinstance(load, str) and re.search(r"(?:N|lbf|kgf|daN|kp)\s*$", load) is not None
         key, other = ("load_force", "load_mass") if is_force else ("load_mass", "load_force")

@@ -20,9 +20,12 @@ def refusal(name: str, questions: Sequence[Question], *, strict: bool = False) -
         return None
     first = open_ones[0]
     asked = "; ".join(f"{question.text}: {question.option}" for question in open_ones)
+    field = first.about if first.column is None else f"column {first.column}"
+    if first.column is not None and field not in asked.replace("'", ""):
+        field = first.column
     return InputError(
         f"{name}: {asked}",
-        field=(first.column and f"column {first.column}") or first.about,
+        field=field,
         hint="answer with these options" if len(open_ones) > 1 else "answer with this option",
     )
 
