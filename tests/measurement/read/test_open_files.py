@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -63,3 +64,33 @@ def test_the_answer_decides_the_values(write: Callable[[], OpenFile]) -> None:
     if file.options:
         assert result.questions == ()
         assert preview(file.data, file.name, answer).problem is None
+
+
+def test_a_real_logger_that_calls_milliseconds_seconds() -> None:
+    path = Path(__file__).parents[4] / "shared" / "data" / "logger_S001P001.TXT"
+    if not path.exists():
+        pytest.skip("the logger's file is not beside this checkout")
+    found = preview(path.read_bytes(), path.name)
+    assert [question.about for question in found.questions if question.stops] == ["unit of time"]
+    assert found.questions[0].option == '--column "time=t [ms]"'
+
+
+def test_tests_that_only_look_odd_are_not_asked_about() -> None:
+    rows = np.arange(300)
+    noise = 1e-3 * np.sin(7.0 * rows)
+    creep = ["time_s,pressure_bar,length_mm,load_N"]
+    creep += [
+        f"{10 * n},{3 + e:.4f},{240 - 2 * (1 - np.exp(-n / 60)):.4f},50"
+        for n, e in zip(rows, noise, strict=True)
+    ]
+    assert preview("\n".join(creep).encode(), "creep.csv").questions == ()
+    by_hand = ["time_s,pressure_bar,length_mm,force_N"]
+    way = [*range(0, 50, 5), *range(50, -1, -5)]
+    by_hand += [f"{10 * n},3,{250 - x},{600 - 11 * x}" for n, x in enumerate(way)]
+    assert preview("\n".join(by_hand).encode(), "hand.csv").questions == ()
+    short = [
+        "time_s,pressure_bar,length_mm,force_N"
+    ]  # two held lengths; the short muscle pulls little at 1 bar
+    for n, (length, lost) in enumerate([(250.0, 20.0), (215.0, 150.0)]):
+        short += [f"{n * 20 + k},{1 + 0.25 * k},{length},{(1 + 0.25 * k) * 160 - lost}" for k in range(20)]
+    assert preview("\n".join(short).encode(), "short.csv").questions == ()

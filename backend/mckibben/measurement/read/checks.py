@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.measurement.kind import turning_points
 from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.blocks import UNNAMED
@@ -126,6 +127,9 @@ def _units(evidence: Evidence) -> list[Question]:
     return asked
 
 
+_LONG_TEST = 900.0  # s; a test of readings by hand is shorter
+_SWING = 0.1  # of the largest value; less is noise about a held value
+_TURNS = 1
 _HARDLY = 2e3  # Pa; below it a pressure moves no muscle
 _LARGEST_AREA = 0.5  # m2, force over pressure; the largest catalogue muscle has 0.04
 
@@ -144,12 +148,15 @@ def _back(values: Floats, unit: str, si: str) -> Floats:
 
 
 def _moves(evidence: Evidence) -> bool:
-    """Whether a quantity goes up and down, as no slow drift does."""
+    """Whether a test of many minutes goes up and down all the way, as no slow drift and no creep does."""
+    time = evidence.channels["time"]
+    if float(np.ptp(time)) < _LONG_TEST:
+        return False
     for channel in ("pressure", *STROKES, "force"):
         values = evidence.channels.get(channel)
-        if values is not None and np.ptp(values) > 0.0:
-            steps = np.diff(values)
-            if np.sum(np.abs(steps)) > 1.5 * np.ptp(values):
+        if values is not None and np.ptp(values) > _SWING * float(np.max(np.abs(values))):
+            turns = turning_points(values, threshold=0.5 * float(np.ptp(values)))
+            if np.count_nonzero(turns) >= _TURNS:
                 return True
     return False
 

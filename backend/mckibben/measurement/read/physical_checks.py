@@ -126,12 +126,25 @@ def _idle(evidence: Evidence, rows: NDArray[np.bool_]) -> bool:
     force = evidence.channels.get("force")
     if force is not None and np.ptp(force) > 0.05 * np.max(np.abs(force)):
         shown = force[rows][force[rows] != 0.0]  # an exact 0 is a slack muscle or a clipped table
-        return len(shown) > 0 and bool(np.max(np.abs(shown)) <= 0.05 * np.max(np.abs(force)))
+        if not len(shown) or np.max(np.abs(shown)) > 0.05 * np.max(np.abs(force)):
+            return False
+        # A muscle that is short already pulls little at any pressure: only a long one shows that it is idle.
+        shortened = _shortened(evidence)
+        return shortened is None or bool(np.min(shortened[rows]) <= 0.1 * np.max(shortened))
     for channel in ("displacement", "contraction"):
         stroke = evidence.channels.get(channel)
         if stroke is not None and np.ptp(stroke) > 0.0:
             return bool(np.max(np.abs(stroke[rows])) <= 0.05 * np.max(np.abs(stroke)))
     return False
+
+
+def _shortened(evidence: Evidence) -> Array | None:
+    """How far the muscle is shortened in each row, from its longest; None where that does not change."""
+    for channel in STROKES:
+        stroke = evidence.channels.get(channel)
+        if stroke is not None and np.ptp(stroke) > 0.005 * np.max(np.abs(stroke)):
+            return np.max(stroke) - stroke if channel == "length" else stroke - np.min(stroke)
+    return None
 
 
 def _tare(evidence: Evidence) -> list[Question]:
