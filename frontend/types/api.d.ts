@@ -1098,6 +1098,12 @@ export interface components {
       segments: components["schemas"]["Segmentation"];
       /** Remarks on the file. */
       messages: string[];
+      /** All columns that nothing is read from, and why. */
+      unread: components["schemas"]["UnreadColumn"][];
+      /** The conditions with their origin. */
+      stated: components["schemas"]["StatedCondition"][];
+      /** What the file leaves open. */
+      questions: components["schemas"]["OpenQuestion"][];
     };
     /** Force over pressure and length. */
     MeasurementColumns: {
@@ -1136,6 +1142,12 @@ export interface components {
       segments: components["schemas"]["Segmentation"];
       /** Remarks on the file. */
       messages: string[];
+      /** All columns that nothing is read from, and why. */
+      unread: components["schemas"]["UnreadColumn"][];
+      /** The conditions with their origin. */
+      stated: components["schemas"]["StatedCondition"][];
+      /** What the file leaves open. */
+      questions: components["schemas"]["OpenQuestion"][];
       /** Channel -> values in SI; 'slack' marks rows without pulling force, 'usable' those with a usable measurement, 'sweep' and 'cycle' number them, 'motion' is -1 shortening, +1 lengthening, 0 at rest. */
       columns: { [key: string]: (number | boolean | null)[] };
     };
@@ -1291,6 +1303,23 @@ export interface components {
       effect: string;
       why: string;
     };
+    /** What the file leaves open. */
+    OpenQuestion: {
+      /** What it is about. */
+      about: string;
+      /** The question. */
+      text: string;
+      /** What answers it, in the words of the command line and of a mapping. */
+      option: string;
+      /** The column concerned. */
+      column: string | null;
+      /** The likeliest answer. */
+      proposed: string | null;
+      /** Possible answers. */
+      choices: string[];
+      /** Without an answer the file is not read. */
+      stops: boolean;
+    };
     /** The state in which the muscle holds the load at one pressure. */
     OperatingPoint: {
       /** Gauge pressure. [Pa] */
@@ -1433,6 +1462,14 @@ export interface components {
       messages: string[];
       channel_choices: components["schemas"]["ChannelChoice"][];
       kind_choices: string[];
+      /** What the file leaves open; 'problem' refuses it while one of them stops the reading. */
+      questions: components["schemas"]["OpenQuestion"][];
+      /** All columns that nothing is read from, and why. */
+      unread: components["schemas"]["UnreadColumn"][];
+      /** The conditions with their origin. */
+      stated: components["schemas"]["StatedCondition"][];
+      /** Sheets, groups or structs that could be meant; 'sheet' of a mapping picks one. */
+      table_choices: string[];
     };
     /** One column of the file, used or not. */
     PreviewColumn: {
@@ -1452,6 +1489,14 @@ export interface components {
       maximum: number | null;
       /** Why the column cannot be used as its header states. */
       why: string | null;
+      /** Who says the unit: file, you, or proposed from the range; null = not used. */
+      unit_origin: string | null;
+      /** Where the unit stands, apart from the header. */
+      unit_where: string | null;
+      /** -1: the file counts it the other way. */
+      sign: number;
+      /** Why nothing is read from the column; null = it is used. */
+      unread: string | null;
     };
     /** A drive that fulfils the task. Figures are per muscle unless stated otherwise. */
     ProposalAnswer: {
@@ -1867,6 +1912,16 @@ export interface components {
       /** Why the run starts there, as a sentence. */
       reason: string;
     };
+    /** A condition of the test and who says it. */
+    StatedCondition: {
+      key: string;
+      /** In SI, or a text. */
+      value: string | number | null;
+      /** file or you. */
+      origin: string;
+      /** Line or cell of the file; empty for the user's own. */
+      where: string;
+    };
     /** End stops as contraction ratios; below 0 the muscle may be stretched. */
     StopsInput: {
       /** The load rests here without pressure. [1] */
@@ -2046,6 +2101,13 @@ export interface components {
       effect: string;
       /** The experiment that separates the two. */
       separated_by: string;
+    };
+    /** A column that nothing is read from. */
+    UnreadColumn: {
+      /** Header of the file. */
+      column: string;
+      /** Why nothing is read from it. */
+      why: string;
     };
     /** A measurement and its use. */
     UsedMeasurement: {

@@ -185,11 +185,11 @@ def test_a_preview_says_what_the_file_is_and_keeps_nothing(client: TestClient, s
 
 
 def test_a_preview_leads_to_the_mapping_that_is_sent(client: TestClient) -> None:
-    content = CSV.replace(b"pressure_bar", b"druck") + b"4;oops;1\n"
+    content = CSV.replace(b"pressure_bar", b"kanal1") + b"4;oops;1\n"
     body = preview(client, content).json()
     assert body["columns"][0]["channel"] is None
     assert body["skipped"] == [{"reason": "not a number", "rows": 1, "first": "row 12, column 'length_mm'"}]
-    mapping = '{"columns": {"druck": {"channel": "pressure", "unit": "bar"}}, "bad_rows": "%s"}'
+    mapping = '{"columns": {"kanal1": {"channel": "pressure", "unit": "bar"}}, "bad_rows": "%s"}'
     body = preview(client, content, mapping=mapping % "refuse").json()
     PreviewAnswer.model_validate(body)
     assert body["only_bad_rows"]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields
 
 from numpy.typing import NDArray
 
-from mckibben.measurement.measurement import CHANNEL_UNITS, KINDS, Measurement
+from mckibben.measurement.measurement import CHANNEL_UNITS, KINDS, Measurement, StatedValue
+from mckibben.measurement.question import Question
 from mckibben.measurement.read.preview import MissingCondition, Preview, PreviewColumn, missing_conditions
 
 #: Units offered by a form for each channel.
@@ -42,6 +43,37 @@ class SweepSummary:
     speeds: list[float]
 
 
+@dataclass(frozen=True, slots=True)
+class UnreadColumn:
+    """A column that nothing is read from, and why."""
+
+    column: str
+    why: str
+
+
+@dataclass(frozen=True, slots=True)
+class StatedCondition:
+    """A condition of the test in SI or text: who says it, ``file`` or ``you``, and where in the file."""
+
+    key: str
+    value: float | str
+    origin: str
+    where: str
+
+
+@dataclass(frozen=True, slots=True)
+class OpenQuestion:
+    """What a file leaves open: see :class:`mckibben.measurement.question.Question`."""
+
+    about: str
+    text: str
+    option: str
+    column: str | None
+    proposed: str | None
+    choices: list[str]
+    stops: bool
+
+
 @dataclass(frozen=True)
 class MeasurementSummary:
     """A measurement as it was read.
@@ -57,6 +89,9 @@ class MeasurementSummary:
         missing: conditions that a comparison needs and the file does not state.
         groups: number of groups of rows.
         messages: the assumptions.
+        unread: columns that nothing is read from, and why.
+        stated: the conditions with their origin.
+        questions: what the file leaves open.
     """
 
     id: str
@@ -75,6 +110,9 @@ class MeasurementSummary:
     groups: int
     segments: SweepSummary
     messages: list[str]
+    unread: list[UnreadColumn]
+    stated: list[StatedCondition]
+    questions: list[OpenQuestion]
 
 
 @dataclass(frozen=True)
@@ -126,6 +164,8 @@ class PreviewResult:
         problem: why the file cannot be read, or None.
         only_bad_rows: whether the file can be read without the bad rows.
         channel_choices, kind_choices: options for corrections by the user.
+        questions, unread, stated: as in a summary, also for a file that cannot be read yet.
+        table_choices: names of the sheets, groups or structs that could be meant, where that is open.
     """
 
     name: str
@@ -146,6 +186,10 @@ class PreviewResult:
     messages: list[str]
     channel_choices: list[ChannelOption]
     kind_choices: list[str]
+    questions: list[OpenQuestion]
+    unread: list[UnreadColumn]
+    stated: list[StatedCondition]
+    table_choices: list[str]
 
 
 def summary_of(measurement: Measurement) -> MeasurementSummary:
@@ -184,7 +228,28 @@ def summary_of(measurement: Measurement) -> MeasurementSummary:
             speeds=list(sweeps.speeds),
         ),
         messages=list(measurement.messages),
+        unread=_unread(measurement.unread),
+        stated=_stated(measurement.stated),
+        questions=_questions(measurement.questions),
     )
+
+
+def _unread(columns: Iterable[tuple[str, str]]) -> list[UnreadColumn]:
+    return [UnreadColumn(column, why) for column, why in columns]
+
+
+def _stated(values: Iterable[StatedValue]) -> list[StatedCondition]:
+    return [StatedCondition(*value) for value in values]
+
+
+def _questions(questions: Iterable[Question]) -> list[OpenQuestion]:
+    return [
+        OpenQuestion(
+            question.about, question.text, question.option, question.column, question.proposed,
+            list(question.choices), question.stops,
+        )
+        for question in questions
+    ]  # fmt: skip
 
 
 def details_of(measurement: Measurement) -> MeasurementDetails:
@@ -228,4 +293,8 @@ def preview_of(preview: Preview) -> PreviewResult:
             for name, unit in CHANNEL_UNITS.items()
         ],
         kind_choices=list(KINDS),
+        questions=_questions(preview.questions),
+        unread=_unread(preview.unread),
+        stated=_stated(preview.stated),
+        table_choices=list(preview.choices),
     )

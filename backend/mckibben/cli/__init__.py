@@ -27,6 +27,17 @@ from mckibben.cli.options import (
     PresetsFolder,
     located,
 )
+from mckibben.cli.reading import (
+    Columns,
+    Head,
+    Ignored,
+    Load,
+    RestLength,
+    Sheet,
+    Strict,
+    Supply,
+    correction_of,
+)
 from mckibben.physics.errors import InputError
 
 __all__ = ["app", "main"]
@@ -120,6 +131,14 @@ def compare(
     drive: str = typer.Option("", "--drive", help="A drive document (JSON file): its muscle and effects."),
     fit: bool = typer.Option(False, "--fit", help="Fit the parameters of the effects."),
     free: Free = None,
+    sheet: Sheet = None,
+    head: Head = None,
+    column: Columns = None,
+    ignore: Ignored = None,
+    rest_length: RestLength = None,
+    load: Load = None,
+    supply: Supply = None,
+    strict: Strict = False,
     as_json: AsJson = False,
     presets: PresetsFolder = None,
     effects: EffectsFolders = None,
@@ -135,6 +154,16 @@ def compare(
         model=ModelOptions(muscle, ideal, effect or (), drive),
         fit=fit,
         free=free or [],
+        correction=correction_of(
+            sheet=sheet,
+            head=head,
+            columns=column,
+            ignored=ignore,
+            rest_length=rest_length,
+            load=load,
+            supply=supply,
+            strict=strict,
+        ),
         as_json=as_json,
     )
 
@@ -156,6 +185,14 @@ def diagnose(
     report: Annotated[
         Path | None, typer.Option("--report", metavar="FILE", help="Also write an HTML report.")
     ] = None,
+    sheet: Sheet = None,
+    head: Head = None,
+    column: Columns = None,
+    ignore: Ignored = None,
+    rest_length: RestLength = None,
+    load: Load = None,
+    supply: Supply = None,
+    strict: Strict = False,
     as_json: AsJson = False,
     presets: PresetsFolder = None,
     effects: EffectsFolders = None,
@@ -171,8 +208,53 @@ def diagnose(
         model=ModelOptions(muscle, ideal, effect or (), drive),
         free=free or [],
         noise=noise,
+        correction=correction_of(
+            sheet=sheet,
+            head=head,
+            columns=column,
+            ignored=ignore,
+            rest_length=rest_length,
+            load=load,
+            supply=supply,
+            strict=strict,
+        ),
         as_json=as_json,
         report=report,
+    )
+
+
+@app.command()
+def convert(
+    file: Annotated[str, typer.Argument(metavar="DATA", help="A measurement file of any laboratory.")],
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", "-o", metavar="FILE", help="Write it there instead of printing it."),
+    ] = None,
+    sheet: Sheet = None,
+    head: Head = None,
+    column: Columns = None,
+    ignore: Ignored = None,
+    rest_length: RestLength = None,
+    load: Load = None,
+    supply: Supply = None,
+    strict: Strict = False,
+) -> None:
+    """A measurement file as the canonical CSV, with its conditions and where they stand."""
+    from mckibben.cli.convert import run
+
+    run(
+        file=file,
+        correction=correction_of(
+            sheet=sheet,
+            head=head,
+            columns=column,
+            ignored=ignore,
+            rest_length=rest_length,
+            load=load,
+            supply=supply,
+            strict=strict,
+        ),
+        out=out,
     )
 
 

@@ -17,6 +17,7 @@ from mckibben.cli.output import (
     write_table,
 )
 from mckibben.documents.studio import Studio
+from mckibben.measurement.read import Correction
 
 
 def run(
@@ -26,6 +27,7 @@ def run(
     model: ModelOptions,
     fit: bool,
     free: Sequence[str],
+    correction: Correction,
     as_json: bool,
 ) -> None:
     """Print the comparison.
@@ -33,7 +35,7 @@ def run(
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
-    points = points_of(files, studio)
+    points = points_of(files, studio, correction)
     question = model_question(studio, points, model, free=free)
     result = compare(question, fit=fit)
     if as_json:

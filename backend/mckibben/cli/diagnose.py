@@ -20,6 +20,7 @@ from mckibben.cli.output import (
     write_table,
 )
 from mckibben.documents.studio import Studio
+from mckibben.measurement.read import Correction
 
 _SHOWN = 8  # most candidates listed
 
@@ -31,6 +32,7 @@ def run(
     model: ModelOptions,
     free: Sequence[str],
     noise: float | None,
+    correction: Correction,
     as_json: bool,
     report: Path | None = None,
 ) -> None:
@@ -39,7 +41,7 @@ def run(
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
-    points = points_of(files, studio)
+    points = points_of(files, studio, correction)
     question = model_question(studio, points, model, free=free, noise=noise)
     work = prepare(question, studio)
     with progress("trying effects") as watch:

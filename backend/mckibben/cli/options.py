@@ -114,8 +114,12 @@ def open_studio(presets: Path | None, effects: Sequence[Path] | None, data: Path
     return studio
 
 
-def start_model(studio: Studio, options: ModelOptions, *, named: str = "") -> StartModel:
+def start_model(
+    studio: Studio, options: ModelOptions, *, named: str = "", rest_length: float | None = None
+) -> StartModel:
     """The muscle and effects of the options; without a muscle, the one that a measurement names.
+
+    Where nothing else gives the length of the muscle, it is the rest length of the measurement [m].
 
     Raises:
         InputError: names the file or option, what is wrong and what would be right.
@@ -132,17 +136,24 @@ def start_model(studio: Studio, options: ModelOptions, *, named: str = "") -> St
     if chosen is None and "effects" in document:
         chosen = cast(Effects, document["effects"])
     if not options.muscle and "muscle" in document:
-        return _start_of_input(studio, document["muscle"], chosen, options.drive)
+        return _start_of_input(studio, _with_length(document["muscle"], rest_length), chosen, options.drive)
     muscle = options.muscle or named
     name, separator, length = muscle.partition(":")
     if not name:
         raise InputError("--muscle is missing", hint="e.g. --muscle DMSP-20:300mm")
     if _is_file(muscle, studio):
-        return _start_of_file(studio, Path(muscle), chosen)
+        return _start_of_file(studio, Path(muscle), chosen, rest_length)
     document: dict[str, object] = {"preset": name}
     if separator:
         document["nominal_length"] = length
-    return _start_of_input(studio, document, chosen, f"--muscle {muscle}")
+    return _start_of_input(studio, _with_length(document, rest_length), chosen, f"--muscle {muscle}")
+
+
+def _with_length(document: object, rest_length: float | None) -> object:
+    """A muscle of a document, with this length where it has none."""
+    if not isinstance(document, dict) or rest_length is None or "nominal_length" in document:
+        return document
+    return {**document, "nominal_length": rest_length}
 
 
 def model_question(
@@ -168,7 +179,7 @@ def model_question(
             raise InputError(f"--free {name}: there is no such geometry", hint=did_you_mean(name, GEOMETRY))
     measurement = points.measurement
     named = str(measurement.conditions.get("muscle", ""))
-    start = start_model(studio, options, named=named)
+    start = start_model(studio, options, named=named, rest_length=points.nominal_length)
     drive = None
     if options.drive and measurement.kind == "transient":
         drive = _drive_of(studio, options.drive, start)
@@ -221,7 +232,9 @@ def _is_file(muscle: str, studio: Studio) -> bool:
     return muscle.partition(":")[0].lower() not in known and Path(muscle).exists()
 
 
-def _start_of_file(studio: Studio, path: Path, effects: Effects | None) -> StartModel:
+def _start_of_file(
+    studio: Studio, path: Path, effects: Effects | None, rest_length: float | None
+) -> StartModel:
     """A muscle by geometry, or a whole preset file."""
     from mckibben.documents.start_model import StatedMuscle, preset_facts, start_model
     from mckibben.presets import MusclePreset
@@ -230,7 +243,7 @@ def _start_of_file(studio: Studio, path: Path, effects: Effects | None) -> Start
     try:
         document = read_file(path, follow_links=True)
         if not isinstance(document, dict) or "kind" not in document:
-            return _start_of_input(studio, document, effects, str(path))
+            return _start_of_input(studio, _with_length(document, rest_length), effects, str(path))
         preset = parse(MusclePreset, document, studio.effect_table)
     except BadDocumentError as bad:
         finding = bad.findings[0]

@@ -23,14 +23,15 @@ from mckibben.measurement.kind import (
     explain_kind,
     group_rows,
 )
+from mckibben.measurement.question import Question
 from mckibben.measurement.saturation import pushing_rows, unusable_rows
 from mckibben.measurement.spikes import spiked_rows
 from mckibben.measurement.sweeps import Sweeps, sweeps_of
 from mckibben.physics.errors import InputError, did_you_mean
 
 __all__ = [
-    "CHANNEL_UNITS", "FORCE_KINDS", "KINDS", "STROKES", "MeasuredChannel", "Measurement", "build",
-    "detect_kind", "group_rows", "lengths",
+    "CHANNEL_UNITS", "FORCE_KINDS", "KINDS", "STROKES", "MeasuredChannel", "Measurement", "StatedValue",
+    "build", "detect_kind", "group_rows", "lengths",
 ]  # fmt: skip
 
 #: Canonical channel name -> SI unit. Pressure is gauge; displacement is a contraction stroke (positive =
@@ -52,6 +53,15 @@ class MeasuredChannel(NamedTuple):
     minimum: float
     maximum: float
     source_unit: str
+
+
+class StatedValue(NamedTuple):
+    """A condition of the test: value in SI or text, who says it (``file`` or ``you``), and where."""
+
+    key: str
+    value: float | str
+    origin: str
+    where: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,6 +87,9 @@ class Measurement:
         starts: first row of each file of a joined measurement; signals are not continuous across it.
         kind_reason: why this kind was detected; empty when the file states it.
         segmented: segments known from the original rows of a reduced measurement.
+        unread: columns that nothing is read from, and why.
+        stated: the conditions with their origin.
+        questions: what the file leaves open.
     """
 
     name: str
@@ -94,6 +107,9 @@ class Measurement:
     starts: tuple[int, ...] = (0,)
     kind_reason: str = ""
     segmented: Sweeps | None = None
+    unread: tuple[tuple[str, str], ...] = ()
+    stated: tuple[StatedValue, ...] = ()
+    questions: tuple[Question, ...] = ()
 
     @cached_property
     def usable(self) -> NDArray[np.bool_]:

@@ -15,6 +15,7 @@ from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.presets import CurvePreset, MeasurementPreset, MysteryPreset, Preset, PresetLibrary
 
 _SHA256_LENGTH = 64
+_SAME_LENGTH = 1e-3  # relative; rest lengths that differ by less are the same sample's
 _KINDS = ("measurements", "curves", "mysteries")
 
 
@@ -139,6 +140,14 @@ def joined(all_points: Sequence[Points]) -> Points:
                     field=condition,
                     hint="give the load as a column, or compare them one after the other",
                 )
+        rest, other = first.conditions.get("nominal_length"), part.conditions.get("nominal_length")
+        if isinstance(rest, float) and isinstance(other, float) and abs(rest - other) > _SAME_LENGTH * rest:
+            raise InputError(
+                f"{part.name} and {first.name} have different rest lengths, {other * 1e3:.4g} mm and "
+                f"{rest * 1e3:.4g} mm",
+                field="nominal_length",
+                hint="compare them one after the other",
+            )
     shared = [name for name in first.columns if all(name in part.columns for part in parts)]
     columns = {name: np.concatenate([part.columns[name] for part in parts]) for name in shared}
     offset, labels = 0, []

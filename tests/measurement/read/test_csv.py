@@ -397,9 +397,9 @@ ERRORS = {
         "pressure_bar,length_mm,force_MN\n1,3,1e308\n",
         "a.csv, row 2, column 'force_MN': 1e+308 MN is too large",
     ),
-    "thousands": (
-        "pressure_Pa;length_mm\n1.000.000,5;3\n",
-        "a.csv, row 2, column 'pressure_Pa': '1.000.000,5' has a thousands separator",
+    "thousands with the sign of the decimals": (
+        "pressure_Pa;length_mm\n1,5;3\n1,000,000,5;3\n",
+        "a.csv, row 3, column 'pressure_Pa': '1,000,000,5' has a thousands separator",
     ),
     "mixed decimals": (
         "pressure_bar;length_mm\n1,5;300\n1.6;290\n",

@@ -2,15 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import PurePath
 from typing import NamedTuple
 
-from mckibben.measurement.measurement import CHANNEL_UNITS, Measurement, build
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES, Measurement, StatedValue, build
+from mckibben.measurement.question import Question
 from mckibben.measurement.read.cells import CellTable, Skip
 from mckibben.measurement.read.channels import ChannelReading, read_channels
-from mckibben.measurement.read.conditions import read_conditions
+from mckibben.measurement.read.checks import Evidence, questions_of
+from mckibben.measurement.read.conditions import ATMOSPHERE, key_of, read_conditions
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning, map_headers
+from mckibben.measurement.read.questions import refusal
+from mckibben.measurement.read.recognise import held_pressure
 from mckibben.measurement.read.source import RawTable
+from mckibben.measurement.read.stated import NAME, SIGN
+from mckibben.measurement.read.values import NUMBER, TEXT, kind_of
+from mckibben.physics.errors import InputError
+from mckibben.physics.units import convert
+
+_LOOKED_AT = 20_000  # readings from which questions are asked
 
 
 class Read(NamedTuple):
@@ -19,6 +35,7 @@ class Read(NamedTuple):
     measurement: Measurement
     columns: list[HeaderColumn]
     skipped: dict[str, Skip]
+    questions: list[Question]
 
 
 def meaning_of(source: RawTable, correction: Correction, *, collect: bool = False) -> Meaning:
@@ -30,6 +47,7 @@ def meaning_of(source: RawTable, correction: Correction, *, collect: bool = Fals
         noun=source.noun,
         chosen=correction.columns,
         collect=collect,
+        units=source.units,
     )
 
 
@@ -52,12 +70,22 @@ def rows_of(source: RawTable, columns: list[HeaderColumn], *, skip: bool) -> Cel
 
 
 def assemble(
-    source: RawTable, *, name: str, id: str, correction: Correction, meaning: Meaning | None = None
-) -> Read:
+    source: RawTable, *, name: str, id: str, correction: Correction, meaning: Meaning | None = None,
+    asked: list[Question] | None = None,
+) -> Read:  # fmt: skip
     """The measurement of a table.
 
+    Args:
+        source: the table.
+        name: file name.
+        id: of the measurement.
+        correction: what the user says beyond the file.
+        meaning: of the columns, if it is known already.
+        asked: takes the questions, instead of a refusal where some have no answer.
+
     Raises:
-        InputError: whatever is wrong with it, naming file, row, column or key, and the remedy.
+        InputError: whatever is wrong with it, naming file, row, column or key, and the remedy; questions
+            without an answer.
     """
     messages = list(source.messages)
     conditions = conditions_of(source, correction, messages)
@@ -66,15 +94,23 @@ def assemble(
     skip = correction.skip_bad_rows or str(conditions.get("bad_rows", "")).lower() == "skip"
     table = rows_of(source, meaning.columns, skip=skip)
     reading = ChannelReading(
-        source.place, source.noun, table, conditions, messages, list(meaning.ignored), skip
+        source.place, source.noun, table, conditions, messages, list(meaning.ignored), skip, source.clocks
     )
     columns, by_use, slack = read_channels(meaning.columns, reading)
+    _hold_pressure_of_name(columns, by_use, name, messages)
     skipped = dict(reading.table.skipped)
     for reason, left_out in skipped.items():
         messages.append(f"{left_out.rows} rows left out: {reason} (first: {left_out.first})")
+    questions = questions_of(_evidence(source, meaning, reading, by_use, columns, correction))
+    if asked is not None:
+        asked += questions
+    elif (open_questions := refusal(name, questions, strict=correction.strict)) is not None:
+        raise open_questions
+    messages += [f"{question.text} ({question.option})" for question in questions if not question.stops]
     kind = conditions.pop("kind", None) if correction.kind is None else correction.kind
     conditions.pop("kind", None)
     order = {header: index for index, header in reversed(list(enumerate(source.headers)))}
+    conditions.pop(SIGN, None)
     measurement = build(
         columns,
         name=name,
@@ -86,5 +122,97 @@ def assemble(
         marked_slack=slack,
         messages=messages,
         skipped={reason: left_out.rows for reason, left_out in skipped.items()},
+        starts=_starts(columns),
     )
-    return Read(measurement, list(by_use.values()), skipped)
+    measurement = replace(
+        measurement,
+        unread=unread_columns(source, meaning, reading.ignored),
+        stated=stated_values(source, conditions, correction),
+        questions=tuple(questions),
+    )
+    return Read(measurement, list(by_use.values()), skipped, questions)
+
+
+def _hold_pressure_of_name(
+    columns: dict[str, NDArray], by_use: dict[str, HeaderColumn], name: str, messages: list[str]
+) -> None:
+    """Forces over a stroke without any pressure are at that of the file's name, where it says one."""
+    said = held_pressure(PurePath(name).stem)
+    if said is None or "pressure" in columns or "force" not in columns or not set(columns) & set(STROKES):
+        return
+    value = float(convert([said.value], said.unit, "Pa")[0]) - (ATMOSPHERE if said.absolute else 0.0)
+    columns["pressure"] = np.full(len(columns["force"]), value)
+    by_use["pressure"] = HeaderColumn(-1, NAME, "pressure", said.unit, said.absolute)
+    messages.append(f"pressure is taken from the file's name: '{said.text}'")
+
+
+def _starts(columns: Mapping[str, NDArray]) -> tuple[int, ...]:
+    """Rows at which a new part of the file begins: the group changes, and the time goes back."""
+    if "group" not in columns or "time" not in columns:
+        return (0,)
+    apart = (np.diff(columns["group"]) != 0) & (np.diff(columns["time"]) < 0.0)
+    return (0, *(int(row) + 1 for row in np.flatnonzero(apart)))
+
+
+def unread_columns(source: RawTable, meaning: Meaning, dropped: Sequence[str]) -> tuple[tuple[str, str], ...]:
+    """All columns that nothing is read from, and why; ``dropped`` are those whose numbers showed it."""
+    ignored = set(dropped)
+    taken = {column.place for column in meaning.columns if column.header not in ignored}
+    found = [
+        (header or f"column {index + 1}", _why_unread(meaning, index))
+        for index, header in enumerate(source.headers)
+        if index not in taken
+    ]
+    return (*found, *source.unread)
+
+
+def _why_unread(meaning: Meaning, index: int) -> str:
+    if index in meaning.reasons:
+        return meaning.reasons[index]
+    if index in meaning.problems:
+        return meaning.problems[index].message
+    if any(column.place == index for column in meaning.columns):
+        return "its numbers are not what its name says"
+    return "its name is not known"
+
+
+def stated_values(
+    source: RawTable, conditions: Mapping[str, float | str], correction: Correction
+) -> tuple[StatedValue, ...]:
+    """What the test was, each value with its origin."""
+    where = {key_of(note.key)[0]: note.where for note in source.notes}
+    return tuple(
+        StatedValue(key, value, "you", "")
+        if correction.conditions.get(key) is not None
+        else StatedValue(key, value, "file", where.get(key, ""))
+        for key, value in conditions.items()
+    )
+
+
+def _evidence(
+    source: RawTable, meaning: Meaning, reading: ChannelReading, by_use: Mapping[str, HeaderColumn],
+    channels: Mapping[str, NDArray], correction: Correction,
+) -> Evidence:  # fmt: skip
+    def numeric(index: int) -> bool:
+        kinds = [kind_of(row[index]) for row in source.sample if index < len(row)]
+        return NUMBER in kinds and TEXT not in kinds
+
+    def pair(first: int, second: int) -> tuple[NDArray, NDArray] | None:
+        try:
+            table = source.read([first, second], [], True)
+        except InputError:
+            return None
+        return table.numbers[first], table.numbers[second]
+
+    rows = len(next(iter(channels.values()), ()))
+    step = max(1, rows // _LOOKED_AT)  # what is asked of a million readings shows in some thousands of them
+    thinned = {
+        use: values[:_LOOKED_AT] if use == "time" else values[::step] for use, values in channels.items()
+    }
+    return Evidence(
+        headers=source.headers, apart=source.units, meaning=meaning,
+        used={use: column for use, column in by_use.items() if use in channels or use not in CHANNEL_UNITS},
+        channels=thinned, numeric=numeric, pair=pair, labels=reading.table.labels,
+        conditions=reading.conditions, choices=source.choices if correction.sheet is None else (),
+        noun=source.noun,
+    )  # fmt: skip

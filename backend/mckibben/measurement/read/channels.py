@@ -15,10 +15,14 @@ from mckibben.measurement.read.cells import CellTable, Labels, no_rows
 from mckibben.measurement.read.conditions import ATMOSPHERE
 from mckibben.measurement.read.correction import SAMPLE, SLACK
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn
+from mckibben.measurement.read.plausible import ENOUGH, proposal
+from mckibben.measurement.read.stated import SIGN
+from mckibben.measurement.read.unit_words import CLOCK
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
 
 LARGEST = 1e100  # no physical value is; keeps sums and ranges of a column finite
+_EPOCH = 1e8  # s; a later time counts from 1970, not from the beginning of the test
 _ZERO_CELSIUS = 150.0  # a temperature without unit below it is in °C
 
 _SHORTENING = {"up", "u", "p", "positive", "fill", "filling", "inflation", "inflating", "shortening"}
@@ -38,6 +42,7 @@ class ChannelReading:
     messages: list[str]
     ignored: list[str]
     skip: bool = False
+    clocks: frozenset[int] = frozenset()
 
     def drop(self, column: HeaderColumn, why: str) -> None:
         """Do not use a column."""
@@ -92,16 +97,25 @@ def read_channels(
 def _with_known_unit(column: HeaderColumn, reading: ChannelReading) -> HeaderColumn | None:
     """The column with a unit, guessed from its numbers where none is given; None = no such channel."""
     raw = reading.table.numbers[column.place]
-    use, unit = column.use, column.unit
+    use, unit, origin = column.use, column.unit, column.unit_origin
+    if use == "time" and (unit == CLOCK or column.place in reading.clocks):
+        unit = "s"
+        reading.messages.append(
+            f"{reading.noun} '{column.header}' holds times: they count from the first row"
+        )
     if unit is None:
-        unit = CHANNEL_UNITS[use]
+        unit, origin = CHANNEL_UNITS[use], "proposed"
         largest = float(np.max(np.abs(raw)))
         if use == "contraction" and largest > 1.5:
             unit = "%"
         elif use == "temperature" and largest < _ZERO_CELSIUS:
             unit = "degC"
+        elif len(raw) >= ENOUGH and use not in ("command", "temperature"):
+            unit = proposal(use, raw).unit
         if use != "command":
             reading.messages.append(f"{reading.noun} '{column.header}' has no unit: read as {unit}")
+    if use == "time" and float(raw[0]) * convert([1.0], unit, "s")[0] > _EPOCH:
+        reading.messages.append(f"{reading.noun} '{column.header}' counts from 1970: its first row is 0 s")
     label = f"{reading.place}, {reading.noun} '{column.header}'"
     values = convert(raw, unit, CHANNEL_UNITS[use], field=label)
     if use == "command" and np.max(np.abs(values)) > 1.001:
@@ -109,7 +123,19 @@ def _with_known_unit(column: HeaderColumn, reading: ChannelReading) -> HeaderCol
         return None
     if use == "pressure":
         column = column._replace(absolute=_absolute(column, reading.conditions))
-    return column._replace(unit=unit)
+    if use == "force":
+        column = _signed_force(column, reading)
+    return column._replace(unit=unit, unit_origin=origin)
+
+
+def _signed_force(column: HeaderColumn, reading: ChannelReading) -> HeaderColumn:
+    """A force that the file counts positive in compression is turned: a pulling muscle is positive here."""
+    if column.origin == "you" or reading.conditions.get(SIGN) != "compression positive":
+        return column
+    message = f"{reading.noun} '{column.header}' is turned: the file says that compression is positive"
+    if message not in reading.messages:
+        reading.messages.append(message)
+    return column._replace(sign=-1)
 
 
 def _absolute(column: HeaderColumn, conditions: Mapping[str, float | str]) -> bool | None:
@@ -128,6 +154,10 @@ def _values(column: HeaderColumn, reading: ChannelReading) -> _Values:
     huge = ~(np.abs(values) < LARGEST)
     if huge.any():
         return _Values(values, huge, "is too large", "a number of physical size")
+    if column.sign < 0:
+        np.negative(values, out=values)
+    if use == "time" and len(values) and values[0] > _EPOCH:
+        values -= values[0]
     if use == "pressure":
         if column.absolute:
             values -= ATMOSPHERE

@@ -1,23 +1,27 @@
 """What a user says about a file beyond what it says itself: columns, kind, conditions, bad rows.
 
 As JSON: ``{"columns": {"<header>": {"channel": "pressure", "unit": "bar"} | null}, "kind": "isobaric",
-"conditions": {"load_mass": "6 kg"}, "bad_rows": "skip"}``; every part may be left out. A column is named by
-its header, or by its place ("column 3") where it has none of its own.
+"conditions": {"load_mass": "6 kg"}, "bad_rows": "skip"}``, and in the words of the command line
+``{"sheet": "300 mm", "head": 3, "column": ["force=-Kraft [kN]"], "ignore": ["Traverse"], "rest_length":
+"300 mm", "load": "6 kg", "supply": "6 bar"}``; every part may be left out. A column is named by its header
+(with or without its unit), or by its place ("column 3") where it has none of its own.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
+import re
 from collections import Counter
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from mckibben.measurement.kind import KINDS
 from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, condition_value
 from mckibben.measurement.read.marks import split_mark
+from mckibben.measurement.read.unit_words import CLOCK, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import factor
 
@@ -25,18 +29,27 @@ from mckibben.physics.units import factor
 SLACK, SAMPLE = "slack", "sample"
 USES = (*CHANNEL_UNITS, SLACK, SAMPLE)
 MAX_LENGTH = 20_000  # characters of the JSON
-_PARTS = ("columns", "kind", "conditions", "bad_rows")
-_CHOICE_KEYS = ("channel", "unit", "absolute")
+_PARTS = (
+    "columns", "kind", "conditions", "bad_rows", "sheet", "head", "column", "ignore", "rest_length", "load",
+    "supply", "strict",
+)  # fmt: skip
+_CHOICE_KEYS = ("channel", "unit", "absolute", "sign")
+_COLUMN = re.compile(r"\s*([a-z_]+)\s*=\s*([+-]?)\s*(.*?)\s*")
+_WITH_UNIT = re.compile(r"(.+?)\s*\[([^\[\]]*)\]")
 _EXAMPLE = 'e.g. {"columns": {"p1": {"channel": "pressure", "unit": "bar"}}, "kind": "isobaric"}'
 
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """What one column is; ``unit`` None = the header's; ``absolute`` counts for a pressure only."""
+    """What one column is; ``unit`` None = the header's; ``absolute`` counts for a pressure only.
+
+    ``sign`` -1: the file counts it the other way, as a force that is negative when the muscle pulls.
+    """
 
     channel: str
     unit: str | None = None
     absolute: bool | None = None
+    sign: int = 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,19 +61,29 @@ class Correction:
         kind: the kind, None = as the file says, else detected.
         conditions: condition -> value in SI or text, over those of the file; None = takes the file's away.
         skip_bad_rows: leave rows out that cannot be read, with a count, instead of refusing the file.
+        sheet: the sheet (or group, or struct) to read, None = the one with the table.
+        head: 1-based row of the column names, None = looked for.
+        strict: what would be proposed or assumed is refused as well.
     """
 
     columns: Mapping[str, Choice | None] = field(default_factory=dict)
     kind: str | None = None
     conditions: Mapping[str, float | str | None] = field(default_factory=dict)
     skip_bad_rows: bool = False
+    sheet: str | None = None
+    head: int | None = None
+    strict: bool = False
 
     def canonical(self) -> str:
         """The one JSON text of this correction: sorted keys, nothing that is said by leaving it out."""
         columns = {
             header: None
             if choice is None
-            else {key: value for key in _CHOICE_KEYS if (value := getattr(choice, key)) is not None}
+            else {
+                key: value
+                for key in _CHOICE_KEYS
+                if (value := getattr(choice, key)) is not None and (key, value) != ("sign", 1)
+            }
             for header, choice in self.columns.items()
         }
         parts = {
@@ -68,6 +91,9 @@ class Correction:
             "kind": self.kind,
             "conditions": dict(self.conditions),
             "bad_rows": "skip" if self.skip_bad_rows else None,
+            "sheet": self.sheet,
+            "head": self.head,
+            "strict": self.strict or None,
         }
         said = {name: part for name, part in parts.items() if part}
         return json.dumps(said, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
@@ -107,7 +133,137 @@ def read_correction(text: str) -> Correction:
     }
     kind = _one_of(given.get("kind"), KINDS, ".kind")
     bad_rows = _one_of(given.get("bad_rows"), ("refuse", "skip"), ".bad_rows")
-    return Correction(columns, kind, conditions, bad_rows == "skip")
+    spoken = spoken_correction(
+        sheet=_typed(given.get("sheet"), str, ".sheet"),
+        head=_typed(given.get("head"), int, ".head"),
+        columns=_texts(given.get("column"), ".column"),
+        ignore=_texts(given.get("ignore"), ".ignore"),
+        rest_length=_quantity(given.get("rest_length"), ".rest_length"),
+        load=_quantity(given.get("load"), ".load"),
+        supply=_quantity(given.get("supply"), ".supply"),
+        strict=bool(_typed(given.get("strict"), bool, ".strict")),
+        prefix="mapping.",
+    )
+    return replace(
+        spoken,
+        columns={**columns, **spoken.columns},
+        kind=kind,
+        conditions={**conditions, **spoken.conditions},
+        skip_bad_rows=bad_rows == "skip",
+    )
+
+
+def spoken_correction(
+    *, sheet: str | None = None, head: int | None = None, columns: Sequence[str] = (),
+    ignore: Sequence[str] = (), rest_length: str | float | None = None, load: str | float | None = None,
+    supply: str | float | None = None, strict: bool = False, prefix: str = "--",
+) -> Correction:  # fmt: skip
+    """A correction in the words of the command line.
+
+    Args:
+        sheet: name of the sheet.
+        head: 1-based row of the column names.
+        columns: texts such as ``force=-Kraft [kN]``: channel, sign, name of the column, its unit.
+        ignore: names of columns that are not wanted.
+        rest_length: of the muscle without air and load.
+        load: a mass or a force.
+        supply: supply pressure, gauge.
+        strict: refuse instead of assuming.
+        prefix: of the names, for messages.
+
+    Raises:
+        InputError: a text that cannot be used, naming the option.
+    """
+    if head is not None and head < 1:
+        raise InputError(f"{prefix}head {head}: rows count from 1", field=f"{prefix}head", hint="e.g. 3")
+    choices: dict[str, Choice | None] = {}
+    for text in columns:
+        name, choice = column_choice(text, where=f"{prefix}column")
+        choices[name] = choice
+    choices |= dict.fromkeys(ignore)
+    conditions: dict[str, float | str | None] = {}
+    if rest_length is not None:
+        option = "--rest-length" if prefix == "--" else f"{prefix}rest_length"
+        conditions["nominal_length"] = _given(rest_length, "nominal_length", option)
+    if load is not None:
+        is_force = isinstance(load, str) and re.search(r"(?:N|lbf|kgf|daN|kp)\s*$", load) is not None
+        key, other = ("load_force", "load_mass") if is_force else ("load_mass", "load_force")
+        conditions[key], conditions[other] = _given(load, key, f"{prefix}load"), None
+    if supply is not None:
+        conditions["supply_pressure"] = _given(supply, "supply_pressure", f"{prefix}supply")
+    return Correction(choices, None, conditions, sheet=sheet, head=head, strict=strict)
+
+
+def column_choice(text: str, *, where: str) -> tuple[str, Choice]:
+    """(name of the column, what it is) of ``force=-Kraft [kN]``.
+
+    Raises:
+        InputError: no such text, an unknown channel, a unit that does not fit.
+    """
+    found = _COLUMN.fullmatch(text)
+    if found is None or not found[3]:
+        raise InputError(
+            f"{where} {text[:80]!r}: is not 'channel=name [unit]'",
+            field=where,
+            hint='e.g. "force=-Kraft [kN]"',
+        )
+    channel, sign, name = found.groups()
+    if channel not in USES:
+        raise InputError(
+            f"{where} {text[:80]!r}: there is no channel '{channel}'",
+            field=where,
+            hint=did_you_mean(channel, USES),
+        )
+    minus = -1 if sign == "-" else 1
+    split = _WITH_UNIT.fullmatch(name)
+    if split is None:
+        return name, Choice(channel, None, None, minus)
+    unit = unit_of(split[2])
+    if unit is None:
+        raise InputError(
+            f"{where} {text[:80]!r}: '{split[2][:40]}' is not a known unit", field=where,
+            hint=f"e.g. '{CHANNEL_UNITS.get(channel, '1')}'",
+        )  # fmt: skip
+    spelling = _WEIGHT_UNITS.get(unit.unit, unit.unit) if channel == "force" else unit.unit
+    try:
+        if spelling != CLOCK:
+            factor(spelling, CHANNEL_UNITS.get(channel, "1"))
+    except ValueError as error:
+        raise InputError(
+            f"{where} {text[:80]!r}: '{split[2][:40]}' cannot be used: {error}", field=where,
+            hint=f"a unit such as {CHANNEL_UNITS.get(channel, '1')}",
+        ) from error  # fmt: skip
+    return split[1], Choice(channel, spelling, unit.absolute, minus)
+
+
+_WEIGHT_UNITS = {"kg": "kgf", "g": "gf"}
+
+
+def _given(value: str | float, key: str, where: str) -> float | str:
+    return condition_value(key, value, where=where, field=where)
+
+
+def _typed(value: Any, kind: type, key: str) -> Any:
+    if value is None:
+        return None
+    if not isinstance(value, kind) or (kind is int and isinstance(value, bool)):
+        names = {str: "a text", int: "a whole number", bool: "true or false"}
+        raise _refused(key, f"is not {names[kind]}", None)
+    return value
+
+
+def _texts(value: Any, key: str) -> list[str]:
+    if value is None:
+        return []
+    if not isinstance(value, list) or not all(isinstance(text, str) for text in value):
+        raise _refused(key, "is not a list of texts", 'e.g. ["force=-Kraft [kN]"]')
+    return value
+
+
+def _quantity(value: Any, key: str) -> str | float | None:
+    if value is None or (isinstance(value, (str, int, float)) and not isinstance(value, bool)):
+        return value
+    raise _refused(key, "is neither a text nor a number", "e.g. '300 mm'")
 
 
 def _refused(key: str, problem: str, hint: str | None) -> InputError:
@@ -147,11 +303,13 @@ def _choice(value: Any, key: str) -> Choice | None:
     channel = _one_of(given.get("channel"), USES, f"{key}.channel")
     if channel is None:
         raise _refused(f"{key}.channel", "is missing", f"one of {', '.join(USES)}")
-    unit, absolute = given.get("unit"), given.get("absolute")
+    unit, absolute, sign = given.get("unit"), given.get("absolute"), given.get("sign", 1)
+    if isinstance(sign, bool) or sign not in (1, -1):
+        raise _refused(f"{key}.sign", "is neither 1 nor -1", "-1: the file counts it the other way")
     if absolute is not None and not isinstance(absolute, bool):
         raise _refused(f"{key}.absolute", "is not true or false", "true: above vacuum, false: gauge")
     if unit is None:
-        return Choice(channel, None, absolute)
+        return Choice(channel, None, absolute, int(sign))
     if not isinstance(unit, str):
         raise _refused(f"{key}.unit", "is not a text", "e.g. 'bar'")
     unit, marked = split_mark(unit)
@@ -161,7 +319,7 @@ def _choice(value: Any, key: str) -> Choice | None:
         text = str(error)
         problem = f"'{unit[:40]}' cannot be used: {text}"
         raise _refused(f"{key}.unit", problem, f"a unit such as {CHANNEL_UNITS.get(channel, '1')}") from error
-    return Choice(channel, unit, marked if absolute is None else absolute)
+    return Choice(channel, unit, marked if absolute is None else absolute, int(sign))
 
 
 def _condition(key: str, value: Any) -> float | str | None:

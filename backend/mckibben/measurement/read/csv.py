@@ -14,14 +14,25 @@ from mckibben.measurement.read.assemble import assemble
 from mckibben.measurement.read.cells import CellTable
 from mckibben.measurement.read.conditions import Note, note_of_line
 from mckibben.measurement.read.correction import Correction
-from mckibben.measurement.read.header import HEADER_EXAMPLE
+from mckibben.measurement.read.header import HEADER_EXAMPLE, plainly_known
+from mckibben.measurement.read.lines import located_text
+from mckibben.measurement.read.recognise import held_pressure
 from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
+from mckibben.measurement.read.stated import in_known_words, statements
 from mckibben.measurement.read.table import first_rows, read_table, split_header
+from mckibben.measurement.read.values import CLOCK, NUMBER, TEXT, kind_of
+from mckibben.measurement.read.vocabulary import STATISTICS, words_of
 from mckibben.physics.errors import InputError
 
 _CONTROL = re.compile(rb"[\x00-\x08\x0b\x0e-\x1f\x7f]")
 _PIECE = 1_000_000  # bytes
 _HEADER_WITHIN = 10_000  # lines
+_FOOTER_LINES = 100
+_LONGEST_LINE = 10_000  # characters
+_WORD = re.compile(r'[\s"]*[^\W\d_]{3,}')
+_THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3}(?:\.\d{3})+,\d|(?<![\d.,])\d{1,3}(?:,\d{3})+\.\d")
+_QUOTED_THOUSANDS = re.compile(r'"\s*[+-]?\d{1,3}(?:,\d{3})+\.\d*\s*"')
+_BLANK_THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3}(?:['’\u00a0\u202f]\d{3})+(?![\d])")
 
 
 def read_csv(data: bytes, name: str, correction: Correction | None = None) -> Measurement:
@@ -36,36 +47,121 @@ def read_csv(data: bytes, name: str, correction: Correction | None = None) -> Me
         InputError: whatever is wrong with the file, naming file, row (1-based line), column, remedy.
     """
     correction = correction or Correction()
-    source = open_csv(data, name)
+    source = open_csv(data, name, correction)
     return assemble(source, name=name, id=correction.identity(data), correction=correction).measurement
 
 
-def open_csv(data: bytes, name: str) -> RawTable:
+def open_csv(data: bytes, name: str, correction: Correction | None = None) -> RawTable:
     """The table of a delimited text.
+
+    A text whose first line names channels the plain way (``pressure_bar``) and goes on with numbers is read
+    from there; in any other the table is looked for.
 
     Raises:
         InputError: not a text, empty, or a header that cannot be read.
     """
+    correction = correction or Correction()
     messages: list[str] = []
     text = _decoded(data, name, messages)
+    refusal: InputError | None = None
+    plain: RawTable | None = None
+    try:
+        plain, sure = _plain(text, name, messages)
+    except InputError as error:
+        refusal, sure = error, False
+    if plain is not None and sure and correction.head is None:
+        return plain
+    located = located_text(text, name, correction, messages)
+    if located is not None:
+        same_row = refusal is not None and refusal.field == f"row {located.header_row}"
+        if refusal is not None and same_row and "never closed" in refusal.message:
+            raise refusal
+        return located
+    if plain is None:
+        raise refusal or InputError(f"{name}: no table", field="file", hint=HEADER_EXAMPLE)
+    return plain
+
+
+def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
+    """The table below the first line that is no comment, and whether it is one beyond doubt."""
     notes, separator, header_line, row, body = _split(text, name)
     headers = split_header(header_line, separator, name=name, row=row)
+    body, below = without_footer(body, separator, row + 1)
+    sample = first_rows(body, separator, SAMPLE_ROWS)
+    known = plainly_known(headers)
+    first = list(sample[0]) if sample else []
+    words = [i for i in known if i < len(first) and kind_of(first[i]) in (TEXT, CLOCK)]
+    pressures = {(held.value, held.unit) for header in headers if (held := held_pressure(header)) is not None}
+    sure = bool(known) and not words and len(pressures) < 2 and not _has_thousands(body, separator)
 
     def read(numeric: Sequence[int], words: Sequence[int], skip: bool) -> CellTable:
         return read_table(
             body, separator, headers, numeric=numeric, text=words, name=name, first_line=row + 1, skip=skip
         )
 
-    return RawTable(
+    source = RawTable(
         place=name,
         format="csv",
         headers=headers,
         read=read,
-        sample=first_rows(body, separator, SAMPLE_ROWS),
-        notes=notes,
-        messages=messages,
+        sample=sample,
+        notes=_with_name(in_known_words(notes), name),
+        messages=messages + below,
         header_row=row,
     )
+    return source, sure
+
+
+def _with_name(notes: list[Note], name: str) -> list[Note]:
+    """The conditions of a file, and those that its name says."""
+    known = {note.key for note in notes}
+    return notes + [note for note in statements([], name) if note.key not in known]
+
+
+def _has_thousands(body: str, separator: str) -> bool:
+    """Whether numbers are written with marks between their thousands."""
+    if separator == ",":
+        return '"' in body and _QUOTED_THOUSANDS.search(body) is not None
+    marked = "." in body and "," in body and _THOUSANDS.search(body)
+    if marked:
+        return True
+    return any(mark in body for mark in "'’\u00a0\u202f") and _BLANK_THOUSANDS.search(body) is not None
+
+
+def without_footer(body: str, separator: str, first_line: int) -> tuple[str, list[str]]:
+    """The lines without those below the table that begin with a word where it has numbers, and a message.
+
+    Statistics ("Mean", "Max") and remarks of a program are no readings.
+    """
+    first = body[:_LONGEST_LINE].lstrip("\n").partition("\n")[0].split(separator)[0].strip(' "')
+    if kind_of(first) not in (NUMBER, CLOCK):
+        return body, []
+    end = len(body.rstrip())
+    lines: list[str] = []
+    gap = False  # an empty line above the first of them
+    while end > 0 and len(lines) < _FOOTER_LINES:
+        begin = body.rfind("\n", 0, end) + 1
+        line = body[begin:end].strip()
+        if line.strip(separator + " ") and not _WORD.match(line):
+            break
+        gap = not line.strip(separator + " ")
+        if not gap:
+            lines.append(line)
+        end = begin - 1
+    if not lines or end <= 0 or not (gap or all(_is_no_reading(line, separator) for line in lines)):
+        return body, []
+    kept = body[:end]
+    row = first_line + kept.count("\n") + 1
+    shown = ", ".join(f"'{line[:40]}'" for line in lines[::-1][:4])
+    return kept, [f"what stands below the table, from row {row} on, is not read: {shown}"]
+
+
+def _is_no_reading(line: str, separator: str) -> bool:
+    """Whether a line that begins with a word holds no number, or is a line of statistics."""
+    cells = line.split(separator)
+    words = words_of(cells[0])
+    statistic = bool(words) and words[0] in STATISTICS
+    return statistic or not any(kind_of(cell) == NUMBER for cell in cells)
 
 
 def _decoded(data: bytes, name: str, messages: list[str]) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import PurePath
 
+from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.csv import open_csv
 from mckibben.measurement.read.source import RawTable
 from mckibben.physics.errors import InputError
@@ -24,8 +25,8 @@ _REFUSED = {
 }
 
 
-def open_source(data: bytes, name: str) -> RawTable:
-    """The table of a file.
+def open_source(data: bytes, name: str, correction: Correction | None = None) -> RawTable:
+    """The table of a file; the correction says which sheet and head the user wants.
 
     Raises:
         InputError: a format that is not read, or a damaged file.
@@ -37,19 +38,19 @@ def open_source(data: bytes, name: str) -> RawTable:
     if data.startswith(b"PK"):
         from mckibben.measurement.read.xlsx import open_xlsx
 
-        return open_xlsx(data, name)
+        return open_xlsx(data, name, correction)
     if data.startswith(b"TDSm"):
         from mckibben.measurement.read.tdms import open_tdms
 
-        return open_tdms(data, name)
+        return open_tdms(data, name, correction)
     if any(data[offset : offset + 8] == _HDF5 for offset in (0, 512, 1024, 2048)):
         from mckibben.measurement.read.mat73 import open_mat73
 
-        return open_mat73(data, name)
+        return open_mat73(data, name, correction)
     if data[:6] == b"MATLAB" or data[124:128] in (b"\x00\x01IM", b"\x01\x00MI"):
         from mckibben.measurement.read.mat import open_mat
 
-        return open_mat(data, name)
+        return open_mat(data, name, correction)
     expected = _BINARY.get(PurePath(name).suffix.lower())
     if expected is not None and (control := _CONTROL.search(data[:4096])):
         raise InputError(
@@ -58,7 +59,7 @@ def open_source(data: bytes, name: str) -> RawTable:
             field="file",
             hint="export it again, or save it as CSV",
         )
-    source = open_csv(data, name)
+    source = open_csv(data, name, correction)
     if expected is not None:
         source.messages.append(f"the file is text, not {expected}: read as CSV")
     return source

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from difflib import get_close_matches
+from types import MappingProxyType
 from typing import NamedTuple
 
 from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.read.correction import SAMPLE, SLACK, Choice
 from mckibben.measurement.read.marks import MARK_WORDS, split_mark
+from mckibben.measurement.read.recognise import BY_UNIT, is_raw, recognise, taken_apart
+from mckibben.measurement.read.unit_words import CLOCK, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import factor, is_unit, meaning
 
@@ -41,6 +45,8 @@ _QUALIFIERS = dict.fromkeys(
 _BRACKETED = re.compile(r"([^\[(]*)[\[(](.*)[\])]\s*")
 _NUMBERED = re.compile(r"[0-9]+(\.[0-9]+)?[A-Za-z]")
 _MAX_HEADER = 120
+_CLIPPED = 100  # penalty of a clipped column
+_NEAR = 0.75  # likeness of a word to one that it is probably meant for
 
 HEADER_EXAMPLE = "e.g. a header 'pressure_bar,length_mm,force_N'"
 
@@ -49,7 +55,11 @@ TEXT_COLUMNS = ("direction", "group", SLACK, SAMPLE)
 
 
 class HeaderColumn(NamedTuple):
-    """A column that is used: ``use`` is a channel, ``slack`` or ``sample``; ``unit`` None = not given."""
+    """A column that is used: ``use`` is a channel, ``slack`` or ``sample``; ``unit`` None = not given.
+
+    ``sign`` -1: the file counts it the other way. ``origin``: who says what it is, ``file`` or ``you``;
+    ``extends``: its name says that it grows as the muscle becomes longer.
+    """
 
     place: int
     header: str
@@ -57,23 +67,33 @@ class HeaderColumn(NamedTuple):
     unit: str | None = None
     absolute: bool | None = None
     penalty: int = 0
+    sign: int = 1
+    origin: str = "file"
+    extends: bool = False
+    unit_origin: str = "file"
 
 
 class Meaning(NamedTuple):
     """What a header row means; ``ignored`` in the order of the file.
 
     ``problems``: index of a column -> why its header cannot be used, only where they are collected.
+    ``reasons``: index of a column that is not used -> why. ``rivals``: (column used, column that could be).
+    ``dismissed``: columns that the user does not want.
     """
 
     columns: list[HeaderColumn]
     ignored: list[str]
     messages: list[str]
     problems: dict[int, InputError]
+    reasons: Mapping[int, str] = MappingProxyType({})
+    rivals: tuple[tuple[HeaderColumn, HeaderColumn], ...] = ()
+    dismissed: frozenset[int] = frozenset()
 
 
 def map_headers(
     headers: Sequence[str], *, place: str, row: int | None = None, noun: str = "column",
     chosen: Mapping[str, Choice | None] | None = None, collect: bool = False,
+    units: Sequence[str | None] = (),
 ) -> Meaning:  # fmt: skip
     """Which column is which channel.
 
@@ -88,12 +108,15 @@ def map_headers(
         noun: what the format calls a column.
         chosen: header (or "column 3") -> what the user says it is; None = not used.
         collect: keep what is wrong with a header in ``problems`` instead of raising it.
+        units: units that stand apart from the headers, one per header.
 
     Raises:
         InputError: no or duplicate names, no known channel, a unit that is unknown or of another dimension, a
             choice for a column that is not there.
     """
     names = [header.strip() for header in headers]
+    apart = [*units, *[None] * (len(names) - len(units))]
+    reasons: dict[int, str] = {}
     where = place if row is None else f"{place}, row {row}"
     field = f"{noun}s" if row is None else f"row {row}"
     if not any(names):
@@ -106,36 +129,113 @@ def map_headers(
     for index, header in enumerate(names):
         try:
             if index in choices:
-                column = _chosen(index, header, choices[index])
+                column = _chosen(index, header, choices[index], apart[index])
+                if column is None:
+                    reasons[index] = "you do not want it"
             elif header and header.casefold() in seen:
                 raise InputError(
                     f"{where}, {noun} '{header[:_MAX_HEADER]}': the name occurs twice",
-                    field=field, hint=f"give every {noun} its own name",
+                    field=field,
+                    hint=f'give every {noun} its own name, or leave one out: --ignore "column {index + 1}"',
                 )  # fmt: skip
             else:
-                column = _column(index, header, f"{where}, {noun} '{header}'", noun, messages)
+                column, said = None, []
+                if CLOCK not in (recognise(header).unit, apart[index]):
+                    text = _with(header, apart[index])
+                    column = _column(index, text, f"{where}, {noun} '{header}'", noun, said)
+                if column is None and not (said and recognise(header, apart[index]).unit is None):
+                    other: list[str] = []
+                    column = _in_other_words(index, header, apart[index], reasons, other)
+                    said = said if column is None else other
+                if column is None and said:
+                    reasons[index] = said[-1].partition(" is not used: ")[2] or reasons.get(index, "")
+                messages += said
+                column = column if column is None else column._replace(header=header)
         except InputError as error:
             if not collect:
                 raise
             problems[index] = error
             column = None
-        seen.add(header.casefold())
+        if index not in choices:
+            seen.add(header.casefold())
         if column is not None:
             found.append(column)
+    if not any(column.penalty < BY_UNIT for column in found) and not all(map(_is_unit, names)):
+        found.clear()  # units alone make no table
     found.sort(
-        key=lambda c: (c.place not in choices, c.penalty, not c.header.lower().startswith(c.use), c.place)
+        key=lambda c: (
+            c.place not in choices,
+            is_raw(c.header),
+            c.penalty,
+            not c.header.lower().startswith(c.use),
+            c.place,
+        )
     )
+    messages += [
+        f"{noun} '{column.header}' is read as {column.use} by its unit '{column.unit}' alone"
+        for column in found
+        if column.penalty >= BY_UNIT and column.penalty < _CLIPPED
+    ]
     used: dict[str, HeaderColumn] = {}
+    rivals = []
     for column in found:
         winner = used.setdefault(column.use, column)
         if winner is not column:
             better = f"{column.use} is read from '{winner.header}'"
+            reasons[column.place] = better
+            rivals.append((winner, column))
             messages.append(f"{noun} '{column.header}' is not used: {better}")
     if not collect and not any(use in CHANNEL_UNITS and use not in ("direction", "group") for use in used):
         raise _no_channel(names, where, field, noun, messages)
     taken = {column.place for column in used.values()}
     ignored = [header or f"column {i + 1}" for i, header in enumerate(names) if i not in taken]
-    return Meaning(sorted(used.values()), ignored, messages, problems)
+    dismissed = frozenset(index for index, choice in choices.items() if choice is None)
+    columns = sorted(used.values(), key=lambda column: column.place)
+    return Meaning(columns, ignored, messages, problems, reasons, tuple(rivals), dismissed)
+
+
+def _with(header: str, unit: str | None) -> str:
+    """A header with the unit that stands apart from it, in the plain way."""
+    known = unit_of(unit) if unit else None
+    if known is None or known.unit in (CLOCK, "1") or recognise(header).unit is not None:
+        return header
+    mark = {True: "(a)", False: "(g)", None: ""}[known.absolute]
+    return f"{header} [{known.unit}{mark}]"
+
+
+def _in_other_words(
+    index: int, header: str, unit: str | None, reasons: dict[int, str], messages: list[str]
+) -> HeaderColumn | None:
+    """The column of a header that is not written the plain way."""
+    if not (header or unit) or len(header) > _MAX_HEADER:
+        return None
+    known = recognise(header, unit)
+    if known.channel is None:
+        reasons[index] = known.why
+        return None
+    column = HeaderColumn(index, header, known.channel, known.unit, known.absolute, known.penalty)
+    column = column._replace(extends=known.extends)
+    if known.unit in (None, CLOCK):
+        return column
+    return _with_unit(column, "", header, "column", messages)
+
+
+def _is_unit(header: str) -> bool:
+    return not header or unit_of(header) is not None
+
+
+def plainly_known(headers: Sequence[str]) -> list[int]:
+    """Indices of the headers that name a channel the plain way; a wrong unit does not matter."""
+    known = []
+    for index, header in enumerate(headers):
+        try:
+            column = _column(index, header.strip(), "", "column", [])
+        except InputError:
+            known.append(index)
+            continue
+        if column is not None and column.use not in TEXT_COLUMNS:
+            known.append(index)
+    return known
 
 
 def _positions(chosen: Mapping[str, Choice | None], names: Sequence[str]) -> dict[int, Choice | None]:
@@ -143,8 +243,11 @@ def _positions(chosen: Mapping[str, Choice | None], names: Sequence[str]) -> dic
     result = {}
     for key, choice in chosen.items():
         numbered = re.fullmatch(r"column ([1-9][0-9]{0,4})", key)
+        bare = [taken_apart(name).name for name in names]
         if key in names:
             index = names.index(key)
+        elif bare.count(key) == 1:
+            index = bare.index(key)
         elif numbered and int(numbered[1]) <= len(names):
             index = int(numbered[1]) - 1
         else:
@@ -157,19 +260,30 @@ def _positions(chosen: Mapping[str, Choice | None], names: Sequence[str]) -> dic
     return result
 
 
-def _chosen(index: int, header: str, choice: Choice | None) -> HeaderColumn | None:
+def _chosen(index: int, header: str, choice: Choice | None, apart: str | None) -> HeaderColumn | None:
     """A column as the user wants it; a unit that is not said is the header's, where it fits."""
     if choice is None:
         return None
     unit, absolute = choice.unit, choice.absolute
+    origin = "file" if unit is None else "you"
     if unit is None and choice.channel in CHANNEL_UNITS:
         try:
-            guess = _column(index, header, header, "column", [])
+            guess = _column(index, _with(header, apart), header, "column", [])
         except InputError:
             guess = None
-        if guess is not None and guess.unit is not None and _fits(guess.unit, CHANNEL_UNITS[choice.channel]):
+        guess = guess or _in_other_words(index, header, apart, {}, [])
+        if guess is None and (known := recognise(header, apart)).unit is not None:
+            guess = HeaderColumn(index, header, choice.channel, known.unit, known.absolute)
+        if (
+            guess is not None
+            and guess.unit is not None
+            and (guess.unit == CLOCK or _fits(guess.unit, CHANNEL_UNITS[choice.channel]))
+        ):
             unit, absolute = guess.unit, guess.absolute if absolute is None else absolute
-    return HeaderColumn(index, header or f"column {index + 1}", choice.channel, unit, absolute)
+    name = header or f"column {index + 1}"
+    return HeaderColumn(
+        index, name, choice.channel, unit, absolute, sign=choice.sign, origin="you", unit_origin=origin
+    )
 
 
 def _no_channel(
@@ -179,8 +293,12 @@ def _no_channel(
     if all(re.fullmatch(r"[-+.,0-9eE\s]*", n) for n in names):
         problem = "numbers where the header should be"
         return InputError(f"{where}: {problem}", field=field, hint=HEADER_EXAMPLE)
-    near = [did_you_mean(re.split(r"[\s_\[(]", n)[0][:40] or "?", SYNONYMS) for n in names[:8]]
-    hint = next((n for n in near if n and n.startswith("Did")), HEADER_EXAMPLE)
+    words = [re.split(r"[\s_\[(]", n)[0][:40] for n in names[:8]]
+    near = [
+        did_you_mean(word, SYNONYMS) for word in words if get_close_matches(word.lower(), SYNONYMS, 1, _NEAR)
+    ]
+    example = next(name for name in names if name)[:40]
+    hint = next(iter(near), None) or f'e.g. --column "pressure={example} [bar]", or {HEADER_EXAMPLE[5:]}'
     why = "".join(f"; {message}" for message in messages)
     problem = f"no known channel among the {noun}s {shown}{why}"
     return InputError(f"{where}: {problem}", field=field, hint=hint)

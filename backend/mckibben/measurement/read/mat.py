@@ -1,4 +1,4 @@
-"""Measurements from MATLAB files v5 to v7: vectors by variable name, or one struct of vectors.
+"""Measurements from MATLAB files v5 to v7: vectors by variable name, structs, arrays of structs, signals.
 
 ``pressure_bar = [...]`` is a column like that of a CSV; scalar and text variables are conditions. Nothing of
 the file is ever executed; objects are not read.
@@ -6,18 +6,21 @@ the file is ever executed; objects are not read.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
+from mckibben.measurement.read.containers import NamedTable, matrix_tables, named_tables
+from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.mat5 import DamagedError, Foreign, read_variables
 from mckibben.measurement.read.source import RawTable, array_source
-from mckibben.measurement.read.vectors import known_columns, sorted_out
-from mckibben.physics.errors import InputError
+from mckibben.measurement.read.stated import in_known_words, statements
+from mckibben.physics.errors import InputError, did_you_mean
 
 _NOUN = "variable"
 TABLE_HINT = "save a table with: s = table2struct(T, 'ToScalar', true); save('test.mat', '-struct', 's')"
 
 
-def open_mat(data: bytes, name: str) -> RawTable:
+def open_mat(data: bytes, name: str, correction: Correction | None = None) -> RawTable:
     """The table of a MATLAB file v5 to v7.
 
     Raises:
@@ -30,35 +33,33 @@ def open_mat(data: bytes, name: str) -> RawTable:
             f"{name}: no variable can be read: the MATLAB file is damaged ({error})",
             field="file", hint="save it again with -v7",
         ) from error  # fmt: skip
-    return choose(values, name)
+    return choose(values, name, correction)
 
 
-def choose(values: dict[str, Any], name: str) -> RawTable:
-    """The source of a file's variables, or of the struct among them that holds most channels.
+def choose(values: dict[str, Any], name: str, correction: Correction | None = None) -> RawTable:
+    """The source of a file's variables, or of the struct (array of structs, matrix) with most channels.
 
     Raises:
-        InputError: vectors of different lengths, nothing that is a vector.
+        InputError: vectors of different lengths, nothing that is a vector, no such struct.
     """
+    wanted = correction.sheet if correction else None
     foreign = {key: value.kind for key, value in values.items() if isinstance(value, Foreign)}
-    flat = {key: value for key, value in values.items() if not isinstance(value, (dict, Foreign))}
-    candidates = [(name, flat)]
-    for key, value in values.items():
-        if isinstance(value, dict):
-            candidates.append((f"{name}, struct '{key}'", value))
-            inner = [(f"{name}, struct '{key}.{k}'", v) for k, v in value.items() if isinstance(v, dict)]
-            candidates += inner
-    best, most = None, -1
-    problem: InputError | None = None
-    for place, named in candidates:
-        fields = {key: value for key, value in named.items() if not isinstance(value, (dict, Foreign))}
-        try:
-            columns, notes, messages = sorted_out(fields, place=place, noun=_NOUN)
-        except InputError as error:
-            problem = problem or error
-            continue
-        known = known_columns(columns, place=place, noun=_NOUN)
-        if columns and known > most:
-            best, most = (place, columns, notes, messages), known
+    tables = named_tables(without_foreign(values), name=name, noun=_NOUN)
+    usable = [table for table in tables if table.columns and table.problem is None]
+    problem = next((table.problem for table in tables if table.problem is not None), None)
+    if wanted is not None:
+        usable = [table for table in usable if table.title == wanted]
+        if not usable:
+            titles = [table.title for table in tables if table.title]
+            raise InputError(
+                f"{name}: there is no struct '{wanted}' with vectors",
+                field="sheet",
+                hint=did_you_mean(wanted, titles),
+            )
+    if problem is None and not any(table.known() for table in usable) and not foreign:
+        usable += matrix_tables(without_foreign(values))[:1] if not usable else []
+    best = max(usable, key=NamedTable.known, default=None)
+    most = best.known() if best is not None else -1
     if problem is not None and most <= 0:
         raise problem
     if foreign and most <= 0:
@@ -72,8 +73,51 @@ def choose(values: dict[str, Any], name: str) -> RawTable:
             f"{name}: no {_NOUN} is a vector of numbers (variables: {', '.join(values)[:100] or 'none'})",
             field=f"{_NOUN}s", hint="e.g. pressure_bar = [0; 1; 2], length_mm = [300; 290; 280]",
         )  # fmt: skip
-    place, columns, notes, messages = best
-    messages += [f"{_NOUN} '{key}' is not used: it is a {kind}" for key, kind in foreign.items()]
-    if place != name:  # scalars beside a struct are conditions too
-        notes = sorted_out(flat, place=name, noun=_NOUN)[1] + notes
-    return array_source(columns, place=place, format="mat", noun=_NOUN, notes=notes, messages=messages)
+    rivals = [t for t in usable if t is not best and most >= 2 and t.known() >= most]
+    notes, rest = list(best.notes), [text for table in tables for text in table.rest]
+    if best.title:  # scalars beside a struct are conditions too
+        notes = tables[0].notes + notes
+    known_notes = in_known_words(notes)
+    known = {note.key for note in known_notes}
+    known_notes += [note for note in statements(rest, name) if note.key not in known]
+    messages = [
+        *best.messages,
+        *(f"{_NOUN} '{key}' is not used: it is a {kind}" for key, kind in foreign.items()),
+    ]
+    if problem is not None:
+        messages.append(problem.message)
+    place = f"{name}, struct '{best.title}'" if best.title else name
+    source = array_source(
+        best.columns, place=place, format="mat", noun=_NOUN, notes=known_notes, messages=messages
+    )
+    others = [table for table in usable if table is not best]
+    heads = [f"{table.title}.{head}".lstrip(".") for table in others for head in table.columns]
+    source = replace(source, unread=tuple((head, "it stands in another struct") for head in heads))
+    if rivals and wanted is None:
+        choices = tuple((t.title or "variables", ", ".join(t.columns)[:80]) for t in (best, *rivals))
+        source = replace(source, choices=choices)
+    return source
+
+
+def without_foreign(values: dict[str, Any]) -> dict[str, Any]:
+    """The values without objects, at any depth."""
+    result: dict[str, Any] = {}
+    for key, value in values.items():
+        if isinstance(value, dict):
+            result[key] = _struct_array(without_foreign(value))
+        elif isinstance(value, list):
+            result[key] = [without_foreign(item) if isinstance(item, dict) else item for item in value]
+        elif not isinstance(value, Foreign):
+            result[key] = value
+    return result
+
+
+def _struct_array(fields: dict[str, Any]) -> Any:
+    """An array of structs that is kept field by field, as v7.3 does, struct by struct."""
+    lists = [value for value in fields.values() if isinstance(value, list)]
+    if not lists or len(lists) != len(fields) or any(isinstance(v, str) for v in lists[0]):
+        return fields
+    count = len(lists[0])
+    if count < 2 or any(len(value) != count for value in lists):
+        return fields
+    return [{key: value[number] for key, value in fields.items()} for number in range(count)]

@@ -50,7 +50,7 @@ class _Element(NamedTuple):
 
 
 def read_variables(data: bytes, file: str) -> dict[str, Any]:
-    """Name -> array of numbers, text, list of texts, mapping of fields, ``Foreign``, or None for the rest.
+    """Name -> array of numbers, text, list of values, mapping of fields, ``Foreign``, or None for the rest.
 
     Args:
         data: the file's bytes.
@@ -228,30 +228,32 @@ class _Mat5Reader:
             return text
         return None if len(text) != size else [text[row::rows].rstrip() for row in range(rows)]
 
-    def _cells(self, parts: Iterator[_Element], count: int, where: str, depth: int) -> list[str] | None:
-        """A cell array of texts; None = of something else."""
-        words = []
+    def _cells(self, parts: Iterator[_Element], count: int, where: str, depth: int) -> list[Any]:
+        """A cell array, column by column."""
+        values = []
         for _ in range(count):
-            value = self.matrix(self._next(parts, where).data, where, depth + 1)[1]
-            if not isinstance(value, str):
-                return None
             self._allowance.take(WORD, where)
-            words.append(value)
-        return words
+            values.append(self.matrix(self._next(parts, where).data, where, depth + 1)[1])
+        return values
 
-    def _fields(self, parts: Iterator[_Element], count: int, where: str, depth: int) -> dict[str, Any] | None:
-        """The fields of a single struct; None = an array of structs."""
+    def _fields(self, parts: Iterator[_Element], count: int, where: str, depth: int) -> Any:
+        """The fields of a struct; of an array of structs a list of them."""
         width = self._numbers(self._next(parts, where), where)
         if len(width) != 1 or not 0 < int(width[0]) <= 1024:
             raise DamagedError(f"{where} has no field names")
-        size, names = int(width[0]), bytes(self._next(parts, where).data)
-        if count != 1:
-            return None
-        self._fields_seen += len(names) // size
-        check_variables(self._fields_seen, self._file)
-        fields = {}
-        for begin in range(0, len(names) // size * size, size):
-            name = names[begin : begin + size].partition(b"\0")[0].decode("latin-1")
-            element = self._next(parts, where)
-            fields[name] = self.matrix(element.data, f"{where}, field '{name}'", depth + 1)[1]
-        return fields
+        size, content = int(width[0]), bytes(self._next(parts, where).data)
+        names = [
+            content[begin : begin + size].partition(b"\0")[0].decode("latin-1")
+            for begin in range(0, len(content) // size * size, size)
+        ]
+        structs = []
+        for _ in range(count):
+            self._fields_seen += max(1, len(names))
+            check_variables(self._fields_seen, self._file)
+            structs.append(
+                {
+                    name: self.matrix(self._next(parts, where).data, f"{where}, field '{name}'", depth + 1)[1]
+                    for name in names
+                }
+            )
+        return structs[0] if count == 1 else structs

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.limits import WORD, Allowance, check_variables, inflated
 from mckibben.measurement.read.mat import choose
 from mckibben.measurement.read.mat5 import Foreign
@@ -29,10 +30,11 @@ _CHECKSUM_SIZE = 4  # bytes
 _MAX_PIECE = 32_000_000  # bytes that one piece unpacks to
 _MAX_PIECES = 50_000
 _MAX_WORDS = 200_000
+_DEEPEST = 3  # structs within structs
 _AT_ONCE = 4_000_000  # bytes; other threads come in between
 
 
-def open_mat73(data: bytes, name: str) -> RawTable:
+def open_mat73(data: bytes, name: str, correction: Correction | None = None) -> RawTable:
     """The table of a MATLAB v7.3 file.
 
     Raises:
@@ -51,7 +53,7 @@ def open_mat73(data: bytes, name: str) -> RawTable:
             f"({type(error).__name__}: {str(error)[:100]})",
             field="file", hint="save it again with -v7",
         ) from error  # fmt: skip
-    return choose(values, name)
+    return choose(values, name, correction)
 
 
 class _Mat73Reader:
@@ -82,18 +84,18 @@ class _Mat73Reader:
                 result[key] = Foreign(kind or "table or another object")
                 continue
             if isinstance(member, h5py.Group):
-                result[key] = self.group(member, depth + 1) if depth < 3 else None
+                result[key] = self.group(member, depth + 1) if depth < _DEEPEST else None
             elif isinstance(member, h5py.Dataset):
-                result[key] = self._dataset(key, member, kind)
+                result[key] = self._dataset(key, member, kind, depth)
         return result
 
-    def _dataset(self, key: str, dataset: Any, kind: str) -> Any:
+    def _dataset(self, key: str, dataset: Any, kind: str, depth: int) -> Any:
         import h5py
 
         if "MATLAB_empty" in dataset.attrs or dataset.shape is None:
             return None
         if dataset.dtype == h5py.ref_dtype:
-            return self._cell(key, dataset)
+            return self._cell(key, dataset, depth)
         if dataset.dtype.kind not in "biuf":
             return None
         values = self._read(key, dataset)
@@ -101,8 +103,8 @@ class _Mat73Reader:
             return _characters(values)
         return values.T  # MATLAB keeps columns first
 
-    def _cell(self, key: str, dataset: Any) -> list[str] | None:
-        """A cell array of texts; None = of something else."""
+    def _cell(self, key: str, dataset: Any, depth: int) -> list[Any] | None:
+        """A cell array, or a field of an array of structs; None = too deep, or texts that are too long."""
         import h5py
 
         self._words_seen += int(dataset.size)
@@ -112,15 +114,24 @@ class _Mat73Reader:
                 f"holds {dataset.size} texts, at most {_MAX_WORDS} are read",
                 "save the words as numbers, e.g. direction as -1 and 1",
             )
-        words: list[str] = []
+        words: list[Any] = []
         known: dict[Any, str] = {}
         for reference in self._read(key, dataset).reshape(-1):
             target = self._file[reference] if reference else None
-            if not isinstance(target, h5py.Dataset) or int(target.size or 0) > 1000:
+            kind = _text(target.attrs.get("MATLAB_class", b"")) if target is not None else ""
+            if kind != "char" or not isinstance(target, h5py.Dataset) or target.dtype.kind not in "iu":
+                if target is None or depth >= _DEEPEST:
+                    return None
+                self._variables += 1
+                check_variables(self._variables, self._name)
+                is_group = isinstance(target, h5py.Group)
+                words.append(
+                    self.group(target, depth + 1) if is_group else self._dataset(key, target, kind, depth + 1)
+                )
+                continue
+            if int(target.size or 0) > 1000:
                 return None
             if target.id not in known:
-                if _text(target.attrs.get("MATLAB_class", b"")) != "char" or target.dtype.kind not in "iu":
-                    return None
                 empty = "MATLAB_empty" in target.attrs
                 known[target.id] = "" if empty else _characters(self._read(key, target))
             words.append(known[target.id])

@@ -7,19 +7,34 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mckibben.measurement.measurement import CHANNEL_UNITS, Measurement
-from mckibben.measurement.read.assemble import Read, assemble, conditions_of, meaning_of, rows_of
+from mckibben.measurement.measurement import CHANNEL_UNITS, Measurement, StatedValue
+from mckibben.measurement.question import Question
+from mckibben.measurement.read.assemble import (
+    Read,
+    assemble,
+    conditions_of,
+    meaning_of,
+    rows_of,
+    stated_values,
+    unread_columns,
+)
 from mckibben.measurement.read.cells import Skip
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.formats import open_source
 from mckibben.measurement.read.header import HeaderColumn, Meaning
+from mckibben.measurement.read.questions import refusal
 from mckibben.measurement.read.source import RawTable
 from mckibben.physics.errors import InputError
 
 
 @dataclass(frozen=True)
 class PreviewColumn:
-    """One column of the file; ``channel`` None = not used, ``unit`` None = SI; ``why``: what is wrong."""
+    """One column of the file; ``channel`` None = not used, ``unit`` None = SI; ``why``: what is wrong.
+
+    ``unit_origin``: who says the unit, ``file``, ``you`` or ``proposed`` from the range of the numbers, None
+    without a channel; ``unit_where``: where the file says it, apart from the header; ``sign`` -1: the file
+    counts it the other way; ``unread``: why nothing is read from it.
+    """
 
     header: str
     channel: str | None
@@ -29,6 +44,10 @@ class PreviewColumn:
     minimum: float | None
     maximum: float | None
     why: str | None
+    unit_origin: str | None = None
+    unit_where: str | None = None
+    sign: int = 1
+    unread: str | None = None
 
 
 @dataclass(frozen=True)
@@ -58,6 +77,10 @@ class Preview:
         problem: why the file cannot be used as it is.
         refused: it cannot only because of bad rows, which the user may leave out.
         messages: what was assumed.
+        questions: what the file leaves open; ``problem`` is their refusal where they stop the reading.
+        unread: all columns that nothing is read from, and why.
+        stated: the conditions with their origin.
+        choices: tables that could be meant, by the name that picks them.
     """
 
     name: str
@@ -73,6 +96,10 @@ class Preview:
     problem: InputError | None
     refused: bool
     messages: tuple[str, ...]
+    questions: tuple[Question, ...] = ()
+    unread: tuple[tuple[str, str], ...] = ()
+    stated: tuple[StatedValue, ...] = ()
+    choices: tuple[str, ...] = ()
 
 
 def preview(data: bytes, name: str, correction: Correction | None = None) -> Preview:
@@ -82,7 +109,7 @@ def preview(data: bytes, name: str, correction: Correction | None = None) -> Pre
         InputError: no table can be found in the file at all, or the correction names what is not there.
     """
     correction = correction or Correction()
-    source = open_source(data, name)
+    source = open_source(data, name, correction)
     meaning = meaning_of(source, correction, collect=True)
     problem: InputError | None = next(iter(meaning.problems.values()), None)
     conditions: dict[str, float | str] = {}
@@ -96,10 +123,11 @@ def preview(data: bytes, name: str, correction: Correction | None = None) -> Pre
     read: Read | None = None
     skipped: Mapping[str, Skip] = {}
     valid = 0
+    asked: list[Question] = []
     try:
         if not meaning.columns:
             meaning_of(source, correction)  # says why no column is known
-        read = assemble(source, name=name, id=identity, correction=tolerant, meaning=meaning)
+        read = assemble(source, name=name, id=identity, correction=tolerant, meaning=meaning, asked=asked)
         skipped, valid = read.skipped, read.measurement.rows
         conditions = dict(read.measurement.conditions)
         messages = list(read.measurement.messages)
@@ -110,9 +138,15 @@ def preview(data: bytes, name: str, correction: Correction | None = None) -> Pre
     refused = False
     if problem is None and skipped:
         try:
-            assemble(source, name=name, id=identity, correction=correction, meaning=meaning)
+            assemble(source, name=name, id=identity, correction=correction, meaning=meaning, asked=[])
         except InputError as error:
             problem, refused = error, True
+    problem = (
+        problem
+        if problem is not None and not refused
+        else refusal(name, asked, strict=correction.strict) or problem
+    )
+    refused = refused and not any(question.stops or correction.strict for question in asked)
     measurement = None if read is None or (problem is not None and not refused) else read.measurement
     kind = None if measurement is None else measurement.kind
     return Preview(
@@ -129,6 +163,10 @@ def preview(data: bytes, name: str, correction: Correction | None = None) -> Pre
         problem=problem,
         refused=refused,
         messages=tuple(messages),
+        questions=tuple(asked),
+        unread=unread_columns(source, meaning, ()) if read is None else read.measurement.unread,
+        stated=stated_values(source, conditions, correction) if read is None else read.measurement.stated,
+        choices=tuple(title for title, _ in source.choices),
     )
 
 
@@ -161,7 +199,9 @@ def _columns(source: RawTable, meaning: Meaning, read: Read | None) -> tuple[Pre
     used = {column.place: column for column in (read.columns if read else ())}
     ranges = {} if read is None else {c.name: c for c in read.measurement.channels}
     result = []
+    unread = dict(read.measurement.unread if read else unread_columns(source, meaning, ()))
     for index, header in enumerate(source.headers):
+        apart = source.units[index] if index < len(source.units) else None
         column: HeaderColumn | None = used.get(index, guessed.get(index))
         problem = meaning.problems.get(index)
         if (
@@ -182,6 +222,10 @@ def _columns(source: RawTable, meaning: Meaning, read: Read | None) -> tuple[Pre
                 minimum=span.minimum if span else None,
                 maximum=span.maximum if span else None,
                 why=problem.message if problem else None,
+                unit_origin=None if column is None else column.unit_origin if column.unit else "proposed",
+                unit_where=source.unit_where if column is not None and apart and source.unit_where else None,
+                sign=column.sign if column else 1,
+                unread=None if column is not None else unread.get(header.strip() or f"column {index + 1}"),
             )
         )
     return tuple(result)

@@ -33,6 +33,12 @@ class RawTable:
         messages: what was assumed.
         header_row: 1-based row of the header, None where the format has none.
         noun: what the format calls a column.
+        units: units that stand apart from the headers, one per header; empty = none do.
+        unit_where: where they stand, for people.
+        clocks: columns of times of day or dates, which count from their first row.
+        rest: texts of the file that belong to no table, and where they stand.
+        unread: columns of the file that are not among ``headers``, and why.
+        choices: other tables of the file that could be meant: (option that picks it, what it is).
     """
 
     place: str
@@ -44,6 +50,12 @@ class RawTable:
     messages: list[str] = field(default_factory=list)
     header_row: int | None = None
     noun: str = "column"
+    units: tuple[str | None, ...] = ()
+    unit_where: str = ""
+    clocks: frozenset[int] = frozenset()
+    rest: tuple[tuple[str, str], ...] = ()
+    unread: tuple[tuple[str, str], ...] = ()
+    choices: tuple[tuple[str, str], ...] = ()
 
 
 def array_source(

@@ -10,16 +10,20 @@ import io
 import logging
 import re
 import struct
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, Note, key_of
+from mckibben.measurement.read.containers import NamedTable, stacked
+from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.header import map_headers
 from mckibben.measurement.read.limits import WORD, Allowance, check_variables, size_of
-from mckibben.measurement.read.source import HeaderColumn, RawTable, array_source
-from mckibben.measurement.read.vectors import known_columns, sorted_out, time_axis
-from mckibben.physics.errors import InputError
+from mckibben.measurement.read.source import RawTable, array_source
+from mckibben.measurement.read.stated import in_known_words, statements
+from mckibben.measurement.read.vectors import sorted_out, time_axis
+from mckibben.physics.errors import InputError, did_you_mean
 
 _NOUN = "channel"
 _MAX_GROUPS = 1000
@@ -31,19 +35,19 @@ _MAX_SCALES = 8  # of a channel; each may double the work
 _LEAD_IN = 28  # bytes before each segment: mark, flags, version, length, length of its directory
 _BIG_ENDIAN = 1 << 6  # among the flags
 _TIME = "time [s]"
-_RUN = "group"
 _KEYS = (*CONDITION_UNITS, *TEXT_CONDITIONS, "kind", "bad_rows")
 
 
-def open_tdms(data: bytes, name: str) -> RawTable:
+def open_tdms(data: bytes, name: str, correction: Correction | None = None) -> RawTable:
     """The table of a TDMS file.
 
     Raises:
-        InputError: damaged, or without channels that are named like ours.
+        InputError: damaged, without channels that are named like ours, or without the group of the user.
     """
     groups, properties = _loaded(data, name)
+    wanted = correction.sheet if correction else None
     notes = _notes(properties, name)
-    tables: dict[str, tuple[dict[str, HeaderColumn], list[Note], list[str]]] = {}
+    tables: list[NamedTable] = []
     problem: InputError | None = None
     for title, (values, own) in groups.items():
         place = f"{name}, group '{title}'"
@@ -53,27 +57,54 @@ def open_tdms(data: bytes, name: str) -> RawTable:
             problem = problem or error
             continue
         if columns:
-            tables[title] = columns, _notes(own, place), messages
+            tables.append(
+                NamedTable(title, columns, _notes(own, place, every=True), _texts(own, place), messages)
+            )
+    if wanted is not None:
+        chosen = [table for table in tables if table.title == wanted]
+        if tables and not chosen:
+            hint = did_you_mean(wanted, [table.title for table in tables])
+            raise InputError(f"{name}: there is no group '{wanted}' with channels", field="sheet", hint=hint)
+        tables = chosen
     if not tables:
         raise problem or InputError(
             f"{name}: no channel holds numbers",
             field="channels",
             hint="e.g. channels 'pressure' and 'length'",
         )
-    known = {title: known_columns(table[0], place=name, noun=_NOUN) for title, table in tables.items()}
-    first = max(known, key=lambda title: known[title])
-    if problem is not None and not known[first]:
+    best = max(tables, key=NamedTable.known)
+    most = best.known()
+    if problem is not None and not most:
         raise problem
-    columns, own, messages = tables[first]
-    alike = [title for title in tables if list(tables[title][0]) == list(columns)]
-    place = f"{name}, group '{first}'"
+    alike = [table for table in tables if list(table.columns) == list(best.columns)]
+    place = f"{name}, group '{best.title}'"
+    others = [title for title in groups if title not in [table.title for table in alike]]
     if len(alike) > 1:
-        columns = _stacked([tables[title][0] for title in alike])
-        messages = [*messages, f"{len(alike)} groups with the same channels are read as runs"]
+        best = stacked(alike, "")
+        best.messages[-1] = f"{len(alike)} groups with the same channels are read as runs"
         place = name
-    others = [title for title in groups if title not in alike]
-    messages += [f"group '{title}' is not used" for title in others]
-    return array_source(columns, place=place, format="tdms", noun=_NOUN, notes=notes + own, messages=messages)
+    messages = [*best.messages, *(f"group '{title}' is not used" for title in others)]
+    rivals = [table for table in tables if table not in alike and most >= 2 and table.known() >= most]
+    own_notes = [note for note in best.notes if key_of(note.key)[0] in _KEYS]
+    rest = [*_texts(properties, name), *best.rest]
+    known = {note.key for note in (*notes, *own_notes)}
+    stated = [note for note in statements(rest, name) if note.key not in known]
+    source = array_source(
+        best.columns,
+        place=place,
+        format="tdms",
+        noun=_NOUN,
+        notes=[*notes, *own_notes, *stated],
+        messages=messages,
+    )
+    others_unread = tuple(
+        (f"{title}/{head}", "it stands in another group") for title in others for head in groups[title][0]
+    )
+    source = replace(source, unread=others_unread)
+    if rivals and wanted is None:
+        choices = tuple((table.title, ", ".join(table.columns)[:80]) for table in (alike[0], *rivals))
+        source = replace(source, choices=choices)
+    return source
 
 
 def _loaded(data: bytes, name: str) -> tuple[dict[str, tuple[dict[str, Any], dict]], dict]:
@@ -212,25 +243,20 @@ def _add_time(values: dict[str, Any], channels: list[Any], place: str) -> None:
             return
 
 
-def _stacked(parts: list[dict[str, HeaderColumn]]) -> dict[str, HeaderColumn]:
-    """The columns of several groups one below the other, with a column that numbers the groups."""
-    result: dict[str, HeaderColumn] = {}
-    for header in parts[0]:
-        pieces = [part[header] for part in parts]
-        if any(isinstance(piece, list) for piece in pieces):
-            result[header] = [str(word) for piece in pieces for word in piece]
-        else:
-            result[header] = np.concatenate([np.asarray(piece) for piece in pieces])
-    rows = [len(next(iter(part.values()))) for part in parts]
-    if not any(column.use == "group" for column in map_headers(list(result), place="", collect=True).columns):
-        result[_RUN] = np.repeat(np.arange(len(parts), dtype=float), rows)
-    return result
-
-
-def _notes(properties: dict, place: str) -> list[Note]:
-    """The properties that are conditions; LabVIEW adds many others."""
-    return [
+def _notes(properties: dict, place: str, *, every: bool = False) -> list[Note]:
+    """The properties that are conditions; LabVIEW adds many others, which ``every`` keeps."""
+    found = [
         Note(f"{place}, property '{key}'", str(key), value if isinstance(value, (int, float)) else str(value))
         for key, value in properties.items()
-        if key_of(str(key))[0] in _KEYS and not isinstance(value, bool)
+        if not isinstance(value, bool)
+    ]
+    return [note for note in in_known_words(found) if every or key_of(note.key)[0] in _KEYS]
+
+
+def _texts(properties: dict, place: str) -> list[tuple[str, str]]:
+    """The properties that are texts, as what stands beside the channels."""
+    return [
+        (value, f"{place}, property '{key}'")
+        for key, value in properties.items()
+        if isinstance(value, str) and value.strip()
     ]

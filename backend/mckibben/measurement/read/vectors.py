@@ -20,7 +20,7 @@ Named = Mapping[str, Any]  # name -> array of numbers, list of words, text, or a
 def as_column(value: Any) -> HeaderColumn | None:
     """A vector as floats, or as words; None = something else (a matrix, a struct, complex numbers)."""
     if isinstance(value, list):
-        return value
+        return value if value and all(isinstance(word, str) for word in value) else None
     if not isinstance(value, np.ndarray) or value.ndim == 0:
         return None
     flat = value.reshape(-1) if max(value.shape, default=0) == value.size else None

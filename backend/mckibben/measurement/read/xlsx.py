@@ -6,51 +6,136 @@ with the values they had when the file was saved; nothing of a workbook is ever 
 
 from __future__ import annotations
 
+import re
 import threading
 import warnings
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from datetime import date, datetime, time, timedelta
 from sys import getsizeof
 from typing import Any
 
-from mckibben.measurement.read.cells import Cell, CellTable, Problems, no_rows, read_cells
+from mckibben.measurement.read.blocks import Held, Table
+from mckibben.measurement.read.cells import Cell, no_rows
 from mckibben.measurement.read.conditions import Note, note_of_line
+from mckibben.measurement.read.correction import Correction
+from mckibben.measurement.read.grid import SheetGrid
 from mckibben.measurement.read.header import HEADER_EXAMPLE, map_headers
 from mckibben.measurement.read.limits import WORD, Allowance, check_columns
-from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
+from mckibben.measurement.read.locate import texts_of
+from mckibben.measurement.read.recognise import held_quantities
+from mckibben.measurement.read.source import RawTable
+from mckibben.measurement.read.stated import in_known_words, statements
+from mckibben.measurement.read.table_source import source_of
+from mckibben.measurement.read.tables import channels_of, choose, tables_of_grid
 from mckibben.measurement.read.workbook import MAX_ROWS, open_book
-from mckibben.physics.errors import InputError
+from mckibben.physics.errors import InputError, did_you_mean
 
 _MAX_SHEETS = 20
 _MAX_CELLS = 8_000_000  # of all sheets; a cell takes 40 bytes and more
 _HEADER_WITHIN = 200  # rows
 _AT_ONCE = 64  # cells
+_ALL_ROWS = 100_000  # a longer sheet is taken as one table after its first rows
+_FIRST_ROWS = 5000
+_ERROR_VALUE = re.compile(r"#(?:[A-Z0-9/]+[!?]|N/A|NV)")  # of a formula
+_LONGEST_TEXT = 300  # characters of a row of texts
 _warnings_lock = threading.Lock()  # catch_warnings is not safe between threads
 
 Rows = list[tuple[int, tuple[Cell, ...]]]
 
 
-def open_xlsx(data: bytes, name: str) -> RawTable:
-    """The table of a workbook.
+def open_xlsx(data: bytes, name: str, correction: Correction | None = None) -> RawTable:
+    """The table of a workbook: of the sheet with most channels, or of several sheets that belong together.
 
     Raises:
-        InputError: not a workbook, damaged, packed beyond measure, or without a table.
+        InputError: not a workbook, damaged, packed beyond measure, without a table, or without the sheet that
+            the user names.
     """
-    problem: InputError | None = None
-    for sheet, rows in _sheets(data, name):
-        place = f"{name}, sheet '{sheet}'"
+    correction = correction or Correction()
+    sheets = _sheets(data, name)
+    wanted = correction.sheet
+    tables: list[Table] = []
+    notes: dict[str, list[Note]] = {}
+    rest: list[tuple[str, str]] = []
+    for title, rows in sheets:
+        place = f"{name}, sheet '{title}'"
+        notes[title] = _comments(rows, place)
+        grid = SheetGrid([row for row in rows if not _is_comment(row[1])], place, title)
+        head = correction.head if wanted in (None, title) else None
         try:
-            return _table(rows, place)
-        except InputError as error:
-            problem = problem or error
-    raise problem or InputError(
-        f"{name}, sheet 1: the workbook holds no rows", field="sheet 1", hint=HEADER_EXAMPLE
-    )
+            until = _FIRST_ROWS if len(grid) > _ALL_ROWS else None
+            found = tables_of_grid(grid, head=head, until=until)
+        except InputError:
+            if wanted == title or len(sheets) == 1:
+                raise
+            found = []
+        where = f"name of sheet '{title}'"
+        named = {q.channel: Held(q._replace(named=True), where) for q in held_quantities(title)}
+        for table in found:
+            for part in table.parts:
+                part.held = named | part.held
+        tables += found
+        rest += found[0].rest if found else _texts(grid)
+    if (wanted is None and not any(channels_of(table) for table in tables)) or not tables:
+        return _refused_or_empty(sheets, name, wanted)
+    chosen = choose(tables, sheet=wanted)
+    table = chosen.table
+    table.rest = [*table.rest, *(text for text in rest if text not in table.rest)]
+    own = notes.get(table.title) or []
+    found_notes = in_known_words([*(n for t, ns in notes.items() if t != table.title for n in ns), *own])
+    known = {note.key for note in found_notes}
+    found_notes += [note for note in statements(table.rest, name) if note.key not in known]
+    table.unread = [*table.unread, *chosen.unread]
+    source = source_of(table, format="xlsx", notes=found_notes, messages=chosen.messages)
+    return replace(source, choices=chosen.choices)
+
+
+def _refused_or_empty(sheets: Sequence[tuple[str, Rows]], name: str, wanted: str | None) -> RawTable:
+    """The refusal of a workbook without a table: the first sheet, or the one of the user, says why."""
+    title, rows = next((sheet for sheet in sheets if sheet[0] == wanted), sheets[0])
+    if wanted is not None and title != wanted:
+        titles = [sheet[0] for sheet in sheets]
+        raise InputError(
+            f"{name}: there is no sheet '{wanted}' with a table",
+            field="sheet",
+            hint=did_you_mean(wanted, titles),
+        )
+    return _table(rows, f"{name}, sheet '{title}'")
+
+
+def _is_comment(cells: Sequence[Cell]) -> bool:
+    first = next((str(cell).strip() for cell in cells if cell is not None and str(cell).strip()), "")
+    return first.startswith("#") and _ERROR_VALUE.fullmatch(first) is None
+
+
+def _comments(rows: Rows, place: str) -> list[Note]:
+    """The conditions in ``# key: value`` above a table."""
+    found = []
+    for number, cells in rows[:_HEADER_WITHIN]:
+        if _is_comment(cells):
+            note = _note(
+                ["" if cell is None else str(cell).strip() for cell in cells], f"{place}, row {number}"
+            )
+            found += [note] if note else []
+    return found
+
+
+def _texts(grid: SheetGrid) -> list[tuple[str, str]]:
+    """The texts of a sheet without a table, row by row."""
+    found = []
+    for index in range(min(len(grid), _HEADER_WITHIN)):
+        cells = texts_of(grid.cells(index))
+        text = " ".join(cell for cell in cells if cell)[:_LONGEST_TEXT]
+        filled = [column for column, cell in enumerate(cells) if cell]
+        if text:
+            found.append((text, grid.where(index, filled[1] if len(filled) > 1 else filled[0])))
+    return found
 
 
 def _sheets(data: bytes, name: str) -> list[tuple[str, Rows]]:
     """Title and rows of the sheets that are not empty; rows by their number in the sheet."""
     found = []
+    problem: InputError | None = None
     try:
         with _warnings_lock, warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of features that hold no data
@@ -58,7 +143,11 @@ def _sheets(data: bytes, name: str) -> list[tuple[str, Rows]]:
             cells = _Cells(name, len(data))
             for sheet in book.worksheets[:_MAX_SHEETS]:
                 title = str(sheet.title)[:40]
-                rows = list(cells.rows(sheet, title))
+                try:
+                    rows = list(cells.rows(sheet, title))
+                except InputError as error:  # of this sheet: the others may be what is wanted
+                    problem = problem or error
+                    continue
                 if rows:
                     found.append((title, rows))
             book.close()
@@ -71,7 +160,9 @@ def _sheets(data: bytes, name: str) -> list[tuple[str, Rows]]:
             field="file", hint="save it again, or as CSV",
         ) from error  # fmt: skip
     if not found:
-        raise InputError(f"{name}, sheet 1: the workbook holds no rows", field="sheet 1", hint=HEADER_EXAMPLE)
+        raise problem or InputError(
+            f"{name}, sheet 1: the workbook holds no rows", field="sheet 1", hint=HEADER_EXAMPLE
+        )
     return found
 
 
@@ -131,17 +222,13 @@ def _plain(cell: Any) -> Cell:
 
 
 def _table(rows: Rows, place: str) -> RawTable:
-    """The source of a sheet."""
-    notes: list[Note] = []
-    for position, (number, cells) in enumerate(rows[:_HEADER_WITHIN]):
+    """The refusal of a sheet in which no table was found; names what could be its header."""
+    for number, cells in rows[:_HEADER_WITHIN]:
         texts = ["" if cell is None else str(cell).strip() for cell in cells]
-        said = _note(texts, f"{place}, row {number}")
-        if said is not None or next(text for text in texts if text).startswith("#"):
-            notes += [said] if said else []
-        elif sum(isinstance(cell, str) for cell in cells) and _known(texts, place):
-            return _below(rows[position + 1 :], texts, place, number, notes)
-    # No row above names a known column: the first that could be a header says why.
-    number, cells = next(((n, c) for n, c in rows if not str(c[0]).startswith("#")), rows[0])
+        if not _is_comment(cells) and sum(isinstance(cell, str) for cell in cells) and _known(texts, place):
+            map_headers(texts, place=place, row=number)
+            raise no_rows(f"{place}, row {number}")
+    number, cells = next(((n, c) for n, c in rows if not _is_comment(c)), rows[0])
     map_headers(["" if cell is None else str(cell) for cell in cells], place=place, row=number)
     raise no_rows(f"{place}, row {number}")
 
@@ -162,36 +249,3 @@ def _known(texts: list[str], place: str) -> bool:
     """Whether a row is a header: it names at least one channel, or nearly does."""
     meaning = map_headers(texts, place=place, collect=True)
     return bool(meaning.columns or meaning.problems)
-
-
-def _below(rows: Rows, headers: list[str], place: str, number: int, notes: list[Note]) -> RawTable:
-    width = len(headers)
-
-    def full() -> Iterator[tuple[int, tuple[Cell, ...]]]:
-        # Empty cells at the end of a row are not kept by the format.
-        origin: datetime | None = None
-        for line, cells in rows:
-            padded = cells + (None,) * (width - len(cells))
-            if isinstance(padded[0], datetime):
-                origin = origin or padded[0].replace(tzinfo=None)
-                padded = (padded[0].replace(tzinfo=None) - origin, *padded[1:])
-            yield line, padded
-
-    def read(numeric: Sequence[int], text: Sequence[int], skip: bool) -> CellTable:
-        if not rows:
-            raise no_rows(place)
-        return read_cells(
-            full(), headers, numeric=numeric, text=text, problems=Problems(place, "column", skip=skip)
-        )
-
-    sample = [["" if cell is None else str(cell) for cell in cells] for _, cells in rows[:SAMPLE_ROWS]]
-    return RawTable(
-        place=place,
-        format="xlsx",
-        headers=headers,
-        read=read,
-        sample=sample,
-        notes=notes,
-        messages=[],
-        header_row=number,
-    )

@@ -49,8 +49,10 @@ _Mapping = Annotated[
     str | None,
     Query(
         max_length=MAX_LENGTH,
-        description="Corrections by the user, as JSON: 'columns' (header -> channel and unit, "
-        "null = not used), 'kind', 'conditions', 'bad_rows' ('refuse' or 'skip'); each may be left out.",
+        description="Corrections by the user, as JSON: 'columns' (header -> channel, unit and sign, "
+        "null = not used), 'kind', 'conditions', 'bad_rows' ('refuse' or 'skip'), and the words of the "
+        "command line: 'sheet', 'head', 'column' (list of texts such as 'force=-Kraft [kN]'), 'ignore' "
+        "(list of columns), 'rest_length', 'load', 'supply', 'strict'; each may be left out.",
         examples=[
             '{"columns": {"p1": {"channel": "pressure", "unit": "bar"}, "x9": null}, "kind": "isobaric"}'
         ],

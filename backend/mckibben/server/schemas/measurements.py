@@ -41,6 +41,37 @@ class MissingCondition(Strict):
     alternatives: list[str] = Field(description="Conditions that replace it.", examples=[["load_force"]])
 
 
+class UnreadColumn(Strict):
+    """A column that nothing is read from."""
+
+    column: str = Field(description="Header of the file.", examples=["Traverse [mm]"])
+    why: str = Field(description="Why nothing is read from it.", examples=["its name is not known"])
+
+
+class StatedCondition(Strict):
+    """A condition of the test and who says it."""
+
+    key: str = Field(examples=["nominal_length"])
+    value: str | float | None = Field(description="In SI, or a text.")
+    origin: str = Field(description="file or you.", examples=["file"])
+    where: str = Field(description="Line or cell of the file; empty for the user's own.", examples=["line 4"])
+
+
+class OpenQuestion(Strict):
+    """What the file leaves open."""
+
+    about: str = Field(description="What it is about.", examples=["unit of pressure"])
+    text: str = Field(description="The question.")
+    option: str = Field(
+        description="What answers it, in the words of the command line and of a mapping.",
+        examples=['--column "pressure=p [kPa]"'],
+    )
+    column: str | None = Field(description="The column concerned.", examples=["p"])
+    proposed: str | None = Field(description="The likeliest answer.", examples=["kPa"])
+    choices: list[str] = Field(description="Possible answers.", examples=[["kPa", "mbar"]])
+    stops: bool = Field(description="Without an answer the file is not read.")
+
+
 class MeasurementAnswer(Strict):
     """A measurement as it was read."""
 
@@ -65,6 +96,9 @@ class MeasurementAnswer(Strict):
     groups: int = Field(description="Number of sweeps or cycles of the rows.")
     segments: Segmentation
     messages: list[str] = Field(description="Remarks on the file.")
+    unread: list[UnreadColumn] = Field(description="All columns that nothing is read from, and why.")
+    stated: list[StatedCondition] = Field(description="The conditions with their origin.")
+    questions: list[OpenQuestion] = Field(description="What the file leaves open.")
 
 
 class MeasurementDetail(MeasurementAnswer):
@@ -88,6 +122,14 @@ class PreviewColumn(Strict):
     minimum: float | None = Field(description="Smallest value of the channel, SI.")
     maximum: float | None = Field(description="Largest value of the channel, SI.")
     why: str | None = Field(description="Why the column cannot be used as its header states.")
+    unit_origin: str | None = Field(
+        description="Who says the unit: file, you, or proposed from the range; null = not used."
+    )
+    unit_where: str | None = Field(
+        description="Where the unit stands, apart from the header.", examples=["line 8"]
+    )
+    sign: int = Field(description="-1: the file counts it the other way.")
+    unread: str | None = Field(description="Why nothing is read from the column; null = it is used.")
 
 
 class SkippedRows(Strict):
@@ -133,3 +175,11 @@ class PreviewAnswer(Strict):
     messages: list[str] = Field(description="Assumptions made.")
     channel_choices: list[ChannelChoice]
     kind_choices: list[str]
+    questions: list[OpenQuestion] = Field(
+        description="What the file leaves open; 'problem' refuses it while one of them stops the reading."
+    )
+    unread: list[UnreadColumn] = Field(description="All columns that nothing is read from, and why.")
+    stated: list[StatedCondition] = Field(description="The conditions with their origin.")
+    table_choices: list[str] = Field(
+        description="Sheets, groups or structs that could be meant; 'sheet' of a mapping picks one."
+    )

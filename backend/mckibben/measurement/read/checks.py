@@ -1,0 +1,252 @@
+"""Questions that the columns of a file and their numbers raise."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.measurement.kind import turning_points
+from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
+from mckibben.measurement.question import Question
+from mckibben.measurement.read.blocks import UNNAMED
+from mckibben.measurement.read.correction import SAMPLE
+from mckibben.measurement.read.evidence import Evidence, bare_name
+from mckibben.measurement.read.header import HeaderColumn
+from mckibben.measurement.read.physical_checks import context_questions, physical_questions
+from mckibben.measurement.read.plausible import ENOUGH, is_plausible, median_step, proposal
+from mckibben.measurement.read.questions import column_option, ignore_option
+from mckibben.measurement.read.recognise import BY_WORDS, taken_apart
+from mckibben.measurement.read.unit_words import dimension_of
+from mckibben.physics.units import convert
+
+Floats = NDArray[np.float64]
+
+_CARRIES = {"a force": "force", "a pressure": "pressure", "a length": "length"}
+_KNOWN_REASONS = (
+    "the supply",
+    "the surrounding air",
+    "a length at rest",
+    "a size of the tube",
+    "a preload",
+    "a deviation",
+    "you do not want it",
+)
+_SAME = 0.01  # of the range; columns that differ by less are the same reading
+_CLIPPED = 100  # the penalty of a clipped column
+_RAW_PENALTY = 1  # between a column and its raw, filtered or clipped form
+
+
+def questions_of(evidence: Evidence) -> list[Question]:
+    """All questions, those that stop the reading first."""
+    with np.errstate(all="ignore"):  # numbers near the largest there are
+        return _questions(evidence)
+
+
+def _questions(evidence: Evidence) -> list[Question]:
+    rows = len(next(iter(evidence.channels.values()), ()))
+    asked = _tables(evidence)
+    if rows >= ENOUGH:
+        asked += [*_units(evidence), *_unread(evidence), *_rivals(evidence), *_specimens(evidence)]
+        unit_doubts = {question.about for question in asked}
+        if not any(about.startswith("unit of") for about in unit_doubts):
+            asked += [*physical_questions(evidence)]
+    asked += context_questions(evidence)
+    return sorted(asked, key=lambda question: not question.stops)
+
+
+def _tables(evidence: Evidence) -> list[Question]:
+    if not evidence.choices:
+        return []
+    titles = [title for title, _ in evidence.choices]
+    return [
+        Question(
+            "sheet",
+            f"{len(titles)} tables could be meant, {', '.join(map(repr, titles[:6]))}; which one is it",
+            f'--sheet "{titles[0]}"',
+            None,
+            titles[0],
+            tuple(titles),
+        )
+    ]
+
+
+def _units(evidence: Evidence) -> list[Question]:
+    asked = []
+    for channel, column in evidence.used.items():
+        if (
+            channel not in evidence.channels
+            or column.unit_origin == "you"
+            or channel in ("group", "direction")
+        ):
+            continue
+        values = evidence.channels[channel]
+        si, unit = CHANNEL_UNITS[channel], column.unit or CHANNEL_UNITS[channel]
+        raw = convert(values, si, si) if unit == si else _back(values, unit, si)
+        span = f"{np.min(raw):.4g} to {np.max(raw):.4g}"
+        named = f"{evidence.noun} '{column.header}'"
+        if column.unit_origin == "proposed":
+            found = proposal(channel, raw)
+            if found.si_will_do:
+                continue
+            may = f"; {' or '.join(found.choices[:3])} would be plausible" if found.choices else ""
+            asked.append(
+                Question(
+                    f"unit of {channel}",
+                    f"{named} ({channel}) has no unit and holds {span}{may}; which unit is it",
+                    column_option(channel, bare_name(column), found.unit),
+                    column.header,
+                    found.unit,
+                    found.choices,
+                )
+            )
+        elif not is_plausible(channel, values):
+            stops = (
+                channel != "pressure" or float(np.max(np.abs(values))) > _HARDLY or _forced(evidence, values)
+            )
+            better = [u for u in proposal(channel, raw).choices if u != unit]
+            if channel == "time":
+                step = median_step(values) or 0.0
+                better = [u for u in ("ms",) if is_plausible("time", raw * 1e-3)]
+                if not better or not _moves(evidence):
+                    continue
+                what = f"{named} would take {step:.3g} s from reading to reading"
+            else:
+                what = f"{named} ({channel}) holds {span} {unit}, which no muscle on a test bench shows"
+            hint = better[0] if better else unit
+            asked.append(
+                Question(
+                    f"unit of {channel}",
+                    f"{what}; is its unit {' or '.join([*better[:2], unit])}",
+                    column_option(channel, bare_name(column), hint),
+                    column.header,
+                    hint,
+                    (*better, unit),
+                    stops,
+                )
+            )
+    return asked
+
+
+_LONG_TEST = 900.0  # s; a test of readings by hand is shorter
+_SWING = 0.1  # of the largest value; less is noise about a held value
+_TURNS = 1
+_HARDLY = 2e3  # Pa; below it a pressure moves no muscle
+_LARGEST_AREA = 0.5  # m2, force over pressure; the largest catalogue muscle has 0.04
+
+
+def _forced(evidence: Evidence, pressure: Floats) -> bool:
+    """Whether the force is more than any muscle gives at such a pressure."""
+    force = evidence.channels.get("force")
+    if force is None:
+        return False
+    return bool(np.max(np.abs(force)) > _LARGEST_AREA * max(float(np.max(np.abs(pressure))), 1e-9))
+
+
+def _back(values: Floats, unit: str, si: str) -> Floats:
+    zero, one = convert([0.0, 1.0], unit, si)
+    return (values - zero) / (one - zero)
+
+
+def _moves(evidence: Evidence) -> bool:
+    """Whether a test of many minutes goes up and down all the way, as no slow drift and no creep does."""
+    time = evidence.channels["time"]
+    if float(np.ptp(time)) < _LONG_TEST:
+        return False
+    for channel in ("pressure", *STROKES, "force"):
+        values = evidence.channels.get(channel)
+        if values is not None and np.ptp(values) > _SWING * float(np.max(np.abs(values))):
+            turns = turning_points(values, threshold=0.5 * float(np.ptp(values)))
+            if np.count_nonzero(turns) >= _TURNS:
+                return True
+    return False
+
+
+def _unread(evidence: Evidence) -> list[Question]:
+    """Columns in N, bar or mm that nothing is read from, and nothing says why."""
+    meaning = evidence.meaning
+    used = {column.place for column in evidence.used.values()}
+    rivals = {other.place for _, other in meaning.rivals}
+    filled = set(evidence.used)
+    asked = []
+    for index, header in enumerate(evidence.headers):
+        if index in used or index in meaning.dismissed or index in rivals or not evidence.numeric(index):
+            continue
+        head = taken_apart(header, evidence.apart[index] if index < len(evidence.apart) else None)
+        channel = "force" if header == UNNAMED else _CARRIES.get(dimension_of(head.unit))
+        reason = meaning.reasons.get(index, "")
+        if channel is None or any(known in reason for known in _KNOWN_REASONS):
+            continue
+        is_filled = channel in filled or (channel == "length" and bool(filled & set(STROKES)))
+        if "a set value" in reason and is_filled:
+            continue
+        name = head.name or header or f"column {index + 1}"
+        target = "displacement" if channel == "length" else channel
+        others = (target,) if target != "displacement" else ("displacement", "length", "diameter")
+        asked.append(
+            Question(
+                f"column '{name}'",
+                f"{evidence.noun} '{header or name}' is in {head.unit or 'no unit'} and is not read"
+                f"{' (' + reason + ')' if reason else ''}; what is it",
+                f"{ignore_option(name)} or {column_option(target, name)}",
+                header or name,
+                choices=("ignore", *others),
+            )
+        )
+    return asked
+
+
+def _rivals(evidence: Evidence) -> list[Question]:
+    """Two columns for one channel that show different values."""
+    asked = []
+    for winner, other in evidence.meaning.rivals:
+        if "you" in (winner.origin, other.origin) or winner.use not in evidence.channels:
+            continue
+        if winner.use not in ("force", "pressure", *STROKES):
+            continue
+        if abs(_plainness(other) - _plainness(winner)) >= _RAW_PENALTY or not evidence.numeric(other.place):
+            continue
+        both = evidence.pair(winner.place, other.place)
+        if both is None:
+            continue
+        si = CHANNEL_UNITS[winner.use]
+        values, second = (convert(v, c.unit or si, si) for v, c in zip(both, (winner, other), strict=True))
+        if float(np.max(np.abs(second - values))) <= _SAME * max(float(np.ptp(values)), 1e-12):
+            continue
+        first, later = bare_name(winner), bare_name(other)
+        asked.append(
+            Question(
+                f"second {winner.use}",
+                f"{evidence.noun}s '{winner.header}' and '{other.header}' are both {winner.use} and differ; "
+                "which one acts on the muscle",
+                f"{column_option(winner.use, first)} or {column_option(winner.use, later)}",
+                other.header,
+                winner.header,
+                (winner.header, other.header),
+            )
+        )
+    return asked
+
+
+def _plainness(column: HeaderColumn) -> int:
+    """How raw, filtered or clipped a column says to be, however its name was recognised."""
+    return column.penalty if column.penalty >= _CLIPPED else column.penalty % BY_WORDS
+
+
+def _specimens(evidence: Evidence) -> list[Question]:
+    column = evidence.used.get(SAMPLE)
+    labels = evidence.labels.get(column.place) if column else None
+    words = [word for word in labels.words if word] if labels else []
+    if column is None or len(words) < 2 or column.origin == "you":
+        return []
+    return [
+        Question(
+            "specimens",
+            f"{evidence.noun} '{column.header}' names {len(words)} specimens, "
+            f"{', '.join(map(repr, words[:4]))}; their readings belong to different muscles: split the "
+            "file, or read all as one",
+            ignore_option(bare_name(column)),
+            column.header,
+            None,
+            tuple(words[:8]),
+        )
+    ]

@@ -1,0 +1,265 @@
+"""Tables among the named values of a MATLAB file: vectors, structs, arrays of structs, signals, matrices.
+
+A signal is a struct of one vector with a text for its name, and perhaps one for its unit, as recorders write
+it. Nothing depends on how variables or fields are called, except that a field is the name of a signal.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from mckibben.measurement.measurement import CHANNEL_UNITS
+from mckibben.measurement.read.conditions import Note
+from mckibben.measurement.read.header import map_headers
+from mckibben.measurement.read.recognise import recognise
+from mckibben.measurement.read.source import HeaderColumn
+from mckibben.measurement.read.unit_words import dimension_of, unit_of
+from mckibben.measurement.read.vectors import as_column, sorted_out
+from mckibben.physics.errors import InputError
+
+_NAME = re.compile(r"(?i)(signal_?)?(name|label|title|bezeichnung|channel)")
+_UNIT = re.compile(r"(?i)(signal_?)?(unit|units|einheit|dim|unit_?label)")
+_MAX_COLUMNS = 60  # of a matrix that is taken apart
+_DEEPEST = 4
+_FEWEST_ROWS = 4  # of a matrix that can be readings
+RUN = "group"
+
+
+@dataclass
+class NamedTable:
+    """Columns of named values, and what stands beside them.
+
+    Attributes:
+        title: variable or struct, "" for the variables of the file themselves.
+        columns: head -> numbers or words.
+        notes: single values beside the columns.
+        rest: texts beside them, and where they stand.
+        problem: why the columns cannot be used.
+    """
+
+    title: str
+    columns: dict[str, HeaderColumn]
+    notes: list[Note] = field(default_factory=list)
+    rest: list[tuple[str, str]] = field(default_factory=list)
+    messages: list[str] = field(default_factory=list)
+    problem: InputError | None = None
+
+    def known(self) -> int:
+        """Number of channels that the heads name."""
+        return len(known_uses(list(self.columns)))
+
+
+def known_uses(heads: list[str]) -> set[str]:
+    """The channels that heads name."""
+    if not heads:
+        return set()
+    meaning = map_headers([*heads, "?"], place="", collect=True)
+    return {column.use for column in meaning.columns if column.use in CHANNEL_UNITS} - {"group", "direction"}
+
+
+def named_tables(values: Mapping[str, Any], *, name: str, noun: str) -> list[NamedTable]:
+    """All tables of the values of a file, the outermost first."""
+    return list(_tables(values, "", name, noun, 0))
+
+
+def matrix_tables(values: Mapping[str, Any], *, prefix: str = "") -> list[NamedTable]:
+    """The matrices of a file whose columns nothing names, as columns ``M(:,1)``."""
+    found = []
+    for key, value in values.items():
+        where = f"{prefix}{key}"
+        if isinstance(value, dict):
+            found += matrix_tables(value, prefix=f"{where}.")
+        elif isinstance(value, np.ndarray) and value.ndim == 2 and value.dtype.kind in "biuf":
+            columns = value if value.shape[0] >= value.shape[1] else value.T
+            if columns.shape[0] > _FEWEST_ROWS and 1 < columns.shape[1] <= _MAX_COLUMNS:
+                heads = [f"{where}(:,{number})" for number in range(1, columns.shape[1] + 1)]
+                named = {h: columns[:, n].astype(np.float64) for n, h in enumerate(heads)}
+                found.append(NamedTable(where, dict(named)))
+    return found
+
+
+def _with_units(values: dict[str, Any], inner: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Vectors with the unit that a text of a like name gives: ``Kraft_unit = 'N'``, ``units.Kraft = 'N'``."""
+    texts = {key: value for key, value in values.items() if isinstance(value, str)}
+    structs = [value for _, value in inner if isinstance(value, dict)]
+    result = {}
+    for key, value in values.items():
+        unit = next((texts[t] for t in (f"{key}_unit", f"{key}_units", f"unit_{key}") if t in texts), None)
+        unit = unit or next((s[key] for s in structs if isinstance(s.get(key), str)), None)
+        if (
+            unit is not None
+            and _is_vector(value)
+            and unit_of(unit) is not None
+            and recognise(key).unit is None
+        ):
+            result[f"{key} [{unit}]"] = value
+        else:
+            result[key] = value
+    return result
+
+
+def _tables(values: Mapping[str, Any], path: str, name: str, noun: str, depth: int) -> Iterator[NamedTable]:
+    place = f"{name}, struct '{path}'" if path else name
+    own: dict[str, Any] = {}
+    table = NamedTable(path, {})
+    inner: list[tuple[str, Any]] = []
+    for key, value in values.items():
+        signals = _signals(value)
+        if signals is not None:
+            own |= signals
+            table.rest += _texts(value, f"{noun} '{f'{path}.' if path else ''}{key}'")
+        elif isinstance(value, dict) or (isinstance(value, list) and value and isinstance(value[0], dict)):
+            inner.append((key, value))
+        else:
+            own[key] = value
+    own = _with_units(_matrices_apart(own), inner)
+    try:
+        table.columns, table.notes, table.messages = sorted_out(own, place=place, noun=noun)
+    except InputError as error:
+        table.problem = error
+    table.rest += [
+        (text, f"{noun} '{key}'") for key, text in own.items() if isinstance(text, str) and text.strip()
+    ]
+    yield table
+    if depth >= _DEEPEST:
+        return
+    for key, value in inner:
+        where = f"{path}.{key}" if path else key
+        if isinstance(value, dict):
+            yield from _tables(value, where, name, noun, depth + 1)
+        else:
+            yield from _parts(value, where, name, noun, depth)
+
+
+def _parts(structs: list[Any], path: str, name: str, noun: str, depth: int) -> Iterator[NamedTable]:
+    """The table of an array of structs of the same fields, one part below the other; else each for itself."""
+    tables = []
+    for number, struct in enumerate(structs, start=1):
+        if isinstance(struct, dict):
+            first = next(_tables(struct, f"{path}({number})", name, noun, depth + 1), None)
+            if first is not None and first.columns and first.problem is None:
+                tables.append(first)
+    if not tables:
+        return
+    heads = list(tables[0].columns)
+    if len(tables) > 1 and all(list(table.columns) == heads for table in tables):
+        yield stacked(tables, path)
+    else:
+        yield from tables
+
+
+def stacked(tables: list[NamedTable], title: str) -> NamedTable:
+    """Tables of the same columns one below the other; single values that name a channel become columns."""
+    rows = [len(next(iter(table.columns.values()))) for table in tables]
+    columns: dict[str, HeaderColumn] = {}
+    for head in tables[0].columns:
+        pieces = [table.columns[head] for table in tables]
+        if any(isinstance(piece, list) for piece in pieces):
+            columns[head] = [str(word) for piece in pieces for word in piece]
+        else:
+            columns[head] = np.concatenate([np.asarray(piece) for piece in pieces])
+    used = known_uses(list(columns))
+    constants = [_constants(table) for table in tables]
+    taken: set[str] = set()
+    for head in dict.fromkeys(head for found in constants for head in found):
+        channel = _channel_of_constant(head)
+        if channel is None or channel in used or not all(head in found for found in constants):
+            continue
+        used.add(channel)
+        taken.add(head)
+        text = head if recognise(head).channel == channel else f"{channel} [{recognise(head).unit}]"
+        columns[text] = np.repeat([found[head] for found in constants], rows)
+    if not any(recognise(head).channel == "group" for head in columns):
+        columns[RUN] = np.repeat(np.arange(len(tables), dtype=float), rows)
+    message = f"{len(tables)} parts with the same columns are read one below the other"
+    return NamedTable(
+        title, columns,
+        [note for note in tables[0].notes if note.key not in taken],
+        [text for table in tables for text in table.rest],
+        [*tables[0].messages, message],
+    )  # fmt: skip
+
+
+def _constants(table: NamedTable) -> dict[str, float]:
+    return {note.key: float(note.value) for note in table.notes if isinstance(note.value, (int, float))}
+
+
+def _channel_of_constant(head: str) -> str | None:
+    """The channel of a value that is held in a part: the pressure of a run, also when it is a set value."""
+    known = recognise(head)
+    if known.channel is not None and known.channel not in ("group", "time"):
+        return known.channel
+    return "pressure" if known.unit is not None and dimension_of(known.unit) == "a pressure" else None
+
+
+def _signals(value: Any) -> dict[str, Any] | None:
+    """Head -> vector of a signal or an array of signals; None = it is neither."""
+    structs = value if isinstance(value, list) else [value]
+    if not structs or not all(isinstance(struct, dict) for struct in structs):
+        return None
+    found: dict[str, Any] = {}
+    for struct in structs:
+        vectors = [v for v in struct.values() if _is_vector(v)]
+        text = next(
+            (v.strip() for k, v in struct.items() if isinstance(v, str) and _NAME.fullmatch(k) and v.strip()),
+            "",
+        )
+        if len(vectors) != 1 or not text:
+            return None
+        unit = next((v.strip() for k, v in struct.items() if isinstance(v, str) and _UNIT.fullmatch(k)), "")
+        head = (
+            f"{text} [{unit}]"
+            if unit and unit_of(unit) is not None and recognise(text).unit is None
+            else text
+        )
+        while head in found:
+            head += "'"
+        found[head] = vectors[0]
+    return found
+
+
+def _is_vector(value: Any) -> bool:
+    return (
+        isinstance(value, np.ndarray)
+        and value.dtype.kind in "biuf"
+        and value.size > 1
+        and as_column(value) is not None
+    )
+
+
+def _matrices_apart(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Matrices as columns, named by the list of as many texts beside them."""
+    result: dict[str, Any] = {}
+    lists = [
+        v for v in values.values() if isinstance(v, list) and v and all(isinstance(word, str) for word in v)
+    ]
+    for key, value in values.items():
+        if isinstance(value, np.ndarray) and value.ndim == 2 and value.dtype.kind in "biuf":
+            if value.shape[1] > value.shape[0] and any(len(names) == value.shape[0] for names in lists):
+                value = value.T
+            rows, width = value.shape
+            names = next((names for names in lists if len(names) == width), None)
+            if names is not None and rows > 1 and 1 < width <= _MAX_COLUMNS and len(set(names)) == width:
+                result |= {head: value[:, column] for column, head in enumerate(names)}
+                continue
+        result[key] = value
+    if len(result) > len(values):
+        for key, value in list(result.items()):
+            if isinstance(value, list) and value in lists:
+                del result[key]
+    return result
+
+
+def _texts(value: Any, where: str) -> list[tuple[str, str]]:
+    structs = value if isinstance(value, list) else [value]
+    return [
+        (text, where)
+        for struct in structs
+        for key, text in struct.items()
+        if isinstance(text, str) and text.strip() and not _NAME.fullmatch(key) and not _UNIT.fullmatch(key)
+    ]

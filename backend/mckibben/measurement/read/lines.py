@@ -1,0 +1,139 @@
+"""The table of a text that is not plain: preambles, head lines, unit rows, blocks, logs of keys and values.
+
+Every line keeps its number.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from mckibben.measurement.read.blocks import Table
+from mckibben.measurement.read.conditions import note_of_line
+from mckibben.measurement.read.correction import Correction
+from mckibben.measurement.read.grid import TextGrid, separator_of
+from mckibben.measurement.read.limits import check_columns, check_rows
+from mckibben.measurement.read.source import RawTable
+from mckibben.measurement.read.stated import in_known_words, statements
+from mckibben.measurement.read.table_source import source_of
+from mckibben.measurement.read.tables import choose, tables_of_grid
+from mckibben.measurement.read.unit_words import unit_of
+
+_ALL_LINES = 100_000  # a longer text is taken as one table after its first lines
+_ALL_CHARACTERS = 30_000_000
+_FIRST_LINES = 5000
+_LONGEST_LINE = 200_000  # characters
+_PAIR = re.compile(
+    r"""["']?(?P<key>[A-Za-zµκ][A-Za-z0-9_ ]{0,30}?)["']?\s*[:=]\s*"""
+    r"""(?P<value>[+-]?[0-9]+(?:\.[0-9]*)?(?:[eE][+-]?[0-9]+)?)(?![\w:.])"""
+)
+_KEYED_SHARE = 0.5  # of the lines, from which a text is a log of keys and values
+
+
+def located_text(text: str, name: str, correction: Correction, messages: Sequence[str]) -> RawTable | None:
+    """The table of a text, wherever it stands; None = no table is found.
+
+    Raises:
+        InputError: the head or sheet of the user is not there; too many rows or columns.
+    """
+    check_rows(text.count("\n") + 1, name)
+    lines = text.split("\n")
+    if max(map(len, lines)) > _LONGEST_LINE:
+        return None
+    notes = [
+        note
+        for row, line in enumerate(lines[:_FIRST_LINES], start=1)
+        if line.lstrip(' "').startswith("#")
+        and (note := note_of_line(line.strip(';,\t "'), f"{name}, row {row}")) is not None
+    ]
+    stated = {int(note.where.rpartition(" ")[2]) for note in notes}
+    lines = ["" if number in stated else line for number, line in enumerate(lines, start=1)]
+    said = list(messages)
+    keyed = _keyed(lines)
+    if keyed is not None:
+        lines, remarks = keyed
+        grid = TextGrid(lines, name, "\t")
+        said.append(f"a log of keys and values: {len(remarks)} lines without readings are not read")
+    else:
+        hint = next((line[4] for line in lines[:20] if re.fullmatch(r"sep=[,;\t]", line.strip())), None)
+        grid = TextGrid(lines, name, hint or separator_of(_sampled(lines)))
+        remarks = []
+    long = len(lines) > _ALL_LINES or len(text) > _ALL_CHARACTERS
+    tables = tables_of_grid(grid, head=correction.head, until=_FIRST_LINES if long else None)
+    if not any(any(table.names) or any(table.units) for table in tables):
+        return None
+    chosen = choose(tables, sheet=None)
+    table = chosen.table
+    check_columns(len(table.names), f"{name}, row {table.head_row}", f"row {table.head_row}")
+    _name_abscissa(table)
+    table.rest += remarks
+    table.unread = [*table.unread, *chosen.unread]
+    found = in_known_words(notes)
+    known = {note.key for note in found}
+    found += [note for note in statements(table.rest, name) if note.key not in known]
+    return source_of(table, format="csv", notes=found, messages=[*said, *chosen.messages])
+
+
+def _sampled(lines: Sequence[str]) -> list[str]:
+    """Lines from which the separator is told: the first ones, and some further down."""
+    return [*lines[:400], *lines[len(lines) // 2 : len(lines) // 2 + 200]]
+
+
+def _name_abscissa(table: Table) -> None:
+    """What a preamble says of the first column, where its head is "X_Value": the time in seconds."""
+    for index, column in enumerate(table.names):
+        if re.fullmatch(r"(?i)x[_ ]?values?(?: #[0-9]+)?", column) and table.units[index] is None:
+            said = next(
+                ((text, where) for text, where in table.rest if re.match(r"(?i)x[_ ]dimension\W+time", text)),
+                None,
+            )
+            if said is not None:
+                table.names[index], table.units[index] = f"{column} (time)", "s"
+                table.messages.append(f"'{column}' is the time in s ({said[1]}: '{said[0][:40]}')")
+
+
+def _keyed(lines: Sequence[str]) -> tuple[list[str], list[tuple[str, str]]] | None:
+    """A log of "key: value" pairs as lines of a table, and its other lines; None = it is no such log.
+
+    Its lines keep their numbers: one without readings becomes an empty line.
+    """
+    filled = [line for line in lines[:600] if line.strip()]
+    counted = [_pairs(line) for line in filled]
+    share = sum(len(pairs) >= 2 for pairs in counted)
+    if len(filled) < 3 or share < _KEYED_SHARE * len(filled):
+        return None
+    first = next(pairs for pairs in counted if len(pairs) >= 2)
+    keys = list(first)
+    rest = [
+        (line.strip(), f"line {number}")
+        for number, line in enumerate(lines, start=1)
+        if line.strip() and len(_pairs(line)) < 2
+    ]
+    rows = []
+    for line in lines:
+        pairs = _pairs(line)
+        rows.append("\t".join(pairs.get(key, "") for key in keys) if len(pairs) >= 2 else "")
+    heads = [_head_of_key(key, [text for text, _ in rest]) for key in keys]
+    row = next((number for number, line in enumerate(rows) if line), 0)
+    if row == 0:
+        return None if not rows else (["\t".join(heads), *rows], [(text, where) for text, where in rest])
+    rows[row - 1] = "\t".join(heads)
+    return rows, [(re.sub(r"^.*?(?:->|\])\s*", "", text), where) for text, where in rest]
+
+
+def _pairs(line: str) -> dict[str, str]:
+    body = re.sub(r"^.*?->\s*", "", line)
+    return {found["key"].strip(): found["value"] for found in _PAIR.finditer(body)}
+
+
+def _head_of_key(key: str, texts: Sequence[str]) -> str:
+    """A key with the unit of another line: ``x`` and "x[mm shortening]" -> ``x shortening [mm]``."""
+    for text in texts:
+        for found in re.finditer(rf"(?<![\w]){re.escape(key)}\s*[\[(]([^\])]*)[\])]", text):
+            inside = found[1].strip()
+            if unit_of(inside) is not None:
+                return f"{key} [{inside}]"
+            first, _, words = inside.partition(" ")
+            if unit_of(first.strip(",")) is not None:
+                return f"{key} {words.strip()} [{first.strip(',')}]"
+    return key

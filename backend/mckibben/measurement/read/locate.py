@@ -1,0 +1,327 @@
+"""Where the tables of a grid are: runs of rows of numbers, and the head above each."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from mckibben.measurement.read.cells import Cell
+from mckibben.measurement.read.grid import Grid, TextGrid
+from mckibben.measurement.read.recognise import BY_UNIT, recognise
+from mckibben.measurement.read.unit_words import dimension_of, unit_of
+from mckibben.measurement.read.values import CLOCK, GAP, NUMBER, TEXT, kind_of
+from mckibben.measurement.read.vocabulary import STATISTICS, words_of
+
+_HEAD_ROWS = 8  # most rows of a head
+_UNITS_WITHIN = 40  # rows above a head in which its units may stand
+_QUICK = re.compile(r"[\s0-9.,;|+\-eE]*")
+
+
+@dataclass
+class Run:
+    """Rows of numbers in the same columns: ``first`` to ``last`` (exclusive), odd rows between ``pieces``.
+
+    ``numbers`` holds the columns of numbers, ``clocks`` those of times of day; ``rows`` counts the good rows,
+    ``filled`` their numbers.
+    """
+
+    first: int
+    last: int
+    numbers: frozenset[int]
+    width: int
+    rows: int = 0
+    filled: int = 0
+    clocks: frozenset[int] = field(default_factory=frozenset)
+    pieces: list[tuple[int, int]] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class TableHead:
+    """The head of a run: name and unit of each column, where they stand, and the rows it takes.
+
+    ``row`` is None where the table has no head; ``units_at`` None where the units stand in the names.
+    """
+
+    names: list[str]
+    units: list[str | None]
+    row: int | None
+    units_at: int | None
+    rows: tuple[int, ...]
+
+
+def texts_of(cells: Sequence[Cell]) -> list[str]:
+    """The cells as texts without blanks around them."""
+    return ["" if cell is None else " ".join(str(cell).split()) for cell in cells]
+
+
+def find_runs(grid: Grid, until: int | None = None) -> list[Run]:
+    """The runs of numbers in the first rows of a grid, in their order."""
+    runs: list[Run] = []
+    run: Run | None = None
+    separators = -1
+    for index in range(len(grid) if until is None else min(until, len(grid))):
+        if run is not None and isinstance(grid, TextGrid) and len(grid.separator.strip() or "\t") == 1:
+            line = grid.lines[index]
+            if (
+                line.count(grid.separator) == separators
+                and _QUICK.fullmatch(line)
+                and _tidy(line, grid.separator)
+            ):
+                run.last, run.rows, run.filled = index + 1, run.rows + 1, run.filled + separators + 1
+                continue
+        cells = grid.cells(index)
+        kinds = [kind_of(cell) for cell in cells]
+        numbers = {i for i, kind in enumerate(kinds) if kind in (NUMBER, CLOCK)}
+        texts = kinds.count(TEXT)
+        if not numbers and not texts:
+            continue
+        if not numbers or len(numbers) < texts:
+            run = None
+            continue
+        clocks = frozenset(i for i, kind in enumerate(kinds) if kind == CLOCK)
+        if run is None or not _continues(run, kinds, numbers, clocks):
+            run = Run(index, index, frozenset(numbers), len(cells), clocks=clocks)
+            runs.append(run)
+        separators = grid.lines[index].count(grid.separator) if isinstance(grid, TextGrid) else -1
+        if clocks or len(numbers) < len(kinds):
+            separators = -1
+        run.last, run.rows, run.filled = index + 1, run.rows + 1, run.filled + len(numbers)
+        run.numbers |= numbers
+        run.width = max(run.width, len(cells))
+    return runs
+
+
+def _tidy(line: str, separator: str) -> bool:
+    """Whether no cell of a line of numbers is empty."""
+    return (
+        separator + separator not in line
+        and not line.startswith(separator)
+        and not line.rstrip().endswith(separator)
+    )
+
+
+def _continues(run: Run, kinds: Sequence[str], numbers: set[int], clocks: frozenset[int]) -> bool:
+    if any(column < len(kinds) and kinds[column] == TEXT for column in run.numbers):
+        return False
+    if any((column in clocks) != (column in run.clocks) for column in numbers & run.numbers):
+        return False
+    return bool(numbers & run.numbers)
+
+
+def main_runs(grid: Grid, runs: Sequence[Run]) -> list[Run]:
+    """The runs that are tables of readings: the largest one, its pieces behind odd rows, and blocks like it.
+
+    What is left are statistics, counts of channels, small tables of results.
+    """
+    if not runs:
+        return []
+    largest = max(runs, key=lambda run: (run.filled, run.rows))
+    kept: list[Run] = []
+    for run in runs:
+        alike = run.numbers == largest.numbers or (
+            run.width == largest.width and run.numbers <= largest.numbers
+        )
+        headed = alike and _is_headed(grid, run)
+        follows = bool(kept) and run.first - kept[-1].last <= 3 and not headed
+        if alike and follows and not _is_footer(grid, run):
+            last = kept[-1]
+            broken = [(i, i + 1) for i in range(last.last, run.first) if _holds_number(grid, i)]
+            last.pieces = [*(last.pieces or [(last.first, last.last)]), *broken, (run.first, run.last)]
+            last.last, last.rows, last.filled = run.last, last.rows + run.rows, last.filled + run.filled
+        elif run is largest or (headed and run.rows >= 2 and alike and 20 * run.rows >= largest.rows):
+            kept.append(run)
+    return kept
+
+
+def _is_headed(grid: Grid, run: Run) -> bool:
+    """Whether a row above a run names columns of it."""
+    for index in range(run.first - 1, max(-1, run.first - 1 - _HEAD_ROWS), -1):
+        names = texts_of(grid.cells(index))
+        if not any(names):
+            if index < run.first - 2:
+                break
+            continue
+        if sum(_names_channel(name) for name in names) >= min(2, len(run.numbers)):
+            return True
+    return False
+
+
+def _holds_number(grid: Grid, index: int) -> bool:
+    return any(kind_of(cell) in (NUMBER, CLOCK) for cell in grid.cells(index))
+
+
+def with_broken_rows(grid: Grid, run: Run, head: TableHead) -> None:
+    """Take the rows next to a run into it that are readings with a wrong cell: reading them says so.
+
+    Above, those between the head and the run that hold numbers; below, those that begin with one.
+    """
+    top = max(
+        (row for row in (head.row, head.units_at) if row is not None and row < run.first), default=run.first
+    )
+    above = (
+        [index for index in range(top + 1, run.first) if _holds_number(grid, index)]
+        if head.row is not None
+        else []
+    )
+    last = run.last
+    while last < len(grid) and (cells := [c for c in grid.cells(last) if kind_of(c) != GAP]):
+        if kind_of(cells[0]) not in (NUMBER, CLOCK):
+            break
+        last += 1
+    pieces = run.pieces or [(run.first, run.last)]
+    if above:
+        pieces = [(above[0], pieces[0][1]), *pieces[1:]]
+    if last > run.last:
+        pieces = [*pieces[:-1], (pieces[-1][0], last)]
+    run.pieces = pieces if len(pieces) > 1 else []
+    run.first, run.last = pieces[0][0], pieces[-1][1]
+
+
+def _is_footer(grid: Grid, run: Run) -> bool:
+    """Whether a piece below a table is its statistics: every row begins with a word ("Mean", "Max").
+
+    Without an empty row above it has to be a word of statistics; any other may be a reading gone wrong.
+    """
+    parted = not any(texts_of(grid.cells(run.first - 1)))
+    for index in range(run.first, run.last):
+        words = words_of(next((text for text in texts_of(grid.cells(index)) if text), ""))
+        if not words or not (words[0] in STATISTICS or (parted and re.match(r"[^\W\d_]{3,}", words[0]))):
+            return False
+    return True
+
+
+def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> TableHead:
+    """The head of a run.
+
+    Args:
+        grid: the rows.
+        run: the rows of numbers.
+        after: row of the grid below which the head stands (the end of the run before).
+        at: the row of the names, where the user says it.
+    """
+    if at is not None:
+        rows = [index for index in range(at, run.first) if any(texts_of(grid.cells(index)))]
+    else:
+        rows = _rows_above(grid, run, after)
+    if not rows:
+        return TableHead([""] * run.width, [None] * run.width, None, None, ())
+    texts = {index: texts_of(grid.cells(index)) for index in rows}
+    named = at if at is not None else _row_of_names(texts, rows, run)
+    names = _padded(texts[named], run.width)
+    width = len(names)
+    units_at = _row_of_units(texts, [index for index in rows if index != named], names)
+    if units_at is None and not any(recognise(name).unit for name in names if name):
+        units_at = _units_in_preamble(grid, named, names)
+    if units_at is not None and units_at > named and _divides(names, _padded(texts[units_at], width)):
+        units_at = None  # units, and words that divide the names above
+    units: list[str | None] = [None] * width
+    if units_at is not None:
+        below = _padded(texts.get(units_at) or texts_of(grid.cells(units_at)), width)
+        units = [cell if cell and unit_of(cell) is not None else None for cell in below]
+    for index in reversed(rows):
+        if index in (named, units_at):
+            continue
+        other = _padded(texts[index], width)
+        if index > named and _divides(names, other):
+            names = [" ".join(filter(None, pair)) for pair in zip(_filled_on(names), other, strict=False)]
+            continue
+        names = [name or (o if _names_channel(o) else "") for name, o in zip(names, other, strict=False)]
+    return TableHead(names, units, named, units_at, tuple(rows))
+
+
+def _divides(names: Sequence[str], below: Sequence[str]) -> bool:
+    """Whether a row of names is divided by the one below: "Kraft" over "Ist" and "Soll"."""
+    gaps = sum(not name and bool(b) for name, b in zip(names, below, strict=False))
+    return (
+        gaps > 0
+        and sum(map(bool, below)) >= sum(map(bool, names)) + gaps
+        and not any(_names_channel(b) for b in below if b)
+    )
+
+
+def _filled_on(names: Sequence[str]) -> list[str]:
+    """Names, each also for the columns without one behind it, as merged cells mean it."""
+    filled: list[str] = []
+    for name in names:
+        filled.append(name or (filled[-1] if filled else ""))
+    return filled
+
+
+def _rows_above(grid: Grid, run: Run, after: int) -> list[int]:
+    rows: list[int] = []
+    for index in range(run.first - 1, after, -1):
+        if any(texts_of(grid.cells(index))):
+            rows.insert(0, index)
+        elif rows:
+            break
+        if len(rows) == _HEAD_ROWS:
+            break
+    return rows
+
+
+def _row_of_names(texts: dict[int, list[str]], rows: Sequence[int], run: Run) -> int:
+    def score(index: int) -> tuple[int, int, int]:
+        cells = texts[index]
+        if len(cells) == 1 and run.width > 1:
+            return 0, 0, index
+        inside = [cell for column, cell in enumerate(cells) if cell and column < run.width]
+        units = sum(unit_of(cell) is not None for cell in inside)
+        known = sum(_names_channel(cell) for cell in inside)
+        return known, 0 if inside and 2 * units > len(inside) else len(inside), index
+
+    return max(rows, key=score)
+
+
+def _row_of_units(texts: dict[int, list[str]], rows: Sequence[int], names: Sequence[str]) -> int | None:
+    best, most = None, 0
+    for index in rows:
+        filled = [(column, cell) for column, cell in enumerate(texts[index]) if cell and column < len(names)]
+        units = sum(unit_of(cell) is not None for _, cell in filled)
+        physical = sum(
+            bool(dimension_of(unit.unit)) for _, cell in filled if (unit := unit_of(cell)) is not None
+        )
+        if physical and 2 * units >= len(filled) and units > most:
+            best, most = index, units
+    return best
+
+
+def _units_in_preamble(grid: Grid, named: int, names: Sequence[str]) -> int | None:
+    """A row far above that holds the units of the columns, as loggers write it; it begins with its label."""
+    for index in range(named - 1, max(-1, named - 1 - _UNITS_WITHIN), -1):
+        cells = texts_of(grid.cells(index))
+        fitting = 0
+        for name, cell in zip(names, cells, strict=False):
+            unit = unit_of(cell) if cell else None
+            channel = recognise(name).channel if name else None
+            fitting += bool(
+                unit and channel and dimension_of(unit.unit) and recognise(name, cell).channel == channel
+            )
+        if fitting >= 2:
+            return index
+    return None
+
+
+def _names_channel(name: str) -> bool:
+    """Whether a text names a channel, not only a unit."""
+    if not name or len(name) > 120:
+        return False
+    known = recognise(name)
+    return (known.channel is not None and known.penalty < BY_UNIT and unit_of(name) is None) or _is_letter(
+        name
+    )
+
+
+def _is_letter(name: str) -> bool:
+    return re.fullmatch(r"[tpxFLsDTκuUPX]", name.strip()) is not None
+
+
+def _padded(cells: Sequence[str], width: int) -> list[str]:
+    return [*cells, *[""] * (width - len(cells))]
+
+
+def rows_with(grid: Grid, first: int, last: int) -> list[int]:
+    """The rows of a part of the grid in which anything stands."""
+    return [
+        index for index in range(max(0, first), last) if any(kind_of(c) != GAP for c in grid.cells(index))
+    ]

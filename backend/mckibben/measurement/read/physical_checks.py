@@ -1,0 +1,210 @@
+"""Questions that the numbers raise: signs, the reference of the pressure, zeros, and what the test was."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.measurement.measurement import STROKES
+from mckibben.measurement.question import Question
+from mckibben.measurement.read.evidence import Array, Evidence, bare_name
+from mckibben.measurement.read.plausible import ENOUGH
+from mckibben.measurement.read.questions import column_option
+
+
+def physical_questions(evidence: Evidence) -> list[Question]:
+    """Signs, reference of the pressure, zero of the force."""
+    return [*_signs(evidence), *_reference(evidence), *_tare(evidence)]
+
+
+def _signs(evidence: Evidence) -> list[Question]:
+    asked = []
+    force = evidence.channels.get("force")
+    column = evidence.used.get("force")
+    if force is not None and column is not None and column.origin != "you" and _mostly_negative(force):
+        asked.append(
+            Question(
+                "sign of force",
+                f"{evidence.noun} '{column.header}' is negative nearly throughout, a pulling muscle is "
+                "positive here; is compression counted positive",
+                column_option("force", bare_name(column), sign=-1),
+                column.header,
+                "turned",
+                ("turned", "as it is"),
+            )
+        )
+        force = -force
+    for channel in ("displacement", "contraction"):
+        stroke, column = evidence.channels.get(channel), evidence.used.get(channel)
+        if stroke is not None and column is not None and column.origin != "you":
+            asked += _sign_of_stroke(evidence, channel, stroke, force)
+    return asked
+
+
+def _sign_of_stroke(evidence: Evidence, channel: str, stroke: Array, force: Array | None) -> list[Question]:
+    column = evidence.used[channel]
+    against = _against(evidence, stroke, force)
+    falls = _mostly_negative(stroke)
+    if against is False or not (falls or against or column.extends):
+        return []
+    turned = column_option(channel, bare_name(column), sign=-1)
+    could_be_length = channel == "displacement" and float(np.min(stroke)) > 0.0
+    as_length = f" or {column_option('length', bare_name(column))}" if could_be_length else ""
+    return [
+        Question(
+            f"sign of {channel}",
+            f"{evidence.noun} '{column.header}' {'falls' if falls else 'grows'} as the muscle "
+            f"{'shortens' if falls else 'becomes longer'}, shortening counts positive here; turn it",
+            f"{turned}{as_length}",
+            column.header,
+            "turned",
+            ("turned", "as it is"),
+        )
+    ]
+
+
+def _mostly_negative(values: Array) -> bool:
+    low, high = float(np.min(values)), float(np.max(values))
+    return low < 0.0 and -low > 4.0 * max(high, 0.0)
+
+
+def _against(evidence: Evidence, stroke: Array, force: Array | None) -> bool | None:
+    """Whether the stroke runs against physics: pulled harder, a muscle becomes longer, more air shortens it.
+
+    None = the readings do not show it.
+    """
+    pressure = evidence.channels.get("pressure")
+    if np.ptp(stroke) == 0.0 or pressure is None:
+        return None
+    if force is not None and np.ptp(force) > 0.02 * np.max(np.abs(force)):
+        basis = np.column_stack([np.ones(len(stroke)), _scaled(pressure), _scaled(stroke)])
+        weights, *_ = np.linalg.lstsq(basis, _scaled(force), rcond=None)
+        return None if abs(weights[2]) < 0.2 else bool(weights[2] > 0.0)
+    if np.ptp(pressure) == 0.0:
+        return None
+    together = float(np.corrcoef(pressure, stroke)[0, 1])
+    return None if abs(together) < 0.6 else together < 0.0
+
+
+def _scaled(values: Array) -> Array:
+    span = float(np.ptp(values))
+    return (values - np.mean(values)) / (span or 1.0)
+
+
+_REST_BAND = (0.9e5, 1.1e5)  # Pa; the air outside
+
+
+def _reference(evidence: Evidence) -> list[Question]:
+    """A pressure that shows about 1 bar while the muscle does nothing may count from vacuum."""
+    pressure, column = evidence.channels.get("pressure"), evidence.used.get("pressure")
+    if pressure is None or column is None or column.absolute is not None or column.origin == "you":
+        return []
+    if "pressure" in evidence.conditions:
+        return []
+    lowest = float(np.min(pressure))
+    if not _REST_BAND[0] <= lowest <= _REST_BAND[1] or np.ptp(pressure) < 0.2e5:
+        return []
+    at_rest = pressure <= lowest + 0.03e5
+    if not _idle(evidence, at_rest):
+        return []
+    return [
+        Question(
+            "reference of pressure",
+            f"{evidence.noun} '{column.header}' shows {lowest / 1e5:.2f} bar at rest; is it absolute or "
+            "gauge pressure",
+            f"{column_option('pressure', bare_name(column), f'{column.unit}(a)')} or "
+            f"{column_option('pressure', bare_name(column), f'{column.unit}(g)')}",
+            column.header,
+            "absolute",
+            ("absolute", "gauge"),
+        )
+    ]
+
+
+def _idle(evidence: Evidence, rows: NDArray[np.bool_]) -> bool:
+    """Whether the muscle neither pulls nor moves in these rows."""
+    force = evidence.channels.get("force")
+    if force is not None and np.ptp(force) > 0.05 * np.max(np.abs(force)):
+        shown = force[rows][force[rows] != 0.0]  # an exact 0 is a slack muscle or a clipped table
+        if not len(shown) or np.max(np.abs(shown)) > 0.05 * np.max(np.abs(force)):
+            return False
+        # A muscle that is short already pulls little at any pressure: only a long one shows that it is idle.
+        shortened = _shortened(evidence)
+        return shortened is None or bool(np.min(shortened[rows]) <= 0.1 * np.max(shortened))
+    for channel in ("displacement", "contraction"):
+        stroke = evidence.channels.get(channel)
+        if stroke is not None and np.ptp(stroke) > 0.0:
+            return bool(np.max(np.abs(stroke[rows])) <= 0.05 * np.max(np.abs(stroke)))
+    return False
+
+
+def _shortened(evidence: Evidence) -> Array | None:
+    """How far the muscle is shortened in each row, from its longest; None where that does not change."""
+    for channel in STROKES:
+        stroke = evidence.channels.get(channel)
+        if stroke is not None and np.ptp(stroke) > 0.005 * np.max(np.abs(stroke)):
+            return np.max(stroke) - stroke if channel == "length" else stroke - np.min(stroke)
+    return None
+
+
+def _tare(evidence: Evidence) -> list[Question]:
+    """A force at rest, without pressure and stroke: the sensor was not set to zero."""
+    force, pressure = evidence.channels.get("force"), evidence.channels.get("pressure")
+    column = evidence.used.get("force")
+    stroke = evidence.channels.get("displacement")
+    if force is None or pressure is None or stroke is None or column is None or np.ptp(force) == 0.0:
+        return []
+    rows = (np.abs(pressure) < 0.03e5) & (np.abs(stroke) < 0.01 * max(float(np.max(np.abs(stroke))), 1e-9))
+    if np.count_nonzero(rows) < ENOUGH:
+        return []
+    offset = float(np.median(force[rows]))
+    if abs(offset) < 0.02 * float(np.max(np.abs(force))):
+        return []
+    return [
+        Question(
+            "zero of force",
+            f"{evidence.noun} '{column.header}' shows {offset:.3g} N at rest, without pressure and stroke; "
+            "it is not subtracted, was the sensor not set to zero",
+            column_option("force", bare_name(column)),
+            column.header,
+            None,
+            (),
+            stops=False,
+        )
+    ]
+
+
+def context_questions(evidence: Evidence) -> list[Question]:
+    """What the test was, where the file does not say it and a comparison needs it."""
+    asked = []
+    channels, conditions = evidence.channels, evidence.conditions
+    strokes = [channel for channel in STROKES if channel in channels]
+    if strokes == ["displacement"] and "nominal_length" not in conditions:
+        asked.append(
+            Question(
+                "rest length",
+                "the file states no rest length (L0) of the muscle; a stroke alone gives no contraction",
+                '--rest-length "300 mm"',
+                stops=False,
+            )
+        )
+    loaded = "load_mass" in conditions or "load_force" in conditions or "force" in channels
+    if not loaded and (strokes or "pressure" in channels) and "diameter" not in channels:
+        asked.append(
+            Question(
+                "load",
+                "the file states no load; it decides how far the muscle shortens",
+                '--load "6 kg"',
+                stops=False,
+            )
+        )
+    if "command" in channels and "supply_pressure" not in conditions:
+        asked.append(
+            Question(
+                "supply",
+                "the file states no supply pressure, from which the valve fills the muscle",
+                '--supply "6 bar"',
+                stops=False,
+            )
+        )
+    return asked

@@ -1,0 +1,132 @@
+"""The table of a grid as the source of a measurement: its parts one below the other, its cells as numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import islice
+
+from mckibben.measurement.measurement import CHANNEL_UNITS
+from mckibben.measurement.read.blocks import MapPart, Part, Table
+from mckibben.measurement.read.cells import Cell, CellTable, Problems, no_rows, read_cells
+from mckibben.measurement.read.conditions import Note
+from mckibben.measurement.read.grid import BLANKS, TextGrid
+from mckibben.measurement.read.header import map_headers
+from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
+from mckibben.measurement.read.table import FAST_FROM, read_table
+from mckibben.measurement.read.tables import told_channels
+from mckibben.measurement.read.values import Clock, NumberStyle, number_of, style_of
+from mckibben.physics.units import factor
+
+PART = "group"  # head of the column that numbers the parts
+_STYLE_ROWS = 2000  # rows from which the way of writing numbers is told
+
+
+def source_of(table: Table, *, format: str, notes: Sequence[Note], messages: Sequence[str]) -> RawTable:
+    """The source of a table; parts get a number each, and the pressure that their titles say."""
+    names, units = list(table.names), list(table.units)
+    told = told_channels(table)
+    several = len(table.parts) > 1
+    numbered = several and not _has(table, "group")
+    said = list(messages) + table.messages
+    for channel in told:
+        names.append(channel)
+        units.append(_unit_of_held(table, channel))
+    if numbered:
+        names.append(PART)
+        units.append(None)
+    style = style_of(
+        cell for part in table.parts for _, row in islice(part.rows(), _STYLE_ROWS) for cell in row
+    )
+
+    def rows(clocks: bool) -> Iterator[tuple[int, list[Cell]]]:
+        for number, part in enumerate(table.parts):
+            more: list[Cell] = [
+                part.held[channel].quantity.value * _scale(part, table, channel) for channel in told
+            ]
+            if numbered:
+                more.append(number)
+            times = {i: Clock() for i, c in enumerate(part.columns) if clocks and c in part.clocks}
+            for line, row in part.rows():
+                cells: list[Cell] = [number_of(cell, style) for cell in row]
+                for i, clock in times.items():
+                    cells[i] = clock.seconds(row[i])
+                yield line, cells + more
+
+    def read(numeric: Sequence[int], text: Sequence[int], skip: bool) -> CellTable:
+        if not table.parts:
+            raise no_rows(table.place)
+        quick = _quick(table, style, names, numeric, text, skip)
+        if quick is not None:
+            return quick
+        problems = Problems(table.place, "column", skip=skip)
+        return read_cells(rows(True), names, numeric=numeric, text=text, problems=problems)
+
+    sample = [
+        ["" if cell is None else str(cell) for cell in row] for _, row in islice(rows(False), SAMPLE_ROWS)
+    ]
+    for channel in told:
+        places = ", ".join(dict.fromkeys(f"'{part.held[channel].quantity.text}'" for part in table.parts))
+        said.append(f"{channel} is taken from the titles: {places} ({table.parts[0].held[channel].where})")
+    if several:
+        said.append(f"{len(table.parts)} tables with the same columns are read as parts of one measurement")
+    return RawTable(
+        place=table.place, format=format, headers=names, read=read, sample=sample, notes=list(notes),
+        messages=said, header_row=table.head_row, noun="column", units=tuple(units),
+        unit_where=table.unit_where, rest=tuple(table.rest), unread=tuple(table.unread),
+        clocks=frozenset(i for part in table.parts for i, c in enumerate(part.columns) if c in part.clocks),
+    )  # fmt: skip
+
+
+def _has(table: Table, use: str) -> bool:
+    meaning = map_headers([*table.names, "?"], place=table.place, collect=True, units=[*table.units, None])
+    return any(column.use == use for column in meaning.columns)
+
+
+def _unit_of_held(table: Table, channel: str) -> str:
+    quantity = table.parts[0].held[channel].quantity
+    mark = {True: "(a)", False: "(g)", None: ""}[quantity.absolute]
+    return f"{quantity.unit}{mark}"
+
+
+def _scale(part: Part, table: Table, channel: str) -> float:
+    """The unit of this part's quantity in that of the first part."""
+    first, own = table.parts[0].held[channel].quantity.unit, part.held[channel].quantity.unit
+    if first == own:
+        return 1.0
+    si = "kg" if {first, own} <= {"kg", "g"} else CHANNEL_UNITS[channel]
+    this, other = factor(own, si), factor(first, si)
+    return this.multiplier / this.divisor * other.divisor / other.multiplier
+
+
+def _quick(
+    table: Table, style: NumberStyle, names: Sequence[str], numeric: Sequence[int], text: Sequence[int],
+    skip: bool,
+) -> CellTable | None:  # fmt: skip
+    """A long plain text by the way for plain texts; None = it is not as plain as that."""
+    part = table.parts[0]
+    grid = part.grid
+    if (
+        len(table.parts) > 1
+        or isinstance(part, MapPart)
+        or not isinstance(grid, TextGrid)
+        or len(part.pieces) > 1
+    ):
+        return None
+    first, last = part.pieces[0]
+    if grid.separator == BLANKS or style.thousands or part.columns != tuple(range(len(names))):
+        return None
+    if any(part.columns[i] in part.clocks for i in numeric if i < len(part.columns)):
+        return None
+    body = "\n".join(grid.lines[first:last])
+    if len(body) < FAST_FROM:
+        return None
+    return read_table(
+        body,
+        grid.separator,
+        names,
+        numeric=numeric,
+        text=text,
+        name=table.place,
+        first_line=first + 1,
+        skip=skip,
+    )

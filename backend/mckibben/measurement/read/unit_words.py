@@ -1,0 +1,119 @@
+"""Units as people write them into heads of tables: other spellings, brackets, marks of the reference."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+from typing import NamedTuple
+
+from mckibben.measurement.read.marks import MARK_WORDS, split_mark
+from mckibben.measurement.read.vocabulary import word_set
+from mckibben.physics.units import is_unit, meaning
+
+#: Spellings that the unit library lacks, lower case.
+_SPELLINGS = {
+    "sek": "s", "msek": "ms", "seg": "s", "sekunden": "s", "secondes": "s", "secondi": "s", "segundos": "s",
+    "kp": "kgf", "kg-force": "kgf", "kg(f)": "kgf", "kp/cm2": "kgf/cm2", "kg/cm2": "kgf/cm2",
+    "kg/cm²": "kgf/cm2", "kgf/cm²": "kgf/cm2", "lbs": "lbf", "lb": "lbf", "lbs.": "lbf", "pounds": "lbf",
+    "zoll": "in", '"': "in", "inch": "in", "inches": "in", "pouces": "in", "pollici": "in",
+    "percent": "%", "prozent": "%", "vol": "V", "kn": "kN", "um": "µm",
+}  # fmt: skip
+#: What a column of a laboratory is measured in; other meanings of a short text are not its unit.
+_MEANINGS = frozenset({
+    "a pressure", "a force", "a length", "a time", "a mass", "a speed", "a temperature", "a voltage",
+    "a current", "a plain number or a share", "a frequency", "a rate", "a volume", "a volume flow",
+    "an angle", "a power",
+})  # fmt: skip
+_CLOCK = re.compile(r"(?i)h{1,2}\s*:\s*m{1,2}(\s*:\s*s{1,2})?([.,:]\s*(m|ms|f|s|z|0)+)?|clock|iso ?8601")
+_COUNTS = word_set("count counts cts digit digits lsb bit bits raw adc inc")
+#: On its own in a head it is a reference as well, "Innendruck (Ü)".
+_OVERPRESSURE = {"ü": False, "ue": False, "r": False, "a": True, "g": False}
+CLOCK = "clock"  # times of day or dates; they count from the first row
+COUNT = "count"  # of a converter: no physical unit
+
+
+class UnitText(NamedTuple):
+    """A unit in the spelling of the library, and whether it says "absolute" (True) or "gauge" (False)."""
+
+    unit: str
+    absolute: bool | None = None
+
+
+@lru_cache(maxsize=4096)
+def unit_of(text: str) -> UnitText | None:
+    """The unit that a text is, brackets around it or not; None = the text is no unit.
+
+    >>> unit_of("[bar(g)]")
+    UnitText(unit='bar', absolute=False)
+    >>> unit_of("Kraft") is None
+    True
+    """
+    bare = _without_brackets(text.strip())
+    if not bare or len(bare) > 40:
+        return None
+    if _CLOCK.fullmatch(bare):
+        return UnitText(CLOCK)
+    if bare.lower() in _COUNTS:
+        return UnitText(COUNT)
+    plain, absolute = split_mark(bare)
+    if absolute is None:
+        plain, absolute = _reference_in(bare)
+    plain = _without_brackets(plain.strip(" ,."))
+    unit = _SPELLINGS.get(plain.lower(), plain)
+    # "mPa" is a thousandth of a pascal; "Mpa" and "mpa" are written for MPa.
+    spellings = ("MPa",) if unit in ("Mpa", "mpa") else (unit, unit.lower())
+    for spelling in spellings:
+        if is_unit(spelling) and (meaning(spelling) in _MEANINGS or spelling in ("-", "1")):
+            return UnitText(spelling, absolute)
+    if bare in ("-", "–", "—"):
+        return UnitText("1")
+    return None
+
+
+def reference_of(text: str) -> bool | None:
+    """Absolute (True) or gauge (False), where a short text says so: ``"Ü"``, ``"abs."``, ``"relative"``."""
+    word = _without_brackets(text.strip()).strip(". ").lower()
+    return _OVERPRESSURE.get(word, REFERENCE_WORDS.get(word))
+
+
+def dimension_of(unit: str | None) -> str:
+    """What a unit measures, "" where it is none: ``"a force"``."""
+    if unit is None or unit in (CLOCK, COUNT):
+        return {CLOCK: "a time", COUNT: "a count"}.get(unit or "", "")
+    return meaning(unit) or ""
+
+
+#: Words for the reference of a pressure in the languages of the heads.
+REFERENCE_WORDS = dict(MARK_WORDS) | {
+    "absolut": True, "absolutdruck": True, "absolue": True, "absolu": True, "assoluta": True,
+    "assoluto": True, "absoluta": True, "absoluto": True, "überdruck": False, "ueberdruck": False,
+    "ü": False, "relativ": False, "relativa": False, "relativo": False, "effective": False,
+    "manometrique": False, "manométrique": False, "manometrica": False, "manométrica": False,
+}  # fmt: skip
+
+
+def _reference_in(text: str) -> tuple[str, bool | None]:
+    """A unit text without the word of the reference behind it: ``"mbar rel."``, ``"bar (Ü)"``, ``"psig"``."""
+    if found := re.fullmatch(r"(?i)(psi)(a|g)", text):
+        return found[1].lower(), found[2].lower() == "a"
+    found = re.fullmatch(r"(.*?)[\s,_(\[]+([^\s,_()\[\]]+?)\.?[)\]]*", text)
+    if found:
+        word = found[2].lower()
+        mark = _OVERPRESSURE.get(word, REFERENCE_WORDS.get(word))
+        if mark is not None:
+            return found[1], mark
+    if found := re.fullmatch(r"((?:m|h|k|M)?(?:bar|Pa))ü", text):
+        return found[1], False
+    return text, None
+
+
+def _without_brackets(text: str) -> str:
+    """``"(kN)"`` -> ``"kN"``; brackets that do not enclose the whole text stay."""
+    while len(text) > 1 and text[0] in "([{<" and text[-1] == dict(zip("([{<", ")]}>", strict=True))[text[0]]:
+        depth = 0
+        for position, character in enumerate(text):
+            depth += (character in "([{<") - (character in ")]}>")
+            if depth == 0 and position < len(text) - 1:
+                return text
+        text = text[1:-1].strip()
+    return text

@@ -1,0 +1,64 @@
+"""What texts beside a table, names of files and properties say of the test."""
+
+from __future__ import annotations
+
+import pytest
+
+from mckibben.measurement.read.conditions import Note
+from mckibben.measurement.read.stated import in_known_words, statements
+
+TEXTS = {
+    "Einspannlänge L0 250,00 mm": {"nominal_length": "250.00 mm"},
+    "Initial length 280.00 mm": {"nominal_length": "280.00 mm"},
+    "Longueur à vide : 280 mm": {"nominal_length": "280 mm"},
+    "Lunghezza a riposo 300,0 mm": {"nominal_length": "300.0 mm"},
+    "Anfangslänge (mm): 250": {"nominal_length": "250 mm"},
+    "DMSP-20, L0=280mm, load 10 kg": {
+        "muscle": "DMSP-20", "nominal_length": "280 mm", "load_mass": "10 kg",
+    },
+    "Last 60 N, Versorgung 6 bar": {"load_force": "60 N", "supply_pressure": "6 bar"},
+    "Prüfling DMSP-10-260N": {"sample": "DMSP-10-260N", "muscle": "DMSP-10", "nominal_length": "260 mm"},
+    "Compression positive: a pulling muscle reads negative": {"force_sign": "compression positive"},
+    "Druck ist Überdruck": {"pressure": "gauge"},
+    "all pressures are absolute": {"pressure": "absolute"},
+    "Datum 14.03.2024": {"date": "14.03.2024"},
+    "Vorkraft 5 N": {},
+    "Maximum Load 500 N": {},
+    "Load cell 2 kN": {},
+    "Sample rate: 10": {},
+    "P15RVA1 10bar, 2,0 mV/V": {},
+    "Length 250 mm": {},  # of what?
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("text", TEXTS)
+def test_what_a_text_states(text: str) -> None:
+    found = statements([(text, "line 4")], "a.csv")
+    assert {note.key: note.value for note in found} == TEXTS[text]
+    assert all(note.where == "line 4" for note in found)
+
+
+def test_the_first_word_counts_and_the_name_of_the_file_last() -> None:
+    texts = [("rest length 240 mm", "line 1"), ("rest length 250 mm", "line 9")]
+    found = {note.key: note for note in statements(texts, "DMSP-20-300N_8kg.csv")}
+    assert found["nominal_length"].value == "240 mm"
+    assert found["nominal_length"].where == "line 1"
+    assert (found["muscle"].value, found["muscle"].where) == ("DMSP-20", "the file's name")
+    assert found["load_mass"].value == "8 kg"
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "known"),
+    [
+        ("L0_mm", 250.0, ("nominal_length", "250.0 mm")),
+        ("L0", 0.25, ("nominal_length", 0.25)),
+        ("Ruhelänge [mm]", 250.0, ("nominal_length", "250.0 mm")),
+        ("rest_length", "250", ("nominal_length", "250 mm")),  # no muscle has 250 m
+        ("load", "10 kg", ("load_mass", "10 kg")),
+        ("Supply", "6 bar", ("supply_pressure", "6 bar")),
+        ("note", "hello", ("note", "hello")),
+        ("fs", 5.0, ("fs", 5.0)),
+    ],
+)
+def test_conditions_under_other_names(key: str, value: str | float, known: tuple[str, str | float]) -> None:
+    assert [(note.key, note.value) for note in in_known_words([Note("x", key, value)])] == [known]
