@@ -60,17 +60,46 @@ function factorOf(text) {
   return at === tokens.length ? value : null;
 }
 
-/** A number in SI, or a text with a unit as a number in SI; null: neither.
- * @param {unknown} value @returns {number | null} */
-export function siNumber(value) {
+/** [Pa], where a document states no ambient pressure */
+export const ATMOSPHERE = 101325;
+
+/** What a pressure is counted from. @typedef {"gauge" | "absolute"} Reference */
+/** What the pressure wanted is counted from, and the ambient pressure [Pa].
+ * @typedef {{reference?: Reference | null, ambient?: number}} Counted */
+
+/** "bar(a)", "bara", "bar abs", "psig", "MPa (gauge)": a unit that says what a pressure is counted from. */
+const REFERENCED = new RegExp(
+  "^([kKMmhd]?(?:Pa|pa|PA)|[mM]?(?:bar|Bar|BAR)|psi|PSI|Psi)\\s*" +
+    "(?:\\(\\s*(g|a|gauge|rel|abs|absolute)\\s*\\)|(g|a|gauge|rel|abs|absolute))\\.?$",
+);
+
+/** The unit without the word for the reference of a pressure, and the reference; null: there is no such word.
+ * @param {string} unit @returns {{unit: string, stated: Reference | null}} */
+export function splitReference(unit) {
+  const match = REFERENCED.exec(unit);
+  if (!match) return { unit, stated: null };
+  return { unit: match[1], stated: (match[2] ?? match[3]).startsWith("a") ? "absolute" : "gauge" };
+}
+
+/** What is added to a pressure so that it counts from what is wanted [Pa]; null: an absolute pressure where no
+ * reference is known. @param {Reference | null} stated @param {Counted} wanted */
+export function referenceShift(stated, { reference = null, ambient = ATMOSPHERE }) {
+  if (stated === null || stated === reference) return 0;
+  if (reference === null) return stated === "gauge" ? 0 : null;
+  return stated === "absolute" ? -ambient : ambient;
+}
+
+/** A number in SI, or a text with a unit as a number in SI; null: neither, or a text only the server can convert.
+ * @param {unknown} value @param {Counted} [counted] @returns {number | null} */
+export function siNumber(value, counted = {}) {
   if (typeof value === "number") return value;
   const match = typeof value === "string" &&
     /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*$/i.exec(value);
   if (!match) return null;
   const number = Number(match[1]);
   if (match[2] === "") return number;
-  const shifted = SHIFTED[match[2]];
-  if (shifted) return number * shifted[0] + shifted[1];
-  const factor = factorOf(match[2]);
-  return factor === null ? null : Number((number * factor).toPrecision(12));
+  if (Object.hasOwn(SHIFTED, match[2])) return number * SHIFTED[match[2]][0] + SHIFTED[match[2]][1];
+  const { unit, stated } = splitReference(match[2]);
+  const factor = factorOf(unit), shift = referenceShift(stated, counted);
+  return factor === null || shift === null ? null : Number((number * factor + shift).toPrecision(12));
 }

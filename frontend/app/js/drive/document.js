@@ -1,8 +1,8 @@
 // @ts-check
 // Drive documents: supply, valve, tube, load, command or controller of a muscle, as scenarios, files and the
 // server have them. Pure functions; the server checks what the numbers mean.
-import { isObject } from "../paths.js";
-import { siNumber } from "../quantities.js";
+import { at, isObject } from "../paths.js";
+import { ATMOSPHERE, siNumber } from "../quantities.js";
 
 /** @typedef {import("../types.js").Drive} Drive */
 /** @typedef {import("../types.js").DriveArrangement} Arrangement */
@@ -23,7 +23,6 @@ export const defaultDrive = () => ({
     reference: { shape: "triangle", amplitude: 0.02, period: 1 },
   },
   stops: { max_contraction: 0.12 },
-  gas: { polytropic_exponent: 1.2 },
   duration: 2,
 });
 
@@ -33,19 +32,46 @@ const PERCENT_PER_MM = 10;
 /** Texts that are names, not quantities. */
 const NAMES = new Set(["shape", "preset", "arrangement", "type", "interpolation", "title"]);
 
-/** The document with every quantity such as "6 bar" as a number in SI; what cannot be read stays for the server.
- * @param {any} part @param {string} [key] @returns {any} */
-export function inSi(part, key = "") {
+/** What the pressures of drives and tasks are counted from, by their path.
+ * @type {Record<string, import("../quantities.js").Reference>} */
+const REFERENCES = {
+  "supply.pressure": "gauge",
+  "regulator.range": "gauge",
+  start_pressure: "gauge",
+  supply_pressure: "gauge",
+  "gas.ambient_pressure": "absolute",
+};
+
+/** How a text at a path is read as a pressure. An ambient pressure in words relative to another one would be that
+ * of the standard atmosphere. @param {Drive} document @param {string} path @returns {import("../quantities.js").Counted} */
+export function countedAt(document, path) {
+  const reference = REFERENCES[path] ?? null;
+  if (reference !== "gauge") return { reference };
+  const ambient = siNumber(at(document, "gas.ambient_pressure"), { reference: "absolute" });
+  return { reference, ambient: ambient ?? ATMOSPHERE };
+}
+
+/** A document or a part of one with every quantity such as "6 bar" as a number in SI; what cannot be read stays for
+ * the server. @param {any} document @returns {any} */
+export const inSi = (document) => converted(document, "", document);
+
+/** @param {any} part @param {string} path @param {any} whole @returns {any} */
+function converted(part, path, whole) {
+  const key = path.slice(path.lastIndexOf(".") + 1);
   if (NAMES.has(key) || key === "fittings") return part;
   if (isObject(part)) {
     if (Array.isArray(part.values) && typeof part.unit === "string") {
       return part.values.map((/** @type {unknown} */ v) => siNumber(`${v} ${part.unit}`) ?? v);
     }
-    return Object.fromEntries(Object.entries(part).map(([name, value]) => [name, inSi(value, name)]));
+    return Object.fromEntries(
+      Object.entries(part).map((
+        [name, value],
+      ) => [name, converted(value, path ? `${path}.${name}` : name, whole)]),
+    );
   }
-  if (Array.isArray(part)) return part.map((value) => inSi(value, key));
+  if (Array.isArray(part)) return part.map((value) => converted(value, path, whole));
   if (typeof part !== "string") return part;
-  const si = siNumber(part);
+  const si = siNumber(part, countedAt(whole, path));
   if (si === null) return part;
   return GAINS.has(key) && /[a-z%]/i.test(part) ? si / PERCENT_PER_MM : si;
 }
