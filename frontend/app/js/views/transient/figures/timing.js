@@ -163,7 +163,7 @@ function noteList(title, notes) {
   if (!notes.size) return null;
   return h(
     "details",
-    { class: "reasons" },
+    { class: "figure-notes" },
     h("summary", null, title),
     h(
       "ul",

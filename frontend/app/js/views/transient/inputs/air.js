@@ -2,7 +2,7 @@
 // The air in the muscle: energy balance or polytropic exponent, temperature, volumes, initial pressure.
 import { h } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
-import { brief } from "../../../format.js";
+import { number } from "../../../format.js";
 import { at } from "../../../paths.js";
 import { choiceField, driveField } from "./fields.js";
 import { baseDrive, drive, numberAt, run, setDrive } from "../model.js";
@@ -39,8 +39,8 @@ function summary() {
     ? "energy balance with an effect"
     : closure.value === "energy"
     ? "energy balance"
-    : `exponent ${brief(numberAt(EXPONENT) ?? USUAL_EXPONENT)}`;
-  return `Air: ${used}, temperature, start`;
+    : `exponent ${number(numberAt(EXPONENT) ?? USUAL_EXPONENT, 3)}`;
+  return `Air: ${used}, temperature, initial pressure`;
 }
 
 const OTHERS = ["gas.temperature", "gas.dead_volume", "gas.ambient_pressure", "start_pressure"];
@@ -53,7 +53,7 @@ export function airCard() {
       "details",
       null,
       h("summary", null, summary),
-      choiceField("Air in the muscle", () => CLOSURES, () => closure.value, close, "gas"),
+      choiceField("Air model", () => CLOSURES, () => closure.value, close, "gas"),
       () =>
         byEffect.value
           ? h(

@@ -139,7 +139,7 @@ export const SPECS = {
     quantity: "ratio",
     bounds: [-0.03, 0.2],
     usual: 0,
-    hint: "The load rests here without pressure.",
+    hint: "A hanging load rests here without pressure.",
   },
   "stops.max_contraction": {
     label: "Upper stop",
