@@ -16,6 +16,9 @@ const FACTORS = {
     psi: LBF / INCH ** 2,
     atm: 101325,
   },
+  // as the server accepts them too
+  ...{ Bar: 1e5, BAR: 1e5, PSI: LBF / INCH ** 2, Psi: LBF / INCH ** 2, pa: 1 },
+  ...{ kpa: 1e3, KPa: 1e3, KPA: 1e3, MPA: 1e6, MM: 1e-3, CM: 1e-2, sec: 1, Sec: 1 },
   ...{ N: 1, mN: 1e-3, kN: 1e3, lbf: LBF, kg: 1, g: 1e-3, t: 1e3, lb: POUND, J: 1, kJ: 1e3, W: 1, K: 1 },
   ...{ s: 1, ms: 1e-3, us: 1e-6, µs: 1e-6, min: 60, h: 3600, Hz: 1, kHz: 1e3 },
   ...{ l: 1e-3, L: 1e-3, ml: 1e-6, rad: 1, deg: Math.PI / 180, "°": Math.PI / 180, "%": 0.01 },

@@ -8,6 +8,7 @@ import numpy as np
 
 from mckibben.physics.drive_terms import HIGH_STOP, LOW_STOP
 from mckibben.simulation.integrate.engine import CompiledDrive
+from mckibben.simulation.integrate.problem import SLOWEST_REBOUND
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,8 +32,13 @@ class Event:
 
     @property
     def impact(self) -> bool:
-        """Whether the load hits an end stop."""
-        return self.switch in (LOW_STOP, HIGH_STOP) and self.speed != 0.0
+        """Whether the load hits an end stop.
+
+        A contact that ends does so after a rebound, which has a least speed, or because the load leaves its
+        stop from rest; an integrator may then report a speed of the size of its rounding errors.
+        """
+        least = 0.0 if self.begins else SLOWEST_REBOUND
+        return self.switch in (LOW_STOP, HIGH_STOP) and abs(self.speed) > least
 
 
 def events_of(compiled: CompiledDrive, rows: np.ndarray) -> tuple[Event, ...]:
