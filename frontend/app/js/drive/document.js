@@ -32,23 +32,57 @@ const PERCENT_PER_MM = 10;
 /** Texts that are names, not quantities. */
 const NAMES = new Set(["shape", "preset", "arrangement", "type", "interpolation", "title"]);
 
-/** What the pressures of drives and tasks are counted from, by their path.
- * @type {Record<string, import("../quantities.js").Reference>} */
-const REFERENCES = {
-  "supply.pressure": "gauge",
-  "regulator.range": "gauge",
-  start_pressure: "gauge",
-  supply_pressure: "gauge",
-  "gas.ambient_pressure": "absolute",
+/** SI units of the fields of drives and tasks, by their path; a text that does not fit stays for the server, which
+ * says what is wrong with it. @type {Record<string, string>} */
+const UNITS = {
+  "supply.pressure": "Pa",
+  "regulator.range": "Pa",
+  "regulator.time": "s",
+  start_pressure: "Pa",
+  supply_pressure: "Pa",
+  "start.position": "m",
+  "valve.sonic_conductance": "m^3/(s*Pa)",
+  "valve.exhaust_conductance": "m^3/(s*Pa)",
+  "valve.critical_pressure_ratio": "1",
+  "valve.exhaust_critical_pressure_ratio": "1",
+  "valve.nominal_flow": "m^3/s",
+  "tube.inside_diameter": "m",
+  "tube.length": "m",
+  "load.mass": "kg",
+  "load.force": "N",
+  "load.inclination": "rad",
+  "load.spring": "N/m",
+  "load.lever_ratio": "1",
+  "load.pulley_radius": "m",
+  "load.precontraction": "1",
+  "gas.polytropic_exponent": "1",
+  "gas.wall_heat_transfer": "W/(m^2*K)",
+  "gas.temperature": "K",
+  "gas.ambient_pressure": "Pa",
+  "gas.dead_volume": "m^3",
+  "stops.min_contraction": "1",
+  "stops.max_contraction": "1",
+  "stops.restitution": "1",
+  duration: "s",
+  "muscle.nominal_length": "m",
+  "muscle.braid_diameter": "m",
+  "muscle.braid_angle": "rad",
+  "muscle.thread_length": "m",
+  "muscle.turns": "1",
+  "muscle.inside_diameter": "m",
+  "muscle.wall_thickness": "m",
 };
+const ABSOLUTE = "gas.ambient_pressure";
 
-/** How a text at a path is read as a pressure. An ambient pressure in words relative to another one would be that
- * of the standard atmosphere. @param {Drive} document @param {string} path @returns {import("../quantities.js").Counted} */
+/** How a text at a path is read: its unit, and what a pressure is counted from. An ambient pressure that is a gauge
+ * one is so relative to the standard atmosphere.
+ * @param {Drive} document @param {string} path @returns {import("../quantities.js").Counted & {unit?: string}} */
 export function countedAt(document, path) {
-  const reference = REFERENCES[path] ?? null;
-  if (reference !== "gauge") return { reference };
-  const ambient = siNumber(at(document, "gas.ambient_pressure"), { reference: "absolute" });
-  return { reference, ambient: ambient ?? ATMOSPHERE };
+  const unit = UNITS[path];
+  if (unit !== "Pa") return unit ? { unit } : {};
+  if (path === ABSOLUTE) return { unit, reference: "absolute" };
+  const ambient = siNumber(at(document, ABSOLUTE), countedAt(document, ABSOLUTE));
+  return { unit, reference: "gauge", ambient: ambient ?? ATMOSPHERE };
 }
 
 /** A document or a part of one with every quantity such as "6 bar" as a number in SI; what cannot be read stays for
