@@ -113,7 +113,7 @@ def test_a_heavier_load_takes_longer(page: Page) -> None:
 def test_a_scenario_brings_its_drive_and_the_printed_figures(page: Page) -> None:
     open_transient(page)
     load_scenario(page, "propneu-20")
-    expect(page.locator("#drive-muscle")).to_contain_text("794 mm")
+    expect(page.locator("#drive-muscle")).to_contain_text("780 mm")
     expect(field(page, "Mass")).to_have_value("9.321")
     paper = page.get_by_role("region", name="Figures of the run and of the paper")
     row = paper.locator("tr", has_text="Positioning time, fill")
@@ -490,7 +490,9 @@ def test_an_antagonist_pair_turns_a_pulley(page: Page, page_guard: PageGuard) ->
     angle, torque = (run(page, PLOTTED, [name, name])["y"] for name in ("angle", "torque"))
     assert max(angle) == pytest.approx(-min(angle), rel=1e-2)
     assert torque[0] == pytest.approx(0, abs=1e-6)
-    # The picture: what one muscle is shorter, the other is longer.
+    # The picture: what one muscle is shorter, the other is longer. Without pressure the joint rests on a stop.
+    expect(page.locator("#run-start")).to_contain_text("would rest anywhere")
+    rerun(page, lambda: enter(page, "Start position", "0 mm"))
     ends = "return [...document.querySelectorAll('.double .rod')].map((el) => Number(el.getAttribute('x1')));"
     page.locator("#run-angle").focus()
     page.keyboard.press("Home")
