@@ -126,7 +126,8 @@ def test_a_scenario_brings_its_drive_and_the_printed_figures(page: Page) -> None
 
 REFERENCED = (
     "bar(a)", "bar(g)", "barg", "bara", "bar abs", "bar (gauge)", "psig", "psia", "PSIA", "psi(g)", "MPa(g)",
-    "MPa a", "kg", "mm", "m/s", "N/mm^2", "kPa(abs)", "mbar(a)", "hPa abs.", "Bar rel", "bar(x)", "bar g g", "mPa",
+    "MPa a", "kg", "mm", "m/s", "N/mm^2", "kPa(abs)", "mbar(a)", "hPa abs.", "Bar rel",
+    "bar(x)", "bar g g", "mPa",
 )  # fmt: skip
 COUNTED = """
 const { siNumber } = await import("/js/quantities.js");
@@ -490,7 +491,8 @@ def test_an_antagonist_pair_turns_a_pulley(page: Page, page_guard: PageGuard) ->
     angle, torque = (run(page, PLOTTED, [name, name])["y"] for name in ("angle", "torque"))
     assert max(angle) == pytest.approx(-min(angle), rel=1e-2)
     assert torque[0] == pytest.approx(0, abs=1e-6)
-    # The picture: what one muscle is shorter, the other is longer. Without pressure the joint rests on a stop.
+    # The picture: what one muscle is shorter, the other is longer.
+    # Without pressure the joint would begin on a stop.
     expect(page.locator("#run-start")).to_contain_text("would rest anywhere")
     rerun(page, lambda: enter(page, "Start position", "0 mm"))
     ends = "return [...document.querySelectorAll('.double .rod')].map((el) => Number(el.getAttribute('x1')));"

@@ -35,7 +35,7 @@ PhaseFigures = Annotated[
     Field(
         description="Figures of one phase in SI: "
         + ", ".join(f"{name} [{_UNITS.get(name, 's')}]" for name in FIGURES)
-        + ". Speeds are magnitudes along the motion of the phase: towards shorter in extend, towards longer in "
+        + ". Speeds are magnitudes along the motion of the phase: shorter in extend, longer in "
         "retract. Accelerations are positive towards shorter in both phases, as in the columns. "
         "Null where it does not exist; see notes for the reason."
     ),
