@@ -1732,15 +1732,15 @@ export interface components {
       /** conservative, dissipative, lumped or reading. */
       energy: string;
     };
-    /** Columns over time, in SI; pressures gauge, positions positive = muscle shorter. */
+    /** Columns over time, in SI; pressures gauge; positions, velocities and accelerations positive towards shorter. */
     SimulationAnswer: {
       /** Instants of the rows; fewer than requested if the run ended early. [s] */
       time: number[];
       /** Stroke of the load. [m] */
       position: (number | null)[];
-      /** Speed of the load. [m/s] */
+      /** Velocity of the load, positive towards shorter. [m/s] */
       velocity: (number | null)[];
-      /** Acceleration of the load. [m/s^2] */
+      /** Acceleration of the load, positive towards shorter. [m/s^2] */
       acceleration: (number | null)[];
       /** Pressure in the muscle. [Pa] */
       pressure: (number | null)[];
@@ -2046,9 +2046,9 @@ export interface components {
     };
     /** The timing table of the first fill and the exhaust after it. */
     Timing: {
-      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], tube_air_mass [kg], choked_share [1]. Speeds are positive in the direction of the phase: towards shorter in extend, towards longer in retract. Accelerations are positive towards shorter in both phases, as in the columns. Null where it does not exist; see notes for the reason. */
+      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], tube_air_mass [kg], choked_share [1]. Speeds are magnitudes along the motion of the phase: shorter in extend, longer in retract. Accelerations are positive towards shorter in both phases, as in the columns. Null where it does not exist; see notes for the reason. */
       extend: { [key: string]: number | null };
-      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], tube_air_mass [kg], choked_share [1]. Speeds are positive in the direction of the phase: towards shorter in extend, towards longer in retract. Accelerations are positive towards shorter in both phases, as in the columns. Null where it does not exist; see notes for the reason. */
+      /** Figures of one phase in SI: positioning_time [s], rise_time [s], delay_time [s], settling_time [s], average_speed [m/s], max_speed [m/s], max_speed_at [s], max_acceleration [m/s^2], max_acceleration_at [s], min_acceleration [m/s^2], min_acceleration_at [s], end_speed [m/s], impact_energy [J], overshoot [1], pressure_rise_time [s], pressure_delay_time [s], pressure_settling_time [s], air_mass [kg], air_volume_anr [m^3], tube_air_mass [kg], choked_share [1]. Speeds are magnitudes along the motion of the phase: shorter in extend, longer in retract. Accelerations are positive towards shorter in both phases, as in the columns. Null where it does not exist; see notes for the reason. */
       retract: { [key: string]: number | null };
       /** "extend.rise_time" -> why it is null, or a remark on it. */
       notes: { [key: string]: string };

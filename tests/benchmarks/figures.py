@@ -61,7 +61,7 @@ def _maps(studio: Studio) -> Table:
         fitted = compare(
             points.measurement, muscle, effects, catalogue=studio.catalogue, fit=True, free=["braid_angle"]
         )
-        values = fitted.values
+        values = fitted.fit_model.values
         table.add_row(
             name,
             f"{length * 1e3:.0f} mm",
@@ -71,7 +71,7 @@ def _maps(studio: Studio) -> Table:
             f"{100 * (fitted.holdout_rmse or 0) / fitted.full_scale:.2f} %",
             f"{values['bladder_elasticity']['shear_modulus'] / 1e6:.4f} MPa",
             f"{values['prestress']['force']:.1f} N",
-            f"{np.degrees(fitted.muscle.braid_angle):.2f}°",
+            f"{np.degrees(fitted.fit_model.muscle.braid_angle):.2f}°",
         )
     return table
 

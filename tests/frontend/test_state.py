@@ -150,6 +150,8 @@ TYPED = [
     ("0.47 MPa", "modulus", 4.7e5),
     ("25 %", "ratio", 0.25),
     ("15 ml", "volume", 1.5e-5),
+    ("3 bar(g)", "pressure", 3e5),
+    ("30 psig", "pressure", 206842.72),
 ]
 
 
@@ -159,12 +161,31 @@ def test_typed_units(blank: Page) -> None:
         assert answer.get("value") == pytest.approx(si, rel=1e-6), (text, answer)
 
 
+COUNTED = """
+const { parse, scaleOf } = await import("/js/format.js");
+const scale = scaleOf("pressure", "bar");
+return argument.map(([text, counted]) => parse(text, scale, "pressure", "1", counted).value);
+"""
+
+
+def test_pressures_that_say_what_they_are_counted_from(blank: Page) -> None:
+    gauge = {"reference": "gauge", "ambient": 9.5e4}
+    absolute = {"reference": "absolute"}
+    cases = [("3 bar(a)", gauge, 2.05e5), ("3 bar", gauge, 3e5), ("43.5113 psia", gauge, 2.05e5)]
+    cases += [("0.95 bar(a)", absolute, 9.5e4), ("0 barg", absolute, 101325), ("0.3 MPa(g)", gauge, 3e5)]
+    got = run(blank, COUNTED, [[text, counted] for text, counted, _ in cases])
+    assert got == pytest.approx([si for _, _, si in cases], rel=1e-6)
+
+
 REFUSED = [
     ("abc", "length", "not a number"),
     ("", "length", "Enter a number"),
     ("3 bar", "length", "measures a pressure"),
     ("3 furlong", "length", "not known"),
     ("1e9x", "force", "not known"),
+    ("3 bar(a)", "pressure", "absolute pressure"),
+    ("3 mPa", "pressure", "not known"),
+    ("3 constructor", "length", "not known"),
 ]
 
 

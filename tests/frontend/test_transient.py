@@ -10,6 +10,7 @@ import re
 import statistics
 import zlib
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
@@ -18,6 +19,8 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, Route, expect
 
+from mckibben.physics.errors import InputError
+from mckibben.physics.units import Reference, si
 from tests.frontend.guard import PageGuard
 from tests.frontend.views import REFUSED, SIZES, enter, field, link_of, marked, run
 
@@ -110,7 +113,7 @@ def test_a_heavier_load_takes_longer(page: Page) -> None:
 def test_a_scenario_brings_its_drive_and_the_printed_figures(page: Page) -> None:
     open_transient(page)
     load_scenario(page, "propneu-20")
-    expect(page.locator("#drive-muscle")).to_contain_text("794 mm")
+    expect(page.locator("#drive-muscle")).to_contain_text("780 mm")
     expect(field(page, "Mass")).to_have_value("9.321")
     paper = page.get_by_role("region", name="Figures of the run and of the paper")
     row = paper.locator("tr", has_text="Positioning time, fill")
@@ -119,6 +122,27 @@ def test_a_scenario_brings_its_drive_and_the_printed_figures(page: Page) -> None
     assert ours == pytest.approx(theirs, rel=0.1)
     rerun(page, lambda: page.get_by_role("button", name="Undo: scenario").click())
     expect(page.locator("#drive-muscle")).to_contain_text("300 mm")
+
+
+REFERENCED = (
+    "bar(a)", "bar(g)", "barg", "bara", "bar abs", "bar (gauge)", "psig", "psia", "PSIA", "psi(g)", "MPa(g)",
+    "MPa a", "kg", "mm", "m/s", "N/mm^2", "kPa(abs)", "mbar(a)", "hPa abs.", "Bar rel",
+    "bar(x)", "bar g g", "mPa",
+)  # fmt: skip
+COUNTED = """
+const { siNumber } = await import("/js/quantities.js");
+return argument.texts.map((text) => siNumber(text, { unit: "Pa", reference: argument.reference }));
+"""
+
+
+def as_server(text: str, reference: Reference | None) -> float | None:
+    """The pressure as the server reads it [Pa]; None where the page leaves the text to the server."""
+    if text.endswith("mPa"):  # the page knows no such unit
+        return None
+    try:
+        return si(text, "Pa", reference=reference)
+    except InputError:
+        return None
 
 
 def test_units_of_drive_documents_are_read_and_every_scenario_runs(page: Page) -> None:
@@ -144,6 +168,11 @@ def test_units_of_drive_documents_are_read_and_every_scenario_runs(page: Page) -
     )
     assert read[-1] is None
     assert read[:-1] == pytest.approx([6e5, 120, 1.2e-8, 293.15, 1.5707963267949, 0.0356, 25200, 3])
+    pressures = [f"3 {unit}" for unit in REFERENCED]
+    for reference in (None, "gauge", "absolute"):
+        wanted = [as_server(text, reference) for text in pressures]
+        read = run(page, COUNTED, {"texts": pressures, "reference": reference})
+        assert read == [None if value is None else pytest.approx(value, rel=1e-11) for value in wanted]
     offered = page.locator("#scenario option")
     expect(offered).not_to_have_count(1)
     for scenario in [option.get_attribute("value") or "" for option in offered.all()][1:]:
@@ -199,6 +228,95 @@ def test_another_valve_brings_its_dead_time(page: Page) -> None:
     expect(field(page, "Conductance, filling")).to_have_value("3")
     rerun(page, lambda: page.get_by_label("Tube", exact=True).select_option("none"))
     expect(page.locator(".run-pressure .legend")).not_to_contain_text("tube")
+
+
+def asked_drive(page: Page, act: Callable[[], object]) -> dict[str, Any]:
+    """The drive that is asked for when something is done, once its run is drawn."""
+    with page.expect_request("**/api/simulations") as asked:
+        rerun(page, act)
+    return asked.value.post_data_json["drive"]
+
+
+def test_one_model_of_the_air_at_a_time(page: Page) -> None:
+    open_transient(page)
+    card = page.get_by_role("region", name="Air and start")
+    told = page.locator("#run-start")
+    expect(card.locator("summary")).to_contain_text("Air: energy balance")
+    expect(told).to_contain_text("heat exchange with the wall 100 W/(m²·K)")
+    card.locator("summary").click()
+    model = page.get_by_label("Air model")
+    drive = asked_drive(page, lambda: enter(page, "Heat transfer to the wall", "250 W/(m^2*K)"))
+    assert drive["gas"] == {"wall_heat_transfer": 250}
+    drive = asked_drive(page, lambda: model.select_option("polytropic"))
+    assert drive["gas"] == {"polytropic_exponent": 1.2}
+    expect(card.locator("summary")).to_contain_text("Air: exponent 1.2")
+    expect(told).to_contain_text("polytropic exponent 1.2")
+    expect(field(page, "Heat transfer to the wall")).to_have_count(0)
+    expect(page.locator(".figure-notes", has_text="Remarks")).to_contain_text("does not conserve the mass")
+    drive = asked_drive(page, lambda: model.select_option("energy"))
+    assert "gas" not in drive
+    expect(field(page, "Polytropic exponent")).to_have_count(0)
+    load_scenario(page, "paper-step")  # it states an exponent
+    expect(card.locator("summary")).to_contain_text("Air: exponent 1.2")
+
+
+def test_rebound_and_start_position(page: Page) -> None:
+    open_transient(page)
+    told = page.locator("#run-start")
+    expect(told).to_contain_text("Starts at 0 mm (0 %), on the lower end stop")
+    page.get_by_role("region", name="Load", exact=True).locator("summary", has_text="End stops").focus()
+    speeds = """
+      const { data } = document.querySelector("#run-speed .canvas");
+      const { x, y } = data.find((t) => t.uid === "velocity");
+      return y.filter((_, i) => x[i] < 1);
+    """
+    assert min(run(page, speeds)) > -1e-6  # filling: the load stays on the upper stop
+    drive = asked_drive(page, lambda: enter(page, "Rebound", "50 %"))
+    assert drive["stops"]["restitution"] == 0.5
+    end = figure(page, "End speed")
+    assert end
+    page.wait_for_function(  # Plotly has the data of a plot once its lines have been moved
+        """() => document.querySelector("#run-speed .canvas").data[0].y.some((v, i) => i < 200 && v < 0)"""
+    )
+    assert min(run(page, speeds)) == pytest.approx(-0.5 * end, rel=0.1)  # rows every 5 ms
+    drive = asked_drive(page, lambda: enter(page, "Start position", "20 mm"))
+    assert drive["start"] == {"position": 0.02}
+    expect(told).to_contain_text("Starts at 20.0 mm (6.67 %), at the stated start position")
+    drive = asked_drive(page, lambda: enter(page, "Start position", ""))
+    assert "start" not in drive
+    expect(field(page, "Start position")).to_have_attribute("placeholder", "at rest")
+    expect(told).to_contain_text("Starts at 0 mm")
+
+
+def test_a_slack_muscle_is_marked_and_saved(page: Page) -> None:
+    open_transient(page)
+    expect(page.locator(".key")).to_contain_text("muscle slack")
+    arrange(page, "horizontal")
+    with page.expect_response("**/api/simulations") as answered:
+        rerun(page, lambda: enter(page, "Mass", "20"))
+    answer = answered.value.json()
+    # Vented, nothing pulls a load on a table back: the muscle hangs slack at the end.
+    assert answer["slack"][-1]
+    assert not answer["slack"][len(answer["slack"]) // 2]
+    edges = [now != before for before, now in pairwise([False, *answer["slack"]])]
+    for name in TIMED:
+        assert page.locator(f"#run-{name} .band.slack").count() == sum(
+            edge and now for edge, now in zip(edges, answer["slack"], strict=True)
+        )
+    body = page.locator(".side:visible .body")
+    page.locator("#run-speed").focus()
+    page.keyboard.press("End")
+    expect(body).to_have_class("body slack")
+    page.get_by_label("Time of the cursor").fill("500")
+    expect(body).to_have_class("body")
+    table = list(csv.DictReader(download(page, "Run as CSV").read_text().splitlines()))
+    for name in ("contact", "slack"):
+        share = sum(float(row[name]) for row in table) / len(table)
+        assert share == pytest.approx(sum(answer[name]) / len(answer[name]), abs=0.01)
+    page.get_by_role("button", name="Position: save or show as table").click()
+    page.get_by_role("menuitem", name="Show as table").click()
+    last = page.get_by_role("dialog").locator("tbody tr").last.locator("td")
+    assert last.all_inner_texts()[-2:] == ["1", "1"]
 
 
 def test_pin_and_difference(page: Page) -> None:
@@ -307,6 +425,9 @@ def test_exports(page: Page, tmp_path: Path) -> None:
     assert document["load"]["mass"] == 50
     assert "controller" not in document
     document["load"]["mass"] = "33 kg"
+    document["supply"]["pressure"] = "7 bar(a)"
+    document["start_pressure"] = "0.2 bar(g)"
+    document["gas"] = {"ambient_pressure": "950 mbar"}
     copy = tmp_path / "drive.json"
     copy.write_text(json.dumps(document))
     page.get_by_role("button", name="Export").click()
@@ -314,6 +435,10 @@ def test_exports(page: Page, tmp_path: Path) -> None:
         page.get_by_role("menuitem").filter(has_text="Open JSON").click()
     rerun(page, lambda: chooser.value.set_files(copy))
     expect(field(page, "Mass")).to_have_value("33")
+    expect(field(page, "Supply pressure")).to_have_value("6.05")
+    expect(page.locator("[data-field='start_pressure'] input[type=text]")).to_have_value("0.2")
+    enter(page, "Supply pressure", "100 psia")
+    expect(field(page, "Supply pressure")).to_have_value("5.945")  # 6.8948 bar less 0.95 bar
 
 
 def test_a_measured_trace_lies_over_the_run(page: Page, page_guard: PageGuard, tmp_path: Path) -> None:
@@ -367,6 +492,9 @@ def test_an_antagonist_pair_turns_a_pulley(page: Page, page_guard: PageGuard) ->
     assert max(angle) == pytest.approx(-min(angle), rel=1e-2)
     assert torque[0] == pytest.approx(0, abs=1e-6)
     # The picture: what one muscle is shorter, the other is longer.
+    # Without pressure the joint would begin on a stop.
+    expect(page.locator("#run-start")).to_contain_text("would rest anywhere")
+    rerun(page, lambda: enter(page, "Start position", "0 mm"))
     ends = "return [...document.querySelectorAll('.double .rod')].map((el) => Number(el.getAttribute('x1')));"
     page.locator("#run-angle").focus()
     page.keyboard.press("Home")

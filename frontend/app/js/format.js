@@ -1,6 +1,7 @@
 // @ts-check
 // Quantities: SI in the program, the user's units on the page. Reading numbers with units, writing numbers with
 // sensible digits.
+import { referenceShift, splitReference } from "./quantities.js";
 
 /** @typedef {"si" | "bar" | "us"} System */
 /** SI = shown × factor + offset.
@@ -204,28 +205,47 @@ export function withUnit(si, quantity, system) {
   return s.unit ? `${text}${s.unit === "°" ? "" : "\u00a0"}${s.unit}` : text;
 }
 
+/** Case changes the meaning of these. */
+const AMBIGUOUS = new Set(["mPa", "Mbar", "MBar", "MBAR"]);
+
+/** @param {string} unit as a user writes it: case does not matter where there is one meaning */
+function typedUnit(unit) {
+  const key = unit.toLowerCase();
+  return Object.hasOwn(TYPED, key) && !AMBIGUOUS.has(unit) ? TYPED[key] : null;
+}
+
 /** Reads "30 cm", "6 bar", "25°", "1,5"; a bare number is in the shown unit.
  * @param {string} text @param {Scale} s @param {Quantity | null} quantity
  * @param {string} [sample] the number of the example
+ * @param {import("./quantities.js").Counted} [counted] what a pressure is counted from
  * @returns {{value: number} | {error: string}} SI */
-export function parse(text, s, quantity, sample) {
+export function parse(text, s, quantity, sample, counted = {}) {
   const tidy = text.trim().replace("−", "-").replace(/^([+-]?\d+),(\d+)(?=\D|$)/, "$1.$2");
   const example = `${sample || "1.5"} ${s.unit}`.trim();
   if (tidy === "") return { error: `Enter a number, for example ${example}.` };
   const match = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i.exec(tidy);
   if (!match) return { error: `“${text.trim()}” is not a number. Enter for example ${example}.` };
   const value = Number(match[1]);
-  const unit = match[2].trim();
-  if (!unit || unit === s.unit) return { value: toSi(value, s) };
-  const known = TYPED[unit.toLowerCase()];
+  const { unit, stated } = splitReference(match[2].trim());
+  const shift = referenceShift(stated, counted);
+  if (shift === null) {
+    return {
+      error: `“${text.trim()}” is an absolute pressure. Enter a gauge pressure or a difference, ` +
+        `for example ${example}.`,
+    };
+  }
+  if (!unit || (unit === s.unit && stated === null) || (s.unit && tidyUnit(unit) === s.unit)) {
+    return { value: toSi(value, s) + shift };
+  }
+  const known = typedUnit(unit);
   if (!known) return { error: `The unit “${unit}” is not known. Enter for example ${example}.` };
   const [kind, factor, offset = 0] = known;
   const wanted = basicQuantity(quantity);
-  if (kind === "ratio" && wanted === "number") return { value: value * factor };
+  if (kind === "ratio" && wanted === "number" && s.unit === "") return { value: value * factor };
   if (basicQuantity(kind) !== wanted) {
     return { error: `“${unit}” measures ${noun(kind)}, this is ${noun(wanted)}.` };
   }
-  return { value: value * factor + offset };
+  return { value: value * factor + offset + shift };
 }
 
 /** The same quantity may be shown on different scales. @param {Quantity | null} quantity */
@@ -242,7 +262,7 @@ function noun(quantity) {
 /** The quantity of a unit as presets write it; null: it is not converted. @param {string} unit
  * @returns {Quantity | null} */
 export function quantityOfUnit(unit) {
-  return TYPED[unit.toLowerCase()]?.[0] ?? null;
+  return typedUnit(unit)?.[0] ?? null;
 }
 
 /** The numbers of a column with the same number of decimals.
@@ -256,7 +276,7 @@ export function aligned(values) {
 
 /** A preset's {value, unit} in SI. @param {{value: number, unit: string}} q */
 export function siOf(q) {
-  const known = TYPED[q.unit.toLowerCase()];
+  const known = typedUnit(q.unit);
   return known ? q.value * known[1] + (known[2] ?? 0) : q.value;
 }
 

@@ -137,6 +137,34 @@ def test_rebounds_follow_the_coefficient_of_restitution() -> None:
             assert run.states["speed"][just_after] == pytest.approx(-0.5 * event.speed, abs=drift), index
 
 
+LIFT = {
+    "schema": 1,
+    "muscle": {"preset": "DMSP-20", "nominal_length": "300 mm"},
+    "supply": {"pressure": "5.5 bar"},
+    "valve": {"preset": "MPYE-5-1/8-HF"},
+    "tube": {"preset": "PUN-H-4x0.75", "length": "1 m"},
+    "load": {"mass": "50 kg"},
+    "command": {"shape": "pulse", "on": "0 s", "off": "1 s"},
+    "duration": "2 s",
+}
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.5])
+def test_both_engines_find_the_same_impacts(restitution: float) -> None:
+    """A load that leaves its stop from rest is no impact, whatever rounding error its speed has."""
+    stops = {"max_contraction": "12 %", "restitution": restitution}
+    drive = drive_of(read_document({**LIFT, "stops": stops}, "the drive"), STUDIO).drive
+    rodas, lsoda = (simulate(drive, points=2001, engine=engine) for engine in ("rodas", "lsoda"))
+    hits = [[event for event in run.events if event.impact] for run in (rodas, lsoda)]
+    assert [event.switch for event in hits[0]] == [event.switch for event in hits[1]]
+    assert [event.time for event in hits[1]] == pytest.approx([event.time for event in hits[0]], abs=1e-4)
+    assert min(abs(event.speed) for event in hits[1]) > 1e-4
+    for phase in ("extend", "retract"):
+        first, second = (getattr(timing(run), phase) for run in (rodas, lsoda))
+        for name in ("positioning_time", "end_speed", "impact_energy"):
+            assert getattr(second, name) == pytest.approx(getattr(first, name), rel=2e-3), (phase, name)
+
+
 def test_a_mass_is_conserved_over_repeated_cycles() -> None:
     rig = Rig(off=1.0)
     square = {"shape": "square", "period": "2 s", "duty": 0.5}

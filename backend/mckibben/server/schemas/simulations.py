@@ -35,7 +35,7 @@ PhaseFigures = Annotated[
     Field(
         description="Figures of one phase in SI: "
         + ", ".join(f"{name} [{_UNITS.get(name, 's')}]" for name in FIGURES)
-        + ". Speeds are positive in the direction of the phase: towards shorter in extend, towards longer in "
+        + ". Speeds are magnitudes along the motion of the phase: shorter in extend, longer in "
         "retract. Accelerations are positive towards shorter in both phases, as in the columns. "
         "Null where it does not exist; see notes for the reason."
     ),
@@ -110,12 +110,14 @@ class Joint(Strict):
 
 
 class SimulationAnswer(Strict):
-    """Columns over time, in SI; pressures gauge, positions positive = muscle shorter."""
+    """Columns over time, in SI; pressures gauge; positions, velocities and accelerations positive towards
+    shorter.
+    """
 
     time: list[float] = si_field("s", "Instants of the rows; fewer than requested if the run ended early.")
     position: Series = si_field("m", "Stroke of the load.")
-    velocity: Series = si_field("m/s", "Speed of the load.")
-    acceleration: Series = si_field("m/s^2", "Acceleration of the load.")
+    velocity: Series = si_field("m/s", "Velocity of the load, positive towards shorter.")
+    acceleration: Series = si_field("m/s^2", "Acceleration of the load, positive towards shorter.")
     pressure: Series = si_field("Pa", "Pressure in the muscle.")
     force: Series = si_field("N", "Tension of the muscle.")
     mass_flow: Series = si_field("kg/s", "Mass flow into the muscle.")

@@ -31,10 +31,13 @@ class Event:
 
     @property
     def impact(self) -> bool:
-        """Whether the load hits an end stop: it stays there, or rebounds."""
-        if self.switch not in (LOW_STOP, HIGH_STOP):
-            return False
-        return (self.begins and self.speed != 0.0) or abs(self.speed) > SLOWEST_REBOUND
+        """Whether the load hits an end stop.
+
+        A contact that ends does so after a rebound, which has a least speed, or because the load leaves its
+        stop from rest; an integrator may then report a speed of the size of its rounding errors.
+        """
+        least = 0.0 if self.begins else SLOWEST_REBOUND
+        return self.switch in (LOW_STOP, HIGH_STOP) and abs(self.speed) > least
 
 
 def events_of(compiled: CompiledDrive, rows: np.ndarray) -> tuple[Event, ...]:

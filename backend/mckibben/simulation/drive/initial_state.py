@@ -26,9 +26,9 @@ class Rest(Enum):
     LOW_STOP = "on the lower end stop, where the load rests at the start pressure"
     HIGH_STOP = "on the upper end stop, where the load rests at the start pressure"
     ANYWHERE = (
-        "on the lower end stop: without pressure the load would rest anywhere; start.position says otherwise"
+        "on the lower end stop: without pressure the load would rest anywhere; a start position can be stated"
     )
-    STATED = "at the stated start.position"
+    STATED = "at the stated start position"
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,9 +7,9 @@ the stroke of the phase: to the stop it ends on, else to where it ends, or the d
 - positioning_time: arrival. The impact on the stop that ends the stroke; without one, first s >= (1 -
   band) S.
 - rise_time: from first s = 0.1 S to first s = 0.9 S; no dead time in it. delay_time: first s = 0.5 S.
-- settling_time: from here to the end of the phase |s - S| <= band S. The band is 5 % by default: after the
-  impact a load swings on the gas spring by a few per cent, almost undamped, long after it has arrived for
-  practical purposes. A narrower band gives the time until that oscillation has decayed.
+- settling_time: from here to the end of the phase |s - S| <= band S. The band is 5 % by default: a load that
+  stops between the end stops may swing on the air by a few per cent long after it has arrived for practical
+  purposes. A narrower band gives the time until that oscillation has decayed.
 - average_speed: travel up to there / positioning_time. end_speed: ds/dt at the impact, or without one at
   positioning_time.
 - max_speed, max_speed_at: largest ds/dt, including the instant before the impact.

@@ -1,8 +1,8 @@
 // @ts-check
 // Drive documents: supply, valve, tube, load, command or controller of a muscle, as scenarios, files and the
 // server have them. Pure functions; the server checks what the numbers mean.
-import { isObject } from "../paths.js";
-import { siNumber } from "../quantities.js";
+import { at, isObject } from "../paths.js";
+import { ATMOSPHERE, siNumber } from "../quantities.js";
 
 /** @typedef {import("../types.js").Drive} Drive */
 /** @typedef {import("../types.js").DriveArrangement} Arrangement */
@@ -23,7 +23,6 @@ export const defaultDrive = () => ({
     reference: { shape: "triangle", amplitude: 0.02, period: 1 },
   },
   stops: { max_contraction: 0.12 },
-  gas: { polytropic_exponent: 1.2 },
   duration: 2,
 });
 
@@ -33,19 +32,80 @@ const PERCENT_PER_MM = 10;
 /** Texts that are names, not quantities. */
 const NAMES = new Set(["shape", "preset", "arrangement", "type", "interpolation", "title"]);
 
-/** The document with every quantity such as "6 bar" as a number in SI; what cannot be read stays for the server.
- * @param {any} part @param {string} [key] @returns {any} */
-export function inSi(part, key = "") {
+/** SI units of the fields of drives and tasks, by their path; a text that does not fit stays for the server, which
+ * says what is wrong with it. @type {Record<string, string>} */
+const UNITS = {
+  "supply.pressure": "Pa",
+  "regulator.range": "Pa",
+  "regulator.time": "s",
+  start_pressure: "Pa",
+  supply_pressure: "Pa",
+  "start.position": "m",
+  "valve.sonic_conductance": "m^3/(s*Pa)",
+  "valve.exhaust_conductance": "m^3/(s*Pa)",
+  "valve.critical_pressure_ratio": "1",
+  "valve.exhaust_critical_pressure_ratio": "1",
+  "valve.nominal_flow": "m^3/s",
+  "tube.inside_diameter": "m",
+  "tube.length": "m",
+  "load.mass": "kg",
+  "load.force": "N",
+  "load.inclination": "rad",
+  "load.spring": "N/m",
+  "load.lever_ratio": "1",
+  "load.pulley_radius": "m",
+  "load.precontraction": "1",
+  "gas.polytropic_exponent": "1",
+  "gas.wall_heat_transfer": "W/(m^2*K)",
+  "gas.temperature": "K",
+  "gas.ambient_pressure": "Pa",
+  "gas.dead_volume": "m^3",
+  "stops.min_contraction": "1",
+  "stops.max_contraction": "1",
+  "stops.restitution": "1",
+  duration: "s",
+  "muscle.nominal_length": "m",
+  "muscle.braid_diameter": "m",
+  "muscle.braid_angle": "rad",
+  "muscle.thread_length": "m",
+  "muscle.turns": "1",
+  "muscle.inside_diameter": "m",
+  "muscle.wall_thickness": "m",
+};
+const ABSOLUTE = "gas.ambient_pressure";
+
+/** How a text at a path is read: its unit, and what a pressure is counted from. An ambient pressure that is a gauge
+ * one is so relative to the standard atmosphere.
+ * @param {Drive} document @param {string} path @returns {import("../quantities.js").Counted & {unit?: string}} */
+export function countedAt(document, path) {
+  const unit = UNITS[path];
+  if (unit !== "Pa") return unit ? { unit } : {};
+  if (path === ABSOLUTE) return { unit, reference: "absolute" };
+  const ambient = siNumber(at(document, ABSOLUTE), countedAt(document, ABSOLUTE));
+  return { unit, reference: "gauge", ambient: ambient ?? ATMOSPHERE };
+}
+
+/** A document or a part of one with every quantity such as "6 bar" as a number in SI; what cannot be read stays for
+ * the server. @param {any} document @returns {any} */
+export const inSi = (document) => converted(document, "", document);
+
+/** @param {any} part @param {string} path @param {any} whole @returns {any} */
+function converted(part, path, whole) {
+  const key = path.slice(path.lastIndexOf(".") + 1);
   if (NAMES.has(key) || key === "fittings") return part;
   if (isObject(part)) {
     if (Array.isArray(part.values) && typeof part.unit === "string") {
       return part.values.map((/** @type {unknown} */ v) => siNumber(`${v} ${part.unit}`) ?? v);
     }
-    return Object.fromEntries(Object.entries(part).map(([name, value]) => [name, inSi(value, name)]));
+    return Object.fromEntries(
+      Object.entries(part).map((
+        [name, value],
+      ) => [name, converted(value, path ? `${path}.${name}` : name, whole)]),
+    );
   }
-  if (Array.isArray(part)) return part.map((value) => inSi(value, key));
+  if (Array.isArray(part)) return part.map((value) => converted(value, path, whole));
   if (typeof part !== "string") return part;
-  const si = siNumber(part);
+  const si = siNumber(part, countedAt(whole, path));
   if (si === null) return part;
   return GAINS.has(key) && /[a-z%]/i.test(part) ? si / PERCENT_PER_MM : si;
 }

@@ -19,6 +19,7 @@ import { plotly } from "./library.js";
  * export if they are not simply the lines.
  * @typedef {{x: Axis, y: Axis, y2?: Axis, traces: Trace[], zones: Zone[], labels?: Label[],
  *   revision: string, level?: {y: number, text: string}, bands?: Band[], marks?: number[],
+ *   states?: {title: string, isSo: boolean[]}[],
  *   brush?: (range: [number, number] | null) => void, zoomed?: (ranges: Ranges | null) => void,
  *   table?: import("../ui/table.js").Table}} Spec */
 

@@ -40,6 +40,10 @@ async function svgOf(chart, title) {
   return decodeURIComponent(url.slice(url.indexOf(",") + 1));
 }
 
+/** Bands along an edge of the plot, as shares of its height; all others fill it.
+ * @type {Record<string, [number, number]>} */
+const EDGES = { contact: [0, 0.03], slack: [0.04, 0.07] };
+
 /** Bands and marks, which the page draws under the plot. @param {import("./chart.js").Spec} spec */
 const bands = (spec) => [
   ...(spec.bands ?? []).map(({ x, kind }) => ({
@@ -48,9 +52,9 @@ const bands = (spec) => [
     yref: "paper",
     x0: x[0],
     x1: x[1],
-    y0: 0,
-    y1: kind === "contact" ? 0.03 : 1,
-    fillcolor: kind === "contact" ? LIGHT.soft : LIGHT.zone,
+    y0: EDGES[kind]?.[0] ?? 0,
+    y1: EDGES[kind]?.[1] ?? 1,
+    fillcolor: kind === "contact" ? LIGHT.soft : kind === "slack" ? LIGHT.ink : LIGHT.zone,
     line: { width: 0 },
   })),
   ...(spec.marks ?? []).map((x) => ({
@@ -157,15 +161,20 @@ export async function saveSheet(charts, format, name) {
 function chartTable(chart) {
   const spec = chart.spec;
   if (spec?.table) return spec.table;
-  const lines = spec?.traces.filter((t) => t.line) ?? [];
+  const lines = spec?.traces.filter((t) => t.line) ?? [], states = spec?.states ?? [];
   const [xTitle, xUnit] = split(spec?.x.title ?? "");
   const [, yUnit] = split(spec?.y.title ?? ""), [, rightUnit] = split(spec?.y2?.title ?? "");
   return {
     columns: [
       { title: xTitle, unit: xUnit },
       ...lines.map((t) => ({ title: t.column ?? t.id, unit: t.axis === 2 ? rightUnit : yUnit })),
+      ...states.map(({ title }) => ({ title, text: true })),
     ],
-    rows: (lines[0]?.x ?? []).map((x, i) => [x, ...lines.map((t) => t.y[i] ?? null)]),
+    rows: (lines[0]?.x ?? []).map((x, i) => [
+      x,
+      ...lines.map((t) => t.y[i] ?? null),
+      ...states.map(({ isSo }) => Number(isSo[i])),
+    ]),
   };
 }
 /** "Force (N)" → ["Force", "N"]. @param {string} title */

@@ -11,8 +11,10 @@ import { niceStep, number, parse, toShown, toSi } from "../format.js";
  *   scale: () => Scale, get: () => number | null, put: (si: number, done: boolean) => void,
  *   bounds?: () => [number, number], strict?: boolean, log?: boolean, slider?: boolean,
  *   changed?: () => boolean, reset?: () => void, message?: () => string | null, hint?: string,
- *   clear?: () => void, empty?: string}} FieldOptions  `bounds` in SI: the range of the slider,
- *   and with `strict` of accepted values; `clear` allows an empty field, which then shows `empty` */
+ *   clear?: () => void, empty?: string,
+ *   counted?: () => import("../quantities.js").Counted}} FieldOptions  `bounds` in SI: the range of the slider,
+ *   and with `strict` of accepted values; `clear` allows an empty field, which then shows `empty`; `counted`: what a
+ *   typed pressure may be counted from */
 
 /** A symbol with its subscript: "p_s". @param {string} symbol */
 export const subscript = (symbol) => {
@@ -60,7 +62,7 @@ export function quantityField(o) {
 
   /** @param {string} text @returns {{value: number} | {error: string}} */
   const read = (text) => {
-    const got = parse(text, o.scale(), o.quantity, shown());
+    const got = parse(text, o.scale(), o.quantity, shown(), o.counted?.());
     if ("error" in got || !o.strict || !o.bounds) return got;
     const [low, high] = o.bounds(), slack = 1e-9 * Math.max(Math.abs(low), Math.abs(high));
     if (got.value >= low - slack && got.value <= high + slack) return got;

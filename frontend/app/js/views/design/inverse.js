@@ -92,6 +92,7 @@ const inputField = (key) =>
     label: INPUTS[key].label,
     quantity: INPUTS[key].quantity,
     slider: false,
+    counted: () => INPUTS[key].quantity === "pressure" ? { reference: "gauge" } : {},
     bounds: () => [0, Math.max(2 * start(key), 1e-3)],
     scale: () => scaleOf(INPUTS[key].quantity, units.value),
     get: () => value(key),

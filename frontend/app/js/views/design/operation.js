@@ -17,6 +17,8 @@ import { siOf } from "../../format.js";
 const MOST = 12;
 const pressures = computed(() => design.value.pressures);
 const direction = computed(() => design.value.direction);
+/** @type {import("../../quantities.js").Counted} */
+const GAUGE = { reference: "gauge" };
 const pressureScale = () => scaleOf("pressure", units.value);
 
 /** @param {number[]} list @param {string} label */
@@ -56,7 +58,7 @@ function pressureEditor() {
   const add = () => {
     if (!input.value.trim()) return;
     const parts = input.value.trim().split(/\s*[;\s]\s*(?=[-+\d.])/);
-    const read = parts.map((part) => parse(part, pressureScale(), "pressure"));
+    const read = parts.map((part) => parse(part, pressureScale(), "pressure", undefined, GAUGE));
     const bad = read.find((r) => "error" in r);
     const values = read.flatMap((r) => ("value" in r ? [r.value] : []));
     if (bad && "error" in bad) return void (wrong.value = bad.error);
@@ -115,6 +117,7 @@ function spaced() {
       quantity,
       slider: false,
       strict: true,
+      counted: () => quantity === "pressure" ? GAUGE : {},
       bounds: () => bounds,
       scale: () => scaleOf(quantity, units.value),
       get: () => value.value,

@@ -1,7 +1,7 @@
 // @ts-check
 // The Transient view's part of the document: the drive as a drive document has it, without the muscle and its
 // effects, which belong to the design; and what is shown of the run.
-import { defaultDrive, isDrive, withArrangement } from "../../drive/document.js";
+import { defaultDrive, inSi, isDrive, withArrangement } from "../../drive/document.js";
 import { isObject } from "../../paths.js";
 import { addPart } from "../../state.js";
 
@@ -37,7 +37,7 @@ function readTransient(raw) {
   const pins = Array.isArray(raw.pins) ? raw.pins : [];
   const sound = pins.filter((p) => isObject(p) && typeof p.name === "string" && isDrive(p.drive));
   const { window: w, measurement: m, phase: z } = raw;
-  const drive = raw.drive ?? start.drive;
+  const drive = raw.drive ? inSi(raw.drive) : start.drive;
   const isZoomed = isObject(z) && isRange(z.pressure) && isRange(z.contraction);
   const isFile = isObject(m) && typeof m.id === "string" && typeof m.name === "string";
   return {

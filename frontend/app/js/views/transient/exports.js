@@ -7,6 +7,7 @@ import { status } from "../../store.js";
 import { saveSheet } from "../../plots/export.js";
 import { downloadText, fileName, toCsv } from "../../ui/table.js";
 import { shownCharts } from "./plots/charts.js";
+import { STATES } from "./plots/specs.js";
 import { documentNow, simulate } from "./model.js";
 
 /** @typedef {import("../../types.js").Run} Run */
@@ -61,7 +62,7 @@ function runTable(r) {
     columns: [
       { title: "time", unit: "s" },
       ...present.map(({ title, quantity }) => ({ title, unit: scaleOf(quantity, system).unit })),
-      { title: "contact", unit: "" },
+      ...STATES.map((title) => ({ title, unit: "" })),
     ],
     rows: r.time.map((t, i) => [
       t,
@@ -69,7 +70,7 @@ function runTable(r) {
         const value = values[i];
         return value === null ? null : toShown(value, scaleOf(quantity, system));
       }),
-      r.contact[i] ? 1 : 0,
+      ...STATES.map((key) => r[key][i] ? 1 : 0),
     ]),
   };
 }

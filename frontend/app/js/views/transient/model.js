@@ -9,8 +9,8 @@ import { presets, status } from "../../store.js";
 import { openDrive } from "../../drive/open.js";
 import { preset, presetEffects as muscleEffects } from "../../muscle/preset.js";
 import { defaultTransient, driveDocument } from "./document.js";
-import { arrangementOf, inclinationOf, inSi, partsOfDrive } from "../../drive/document.js";
-import { at, put } from "../../paths.js";
+import { arrangementOf, countedAt, inclinationOf, inSi, partsOfDrive } from "../../drive/document.js";
+import { at, isObject, put } from "../../paths.js";
 import { siNumber } from "../../quantities.js";
 
 /** @typedef {import("../../types.js").Run} Run */
@@ -34,15 +34,27 @@ export const editTransient = (patch, label) => edit(patchTransient(patch), label
 /** Changes what is shown, without an undo step. @param {Partial<Transient>} patch */
 export const lookTransient = (patch) => look(patchTransient(patch));
 
+/** Parts that say nothing when they are empty. */
+const OPTIONAL = ["gas", "stops", "start"];
+/** @param {Drive} drive @returns {Drive} */
+const withoutEmpty = (drive) =>
+  OPTIONAL.reduce(
+    (rest, key) => isObject(rest[key]) && !Object.keys(rest[key]).length ? put(rest, key, undefined) : rest,
+    drive,
+  );
+
 /** @param {string} path @param {unknown} value undefined removes it @param {string} label
  * @param {boolean} [done] false while a slider still moves */
 export function setDrive(path, value, label, done = true) {
-  preview((d) => ({ ...d, transient: { ...d.transient, drive: put(d.transient.drive, path, value) } }));
+  preview((d) => ({
+    ...d,
+    transient: { ...d.transient, drive: withoutEmpty(put(d.transient.drive, path, value)) },
+  }));
   if (done) commit(label);
 }
 
 /** A number of the drive in SI; null: not given. @param {string} path @returns {number | null} */
-export const numberAt = (path) => siNumber(at(drive.value, path));
+export const numberAt = (path) => siNumber(at(drive.value, path), countedAt(drive.value, path));
 
 export const arrangement = computed(() => arrangementOf(drive.value.load));
 export const inclination = computed(() => inclinationOf(drive.value.load));

@@ -1,5 +1,5 @@
 // @ts-check
-// Columns of runs and measurements: values at other times, contact intervals, the row at a time. Pure functions.
+// Columns of runs and measurements: values at other times, intervals, the row at a time. Pure functions.
 
 /** @typedef {import("../../types.js").Run} Run */
 /** @typedef {import("../../types.js").Measured} Measured */
@@ -20,17 +20,18 @@ export function resampled(time, values, wanted) {
   });
 }
 
-/** Time intervals in contact with a stop. @param {Run} run @returns {[number, number][]} */
-export function contacts({ time, contact }) {
+/** The time intervals in which something is so at each row. @param {number[]} time @param {boolean[]} isSo
+ * @returns {[number, number][]} */
+export function intervals(time, isSo) {
   /** @type {[number, number][]} */
-  const intervals = [];
-  contact.forEach((on, i) => {
+  const found = [];
+  isSo.forEach((on, i) => {
     if (!on) return;
-    const last = intervals.at(-1);
-    if (last && contact[i - 1]) last[1] = time[i];
-    else intervals.push([time[i], time[i]]);
+    const last = found.at(-1);
+    if (last && isSo[i - 1]) last[1] = time[i];
+    else found.push([time[i], time[i]]);
   });
-  return intervals.filter(([from, to]) => to > from);
+  return found.filter(([from, to]) => to > from);
 }
 
 /** Values of a run without those at a stop, where an impact would dwarf all others.

@@ -9,6 +9,7 @@ import { openDialog } from "../../../ui/dialog.js";
 import { quantityField } from "../../../ui/field.js";
 import { at, put } from "../../../paths.js";
 import { siNumber } from "../../../quantities.js";
+import { countedAt } from "../../../drive/document.js";
 import { IDEAL, PROVIDED, withStartModel } from "../document.js";
 import { driveFor, needsDrive, readDrive } from "../drive-document.js";
 import { infos } from "../measurement/files.js";
@@ -84,7 +85,8 @@ const field = (path, label, quantity, empty) =>
     empty,
     slider: false,
     scale: () => scaleOf(quantity, units.value),
-    get: () => siNumber(at(drive.value ?? {}, path)),
+    get: () => siNumber(at(drive.value ?? {}, path), countedAt(drive.value ?? {}, path)),
+    counted: () => countedAt(drive.peek() ?? {}, path),
     put: (si, done) => {
       preview(patchCompare({ drive: put(compare.peek().drive ?? {}, path, si) }));
       if (done) commit(label.toLowerCase());

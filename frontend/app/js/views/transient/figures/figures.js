@@ -53,7 +53,10 @@ function keyFigures(r) {
       : big(
         "Air per cycle",
         withUnit(extend.air_volume_anr, "normal", system),
-        "Taken from the supply for one filling, at ANR",
+        [
+          "Taken from the supply for one filling, with the tube, at ANR.",
+          r.timing.notes["extend.air_volume_anr"] ?? r.timing.notes["extend.air_mass"],
+        ].filter(Boolean).join(" "),
       ),
   );
 }
@@ -119,6 +122,15 @@ const remarks = (r) =>
     h("p", { class: "muted" }, `${readable(where)}: ${text}`)
   );
 
+/** Where the run starts and why, and how the air is modelled. */
+function conditions() {
+  const r = run.value;
+  if (!r) return "";
+  const { position, contraction, reason } = r.start, system = units.value;
+  return `Starts at ${withUnit(position, "length", system)} (${withUnit(contraction, "ratio", system)}), ` +
+    `${reason}. Air: ${r.gas}.`;
+}
+
 function tracking() {
   const t = run.value?.tracking;
   if (!t) return null;
@@ -178,6 +190,7 @@ export function figureCards() {
       { class: "card", "aria-label": "Run" },
       h("div", { class: "card-head" }, h("h2", null, "Run")),
       h("div", { class: "verdicts" }, verdict),
+      h("p", { class: "hint", id: "run-start" }, conditions),
       h("p", { class: "runline" }, runLine),
     ),
     jointCard,

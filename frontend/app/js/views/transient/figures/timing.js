@@ -9,6 +9,9 @@ import { run } from "../model.js";
 /** @typedef {import("../../../types.js").Run} Run */
 /** @typedef {[key: string, label: string, quantity: Quantity, definition: string]} Figure */
 
+const ALONG = "A magnitude along the motion of its column: filling shortens, venting lengthens.";
+const SHORTER = "Positive towards shorter, in both columns.";
+
 /** The timing table, in the order an engineer reads it. @type {[string, Figure[]][]} */
 const FIGURES = [
   ["Motion", [
@@ -26,24 +29,24 @@ const FIGURES = [
       "lapse",
       "After this time the position stays within 5 % of the stroke.",
     ],
-    ["average_speed", "Average speed", "speed", "Stroke over positioning time."],
-    ["max_speed", "Greatest speed", "speed", "Including the moment before an impact."],
+    ["average_speed", "Average speed", "speed", `Travel up to the arrival over positioning time. ${ALONG}`],
+    ["max_speed", "Greatest speed", "speed", `Including the moment before an impact. ${ALONG}`],
     ["max_speed_at", "… at", "lapse", "When, from switching."],
     [
       "max_acceleration",
       "Greatest acceleration",
       "acceleration",
-      "Positive when the muscle shortens, in both columns. Impacts are not included.",
+      `${SHORTER} Impacts are not included.`,
     ],
     ["max_acceleration_at", "… at", "lapse", "When, from switching."],
     [
       "min_acceleration",
       "Smallest acceleration",
       "acceleration",
-      "Positive when the muscle shortens, in both columns. Impacts are not included.",
+      `${SHORTER} Impacts are not included.`,
     ],
     ["min_acceleration_at", "… at", "lapse", "When, from switching."],
-    ["end_speed", "End speed", "speed", "At the impact; without one, on arrival."],
+    ["end_speed", "End speed", "speed", `At the impact; without one, on arrival. ${ALONG}`],
     ["impact_energy", "Impact energy", "energy", "½ m v² of the first impact on a stop."],
     ["overshoot", "Overshoot", "ratio", "Largest travel beyond the stroke, as a share of it."],
   ]],
@@ -138,28 +141,34 @@ export function timingTable() {
   );
 }
 
-/** Why figures are missing, each reason once. */
+/** Why figures are missing, and remarks on others; each text once. */
 export function reasons() {
   const r = run.value;
   if (!r) return null;
   /** @type {Map<string, string[]>} */
-  const why = new Map();
+  const why = new Map(), remarks = new Map();
   for (const [phase, name] of PHASES) {
-    const empty = ALL_FIGURES.filter(([key]) => figureOf(r, phase, key) === null);
-    for (const [key, label] of empty) {
-      const text = `${name}: ${r.timing.notes[`${phase}.${key}`] ?? "not available"}`;
-      if (!label.startsWith("…")) why.set(text, [...why.get(text) ?? [], label.toLowerCase()]);
+    for (const [key, label] of ALL_FIGURES) {
+      const isMissing = figureOf(r, phase, key) === null, note = r.timing.notes[`${phase}.${key}`];
+      if (label.startsWith("…") || (!isMissing && !note)) continue;
+      const text = `${name}: ${note ?? "not available"}`, group = isMissing ? why : remarks;
+      group.set(text, [...group.get(text) ?? [], label.toLowerCase()]);
     }
   }
-  if (!why.size) return null;
+  return [noteList("Why figures are missing", why), noteList("Remarks on figures", remarks)];
+}
+
+/** @param {string} title @param {Map<string, string[]>} notes text -> names of the figures */
+function noteList(title, notes) {
+  if (!notes.size) return null;
   return h(
     "details",
-    { class: "reasons" },
-    h("summary", null, "Why figures are missing"),
+    { class: "figure-notes" },
+    h("summary", null, title),
     h(
       "ul",
       { class: "plain muted" },
-      ...[...why].map(([text, labels]) =>
+      ...[...notes].map(([text, labels]) =>
         h("li", null, `${text} (${labels.length > 4 ? `${labels.length} figures` : labels.join(", ")}).`)
       ),
     ),

@@ -5,10 +5,12 @@ import { units } from "../../../state.js";
 import { scaleOf, siOf } from "../../../format.js";
 import { quantityField, subscript } from "../../../ui/field.js";
 import { at } from "../../../paths.js";
+import { countedAt } from "../../../drive/document.js";
 import { siNumber } from "../../../quantities.js";
 import {
   arrangement,
   baseDrive,
+  drive,
   messageFor,
   numberAt,
   partPreset,
@@ -19,10 +21,11 @@ import {
 import { middleOf } from "../series.js";
 
 /** @typedef {import("../../../format.js").Quantity} Quantity */
-/** `usual`: the default in SI.
- * @typedef {{label: string, symbol?: string, quantity: Quantity, unit?: string, bounds: [number, number],
- *   log?: boolean, usual?: number | (() => number | null | undefined), hint?: string,
- *   slider?: boolean}} Spec */
+/** `usual`: the default in SI; `empty`: what an empty field shows, where no value is a choice too.
+ * @typedef {{label: string, symbol?: string, quantity: Quantity, unit?: string,
+ *   bounds: [number, number] | (() => [number, number]), log?: boolean,
+ *   usual?: number | (() => number | null | undefined), hint?: string, slider?: boolean,
+ *   empty?: string}} Spec */
 
 const DEG = Math.PI / 180;
 const GAIN = { quantity: /** @type {Quantity} */ ("number"), log: false };
@@ -136,7 +139,7 @@ export const SPECS = {
     quantity: "ratio",
     bounds: [-0.03, 0.2],
     usual: 0,
-    hint: "The load rests here without pressure.",
+    hint: "A hanging load rests here without pressure.",
   },
   "stops.max_contraction": {
     label: "Upper stop",
@@ -148,13 +151,42 @@ export const SPECS = {
       return r && middleOf(r) + (r.limits.position_max * ratio) / r.geometry.nominal_length;
     },
   },
+  "stops.restitution": {
+    label: "Rebound",
+    symbol: "e",
+    quantity: "number",
+    bounds: [0, 0.9],
+    usual: 0,
+    hint: "Share of the speed with which the load leaves a stop after the impact. 0: it stays there.",
+  },
+  "start.position": {
+    label: "Start position",
+    symbol: "x_0",
+    quantity: "length",
+    bounds: () => {
+      const limits = run.value?.limits;
+      return limits ? [limits.position_min, limits.position_max] : [0, 0.1];
+    },
+    slider: false,
+    empty: "at rest",
+    hint: "Of the load, positive towards shorter. Empty: where it rests at the initial pressure.",
+  },
+  "gas.wall_heat_transfer": {
+    label: "Heat transfer to the wall",
+    symbol: "h",
+    quantity: "number",
+    unit: "W/(m²·K)",
+    bounds: [0, 1000],
+    usual: 100,
+    hint: "Not verified: 20 to 60 at rest, several hundred during a fast fill. 0: adiabatic.",
+  },
   "gas.polytropic_exponent": {
     label: "Polytropic exponent",
     symbol: "n",
     quantity: "number",
     bounds: [1, 1.4],
     usual: 1.2,
-    hint: "1 isothermal, 1.4 adiabatic.",
+    hint: "1 isothermal, 1.4 adiabatic. The mass of the air is then not conserved.",
   },
   "gas.temperature": {
     label: "Temperature",
@@ -211,7 +243,7 @@ function regulatorFigure(key) {
 
 /** @param {Spec} spec @param {string} path */
 function usualOf(spec, path) {
-  const base = siNumber(at(baseDrive.value, path));
+  const base = siNumber(at(baseDrive.value, path), countedAt(baseDrive.value, path));
   if (base !== null) return base;
   return (typeof spec.usual === "function" ? spec.usual() : spec.usual) ?? null;
 }
@@ -219,7 +251,9 @@ function usualOf(spec, path) {
 /** @param {string} path @param {Spec} [spec] */
 export function driveField(path, spec = SPECS[path]) {
   const label = spec.label.toLowerCase();
-  const value = () => numberAt(path) ?? usualOf(spec, path);
+  // No value is a value of its own where the field may be empty, whatever the scenario says.
+  const value = () => numberAt(path) ?? (spec.empty ? null : usualOf(spec, path));
+  const { bounds, empty } = spec;
   return quantityField({
     key: path,
     label: spec.label,
@@ -229,11 +263,15 @@ export function driveField(path, spec = SPECS[path]) {
     hint: spec.hint,
     slider: spec.slider,
     scale: () => spec.unit ? { unit: spec.unit, factor: 1, digits: 4 } : scaleOf(spec.quantity, units.value),
-    bounds: () => spec.bounds,
+    bounds: typeof bounds === "function" ? bounds : () => bounds,
+    counted: () => countedAt(drive.peek(), path),
+    empty,
+    clear: empty ? () => setDrive(path, undefined, `${label} ${empty}`) : undefined,
     get: value,
     put: (si, done) => setDrive(path, si, label, done),
     changed: () => {
       const set = numberAt(path), usual = usualOf(spec, path);
+      if (empty && (set === null || usual === null)) return set !== usual;
       return set !== null && usual !== null &&
         Math.abs(set - usual) > 1e-6 * Math.max(Math.abs(set), Math.abs(usual));
     },

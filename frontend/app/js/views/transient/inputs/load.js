@@ -1,5 +1,5 @@
 // @ts-check
-// The load: arrangement and its fields, external force, spring, end stops.
+// The load: arrangement and its fields, external force, spring, end stops, start position.
 import { h } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
 import { units } from "../../../state.js";
@@ -73,14 +73,19 @@ function springFields() {
 /** The end stops as positions of the load. */
 function stopsText() {
   const r = run.value;
-  if (!r) return "End stops";
+  if (!r) return "End stops, start";
   const { position_min: low, position_max: high } = r.limits, s = scaleOf("length", units.value);
   const asText = (/** @type {number} */ si) => number(toShown(si, s), 1);
-  return `End stops: ${asText(low)} to ${asText(high)} ${s.unit}`;
+  return `End stops: ${asText(low)} to ${asText(high)} ${s.unit}; start`;
 }
 
 export function loadCard() {
-  const stopped = anyGiven("stops.min_contraction", "stops.max_contraction");
+  const stopped = anyGiven(
+    "stops.min_contraction",
+    "stops.max_contraction",
+    "stops.restitution",
+    "start.position",
+  );
   return h(
     "section",
     { class: "card", "aria-label": "Load" },
@@ -107,6 +112,8 @@ export function loadCard() {
           ? driveField("stops.min_contraction", { ...SPECS["stops.min_contraction"], hint: PAIR_STOP })
           : driveField("stops.min_contraction"),
       driveField("stops.max_contraction"),
+      driveField("stops.restitution"),
+      driveField("start.position"),
     ),
   );
 }

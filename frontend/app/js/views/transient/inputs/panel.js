@@ -4,7 +4,7 @@ import { h } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
 import { units } from "../../../state.js";
 import { design, showMuscle } from "../../../muscle/document.js";
-import { brief, siOf, withUnit } from "../../../format.js";
+import { siOf, withUnit } from "../../../format.js";
 import { effectsCard, isStatic } from "../../../muscle/effects.js";
 import { preset } from "../../../muscle/preset.js";
 import { driveField, partMessage } from "./fields.js";
@@ -14,7 +14,6 @@ import {
   messageWithin,
   mode,
   muscleName,
-  numberAt,
   presetEffects,
   regulated,
   run,
@@ -23,6 +22,7 @@ import {
   transient,
   useScenario,
 } from "../model.js";
+import { airCard } from "./air.js";
 import { loadCard } from "./load.js";
 import { signalFields } from "./signals.js";
 import { supplyCard } from "./supply.js";
@@ -145,30 +145,6 @@ function commandCard() {
             : " The second muscle gets the opposite.",
         )
         : null,
-  );
-}
-
-function airCard() {
-  const paths = [
-    "gas.polytropic_exponent",
-    "gas.temperature",
-    "gas.dead_volume",
-    "gas.ambient_pressure",
-    "start_pressure",
-  ];
-  return h(
-    "section",
-    { class: "card", "aria-label": "Air and start" },
-    h(
-      "details",
-      null,
-      h(
-        "summary",
-        null,
-        () => `Air: exponent ${brief(numberAt("gas.polytropic_exponent") ?? 1.2)}, temperature, start`,
-      ),
-      ...paths.map((path) => driveField(path)),
-    ),
   );
 }
 

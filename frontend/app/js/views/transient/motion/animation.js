@@ -13,6 +13,7 @@ import { pairPicture } from "./pair-picture.js";
 /** @typedef {import("../../../types.js").Run} Run */
 
 const HEIGHT = 118, LEFT = 26, RIGHT = 92, BLOCK = 56, STEPPED_MS = 250;
+const SAG = 8; // px: that a muscle is slack, not by how much
 
 /** @param {(number | null)[]} values */
 const greatest = (values) => values.reduce((/** @type {number} */ most, v) => Math.max(most, v ?? 0), 0);
@@ -77,7 +78,8 @@ function picture() {
     const length = r?.length[i], diameter = r?.diameter[i];
     if (!s || !r || length == null || diameter == null) return;
     const cap = (s.scale * r.geometry.braid_diameter) / 2, end = s.scale * length, x = LEFT + end;
-    body.setAttribute("d", outline(end, cap, (s.scale * diameter) / 2, y));
+    body.setAttribute("d", outline(end, cap, (s.scale * diameter) / 2, y, r.slack[i] ? SAG : 0));
+    body.classList.toggle("slack", r.slack[i]);
     body.setAttribute("transform", `translate(${LEFT})`);
     place(rod, { x1: x, x2: x + 12, y1: y, y2: y });
     place(first, { cx: x, cy: y });
@@ -215,6 +217,7 @@ export function stageCard() {
       "ul",
       { class: "legend key" },
       h("li", null, h("i", { class: "hatch" }), "on a stop"),
+      h("li", null, h("i", { class: "slack" }), () => paired.value ? "muscle 1 slack" : "muscle slack"),
       h("li", null, h("i", { class: "fill" }), "choked filling"),
       h("li", null, h("i", { class: "exhaust" }), "choked venting"),
       h("li", null, h("i", { class: "instant" }), "switching"),

@@ -99,6 +99,7 @@ export function pairPicture(width) {
       place(cables[n], { x1: x, y1: y, x2: s.x, y2: s.y - sense * s.rim });
       place(names[n], { x: LEFT + 16, y: y + 4 });
     });
+    bodies[0].classList.toggle("slack", r.slack[i]); // the answer says it of the first muscle only
     spoke(hand, s, angle, 0, s.rim + 5);
     hand.classList.toggle("touching", Boolean(r.contact[i]));
   });

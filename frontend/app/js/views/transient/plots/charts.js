@@ -37,6 +37,8 @@ const angle = plot("angle", "Joint angle", "Angle of the pulley over time");
 const torque = plot("torque", "Joint torque", "Torque of both muscles on the pulley over time");
 const stiffness = plot("stiffness", "Joint stiffness", "Stiffness of the joint over time");
 
+const SHORTER = "Positive towards shorter, also while venting";
+const signed = [position, speed, acceleration];
 const joint = [angle, torque, stiffness];
 const overTime = [position, pressure, speed, lower, acceleration, ...joint];
 /** All plots of the run with their titles, for the export as one sheet. */
@@ -141,7 +143,11 @@ function frame(one, ...head) {
     h(
       "div",
       { class: "card-head" },
-      h("h2", { class: one === lower ? "unseen" : null }, one.title),
+      h(
+        "h2",
+        { class: one === lower ? "unseen" : null, title: signed.includes(one) ? SHORTER : null },
+        one.title,
+      ),
       ...head,
       menuButton({
         label: icon("more"),

@@ -4,6 +4,7 @@ import { scaleOf, toShown, toSi } from "../../../format.js";
 import { axisTitle, extent, shown, steadyRange } from "../../../plots/axes.js";
 import { pressureColour } from "../../../plots/theme.js";
 import { middleOf } from "../series.js";
+import { STATES } from "./specs.js";
 
 /** @typedef {import("../../../types.js").Run} Run */
 /** @typedef {import("../../../types.js").Curves} Curves */
@@ -174,13 +175,20 @@ export function phaseSpec(o, p) {
 export function phaseTable(run, system) {
   const s = scaleOf("pressure", system);
   return {
-    columns: [{ title: "Time", unit: "s" }, { title: "Pressure", unit: s.unit }, {
-      title: "Contraction",
-      unit: "%",
-    }],
+    columns: [
+      { title: "Time", unit: "s" },
+      { title: "Pressure", unit: s.unit },
+      { title: "Contraction", unit: "%" },
+      ...STATES.map((title) => ({ title, text: true })),
+    ],
     rows: run.time.map((t, i) => {
       const p = run.pressure[i], k = run.contraction[i];
-      return [t, p == null ? null : toShown(p, s), k == null ? null : 100 * k];
+      return [
+        t,
+        p == null ? null : toShown(p, s),
+        k == null ? null : 100 * k,
+        ...STATES.map((key) => Number(run[key][i])),
+      ];
     }),
   };
 }

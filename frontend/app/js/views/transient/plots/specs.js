@@ -2,7 +2,7 @@
 // What each plot over time shows: lines, bands and marks in the user's units. Pure functions.
 import { axisTitle, extent, shown, steadyRange } from "../../../plots/axes.js";
 import { scaleOf } from "../../../format.js";
-import { contacts, measuredColumn, resampled, withoutImpacts } from "../series.js";
+import { intervals, measuredColumn, resampled, withoutImpacts } from "../series.js";
 
 /** @typedef {import("../../../plots/chart.js").Spec} Spec */
 /** @typedef {import("../../../plots/chart.js").Trace} Trace */
@@ -23,6 +23,9 @@ import { contacts, measuredColumn, resampled, withoutImpacts } from "../series.j
 /** Colours that differ from the accent and from each other, also for colour-blind readers. @param {Palette} p */
 export const pinColours = (p) =>
   p.dark ? ["#c9a2ff", "#4fd1c0", "#e6c54a", "#ff8fbf"] : ["#7b3fb5", "#00776b", "#8a6a00", "#b3206e"];
+
+/** What a row of a run is, besides its values. @type {("contact" | "slack")[]} */
+export const STATES = ["contact", "slack"];
 
 /** @param {View} v @param {Palette} p @param {{key: string, title: string, quantity: Quantity, lines: Line[],
  *   dots?: {x: number[], y: (number | null)[]} | null, within?: (number | null)[][], zero?: boolean,
@@ -72,9 +75,10 @@ export function overTime(v, p, o) {
     labels: all,
     bands: [
       ...run.choked.map((c) => ({ x: /** @type {[number, number]} */ ([c.from, c.to]), kind: c.side })),
-      ...contacts(run).map((x) => ({ x, kind: "contact" })),
+      ...STATES.flatMap((kind) => intervals(run.time, run[kind]).map((x) => ({ x, kind }))),
     ],
     marks: v.switches,
+    states: STATES.map((title) => ({ title, isSo: run[title] })),
     brush: v.brush,
     revision: `${span}${system}`,
   };
