@@ -5,18 +5,17 @@ Both go through the same step (`mckibben.simulation.integrate.rodas.advance`) an
 
 from __future__ import annotations
 
-import zlib
-from collections.abc import Callable
 from enum import IntEnum
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numba import njit
 
 from mckibben.simulation.command import pid
-from mckibben.simulation.integrate import rodas
-from mckibben.simulation.integrate.rodas import advance, buffers_of, call, packed_for
+from mckibben.simulation.integrate import coefficients, rodas, switching
+from mckibben.simulation.integrate.rodas import advance, buffers_of, packed_for
+from mckibben.simulation.integrate.stamp import stamped_with
+from mckibben.simulation.integrate.switching import call
 
 _pid_step: Any = pid.compiled_pid_step()
 
@@ -30,17 +29,7 @@ class Status(IntEnum):
     NOT_FINITE = 3
 
 
-def _stamped(function: Callable[..., int]) -> Callable[..., int]:
-    """Name a function by a hash of its sources.
-
-    numba's cache goes by the name, and by the age of this file alone: a change of the others must not leave
-    it with old code.
-    """
-    sources = b"".join(Path(str(module.__file__)).read_bytes() for module in (pid, rodas))
-    function.__qualname__ += f"_{zlib.crc32(sources):08x}"
-    return function
-
-
+_stamped = stamped_with(pid, coefficients, switching, rodas)
 _PLAN = (
     "Tuple((uint64[::1],uint64[::1],uint64[::1],uint64[:,::1],uint64[::1],uint64[:,::1],uint64[:,::1],"
     "uint64[:,::1]))"
