@@ -22,10 +22,10 @@ _FEATURES = "-prefer-256-bit"
 Functions = Mapping[str, tuple[Sequence[Any], Sequence[Any]]]
 
 
-def aligned(*shape: int) -> np.ndarray:
-    """An array of zeros at an address that rows of lanes may have."""
+def aligned(*shape: int, zeros: bool = True) -> np.ndarray:
+    """An array at an address that rows of lanes may have; of zeros, or of anything."""
     count = int(np.prod(shape))
-    raw = np.zeros(count + _ALIGNED // 8)
+    raw = (np.zeros if zeros else np.empty)(count + _ALIGNED // 8)
     skip = -raw.ctypes.data % _ALIGNED // 8
     return raw[skip : skip + count].reshape(shape)
 

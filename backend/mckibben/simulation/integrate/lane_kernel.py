@@ -13,113 +13,90 @@ from numba import njit
 
 from mckibben.simulation.integrate import (
     coefficients,
+    lane_control,
+    lane_events,
     lane_outputs,
     lane_step,
     lane_type,
     lane_writer,
     switching,
 )
-from mckibben.simulation.integrate.lane_outputs import finish
-from mckibben.simulation.integrate.lane_step import (
+from mckibben.simulation.integrate.lane_control import (
     ACCEPTED,
+    ACTIVE,
+    END,
     ERROR,
-    FACTOR,
-    FLAG,
+    FRESH,
     HOPELESS,
     INSTANT,
+    LANDING,
+    LAST,
+    NEXT_ROW,
+    REACHED,
+    REJECTED,
     STEP,
-    attempt,
-    factor_of,
-    write_column,
-    write_dense,
+    TAKEN,
+    WANTED,
+    WANTED_NEXT,
+    choose_steps,
+    commit,
+    judge,
 )
-from mckibben.simulation.integrate.lane_type import LANES, load, splat, store, where_positive
+from mckibben.simulation.integrate.lane_events import change, locate, settle, suspicious
+from mckibben.simulation.integrate.lane_outputs import WINDOW, write_outputs
+from mckibben.simulation.integrate.lane_step import attempt, write_column, write_dense
+from mckibben.simulation.integrate.lane_type import (
+    LANES,
+    first_bit,
+    load,
+    load_any,
+    positive_bits,
+    splat,
+    store,
+    store_any,
+    where_positive,
+)
 from mckibben.simulation.integrate.stamp import stamped_with
-from mckibben.simulation.integrate.switching import call, change_switch, first_event
+from mckibben.simulation.integrate.switching import call
 
-_LEAST_STEP = 1e-13  # of a step, as a share of the instant or of 1 s
-# Numbers of a lane: rows of ``whole numbers`` and of ``reals``.
-_OWNER, _SEGMENT, _ROW, _LAST, _FAILED, _LANDING, _CUT, _FRESH, _OVER = range(9)
-_WHOLE = 9
-_H, _END, _WANTED, _REACHED, _SHARE, _UNCUT = range(6)
-_REALS = 6
-_stamped = stamped_with(coefficients, switching, lane_type, lane_writer, lane_step, lane_outputs, also=LANES)
-
-
-@njit(error_model="numpy")
-def _change(
-    k: int, lane: int, q: int, t: float, functions: Any, moved: tuple[int, int], switching_: Any, stops: np.ndarray,
-    rates: np.ndarray, packed: np.ndarray, state: np.ndarray, own: np.ndarray, of_lane: Any, events: np.ndarray,
-    counts: np.ndarray,
-) -> None:  # fmt: skip
-    """Change switch k of a lane; ``rates`` (rows of lanes) are those before."""
-    least, bounce, follows = switching_
-    start, end, _, guarded, switches = of_lane
-    n, kinds = state.shape[0], switches.shape[0]
-    first = packed.shape[0] - kinds
-    for i in range(n):
-        start[i], end[i] = state[i, lane], rates[i, lane]
-    for i in range(kinds):
-        switches[i] = packed[first + i, lane]
-    change_switch(
-        k, t, end, functions[5], moved, (least, stops[q], bounce, follows), own[lane], guarded, start, switches,
-        events[q], counts[q],
-    )  # fmt: skip
-    for i in range(n):
-        state[i, lane] = start[i]
-    for i in range(kinds):
-        packed[first + i, lane] = own[lane, first + i] = switches[i]
+_ALL = (1 << LANES) - 1
+# Whole numbers of a lane: its set, segment and next row; next row without outputs, and a segment before it.
+_OWNER, _SEGMENT, _ROW, _DONE, _PIECE = range(5)
+_stamped = stamped_with(
+    coefficients,
+    switching,
+    lane_control,
+    lane_events,
+    lane_outputs,
+    lane_step,
+    lane_type,
+    lane_writer,
+    also=LANES,
+)
 
 
 @njit(error_model="numpy")
-def _event(
-    lane: int, q: int, t: float, h: float, functions: Any, moved: tuple[int, int], switching_: Any,
-    stops: np.ndarray, clock: int, ends: np.ndarray, first_guard: int, packed: np.ndarray, room: Any,
-    own: np.ndarray, of_lane: Any,
-) -> tuple[float, int]:  # fmt: skip
-    """`first_event` of a lane."""
-    least, bounce, follows = switching_
-    state, trial, u, _, _, _, _ = room
-    start, end, stages, guarded, switches = of_lane
-    n, kinds = state.shape[0], switches.shape[0]
-    first = packed.shape[0] - kinds
-    for i in range(n):
-        start[i], end[i] = state[i, lane], trial[i, lane]
-        for j in range(6):
-            stages[i, j] = u[6 * i + j, lane]
-    for i in range(kinds):
-        switches[i] = packed[first + i, lane]
-    # `first_event` wants the guards in one array.
-    column = np.empty(kinds)
-    for i in range(kinds):
-        column[i] = ends[first_guard + i, lane]
-    return first_event(
-        functions[5], t, h, column, 0, switches, moved, (least, stops[q], bounce, follows), clock, own[lane],
-        guarded, start, end, stages,
-    )  # fmt: skip
-
-
-@njit(error_model="numpy")
-def _enter(
-    lane: int, q: int, clock: int, n: int, inputs: np.ndarray, times: np.ndarray, fixed: int, whole_numbers: np.ndarray,
-    reals: np.ndarray, packed: np.ndarray, own: np.ndarray, state: np.ndarray, control: np.ndarray,
-) -> None:  # fmt: skip
+def _enter(lane: int, clock: int, numbers: np.ndarray, control: np.ndarray, given: Any, lanes: Any) -> None:
     """Begin the segment of a lane."""
-    segment = whole_numbers[_SEGMENT, lane]
-    given, limits = inputs[q % inputs.shape[0], segment], times[q % times.shape[0]]
-    for i in range(given.shape[0]):
-        packed[n + fixed + i, lane] = own[lane, n + fixed + i] = given[i]
+    constants, _, _, times, inputs, _ = given
+    state, packed, own, _ = lanes
+    q, segment, first = numbers[_OWNER, lane], numbers[_SEGMENT, lane], state.shape[0] + constants.shape[1]
+    wanted, limits = inputs[q % inputs.shape[0], segment], times[q % times.shape[0]]
+    for i in range(wanted.shape[0]):
+        packed[first + i, lane] = own[lane, first + i] = wanted[i]
     control[INSTANT, lane] = state[clock, lane] = limits[segment]
-    reals[_END, lane] = limits[segment + 1]
-    whole_numbers[_FRESH, lane] = 1
+    control[END, lane] = limits[segment + 1]
+    control[FRESH, lane] = 1.0
 
 
 @njit(error_model="numpy")
 def _begin(
-    lane: int, q: int, constants: np.ndarray, starts: np.ndarray, switches: np.ndarray, first_step: float,
-    whole_numbers: np.ndarray, reals: np.ndarray, packed: np.ndarray, own: np.ndarray, state: np.ndarray,
+    lane: int, q: int, first_step: float, clock: int, numbers: np.ndarray, control: np.ndarray, given: Any,
+    lanes: Any,
 ) -> None:  # fmt: skip
     """Give a lane a set."""
+    constants, starts, switches, _, _, grids = given
+    state, packed, own, _ = lanes
     n, first = state.shape[0], packed.shape[0] - switches.shape[1]
     for i in range(n):
         state[i, lane] = starts[q, i]
@@ -127,16 +104,74 @@ def _begin(
         packed[n + i, lane] = own[lane, n + i] = constants[q, i]
     for i in range(switches.shape[1]):
         packed[first + i, lane] = own[lane, first + i] = switches[q, i]
-    whole_numbers[:, lane] = 0
-    whole_numbers[_OWNER, lane], whole_numbers[_LANDING, lane] = q, -1
-    reals[_H, lane] = first_step
+    numbers[:, lane] = 0
+    numbers[_OWNER, lane] = q
+    control[:, lane] = 0.0
+    control[ACTIVE, lane], control[LANDING, lane], control[WANTED, lane] = 1.0, -1.0, first_step
+    control[NEXT_ROW, lane] = grids[q % grids.shape[0], 0]
+    _enter(lane, clock, numbers, control, given, lanes)
+
+
+@njit(error_model="numpy")
+def _complete(
+    lane: int, stop: int, functions: Any, clock: int, numbers: np.ndarray, given: Any, places: Any
+) -> None:
+    """Compute the outputs of the rows of a lane before ``stop``."""
+    constants, _, _, times, inputs, grids = given
+    columns, out, scratch, row_packed, room, _ = places
+    q = numbers[_OWNER, lane]
+    numbers[_PIECE, lane] = write_outputs(
+        lane, functions[4], clock, (numbers[_DONE, lane], stop), numbers[_PIECE, lane], constants[q],
+        times[q % times.shape[0]], inputs[q % inputs.shape[0]], grids[q % grids.shape[0]], columns, out[q],
+        scratch, row_packed, room,
+    )  # fmt: skip
+    numbers[_DONE, lane] = stop
+
+
+@njit(error_model="numpy")
+def _write_rows(
+    crossing: int, functions: Any, clock: int, numbers: np.ndarray, given: Any, places: Any, lanes: Any
+) -> None:
+    """Write the rows in the accepted steps of some lanes."""
+    columns, out, scratch, _, room, dense = places
+    kept, column_of, kept_switches, _ = columns
+    _, packed, own, (_, _, _, _, switches) = lanes
+    first_switch, control, grids = packed.shape[0] - switches.shape[0], room[6], given[5]
+    write_dense(kept, room, dense)
+    for lane in range(LANES):
+        if not (crossing >> lane) & 1:
+            continue
+        q, first, reached = numbers[_OWNER, lane], numbers[_ROW, lane], splat(control[REACHED, lane])
+        grid = grids[q % grids.shape[0]]
+        at_grid, stop, beyond = grid.ctypes.data, first, 0
+        while not beyond:  # the grid ends with infinity
+            beyond = positive_bits(load_any(at_grid + 8 * stop) - reached)
+            stop += first_bit(beyond) if beyond else LANES
+        numbers[_ROW, lane] = stop
+        control[NEXT_ROW, lane] = grid[stop]
+        t, over = control[INSTANT, lane], 1.0 / control[STEP, lane]
+        for c in range(kept.shape[0]):
+            if column_of[c] >= 0:
+                at_column = out[q, column_of[c]].ctypes.data
+            else:
+                at_column = scratch[lane, c].ctypes.data
+            write_column(dense, c, lane, at_grid, at_column, t, over, first, stop)
+        for c in range(kept_switches.shape[0]):
+            value, at_column = (
+                splat(own[lane, first_switch + kept_switches[c]]),
+                scratch[lane, kept.shape[0] + c].ctypes.data,
+            )
+            for row in range(first, stop, LANES):
+                store_any(at_column + 8 * row, value)
+        if stop - numbers[_DONE, lane] >= WINDOW:
+            _complete(lane, stop - stop % LANES, functions, clock, numbers, given, places)
 
 
 _ROWS = "float64[:,::1]"
 _TABLE = "float64[:,:,::1]"
 _SIGNATURE = (
-    "void(UniTuple(int64,6),uint64[::1],int64,int64,int64,UniTuple(int64,2),UniTuple(float64[::1],3),"
-    f"{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_TABLE},float64,{_ROWS},int64,float64,float64[::1],"
+    "void(UniTuple(int64,5),int64,uint64[::1],int64,int64,int64,UniTuple(int64,2),UniTuple(float64[::1],3),"
+    f"{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_TABLE},float64,{_ROWS},float64,float64[::1],"
     f"UniTuple(int64[::1],4),{_TABLE},{_ROWS},{_TABLE},int64[:,::1],int64[::1],int64,boolean,"
     f"Tuple((UniTuple({_ROWS},7),UniTuple({_ROWS},2),{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_TABLE},"
     f"Tuple((float64[::1],float64[::1],{_ROWS},float64[::1],float64[::1])))))"
@@ -146,7 +181,8 @@ _SIGNATURE = (
 @njit(_SIGNATURE, error_model="numpy", cache=True, nogil=True)
 @_stamped
 def rodas4_lanes(
-    functions: tuple[int, int, int, int, int, int],
+    functions: tuple[int, int, int, int, int],
+    guards: int,
     timed: np.ndarray,
     entries: int,
     positions: int,
@@ -161,7 +197,6 @@ def rodas4_lanes(
     inputs: np.ndarray,
     first_step: float,
     grids: np.ndarray,
-    rows: int,
     rtol: float,
     atol: np.ndarray,
     columns: Any,
@@ -178,315 +213,129 @@ def rodas4_lanes(
 
     Args:
         functions: addresses of ``rates``, ``jacobian``, ``factorise``, ``solve`` and ``outputs`` (0: none) on
-            rows of lanes, and of ``guards`` of one set.
+            rows of lanes.
+        guards: address of the guards of one set.
         timed, entries, positions, clock, moved: see `mckibben.simulation.integrate.kernels.rodas4`.
         switching_: least guards; restitution, slowest rebound and stiffness; lengths that follow.
         stops: stroke of the end stop of each switch.
         constants, starts: of each set.
         switches: at the start, overwritten with the end.
         times*, inputs*: segment boundaries and inputs, shapes (sets, segments + 1), (sets, segments, inputs).
-        grids*: instants of the rows, longer than ``rows`` by at least LANES - 1.
+        grids*: instants of the rows, then at least LANES times infinity.
         columns: states to be kept; the column of each in ``out`` or -1; switches to be kept; columns of the
             outputs.
-        out: shape (sets, columns, at least rows + LANES - 1).
+        out: shape (sets, columns, room for the rows and LANES - 1 more).
         ends: states at the end.
         events, counts: of each set, see `rodas4`.
         statuses: of each set, see `mckibben.simulation.integrate.kernels.Status`.
         max_steps: of a set.
         together: the sets run in groups of LANES; those of a group take all steps together.
-        arrays: room for the step, twice the Jacobian, arguments, arguments of rows, dense output, arguments
-            by lane, rows of lanes by lane, and what `first_event` needs of a lane.
+        arrays: room of `attempt`, twice the Jacobian, arguments, arguments of rows, dense output, arguments
+            by lane, kept rows by lane that are not in ``out``, and arrays for one lane.
     """
     room, jacobians, packed, row_packed, dense, own, scratch, of_lane = arrays
     state, trial, _, _, _, _, control = room
     whole, following = jacobians
-    least, _, _ = switching_
-    kept, column_of, kept_switches, _ = columns
-    n, fixed, kinds, sets = state.shape[0], constants.shape[1], switches.shape[1], starts.shape[0]
-    segments, first_guard = inputs.shape[1], n + entries + timed.shape[0]
-    first_switch = packed.shape[0] - kinds
-    at_state, at_trial, at_packed = state.ctypes.data, trial.ctypes.data, packed.ctypes.data
-    at_control = control.ctypes.data
-    ints, reals = np.zeros((_WHOLE, LANES), np.int64), np.zeros((_REALS, LANES))
-    ints[_OWNER] = -1
-    upcoming = active = 0
-    one = splat(1.0)
-    for lane in range(LANES):
+    n, kinds, sets, segments = state.shape[0], switches.shape[1], starts.shape[0], inputs.shape[1]
+    first_guard, first_switch = n + entries + timed.shape[0], packed.shape[0] - kinds
+    at_state, at_trial, at_packed, at = (
+        state.ctypes.data, trial.ctypes.data, packed.ctypes.data, control.ctypes.data,
+    )  # fmt: skip
+    given = constants, starts, switches, times, inputs, grids
+    model, lanes, of_sets = (
+        (guards, moved, switching_),
+        (state, packed, own, of_lane),
+        (stops, events, counts),
+    )
+    places = columns, out, scratch, row_packed, room, dense
+    numbers = np.zeros((5, LANES), np.int64)
+    for lane in range(LANES if sets > 0 else 0):
         # Idle lanes need sound numbers as well.
-        q = min(upcoming, sets - 1)
-        _begin(lane, q, constants, starts, switches, first_step, ints, reals, packed, own, state)
-        _enter(lane, q, clock, n, inputs, times, fixed, ints, reals, packed, own, state, control)
-        control[STEP, lane] = first_step
-        if upcoming < sets:
-            upcoming += 1
-            active += 1
-        else:
-            ints[_OWNER, lane], ints[_FRESH, lane] = -1, 0
+        _begin(lane, min(lane, sets - 1), first_step, clock, numbers, control, given, lanes)
+        if lane >= sets:
+            control[ACTIVE, lane] = control[FRESH, lane] = 0.0
+    upcoming = active = min(LANES, sets)
     while active > 0:
-        waiting = 0
-        for lane in range(LANES):
-            waiting += ints[_FRESH, lane]
-        tries = 0
-        while waiting > 0:
-            # Inputs or switches have changed: a guard may be violated at once.
-            for i in range(n):
-                store(at_packed, i, load(at_state, i))
-            call(functions[1], following.ctypes.data, at_packed)
-            waiting = 0
-            for lane in range(LANES):
-                if ints[_FRESH, lane] == 0:
-                    continue
-                wrong = -1
-                for k in range(kinds if tries < 2 * kinds + 1 else 0):
-                    if following[first_guard + k, lane] < -least[k]:
-                        wrong = k
-                        break
-                if wrong >= 0:
-                    _change(
-                        wrong, lane, ints[_OWNER, lane], control[INSTANT, lane], functions, moved, switching_, stops,
-                        following, packed, state, own, of_lane, events, counts,
-                    )  # fmt: skip
-                    waiting += 1
-                else:
-                    for i in range(whole.shape[0]):
-                        whole[i, lane] = following[i, lane]
-                    ints[_FRESH, lane] = 0
-            tries += 1
-        for lane in range(LANES):
-            if ints[_OWNER, lane] >= 0:
-                t, h, end = control[INSTANT, lane], reals[_H, lane], reals[_END, lane]
-                reals[_WANTED, lane] = h
-                last = t + 1.0000001 * h >= end
-                ints[_LAST, lane] = last
-                control[STEP, lane] = end - t if last else h
-                reals[_REACHED, lane] = end if last else t + control[STEP, lane]
+        if positive_bits(load(at, FRESH)):
+            settle(
+                functions[1], whole, following, first_guard, numbers[_OWNER], control, model, lanes, of_sets
+            )
+        choose_steps(at)
         attempt(functions, timed, entries, positions, clock, rtol, atol, whole, packed, room)
-        worst = 0.0
-        if together:
-            for lane in range(LANES):
-                if ints[_OWNER, lane] >= 0:
-                    worst = max(worst, control[ERROR, lane])
-            store(at_control, FACTOR, factor_of(splat(worst)))
-        tried = 0
-        for lane in range(LANES):
-            q = ints[_OWNER, lane]
-            control[ACCEPTED, lane] = 0.0
-            if q < 0:
-                continue
-            mine = control[ERROR, lane]
-            squared = worst if together else mine
-            if squared > 1.0:
-                counts[q, 1] += 1
-                ints[_FAILED, lane], ints[_LANDING, lane], ints[_CUT, lane] = 1, -1, 0
-                h = reals[_H, lane] = control[STEP, lane] * control[FACTOR, lane]
-                if h < _LEAST_STEP * max(1.0, abs(control[INSTANT, lane])):
-                    if mine > 1.0:
-                        statuses[q] = 3 if mine >= HOPELESS else 1
-                    else:  # another of the group has failed
-                        reals[_H, lane] = first_step
-                if statuses[q] == 0 and counts[q, 0] + counts[q, 1] >= max_steps:
-                    statuses[q] = 2
-                ints[_OVER, lane] = statuses[q] != 0
-            else:
-                control[ACCEPTED, lane] = 1.0
-                trial[clock, lane] = packed[clock, lane] = reals[_REACHED, lane]
-                tried += 1
-        if tried > 0:
+        short = judge(at, together, control)
+        over = 0
+        for lane in range(LANES if short else 0):
+            if (short >> lane) & 1:
+                mine = control[ERROR, lane]
+                if mine > 1.0:
+                    statuses[numbers[_OWNER, lane]] = 3 if mine >= HOPELESS else 1
+                    over |= 1 << lane
+                else:  # another of the group has failed
+                    control[WANTED_NEXT, lane] = first_step
+        accepted = positive_bits(load(at, ACCEPTED))
+        if accepted:
             call(functions[1], following.ctypes.data, at_packed)
-            flag = splat(0.0)
-            for k in range(kinds):
-                low = splat(-least[k]) - load(following.ctypes.data, first_guard + k)
-                flag = where_positive(low, one, flag)
-            if moved[1] >= 0:
-                turned = splat(0.0) - load(at_state, moved[1]) * load(at_trial, moved[1])
-                flag = where_positive(turned, one, flag)
-            store(at_control, FLAG, flag)
-            share = 2.0
-            for lane in range(LANES):
-                reals[_SHARE, lane] = 2.0
-                if control[ACCEPTED, lane] == 0.0 or control[FLAG, lane] == 0.0 or ints[_LANDING, lane] >= 0:
-                    continue
-                reals[_SHARE, lane], ints[_LANDING, lane] = _event(
-                    lane, ints[_OWNER, lane], control[INSTANT, lane], control[STEP, lane], functions, moved,
-                    switching_, stops, clock, following, first_guard, packed, room, own, of_lane,
+            if suspicious(at, first_guard, following, moved, room, switching_[0]):
+                locate(
+                    clock, whole, following, first_guard, numbers[_OWNER], together, room, model, lanes, of_sets
                 )  # fmt: skip
-                share = min(share, reals[_SHARE, lane])
-            if share < 2.0:
-                for lane in range(LANES):
-                    q = ints[_OWNER, lane]
-                    if control[ACCEPTED, lane] == 0.0:
-                        continue
-                    mine = reals[_SHARE, lane]
-                    if together:
-                        if mine != share:
-                            ints[_LANDING, lane] = -1
-                    elif mine == 2.0:
-                        continue
-                    used, t = control[STEP, lane], control[INSTANT, lane]
-                    until = (share if together else mine) * used
-                    counts[q, 1] += 1
-                    control[ACCEPTED, lane] = 0.0
-                    if until > _LEAST_STEP * max(1.0, abs(t)):
-                        reals[_H, lane] = until
-                        if ints[_CUT, lane] == 0:
-                            ints[_CUT, lane], reals[_UNCUT, lane] = 1, reals[_WANTED, lane]
-                    else:
-                        reals[_H, lane] = used
-                        if ints[_LANDING, lane] >= 0:
-                            _change(
-                                ints[_LANDING, lane], lane, q, t, functions, moved, switching_, stops, whole,
-                                packed, state, own, of_lane, events, counts,
-                            )  # fmt: skip
-                            ints[_FRESH, lane] = 1
-                        ints[_LANDING, lane] = -1
-                    if counts[q, 0] + counts[q, 1] >= max_steps:
-                        statuses[q] = 2
-                        ints[_OVER, lane] = 1
-        crossing, accepted = False, 0
-        for lane in range(LANES):
-            if control[ACCEPTED, lane] > 0.0:
-                accepted += 1
-                q, row = ints[_OWNER, lane], ints[_ROW, lane]
-                if row < rows and grids[q % grids.shape[0], row] <= reals[_REACHED, lane]:
-                    crossing = True
-        if crossing:
-            write_dense(kept, room, dense)
-            for lane in range(LANES):
-                q, first = ints[_OWNER, lane], ints[_ROW, lane]
-                if control[ACCEPTED, lane] == 0.0:
-                    continue
-                grid = grids[q % grids.shape[0]]
-                stop = first
-                while stop < rows and grid[stop] <= reals[_REACHED, lane]:
-                    stop += 1
-                if stop == first:
-                    continue
-                ints[_ROW, lane] = counts[q, 2] = stop
-                t, over, at_grid = control[INSTANT, lane], 1.0 / control[STEP, lane], grid.ctypes.data
-                for c in range(kept.shape[0]):
-                    into = out[q, column_of[c]] if column_of[c] >= 0 else scratch[lane, c]
-                    write_column(dense, c, lane, at_grid, into.ctypes.data, t, over, first, stop)
-                for c in range(kept_switches.shape[0]):
-                    value = own[lane, first_switch + kept_switches[c]]
-                    scratch[lane, kept.shape[0] + c, first:stop] = value
-        if accepted == LANES:
+                accepted = positive_bits(load(at, ACCEPTED))
+            due = where_positive(load(at, NEXT_ROW) - load(at, REACHED), splat(0.0), load(at, ACCEPTED))
+            crossing = positive_bits(due)
+            if crossing:
+                _write_rows(crossing, functions, clock, numbers, given, places, lanes)
+        if accepted == _ALL:
             whole, following = following, whole
             for i in range(n):
                 store(at_state, i, load(at_trial, i))
-        elif accepted > 0:
-            mask, at_whole, at_following = (
-                load(at_control, ACCEPTED),
-                whole.ctypes.data,
-                following.ctypes.data,
-            )
+        elif accepted:
+            mask, at_whole, at_following = load(at, ACCEPTED), whole.ctypes.data, following.ctypes.data
             for i in range(n):
                 store(at_state, i, where_positive(mask, load(at_trial, i), load(at_state, i)))
             for i in range(whole.shape[0]):
                 store(at_whole, i, where_positive(mask, load(at_following, i), load(at_whole, i)))
-        for lane in range(LANES):
-            q = ints[_OWNER, lane]
-            if q < 0:
+        landed = commit(at)
+        for lane in range(LANES if landed else 0):
+            if not (landed >> lane) & 1:
                 continue
-            if control[ACCEPTED, lane] > 0.0:
-                counts[q, 0] += 1
-                last, failed, factor = ints[_LAST, lane], ints[_FAILED, lane], control[FACTOR, lane]
-                control[INSTANT, lane] = reals[_REACHED, lane]
-                if ints[_LANDING, lane] >= 0:
-                    _change(
-                        ints[_LANDING, lane], lane, q, control[INSTANT, lane], functions, moved, switching_, stops,
-                        whole, packed, state, own, of_lane, events, counts,
-                    )  # fmt: skip
-                    ints[_FRESH, lane] = 1
-                if ints[_CUT, lane] > 0:
-                    reals[_H, lane] = reals[_UNCUT, lane]
-                else:
-                    grown = control[STEP, lane] * (min(factor, 1.0) if failed else factor)
-                    reals[_H, lane] = max(grown, reals[_WANTED, lane]) if last and not failed else grown
-                ints[_FAILED, lane], ints[_LANDING, lane], ints[_CUT, lane] = 0, -1, 0
-                if last:
-                    ints[_SEGMENT, lane] += 1
-                    if ints[_SEGMENT, lane] < segments:
-                        _enter(
-                            lane, q, clock, n, inputs, times, fixed, ints, reals, packed, own, state, control
-                        )
-                    else:
-                        ints[_OVER, lane] = 1
-                if ints[_OVER, lane] == 0 and counts[q, 0] + counts[q, 1] >= max_steps:
-                    statuses[q] = 2
-                    ints[_OVER, lane] = 1
-            if ints[_OVER, lane] > 0:
-                finish(
-                    lane, functions[4], clock, ints[_ROW, lane], constants[q], times[q % times.shape[0]],
-                    inputs[q % inputs.shape[0]], grids[q % grids.shape[0]], columns, out[q], scratch, row_packed, room,
+            if control[LANDING, lane] >= 0.0:
+                change(
+                    int(control[LANDING, lane]), lane, numbers[_OWNER, lane], control[INSTANT, lane], whole, model,
+                    lanes, of_sets,
                 )  # fmt: skip
-                for i in range(n):
-                    ends[q, i] = state[i, lane]
-                for i in range(kinds):
-                    switches[q, i] = packed[first_switch + i, lane]
-                ints[_OWNER, lane] = -1
-                ints[_FRESH, lane] = ints[_OVER, lane] = 0
-                active -= 1
-                if not together and upcoming < sets:
-                    _begin(
-                        lane,
-                        upcoming,
-                        constants,
-                        starts,
-                        switches,
-                        first_step,
-                        ints,
-                        reals,
-                        packed,
-                        own,
-                        state,
-                    )
-                    _enter(
-                        lane,
-                        upcoming,
-                        clock,
-                        n,
-                        inputs,
-                        times,
-                        fixed,
-                        ints,
-                        reals,
-                        packed,
-                        own,
-                        state,
-                        control,
-                    )
-                    upcoming += 1
-                    active += 1
+                control[LANDING, lane], control[FRESH, lane] = -1.0, 1.0
+            if control[LAST, lane] > 0.0:
+                numbers[_SEGMENT, lane] += 1
+                if numbers[_SEGMENT, lane] < segments:
+                    _enter(lane, clock, numbers, control, given, lanes)
+                else:
+                    over |= 1 << lane
+        tired = load(at, TAKEN) + load(at, REJECTED) - (max_steps - 0.5)
+        late = positive_bits(where_positive(tired, load(at, ACTIVE), splat(0.0))) & ~over
+        for lane in range(LANES if late else 0):
+            if (late >> lane) & 1:
+                statuses[numbers[_OWNER, lane]] = 2
+        over |= late
+        for lane in range(LANES if over else 0):
+            if not (over >> lane) & 1:
+                continue
+            q = numbers[_OWNER, lane]
+            counts[q, 0], counts[q, 1] = control[TAKEN, lane], control[REJECTED, lane]
+            counts[q, 2] = numbers[_ROW, lane]
+            _complete(lane, numbers[_ROW, lane], functions, clock, numbers, given, places)
+            for i in range(n):
+                ends[q, i] = state[i, lane]
+            for i in range(kinds):
+                switches[q, i] = packed[first_switch + i, lane]
+            control[ACTIVE, lane] = control[FRESH, lane] = 0.0
+            active -= 1
+            if not together and upcoming < sets:
+                _begin(lane, upcoming, first_step, clock, numbers, control, given, lanes)
+                upcoming += 1
+                active += 1
         if together and active == 0:
             for lane in range(LANES):
                 if upcoming < sets:
-                    _begin(
-                        lane,
-                        upcoming,
-                        constants,
-                        starts,
-                        switches,
-                        first_step,
-                        ints,
-                        reals,
-                        packed,
-                        own,
-                        state,
-                    )
-                    _enter(
-                        lane,
-                        upcoming,
-                        clock,
-                        n,
-                        inputs,
-                        times,
-                        fixed,
-                        ints,
-                        reals,
-                        packed,
-                        own,
-                        state,
-                        control,
-                    )
+                    _begin(lane, upcoming, first_step, clock, numbers, control, given, lanes)
                     upcoming += 1
                     active += 1

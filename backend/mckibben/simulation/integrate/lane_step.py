@@ -12,13 +12,13 @@ import numpy as np
 from numba import njit
 
 from mckibben.simulation.integrate.coefficients import ALPHA, DELTA, DENSE_2, DENSE_3, A, C
+from mckibben.simulation.integrate.lane_control import ERROR, HOPELESS, INSTANT, REACHED, STEP
 from mckibben.simulation.integrate.lane_type import (
     call_with_data,
     larger,
     load,
     load_any,
     magnitude,
-    root,
     smaller,
     splat,
     store,
@@ -27,49 +27,44 @@ from mckibben.simulation.integrate.lane_type import (
 )
 from mckibben.simulation.integrate.switching import call
 
-# Squared error of a step that is not solvable or not finite, and rows of the control array.
-HOPELESS = 1e20
-STEP, ERROR, ACCEPTED, FACTOR, INSTANT, FLAG = 0, 1, 2, 3, 4, 5
-CONTROL = 6
-
 
 @njit(inline="always", error_model="numpy")
-def _stage(at_u: int, at_state: int, at_packed: int, at_residual: int, n: int, k: int) -> None:
-    """Arguments and right side of stage k from the stages before it."""
+def _stage(at_u: int, at_state: int, at_packed: int, at_sum: int, n: int, k: int) -> None:
+    """Arguments of stage k and what its right side takes from the stages before it."""
     if k == 1:
         for i in range(n):
-            u0 = load(at_u, 6 * i)
+            u0 = load(at_u, i)
             store(at_packed, i, load(at_state, i) + A[1, 0] * u0)
-            store(at_residual, i, C[1, 0] * u0)
+            store(at_sum, i, C[1, 0] * u0)
     elif k == 2:
         for i in range(n):
-            u0, u1 = load(at_u, 6 * i), load(at_u, 6 * i + 1)
+            u0, u1 = load(at_u, i), load(at_u, n + i)
             store(at_packed, i, load(at_state, i) + A[2, 0] * u0 + A[2, 1] * u1)
-            store(at_residual, i, C[2, 0] * u0 + C[2, 1] * u1)
+            store(at_sum, i, C[2, 0] * u0 + C[2, 1] * u1)
     elif k == 3:
         for i in range(n):
-            u0, u1, u2 = load(at_u, 6 * i), load(at_u, 6 * i + 1), load(at_u, 6 * i + 2)
+            u0, u1, u2 = load(at_u, i), load(at_u, n + i), load(at_u, 2 * n + i)
             store(at_packed, i, load(at_state, i) + A[3, 0] * u0 + A[3, 1] * u1 + A[3, 2] * u2)
-            store(at_residual, i, C[3, 0] * u0 + C[3, 1] * u1 + C[3, 2] * u2)
+            store(at_sum, i, C[3, 0] * u0 + C[3, 1] * u1 + C[3, 2] * u2)
     elif k == 4:
         for i in range(n):
-            u0, u1 = load(at_u, 6 * i), load(at_u, 6 * i + 1)
-            u2, u3 = load(at_u, 6 * i + 2), load(at_u, 6 * i + 3)
+            u0, u1 = load(at_u, i), load(at_u, n + i)
+            u2, u3 = load(at_u, 2 * n + i), load(at_u, 3 * n + i)
             total = load(at_state, i) + A[4, 0] * u0 + A[4, 1] * u1
             store(at_packed, i, total + A[4, 2] * u2 + A[4, 3] * u3)
-            store(at_residual, i, C[4, 0] * u0 + C[4, 1] * u1 + C[4, 2] * u2 + C[4, 3] * u3)
+            store(at_sum, i, C[4, 0] * u0 + C[4, 1] * u1 + C[4, 2] * u2 + C[4, 3] * u3)
     else:
         # The argument of the last stage is that of the one before plus its result.
         for i in range(n):
-            u0, u1 = load(at_u, 6 * i), load(at_u, 6 * i + 1)
-            u2, u3, u4 = load(at_u, 6 * i + 2), load(at_u, 6 * i + 3), load(at_u, 6 * i + 4)
+            u0, u1 = load(at_u, i), load(at_u, n + i)
+            u2, u3, u4 = load(at_u, 2 * n + i), load(at_u, 3 * n + i), load(at_u, 4 * n + i)
             store(at_packed, i, load(at_packed, i) + u4)
-            store(at_residual, i, C[5, 0] * u0 + C[5, 1] * u1 + C[5, 2] * u2 + C[5, 3] * u3 + C[5, 4] * u4)
+            store(at_sum, i, C[5, 0] * u0 + C[5, 1] * u1 + C[5, 2] * u2 + C[5, 3] * u3 + C[5, 4] * u4)
 
 
 @njit(inline="always", error_model="numpy")
 def attempt(
-    functions: tuple[int, int, int, int, int, int],
+    functions: tuple[int, int, int, int, int],
     timed: np.ndarray,
     entries: int,
     positions: int,
@@ -80,48 +75,45 @@ def attempt(
     packed: np.ndarray,
     room: Any,
 ) -> None:
-    """Try a step in every lane: writes the stages, the new states and the rows ERROR (squared) and FACTOR.
+    """Try a step in every lane: writes the stages, the new states and the row ERROR.
 
     Args:
         whole: rates, entries of the Jacobian and derivatives by time at the start of the step.
         packed: arguments; holds the new states afterwards, as does ``trial``.
-        room: state, trial, stages, right side, matrix, values and control.
+        room: state, trial, stages, sums, matrix, values and control.
     """
-    rates, _, factorise, solve, _, _ = functions
-    state, trial, u, residual, matrix, values, control = room
-    n = state.shape[0]
-    at_state, at_trial, at_u, at_residual = (
-        state.ctypes.data, trial.ctypes.data, u.ctypes.data, residual.ctypes.data,
+    rates, _, factorise, solve, _ = functions
+    state, trial, u, sums, matrix, values, control = room
+    n, row = state.shape[0], state.strides[0]
+    at_state, at_trial, at_u, at_sums = (
+        state.ctypes.data, trial.ctypes.data, u.ctypes.data, sums.ctypes.data,
     )  # fmt: skip
     at_matrix, at_values, at_control = matrix.ctypes.data, values.ctypes.data, control.ctypes.data
     at_whole, at_packed = whole.ctypes.data, packed.ctypes.data
     step, now, zero = load(at_control, STEP), load(at_control, INSTANT), splat(0.0)
     inverse = 1.0 / step
-    call_with_data(
-        factorise, at_matrix, at_whole + whole.strides[0] * n, at_control + STEP * whole.strides[0]
-    )
+    call_with_data(factorise, at_matrix, at_whole + row * n, at_control + row * STEP)
     least = load(at_matrix, positions - 1)
     for k in range(6):
+        at_result = at_u + row * n * k
         if k == 0:
             for i in range(n):
-                store(at_residual, i, load(at_whole, i))
+                store(at_result, i, load(at_whole, i))
         else:
-            _stage(at_u, at_state, at_packed, at_residual, n, k)
+            _stage(at_u, at_state, at_packed, at_sums, n, k)
             store(at_packed, clock, now + ALPHA[k] * step)
             call(rates, at_values, at_packed)
             for i in range(n):
-                store(at_residual, i, load(at_values, i) + load(at_residual, i) * inverse)
+                store(at_result, i, load(at_values, i) + load(at_sums, i) * inverse)
         if DELTA[k] != 0.0:
             for i in range(timed.shape[0]):
                 slope = load(at_whole, n + entries + i)
-                store(at_residual, timed[i], load(at_residual, timed[i]) + (DELTA[k] * step) * slope)
-        store(at_residual, clock, zero)
-        call_with_data(solve, at_residual, at_matrix, at_matrix)
-        for i in range(n):
-            store(at_u, 6 * i + k, load(at_residual, i))
+                store(at_result, timed[i], load(at_result, timed[i]) + (DELTA[k] * step) * slope)
+        store(at_result, clock, zero)
+        call_with_data(solve, at_result, at_matrix, at_matrix)
     errors = zero
     for i in range(n):
-        last = load(at_u, 6 * i + 5)
+        last = load(at_u, 5 * n + i)
         new = load(at_packed, i) + last
         store(at_trial, i, new)
         store(at_packed, i, new)
@@ -129,22 +121,17 @@ def attempt(
         errors = errors + share * share
     # A pivot close to zero, or a NaN: `smaller` gives its second argument.
     errors = where_positive(least - 1e-10 * inverse, errors, splat(np.nan))
-    squared = smaller(errors * (1.0 / n), splat(HOPELESS))
-    store(at_control, ERROR, squared)
-    store(at_control, FACTOR, factor_of(squared))
-
-
-@njit(inline="always", error_model="numpy")
-def factor_of(squared: Any) -> Any:
-    """The factor of the next step: 0.9 times the fourth root of 1 / error, between 0.2 and 6."""
-    eighth = root(root(root(larger(squared, splat(1e-30)))))
-    return smaller(splat(6.0), larger(splat(0.2), 0.9 / eighth))
+    store(at_control, ERROR, smaller(errors * (1.0 / n), splat(HOPELESS)))
+    reached = load(at_control, REACHED)
+    store(at_trial, clock, reached)
+    store(at_packed, clock, reached)
 
 
 @njit(inline="always", error_model="numpy")
 def write_dense(kept: np.ndarray, room: Any, dense: np.ndarray) -> None:
     """Coefficients of the dense output of the kept states: y(s) = b0 + s (b1 + s (b2 + s b3))."""
     state, trial, u, _, _, _, _ = room
+    n = state.shape[0]
     at_state, at_trial, at_u, at_dense = (
         state.ctypes.data, trial.ctypes.data, u.ctypes.data, dense.ctypes.data,
     )  # fmt: skip
@@ -152,7 +139,7 @@ def write_dense(kept: np.ndarray, room: Any, dense: np.ndarray) -> None:
         i = kept[c]
         first = second = splat(0.0)
         for j in range(5):
-            stage = load(at_u, 6 * i + j)
+            stage = load(at_u, n * j + i)
             first = first + DENSE_2[j] * stage
             second = second + DENSE_3[j] * stage
         begin = load(at_state, i)

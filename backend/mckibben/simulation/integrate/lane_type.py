@@ -12,7 +12,8 @@ from typing import Any
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
-from numba.core.typing.templates import ConcreteTemplate, infer_global, signature
+from numba.core.typing import templates
+from numba.core.typing.templates import ConcreteTemplate, signature
 from numba.extending import intrinsic, lower_builtin, models, register_model
 
 from mckibben.simulation.integrate.lane_writer import lanes_of_machine
@@ -52,7 +53,8 @@ def _register_operator(function: Any, instruction: str) -> None:
     class Template(ConcreteTemplate):
         cases = [signature(lanes_type, *pair) for pair in pairs]  # noqa: RUF012 - as numba wants it
 
-    infer_global(function)(Template)
+    register: Any = templates.infer_global
+    register(function)(Template)
 
     def lower(_context: Any, builder: Any, sig: Any, args: Any) -> Any:
         rows = [
@@ -74,16 +76,17 @@ for _function, _instruction in (
     _register_operator(_function, _instruction)
 
 
-def _place(context: Any, builder: Any, address: Any, index: Any, kind: Any) -> Any:
-    index = context.cast(builder, index, kind, types.int64)
-    return builder.gep(builder.inttoptr(address, _ROW.as_pointer()), [index])
+def _place(context: Any, builder: Any, given: Any, kind: Any) -> Any:
+    """Pointer to a row, from address and number."""
+    index = context.cast(builder, given[1], kind, types.int64)
+    return builder.gep(builder.inttoptr(given[0], _ROW.as_pointer()), [index])
 
 
 def _load(_typing: Any, _address: Any, index: Any) -> Any:
     """``load(address, index)``: row of an aligned array."""
 
     def generate(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-        return builder.load(_place(context, builder, *args, sig.args[1]), align=_ALIGNMENT)
+        return builder.load(_place(context, builder, args, sig.args[1]), align=_ALIGNMENT)
 
     return lanes_type(types.uintp, index), generate
 
@@ -92,7 +95,7 @@ def _store(_typing: Any, _address: Any, index: Any, _value: Any) -> Any:
     """``store(address, index, row)``."""
 
     def generate(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-        builder.store(args[2], _place(context, builder, *args[:2], sig.args[1]), align=_ALIGNMENT)
+        builder.store(args[2], _place(context, builder, args, sig.args[1]), align=_ALIGNMENT)
         return context.get_dummy_value()
 
     return types.void(types.uintp, index, lanes_type), generate
@@ -162,6 +165,25 @@ def _where_positive(_typing: Any, _mask: Any, _yes: Any, _no: Any) -> Any:
     return lanes_type(lanes_type, lanes_type, lanes_type), generate
 
 
+def _positive_bits(_typing: Any, _mask: Any) -> Any:
+    """``positive_bits(mask)``: a whole number with bit i set where lane i is above zero."""
+
+    def generate(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
+        bits = builder.fcmp_ordered(">", args[0], ir.Constant(_ROW, [0.0] * LANES))
+        return builder.zext(builder.bitcast(bits, ir.IntType(LANES)), ir.IntType(64))
+
+    return types.int64(lanes_type), generate
+
+
+def _first_bit(_typing: Any, _bits: Any) -> Any:
+    """``first_bit(bits)``: the number of the lowest bit set in a whole number that is not 0."""
+
+    def generate(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
+        return builder.cttz(args[0], ir.Constant(ir.IntType(1), 1))
+
+    return types.int64(types.int64), generate
+
+
 def _call_with_data(_typing: Any, _address: Any, _out: Any, _inputs: Any, _data: Any) -> Any:
     """Call ``void f(double* out, double* inputs, double* data)`` at an address."""
 
@@ -185,4 +207,6 @@ root: Any = intrinsic(_of_row("sqrt"))
 larger: Any = intrinsic(_picked(">"))
 smaller: Any = intrinsic(_picked("<"))
 where_positive: Any = intrinsic(_where_positive)
+first_bit: Any = intrinsic(_first_bit)
+positive_bits: Any = intrinsic(_positive_bits)
 call_with_data: Any = intrinsic(_call_with_data)

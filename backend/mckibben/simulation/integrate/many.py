@@ -15,7 +15,7 @@ from mckibben.simulation.integrate.lane_code import aligned
 from mckibben.simulation.integrate.problem import EVENT_WIDTH, FIRST_STEP, MOST_EVENTS, SLOWEST_REBOUND
 from mckibben.simulation.outcome import Outcome
 
-CONTROL_ROWS = 6  # rows of the kernel's control array
+_CONTROL_ROWS = 21  # of `mckibben.simulation.integrate.lane_control`
 
 
 @dataclass(frozen=True, eq=False)
@@ -236,15 +236,15 @@ def _run(
             stops[:, index] = given.parameters[:, place]
     step = drive.lanes.step
     room = (rows + 2 * lanes - 1) // lanes * lanes
-    padded = np.zeros((len(given.grid), rows + lanes))
+    padded = np.full((len(given.grid), rows + 2 * lanes), np.inf)
     padded[:, :rows] = given.grid
-    padded[:, rows:] = given.grid[:, -1:] if rows else 0.0
-    out = aligned(sets, chosen.count, room)
+    out = aligned(sets, chosen.count, room, zeros=False)
     ends, counts, statuses = np.empty((sets, n)), np.zeros((sets, 4), np.int64), np.zeros(sets, np.int64)
     events = np.empty((sets, MOST_EVENTS, EVENT_WIDTH))
     functions = [step[name].address for name in ("rates", "jacobian", "factorise", "solve")]
     kernels.run(
-        (*functions, chosen.address, codes.guards.address),
+        (*functions, chosen.address),
+        codes.guards.address,
         np.ascontiguousarray(codes.timed, np.uint64),
         len(codes.entries),
         codes.plan.size,
@@ -259,7 +259,6 @@ def _run(
         given.inputs,
         options[1],
         padded,
-        rows,
         tolerance,
         tolerance * drive.scales,
         chosen.given,
@@ -293,7 +292,7 @@ def _arrays(drive: CompiledDrive, entries: int, chosen: _Columns, room: int, lan
     n, kinds = drive.size, len(drive.model.switches)
     arguments = drive.codes.rates.size
     widest = max(n, len(chosen.outputs))
-    sizes = (n, n, 6 * n, n, drive.codes.plan.size, widest, CONTROL_ROWS)
+    sizes = (n, n, 6 * n, n, drive.codes.plan.size, widest, _CONTROL_ROWS)
     kept = len(chosen.kept) + len(chosen.kept_switches)
     return (
         tuple(aligned(size, lanes) for size in sizes),
