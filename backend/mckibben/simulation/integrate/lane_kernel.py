@@ -21,6 +21,7 @@ from mckibben.simulation.integrate import (
     lane_writer,
     switching,
 )
+from mckibben.simulation.integrate.borrowed import borrowed
 from mckibben.simulation.integrate.lane_control import (
     ACCEPTED,
     ACTIVE,
@@ -233,9 +234,25 @@ def rodas4_lanes(
         arrays: room of `attempt`, twice the Jacobian, arguments, arguments of rows, dense output, arguments
             by lane, kept rows by lane that are not in ``out``, and arrays for one lane.
     """
-    room, jacobians, packed, row_packed, dense, own, scratch, of_lane = arrays
+    timed, stops, constants, starts, switches, times, inputs, grids, atol, out, ends = (
+        borrowed(timed), borrowed(stops), borrowed(constants), borrowed(starts), borrowed(switches),
+        borrowed(times), borrowed(inputs), borrowed(grids), borrowed(atol), borrowed(out), borrowed(ends),
+    )  # fmt: skip
+    events, counts, statuses = borrowed(events), borrowed(counts), borrowed(statuses)
+    room, (whole, following), packed, row_packed, dense, own, scratch, of_lane = arrays
+    packed, row_packed, dense, own, scratch = (
+        borrowed(packed), borrowed(row_packed), borrowed(dense), borrowed(own), borrowed(scratch),
+    )  # fmt: skip
+    whole, following = borrowed(whole), borrowed(following)
+    a, b, c, d, e, f, g = room
+    room = borrowed(a), borrowed(b), borrowed(c), borrowed(d), borrowed(e), borrowed(f), borrowed(g)
     state, trial, _, _, _, _, control = room
-    whole, following = jacobians
+    h, i, j, k, l = of_lane
+    of_lane = borrowed(h), borrowed(i), borrowed(j), borrowed(k), borrowed(l)
+    h, i, j = switching_
+    switching_ = borrowed(h), borrowed(i), borrowed(j)
+    h, i, j, k = columns
+    columns = borrowed(h), borrowed(i), borrowed(j), borrowed(k)
     n, kinds, sets, segments = state.shape[0], switches.shape[1], starts.shape[0], inputs.shape[1]
     first_guard, first_switch = n + entries + timed.shape[0], packed.shape[0] - kinds
     at_state, at_trial, at_packed, at = (
