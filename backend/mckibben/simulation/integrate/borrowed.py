@@ -9,25 +9,25 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import carray, njit, types
+from llvmlite import ir
+from numba import njit, types
 from numba.extending import intrinsic
+from numba.np.numpy_support import carray
 
 
 def _pointer(_typing: Any, _address: Any) -> Any:
-    """``pointer(address)``."""
+    """``pointer_at(address)``, for numba's ``carray``."""
 
     def generate(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
-        from llvmlite import ir
-
         return builder.inttoptr(args[0], ir.IntType(8).as_pointer())
 
     return types.voidptr(types.uintp), generate
 
 
-_pointer_at: Any = intrinsic(_pointer)
+pointer_at: Any = intrinsic(_pointer)
 
 
 @njit(inline="always")
 def borrowed(array: np.ndarray) -> np.ndarray:
     """The same contiguous array, without a count of its references."""
-    return carray(_pointer_at(array.ctypes.data), array.shape, array.dtype)
+    return carray(pointer_at(array.ctypes.data), array.shape, array.dtype)

@@ -36,7 +36,7 @@ WANTED, LANDING, CUT, UNCUT, FAILED = range(7, 12)
 # is accepted; whether a switch may change in it, the share of it after which one does, and the length wanted
 # next if it is not accepted.
 STEP, REACHED, LAST, ERROR, FACTOR, ACCEPTED, FLAG, SHARE, WANTED_NEXT = range(12, 21)
-ROWS = 21
+CONTROL_ROWS = 21
 
 
 @njit(inline="always", error_model="numpy")

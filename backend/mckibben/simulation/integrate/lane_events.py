@@ -112,17 +112,13 @@ def settle(
 
 
 @njit(inline="always", error_model="numpy")
-def suspicious(
-    at: int, first_guard: int, following: np.ndarray, moved: tuple[int, int], room: Any, least: np.ndarray
-) -> int:
+def suspicious(at: int, at_guards: int, at_state: int, at_trial: int, speed: int, least: np.ndarray) -> int:
     """Accepted lanes in whose step a switch may change; those that end at a change already are left out."""
-    state, trial, _, _, _, _, _ = room
-    at_ends, one, flag = following.ctypes.data, splat(1.0), splat(0.0)
+    one, flag = splat(1.0), splat(0.0)
     for k in range(least.shape[0]):
-        flag = where_positive(splat(-least[k]) - load(at_ends, first_guard + k), one, flag)
-    if moved[1] >= 0:
-        turned = splat(0.0) - load(state.ctypes.data, moved[1]) * load(trial.ctypes.data, moved[1])
-        flag = where_positive(turned, one, flag)
+        flag = where_positive(splat(-least[k]) - load(at_guards, k), one, flag)
+    if speed >= 0:
+        flag = where_positive(splat(0.0) - load(at_state, speed) * load(at_trial, speed), one, flag)
     flag = where_positive(load(at, LANDING) + 1.0, splat(0.0), flag)
     flag = where_positive(load(at, ACCEPTED), flag, splat(0.0))
     store(at, FLAG, flag)

@@ -15,7 +15,7 @@ from mckibben.simulation.integrate import (
     coefficients,
     lane_control,
     lane_events,
-    lane_outputs,
+    lane_rows,
     lane_step,
     lane_type,
     lane_writer,
@@ -35,7 +35,6 @@ from mckibben.simulation.integrate.lane_control import (
     NEXT_ROW,
     REACHED,
     REJECTED,
-    STEP,
     TAKEN,
     WANTED,
     WANTED_NEXT,
@@ -44,31 +43,26 @@ from mckibben.simulation.integrate.lane_control import (
     judge,
 )
 from mckibben.simulation.integrate.lane_events import change, locate, settle, suspicious
-from mckibben.simulation.integrate.lane_outputs import WINDOW, write_outputs
-from mckibben.simulation.integrate.lane_step import attempt, write_column, write_dense
-from mckibben.simulation.integrate.lane_type import (
-    LANES,
-    first_bit,
-    load,
-    load_any,
-    positive_bits,
-    splat,
-    store,
-    store_any,
-    where_positive,
+from mckibben.simulation.integrate.lane_rows import (
+    NUMBERS,
+    OWNER,
+    ROW,
+    SEGMENT,
+    write_outputs,
+    write_rows,
 )
+from mckibben.simulation.integrate.lane_step import attempt
+from mckibben.simulation.integrate.lane_type import LANES, load, positive_bits, splat, store, where_positive
 from mckibben.simulation.integrate.stamp import stamped_with
 from mckibben.simulation.integrate.switching import call
 
 _ALL = (1 << LANES) - 1
-# Whole numbers of a lane: its set, segment and next row; next row without outputs, and a segment before it.
-_OWNER, _SEGMENT, _ROW, _DONE, _PIECE = range(5)
 _stamped = stamped_with(
     coefficients,
     switching,
     lane_control,
     lane_events,
-    lane_outputs,
+    lane_rows,
     lane_step,
     lane_type,
     lane_writer,
@@ -81,7 +75,7 @@ def _enter(lane: int, clock: int, numbers: np.ndarray, control: np.ndarray, give
     """Begin the segment of a lane."""
     constants, _, _, times, inputs, _ = given
     state, packed, own, _ = lanes
-    q, segment, first = numbers[_OWNER, lane], numbers[_SEGMENT, lane], state.shape[0] + constants.shape[1]
+    q, segment, first = numbers[OWNER, lane], numbers[SEGMENT, lane], state.shape[0] + constants.shape[1]
     wanted, limits = inputs[q % inputs.shape[0], segment], times[q % times.shape[0]]
     for i in range(wanted.shape[0]):
         packed[first + i, lane] = own[lane, first + i] = wanted[i]
@@ -106,66 +100,11 @@ def _begin(
     for i in range(switches.shape[1]):
         packed[first + i, lane] = own[lane, first + i] = switches[q, i]
     numbers[:, lane] = 0
-    numbers[_OWNER, lane] = q
+    numbers[OWNER, lane] = q
     control[:, lane] = 0.0
     control[ACTIVE, lane], control[LANDING, lane], control[WANTED, lane] = 1.0, -1.0, first_step
     control[NEXT_ROW, lane] = grids[q % grids.shape[0], 0]
     _enter(lane, clock, numbers, control, given, lanes)
-
-
-@njit(error_model="numpy")
-def _complete(
-    lane: int, stop: int, functions: Any, clock: int, numbers: np.ndarray, given: Any, places: Any
-) -> None:
-    """Compute the outputs of the rows of a lane before ``stop``."""
-    constants, _, _, times, inputs, grids = given
-    columns, out, scratch, row_packed, room, _ = places
-    q = numbers[_OWNER, lane]
-    numbers[_PIECE, lane] = write_outputs(
-        lane, functions[4], clock, (numbers[_DONE, lane], stop), numbers[_PIECE, lane], constants[q],
-        times[q % times.shape[0]], inputs[q % inputs.shape[0]], grids[q % grids.shape[0]], columns, out[q],
-        scratch, row_packed, room,
-    )  # fmt: skip
-    numbers[_DONE, lane] = stop
-
-
-@njit(error_model="numpy")
-def _write_rows(
-    crossing: int, functions: Any, clock: int, numbers: np.ndarray, given: Any, places: Any, lanes: Any
-) -> None:
-    """Write the rows in the accepted steps of some lanes."""
-    columns, out, scratch, _, room, dense = places
-    kept, column_of, kept_switches, _ = columns
-    _, packed, own, (_, _, _, _, switches) = lanes
-    first_switch, control, grids = packed.shape[0] - switches.shape[0], room[6], given[5]
-    write_dense(kept, room, dense)
-    for lane in range(LANES):
-        if not (crossing >> lane) & 1:
-            continue
-        q, first, reached = numbers[_OWNER, lane], numbers[_ROW, lane], splat(control[REACHED, lane])
-        grid = grids[q % grids.shape[0]]
-        at_grid, stop, beyond = grid.ctypes.data, first, 0
-        while not beyond:  # the grid ends with infinity
-            beyond = positive_bits(load_any(at_grid + 8 * stop) - reached)
-            stop += first_bit(beyond) if beyond else LANES
-        numbers[_ROW, lane] = stop
-        control[NEXT_ROW, lane] = grid[stop]
-        t, over = control[INSTANT, lane], 1.0 / control[STEP, lane]
-        for c in range(kept.shape[0]):
-            if column_of[c] >= 0:
-                at_column = out[q, column_of[c]].ctypes.data
-            else:
-                at_column = scratch[lane, c].ctypes.data
-            write_column(dense, c, lane, at_grid, at_column, t, over, first, stop)
-        for c in range(kept_switches.shape[0]):
-            value, at_column = (
-                splat(own[lane, first_switch + kept_switches[c]]),
-                scratch[lane, kept.shape[0] + c].ctypes.data,
-            )
-            for row in range(first, stop, LANES):
-                store_any(at_column + 8 * row, value)
-        if stop - numbers[_DONE, lane] >= WINDOW:
-            _complete(lane, stop - stop % LANES, functions, clock, numbers, given, places)
 
 
 _ROWS = "float64[:,::1]"
@@ -251,21 +190,37 @@ def rodas4_lanes(
     of_lane = borrowed(h), borrowed(i), borrowed(j), borrowed(k), borrowed(l)
     h, i, j = switching_
     switching_ = borrowed(h), borrowed(i), borrowed(j)
+    least = switching_[0]
     h, i, j, k = columns
     columns = borrowed(h), borrowed(i), borrowed(j), borrowed(k)
     n, kinds, sets, segments = state.shape[0], switches.shape[1], starts.shape[0], inputs.shape[1]
     first_guard, first_switch = n + entries + timed.shape[0], packed.shape[0] - kinds
-    at_state, at_trial, at_packed, at = (
-        state.ctypes.data, trial.ctypes.data, packed.ctypes.data, control.ctypes.data,
+    places = (
+        room[0].ctypes.data, room[1].ctypes.data, room[2].ctypes.data, room[3].ctypes.data, room[4].ctypes.data,
+        room[5].ctypes.data, room[6].ctypes.data,
     )  # fmt: skip
+    at_state, at_trial, at_u, _, _, at_values, at = places
+    at_packed, sizes = packed.ctypes.data, (n, entries, positions, clock)
     given = constants, starts, switches, times, inputs, grids
     model, lanes, of_sets = (
         (guards, moved, switching_),
         (state, packed, own, of_lane),
         (stops, events, counts),
     )
-    places = columns, out, scratch, row_packed, room, dense
-    numbers = np.zeros((5, LANES), np.int64)
+    numbers = np.zeros((NUMBERS, LANES), np.int64)
+    kept, column_of, kept_switches, output_columns = columns
+    table = np.array([
+        n, constants.shape[1], inputs.shape[2], segments, clock, kept.shape[0], kept_switches.shape[0],
+        output_columns.shape[0], out.shape[1], out.shape[2], scratch.shape[1], first_switch,
+        at, numbers.ctypes.data, at_state, at_trial, at_u, dense.ctypes.data, at_values, row_packed.ctypes.data,
+        at_packed, scratch.ctypes.data, out.ctypes.data, kept.ctypes.data, column_of.ctypes.data,
+        kept_switches.ctypes.data, output_columns.ctypes.data, functions[4],
+        grids.ctypes.data, grids.strides[0] if grids.shape[0] > 1 else 0,
+        times.ctypes.data, times.strides[0] if times.shape[0] > 1 else 0,
+        inputs.ctypes.data, inputs.strides[0] if inputs.shape[0] > 1 else 0,
+        constants.ctypes.data, constants.strides[0],
+    ], np.int64)  # fmt: skip
+    numbers, table = borrowed(numbers), borrowed(table)
     for lane in range(LANES if sets > 0 else 0):
         # Idle lanes need sound numbers as well.
         _begin(lane, min(lane, sets - 1), first_step, clock, numbers, control, given, lanes)
@@ -275,32 +230,33 @@ def rodas4_lanes(
     while active > 0:
         if positive_bits(load(at, FRESH)):
             settle(
-                functions[1], whole, following, first_guard, numbers[_OWNER], control, model, lanes, of_sets
+                functions[1], whole, following, first_guard, numbers[OWNER], control, model, lanes, of_sets
             )
         choose_steps(at)
-        attempt(functions, timed, entries, positions, clock, rtol, atol, whole, packed, room)
+        attempt(functions, sizes, timed, rtol, atol, whole.ctypes.data, at_packed, places)
         short = judge(at, together, control)
         over = 0
         for lane in range(LANES if short else 0):
             if (short >> lane) & 1:
                 mine = control[ERROR, lane]
                 if mine > 1.0:
-                    statuses[numbers[_OWNER, lane]] = 3 if mine >= HOPELESS else 1
+                    statuses[numbers[OWNER, lane]] = 3 if mine >= HOPELESS else 1
                     over |= 1 << lane
                 else:  # another of the group has failed
                     control[WANTED_NEXT, lane] = first_step
         accepted = positive_bits(load(at, ACCEPTED))
         if accepted:
             call(functions[1], following.ctypes.data, at_packed)
-            if suspicious(at, first_guard, following, moved, room, switching_[0]):
+            at_guards = following.ctypes.data + 8 * LANES * first_guard
+            if suspicious(at, at_guards, at_state, at_trial, moved[1], least):
                 locate(
-                    clock, whole, following, first_guard, numbers[_OWNER], together, room, model, lanes, of_sets
+                    clock, whole, following, first_guard, numbers[OWNER], together, room, model, lanes, of_sets
                 )  # fmt: skip
                 accepted = positive_bits(load(at, ACCEPTED))
             due = where_positive(load(at, NEXT_ROW) - load(at, REACHED), splat(0.0), load(at, ACCEPTED))
             crossing = positive_bits(due)
             if crossing:
-                _write_rows(crossing, functions, clock, numbers, given, places, lanes)
+                write_rows(crossing, table)
         if accepted == _ALL:
             whole, following = following, whole
             for i in range(n):
@@ -317,13 +273,13 @@ def rodas4_lanes(
                 continue
             if control[LANDING, lane] >= 0.0:
                 change(
-                    int(control[LANDING, lane]), lane, numbers[_OWNER, lane], control[INSTANT, lane], whole, model,
+                    int(control[LANDING, lane]), lane, numbers[OWNER, lane], control[INSTANT, lane], whole, model,
                     lanes, of_sets,
                 )  # fmt: skip
                 control[LANDING, lane], control[FRESH, lane] = -1.0, 1.0
             if control[LAST, lane] > 0.0:
-                numbers[_SEGMENT, lane] += 1
-                if numbers[_SEGMENT, lane] < segments:
+                numbers[SEGMENT, lane] += 1
+                if numbers[SEGMENT, lane] < segments:
                     _enter(lane, clock, numbers, control, given, lanes)
                 else:
                     over |= 1 << lane
@@ -331,15 +287,15 @@ def rodas4_lanes(
         late = positive_bits(where_positive(tired, load(at, ACTIVE), splat(0.0))) & ~over
         for lane in range(LANES if late else 0):
             if (late >> lane) & 1:
-                statuses[numbers[_OWNER, lane]] = 2
+                statuses[numbers[OWNER, lane]] = 2
         over |= late
         for lane in range(LANES if over else 0):
             if not (over >> lane) & 1:
                 continue
-            q = numbers[_OWNER, lane]
+            q = numbers[OWNER, lane]
             counts[q, 0], counts[q, 1] = control[TAKEN, lane], control[REJECTED, lane]
-            counts[q, 2] = numbers[_ROW, lane]
-            _complete(lane, numbers[_ROW, lane], functions, clock, numbers, given, places)
+            counts[q, 2] = numbers[ROW, lane]
+            write_outputs(lane, numbers[ROW, lane], table)
             for i in range(n):
                 ends[q, i] = state[i, lane]
             for i in range(kinds):

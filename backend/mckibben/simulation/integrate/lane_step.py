@@ -6,14 +6,13 @@ variable.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numba import njit
 
 from mckibben.simulation.integrate.coefficients import ALPHA, DELTA, DENSE_2, DENSE_3, A, C
 from mckibben.simulation.integrate.lane_control import ERROR, HOPELESS, INSTANT, REACHED, STEP
 from mckibben.simulation.integrate.lane_type import (
+    LANES,
     call_with_data,
     larger,
     load,
@@ -65,31 +64,29 @@ def _stage(at_u: int, at_state: int, at_packed: int, at_sum: int, n: int, k: int
 @njit(inline="always", error_model="numpy")
 def attempt(
     functions: tuple[int, int, int, int, int],
+    sizes: tuple[int, int, int, int],
     timed: np.ndarray,
-    entries: int,
-    positions: int,
-    clock: int,
     rtol: float,
     atol: np.ndarray,
-    whole: np.ndarray,
-    packed: np.ndarray,
-    room: Any,
+    at_whole: int,
+    at_packed: int,
+    places: tuple[int, int, int, int, int, int, int],
 ) -> None:
     """Try a step in every lane: writes the stages, the new states and the row ERROR.
 
     Args:
-        whole: rates, entries of the Jacobian and derivatives by time at the start of the step.
-        packed: arguments; holds the new states afterwards, as does ``trial``.
-        room: state, trial, stages, sums, matrix, values and control.
+        functions: addresses of ``rates``, ``jacobian``, ``factorise`` and ``solve``.
+        sizes: numbers of states, of entries of the Jacobian and of positions of the plan; the clock.
+        timed: rates that depend on time.
+        rtol, atol: error per step.
+        at_whole: rates, entries of the Jacobian and derivatives by time at the start of the step.
+        at_packed: arguments; they hold the new states afterwards, as does the trial.
+        places: addresses of state, trial, stages, sums, matrix, values and control.
     """
     rates, _, factorise, solve, _ = functions
-    state, trial, u, sums, matrix, values, control = room
-    n, row = state.shape[0], state.strides[0]
-    at_state, at_trial, at_u, at_sums = (
-        state.ctypes.data, trial.ctypes.data, u.ctypes.data, sums.ctypes.data,
-    )  # fmt: skip
-    at_matrix, at_values, at_control = matrix.ctypes.data, values.ctypes.data, control.ctypes.data
-    at_whole, at_packed = whole.ctypes.data, packed.ctypes.data
+    n, entries, positions, clock = sizes
+    at_state, at_trial, at_u, at_sums, at_matrix, at_values, at_control = places
+    row = 8 * LANES
     step, now, zero = load(at_control, STEP), load(at_control, INSTANT), splat(0.0)
     inverse = 1.0 / step
     call_with_data(factorise, at_matrix, at_whole + row * n, at_control + row * STEP)
@@ -128,13 +125,8 @@ def attempt(
 
 
 @njit(inline="always", error_model="numpy")
-def write_dense(kept: np.ndarray, room: Any, dense: np.ndarray) -> None:
+def write_dense(kept: np.ndarray, at_state: int, at_trial: int, at_u: int, at_dense: int, n: int) -> None:
     """Coefficients of the dense output of the kept states: y(s) = b0 + s (b1 + s (b2 + s b3))."""
-    state, trial, u, _, _, _, _ = room
-    n = state.shape[0]
-    at_state, at_trial, at_u, at_dense = (
-        state.ctypes.data, trial.ctypes.data, u.ctypes.data, dense.ctypes.data,
-    )  # fmt: skip
     for c in range(kept.shape[0]):
         i = kept[c]
         first = second = splat(0.0)
