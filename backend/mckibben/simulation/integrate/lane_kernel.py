@@ -44,11 +44,10 @@ from mckibben.simulation.integrate.lane_control import (
 )
 from mckibben.simulation.integrate.lane_events import change, locate, settle, suspicious
 from mckibben.simulation.integrate.lane_rows import (
-    NUMBERS,
     OWNER,
     ROW,
     SEGMENT,
-    write_outputs,
+    complete,
     write_rows,
 )
 from mckibben.simulation.integrate.lane_step import attempt
@@ -114,7 +113,7 @@ _SIGNATURE = (
     f"{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_TABLE},float64,{_ROWS},float64,float64[::1],"
     f"UniTuple(int64[::1],4),{_TABLE},{_ROWS},{_TABLE},int64[:,::1],int64[::1],int64,boolean,"
     f"Tuple((UniTuple({_ROWS},7),UniTuple({_ROWS},2),{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_TABLE},"
-    f"Tuple((float64[::1],float64[::1],{_ROWS},float64[::1],float64[::1])))))"
+    f"Tuple((float64[::1],float64[::1],{_ROWS},float64[::1],float64[::1])),Tuple((int64[:,::1],int64[::1])))))"
 )
 
 
@@ -171,18 +170,21 @@ def rodas4_lanes(
         max_steps: of a set.
         together: the sets run in groups of LANES; those of a group take all steps together.
         arrays: room of `attempt`, twice the Jacobian, arguments, arguments of rows, dense output, arguments
-            by lane, kept rows by lane that are not in ``out``, and arrays for one lane.
+            by lane, windows of rows, arrays for one lane, and
+            whole numbers of lanes and the table of `mckibben.simulation.integrate.lane_rows`.
     """
     timed, stops, constants, starts, switches, times, inputs, grids, atol, out, ends = (
         borrowed(timed), borrowed(stops), borrowed(constants), borrowed(starts), borrowed(switches),
         borrowed(times), borrowed(inputs), borrowed(grids), borrowed(atol), borrowed(out), borrowed(ends),
     )  # fmt: skip
     events, counts, statuses = borrowed(events), borrowed(counts), borrowed(statuses)
-    room, (whole, following), packed, row_packed, dense, own, scratch, of_lane = arrays
-    packed, row_packed, dense, own, scratch = (
-        borrowed(packed), borrowed(row_packed), borrowed(dense), borrowed(own), borrowed(scratch),
+    room, (whole, following), packed, row_packed, dense, own, windows, of_lane, (numbers, table) = arrays
+    packed, row_packed, dense, own, windows = (
+        borrowed(packed), borrowed(row_packed), borrowed(dense), borrowed(own), borrowed(windows),
     )  # fmt: skip
-    whole, following = borrowed(whole), borrowed(following)
+    whole, following, numbers, table = (
+        borrowed(whole), borrowed(following), borrowed(numbers), borrowed(table),
+    )  # fmt: skip
     a, b, c, d, e, f, g = room
     room = borrowed(a), borrowed(b), borrowed(c), borrowed(d), borrowed(e), borrowed(f), borrowed(g)
     state, trial, _, _, _, _, control = room
@@ -207,20 +209,20 @@ def rodas4_lanes(
         (state, packed, own, of_lane),
         (stops, events, counts),
     )
-    numbers = np.zeros((NUMBERS, LANES), np.int64)
     kept, column_of, kept_switches, output_columns = columns
-    table = np.array([
+    filled = np.array([
         n, constants.shape[1], inputs.shape[2], segments, clock, kept.shape[0], kept_switches.shape[0],
-        output_columns.shape[0], out.shape[1], out.shape[2], scratch.shape[1], first_switch,
+        output_columns.shape[0], out.shape[1], out.shape[2], first_switch,
         at, numbers.ctypes.data, at_state, at_trial, at_u, dense.ctypes.data, at_values, row_packed.ctypes.data,
-        at_packed, scratch.ctypes.data, out.ctypes.data, kept.ctypes.data, column_of.ctypes.data,
+        at_packed, windows.ctypes.data, out.ctypes.data, kept.ctypes.data, column_of.ctypes.data,
         kept_switches.ctypes.data, output_columns.ctypes.data, functions[4],
         grids.ctypes.data, grids.strides[0] if grids.shape[0] > 1 else 0,
         times.ctypes.data, times.strides[0] if times.shape[0] > 1 else 0,
         inputs.ctypes.data, inputs.strides[0] if inputs.shape[0] > 1 else 0,
         constants.ctypes.data, constants.strides[0],
     ], np.int64)  # fmt: skip
-    numbers, table = borrowed(numbers), borrowed(table)
+    for entry in range(filled.shape[0]):
+        table[entry] = filled[entry]
     for lane in range(LANES if sets > 0 else 0):
         # Idle lanes need sound numbers as well.
         _begin(lane, min(lane, sets - 1), first_step, clock, numbers, control, given, lanes)
@@ -295,7 +297,7 @@ def rodas4_lanes(
             q = numbers[OWNER, lane]
             counts[q, 0], counts[q, 1] = control[TAKEN, lane], control[REJECTED, lane]
             counts[q, 2] = numbers[ROW, lane]
-            write_outputs(lane, numbers[ROW, lane], table)
+            complete(lane, table)
             for i in range(n):
                 ends[q, i] = state[i, lane]
             for i in range(kinds):

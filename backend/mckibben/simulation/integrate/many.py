@@ -15,8 +15,6 @@ from mckibben.simulation.integrate.lane_code import aligned
 from mckibben.simulation.integrate.problem import EVENT_WIDTH, FIRST_STEP, MOST_EVENTS, SLOWEST_REBOUND
 from mckibben.simulation.outcome import Outcome
 
-_CONTROL_ROWS = 21  # of `mckibben.simulation.integrate.lane_control`
-
 
 @dataclass(frozen=True, eq=False)
 class ManySolutions:
@@ -45,20 +43,26 @@ class ManySolutions:
 
 
 class LaneKernels(NamedTuple):
-    """The kernel of `mckibben.simulation.integrate.lane_kernel`, and repeated calls of a function."""
+    """The kernel of `mckibben.simulation.integrate.lane_kernel`, sizes of its arrays, and repeated calls."""
 
     run: Callable[..., None]
     call_blocks: Callable[[int, np.ndarray, np.ndarray], None]
     lanes: int
+    window: int
+    numbers: int
+    entries: int
+    control: int
 
 
 def _load() -> LaneKernels:
     # numba: 1 s cached, 20 s the first time ever
+    from mckibben.simulation.integrate.lane_control import CONTROL_ROWS
     from mckibben.simulation.integrate.lane_kernel import rodas4_lanes
+    from mckibben.simulation.integrate.lane_rows import ENTRIES, NUMBERS, WINDOW
     from mckibben.simulation.integrate.lane_type import LANES
     from mckibben.simulation.integrate.repeated import call_blocks
 
-    return LaneKernels(rodas4_lanes, call_blocks, LANES)
+    return LaneKernels(rodas4_lanes, call_blocks, LANES, WINDOW, NUMBERS, ENTRIES, CONTROL_ROWS)
 
 
 lane_kernels = Background(_load, "lane-kernels")
@@ -269,7 +273,7 @@ def _run(
         statuses,
         max_steps,
         together,
-        _arrays(drive, step["jacobian"].width, chosen, room, lanes),
+        _arrays(drive, step["jacobian"].width, chosen, kernels),
     )
     table = out[:, :, :rows].transpose(0, 2, 1)
     for index in np.flatnonzero(counts[:, 2] < rows):
@@ -287,12 +291,13 @@ def _run(
     )
 
 
-def _arrays(drive: CompiledDrive, entries: int, chosen: _Columns, room: int, lanes: int) -> tuple[Any, ...]:
+def _arrays(drive: CompiledDrive, entries: int, chosen: _Columns, kernels: LaneKernels) -> tuple[Any, ...]:
     """``arrays`` of the kernel."""
+    lanes = kernels.lanes
     n, kinds = drive.size, len(drive.model.switches)
     arguments = drive.codes.rates.size
     widest = max(n, len(chosen.outputs))
-    sizes = (n, n, 6 * n, n, drive.codes.plan.size, widest, _CONTROL_ROWS)
+    sizes = (n, n, 6 * n, n, drive.codes.plan.size, widest, kernels.control)
     kept = len(chosen.kept) + len(chosen.kept_switches)
     return (
         tuple(aligned(size, lanes) for size in sizes),
@@ -301,8 +306,9 @@ def _arrays(drive: CompiledDrive, entries: int, chosen: _Columns, room: int, lan
         aligned(arguments, lanes),
         aligned(4 * max(len(chosen.kept), 1), lanes),
         np.zeros((lanes, arguments)),
-        np.empty((lanes, kept, room)),
+        aligned(lanes, kept, lanes + kernels.window),
         (np.zeros(n), np.zeros(n), np.zeros((n, 6)), np.zeros(kinds + 1), np.zeros(kinds)),
+        (np.zeros((kernels.numbers, lanes), np.int64), np.zeros(kernels.entries, np.int64)),
     )
 
 
