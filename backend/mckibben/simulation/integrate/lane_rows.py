@@ -24,6 +24,7 @@ from mckibben.simulation.integrate.lane_type import (
     splat,
     store,
     store_any,
+    stream,
 )
 from mckibben.simulation.integrate.switching import call
 
@@ -125,7 +126,7 @@ def complete(lane: int, table: np.ndarray) -> None:
         if kept[c] == clock:
             at_from = at_grid
         for row in range(0, rows, LANES):
-            store_any(at_to + 8 * row, load_any(at_from + 8 * row))
+            stream(at_to + 8 * row, load_any(at_from + 8 * row))
     if wanted == 0:
         return
     grid, kept_switches = _reals(at_grid, rows), _integers(table[AT_KEPT_SWITCHES], switches)
@@ -163,5 +164,5 @@ def complete(lane: int, table: np.ndarray) -> None:
             store(at_packed, first_switch + kept_switches[c], load_any(at_from))
         call(table[AT_FUNCTION], at_values, at_packed)
         for c in range(wanted):
-            store_any(at_out + column * output_columns[c] + 8 * row, load(at_values, c))
+            stream(at_out + column * output_columns[c] + 8 * row, load(at_values, c))
     numbers[PIECE, lane] = piece

@@ -120,6 +120,18 @@ def _store_any(_typing: Any, _address: Any, _value: Any) -> Any:
     return types.void(types.uintp, lanes_type), generate
 
 
+def _stream(_typing: Any, _address: Any, _value: Any) -> Any:
+    """``stream(address, row)``: store at an aligned address, past the cache."""
+
+    def generate(context: Any, builder: Any, _sig: Any, args: Any) -> Any:
+        stored = builder.store(args[1], builder.inttoptr(args[0], _ROW.as_pointer()), align=_ALIGNMENT)
+        mark = builder.module.add_metadata([ir.Constant(ir.IntType(32), 1)])
+        stored.set_metadata("nontemporal", mark)
+        return context.get_dummy_value()
+
+    return types.void(types.uintp, lanes_type), generate
+
+
 def _splat(_typing: Any, _value: Any) -> Any:
     """``splat(number)``: the same number in every lane."""
 
@@ -201,6 +213,7 @@ load: Any = intrinsic(_load)
 store: Any = intrinsic(_store)
 load_any: Any = intrinsic(_load_any)
 store_any: Any = intrinsic(_store_any)
+stream: Any = intrinsic(_stream)
 splat: Any = intrinsic(_splat)
 magnitude: Any = intrinsic(_of_row("fabs"))
 root: Any = intrinsic(_of_row("sqrt"))
