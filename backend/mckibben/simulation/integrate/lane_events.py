@@ -56,7 +56,8 @@ def change(k: int, lane: int, q: int, t: float, rates: np.ndarray, model: Any, l
 
 @njit(error_model="numpy")
 def _event(
-    lane: int, q: int, clock: int, ends: np.ndarray, first_guard: int, room: Any, model: Any, lanes: Any, kept: Any
+    lane: int, q: int, clock: int, ends: np.ndarray, first_guard: int, room: Any, model: Any, lanes: Any,
+    kept: Any,
 ) -> tuple[float, int]:  # fmt: skip
     """`first_event` of a lane."""
     guards, moved, (least, bounce, follows) = model
@@ -79,8 +80,8 @@ def _event(
 
 @njit(error_model="numpy")
 def settle(
-    jacobian: int, whole: np.ndarray, following: np.ndarray, first_guard: int, owner: np.ndarray, control: np.ndarray,
-    model: Any, lanes: Any, kept: Any,
+    jacobian: int, whole: np.ndarray, following: np.ndarray, first_guard: int, owner: np.ndarray,
+    control: np.ndarray, model: Any, lanes: Any, kept: Any,
 ) -> None:  # fmt: skip
     """Lanes whose inputs or switches have changed: change violated switches, then renew the Jacobian."""
     least = model[2][0]
@@ -127,8 +128,8 @@ def suspicious(at: int, at_guards: int, at_state: int, at_trial: int, speed: int
 
 @njit(error_model="numpy")
 def locate(
-    clock: int, whole: np.ndarray, following: np.ndarray, first_guard: int, owner: np.ndarray, together: bool, room: Any,
-    model: Any, lanes: Any, kept: Any,
+    clock: int, whole: np.ndarray, following: np.ndarray, first_guard: int, owner: np.ndarray, together: bool,
+    room: Any, model: Any, lanes: Any, kept: Any,
 ) -> None:  # fmt: skip
     """Find the changes in the flagged lanes; these lanes repeat the step up to there, together all lanes."""
     control = room[6]

@@ -187,19 +187,19 @@ def rodas4_lanes(
     )  # fmt: skip
     a, b, c, d, e, f, g = room
     room = borrowed(a), borrowed(b), borrowed(c), borrowed(d), borrowed(e), borrowed(f), borrowed(g)
-    state, trial, _, _, _, _, control = room
-    h, i, j, k, l = of_lane
-    of_lane = borrowed(h), borrowed(i), borrowed(j), borrowed(k), borrowed(l)
-    h, i, j = switching_
-    switching_ = borrowed(h), borrowed(i), borrowed(j)
+    state, _, _, _, _, _, control = room
+    a, b, c, d, e = of_lane
+    of_lane = borrowed(a), borrowed(b), borrowed(c), borrowed(d), borrowed(e)
+    a, b, c = switching_
+    switching_ = borrowed(a), borrowed(b), borrowed(c)
     least = switching_[0]
     h, i, j, k = columns
     columns = borrowed(h), borrowed(i), borrowed(j), borrowed(k)
     n, kinds, sets, segments = state.shape[0], switches.shape[1], starts.shape[0], inputs.shape[1]
     first_guard, first_switch = n + entries + timed.shape[0], packed.shape[0] - kinds
     places = (
-        room[0].ctypes.data, room[1].ctypes.data, room[2].ctypes.data, room[3].ctypes.data, room[4].ctypes.data,
-        room[5].ctypes.data, room[6].ctypes.data,
+        room[0].ctypes.data, room[1].ctypes.data, room[2].ctypes.data, room[3].ctypes.data,
+        room[4].ctypes.data, room[5].ctypes.data, room[6].ctypes.data,
     )  # fmt: skip
     at_state, at_trial, at_u, _, _, at_values, at = places
     at_packed, sizes = packed.ctypes.data, (n, entries, positions, clock)
@@ -213,9 +213,9 @@ def rodas4_lanes(
     filled = np.array([
         n, constants.shape[1], inputs.shape[2], segments, clock, kept.shape[0], kept_switches.shape[0],
         output_columns.shape[0], out.shape[1], out.shape[2], first_switch,
-        at, numbers.ctypes.data, at_state, at_trial, at_u, dense.ctypes.data, at_values, row_packed.ctypes.data,
-        at_packed, windows.ctypes.data, out.ctypes.data, kept.ctypes.data, column_of.ctypes.data,
-        kept_switches.ctypes.data, output_columns.ctypes.data, functions[4],
+        at, numbers.ctypes.data, at_state, at_trial, at_u, dense.ctypes.data, at_values,
+        row_packed.ctypes.data, at_packed, windows.ctypes.data, out.ctypes.data, kept.ctypes.data,
+        column_of.ctypes.data, kept_switches.ctypes.data, output_columns.ctypes.data, functions[4],
         grids.ctypes.data, grids.strides[0] if grids.shape[0] > 1 else 0,
         times.ctypes.data, times.strides[0] if times.shape[0] > 1 else 0,
         inputs.ctypes.data, inputs.strides[0] if inputs.shape[0] > 1 else 0,
@@ -252,7 +252,8 @@ def rodas4_lanes(
             at_guards = following.ctypes.data + 8 * LANES * first_guard
             if suspicious(at, at_guards, at_state, at_trial, moved[1], least):
                 locate(
-                    clock, whole, following, first_guard, numbers[OWNER], together, room, model, lanes, of_sets
+                    clock, whole, following, first_guard, numbers[OWNER], together, room, model, lanes,
+                    of_sets,
                 )  # fmt: skip
                 accepted = positive_bits(load(at, ACCEPTED))
             due = where_positive(load(at, NEXT_ROW) - load(at, REACHED), splat(0.0), load(at, ACCEPTED))
@@ -275,8 +276,8 @@ def rodas4_lanes(
                 continue
             if control[LANDING, lane] >= 0.0:
                 change(
-                    int(control[LANDING, lane]), lane, numbers[OWNER, lane], control[INSTANT, lane], whole, model,
-                    lanes, of_sets,
+                    int(control[LANDING, lane]), lane, numbers[OWNER, lane], control[INSTANT, lane], whole,
+                    model, lanes, of_sets,
                 )  # fmt: skip
                 control[LANDING, lane], control[FRESH, lane] = -1.0, 1.0
             if control[LAST, lane] > 0.0:

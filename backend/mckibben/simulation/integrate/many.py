@@ -68,6 +68,15 @@ def _load() -> LaneKernels:
 lane_kernels = Background(_load, "lane-kernels")
 
 
+def constants_of_many(drive: CompiledDrive, parameters: np.ndarray) -> np.ndarray:
+    """Constants of the runs, shape (sets, constants), of parameters, shape (sets, parameters)."""
+    code = drive.codes.constants
+    given = np.ascontiguousarray(parameters, dtype=float)
+    constants = np.empty((len(given), code.width))
+    lane_kernels.awaited().call_blocks(code.address, given[:, :, None], constants[:, :, None])
+    return constants
+
+
 def integrate_many(
     drive: CompiledDrive,
     *,
@@ -232,8 +241,7 @@ def _run(
 ) -> ManySolutions:
     codes, lanes, n = drive.codes, kernels.lanes, drive.size
     sets, rows, kinds = len(given.parameters), given.grid.shape[1], given.switches.shape[1]
-    constants = np.empty((sets, codes.constants.width))
-    kernels.call_blocks(codes.constants.address, given.parameters[:, :, None], constants[:, :, None])
+    constants = constants_of_many(drive, given.parameters)
     stops = np.full((sets, kinds), np.nan)
     for index, place in enumerate(drive.stop_places):
         if place is not None:
