@@ -7,12 +7,13 @@ from math import sqrt
 
 from mckibben.sizing.batch import Bench
 from mckibben.sizing.catalogue import Design
-from mckibben.sizing.prepared import Prepared
-from mckibben.sizing.spread import Spread, spread_of
+from mckibben.sizing.prepared import Figures
+from mckibben.sizing.side_by_side import Case, figures_of_many
+from mckibben.sizing.spread import spread_of
 from mckibben.sizing.task import Task
 from mckibben.sizing.trial import times_over
 
-_CHUNK = 25  # specimens a thread takes at a time
+_CHUNK = 50  # specimens a thread takes at a time
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +42,11 @@ def chance(bench: Bench, design: Design, share: tuple[float, float], specimens: 
 
     def successes(begin: int) -> int:
         chosen = range(begin, min(begin + _CHUNK, specimens))
-        return sum(_succeeds(prepared, bench.task, spread, index) for index in chosen)
+        cases = [
+            Case(prepared, *prepared.specimen(spread.shift[i], spread.friction[i], spread.pressure[i]))
+            for i in chosen
+        ]
+        return sum(_succeeds(figures, bench.task) for figures in figures_of_many(cases, bench.task.returns))
 
     probability = sum(bench.each(successes, starts, share, len(starts))) / specimens
     # At 0 and 1 the variance is that of one deviating specimen, not zero.
@@ -49,13 +54,7 @@ def chance(bench: Bench, design: Design, share: tuple[float, float], specimens: 
     return Chance(probability, sqrt(variance / specimens), specimens)
 
 
-def _succeeds(prepared: Prepared, task: Task, spread: Spread, index: int) -> bool:
+def _succeeds(figures: Figures, task: Task) -> bool:
     """Whether one specimen reaches the end of the stroke in time, stays there, and returns in time."""
-    figures = prepared.run_specimen(
-        float(spread.shift[index]),
-        float(spread.friction[index]),
-        float(spread.pressure[index]),
-        task.returns,
-    )
     late = max(times_over(figures, task).values(), default=0.0)
     return figures.time is not None and figures.holds and late <= 1.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from mckibben.sizing.catalogue import Design
 
 ROWS_UP, ROWS_DOWN = 160, 120
 # Coarse, times within 0.1 %: a proposal is run again at the usual tolerance.
-_TOLERANCE = 1e-5
+TOLERANCE = 1e-5
 #: Distance from a stop within which a load counts as resting on it [m].
 ON_STOP = 1e-8
 #: Last share of the fill in which the load must rest on the stop: a load that is too heavy swings back.
@@ -87,14 +88,13 @@ class Prepared:
         """Position of a parameter."""
         return list(self.compiled.model.parameters).index(name)
 
-    def run_specimen(self, shift: float, friction: float, pressure: float, returns: bool) -> Figures:
-        """Run with the deviations of one specimen.
+    def specimen(self, shift: float, friction: float, pressure: float) -> tuple[np.ndarray, np.ndarray]:
+        """Parameters and inputs with the deviations of one specimen.
 
         Args:
             shift: added to the contraction ratio.
             friction: friction of one muscle, against the motion in both directions [N].
             pressure: factor on the supply pressure.
-            returns: whether the return stroke counts.
         """
         drive, duty = self.drive, self.design.group.duty
         parameters, inputs = self.parameters.copy(), self.inputs
@@ -107,8 +107,12 @@ class Prepared:
             back = min(back, _HOLDS_BACK * max(pulling, 0.0))
         filling = inputs[:, INPUTS.index("opening")] > 0.0
         inputs[:, INPUTS.index("external_force")] += np.where(filling, forward, -back)
+        return parameters, inputs
+
+    def run_specimen(self, shift: float, friction: float, pressure: float, returns: bool) -> Figures:
+        """Run one `specimen`; ``returns``: whether the return stroke counts."""
         try:
-            return self.figures(parameters, inputs, returns)
+            return self.figures(*self.specimen(shift, friction, pressure), returns)
         except InputError:  # nothing holds this specimen's load before the run
             return NOTHING
 
@@ -118,7 +122,7 @@ class Prepared:
         Raises:
             InputError: nothing holds the load before the run.
         """
-        line, compiled, size = self.timeline, self.compiled, self.compiled.size
+        line, compiled = self.timeline, self.compiled
         with np.errstate(all="ignore"):
             start = self.start(parameters)
             solution = integrate(
@@ -130,27 +134,33 @@ class Prepared:
                 times=line.times,
                 inputs=inputs,
                 grid=line.grid,
-                tolerance=_TOLERANCE,
+                tolerance=TOLERANCE,
                 engine="rodas",
             )
-        rows = solution.rows
+        names = [*(state.name for state in compiled.model.states), *compiled.model.output_names]
+        chosen = [names.index(name) for name in self.columns]
+        return self.figures_of(solution.rows[:, chosen], events_of(compiled, solution.events), returns)
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """States and outputs that `figures_of` needs."""
+        names = [state.name for state in self.compiled.model.states]
+        return "stroke", "force", *(n for n in ("supplied", f"supplied{COUNTER}") if n in names)
+
+    def figures_of(self, rows: np.ndarray, events: tuple[Event, ...], returns: bool) -> Figures:
+        """The figures of a run from its rows of `columns`."""
         if len(rows) < ROWS_UP or not np.isfinite(rows).all():
             return NOTHING
-        names = [state.name for state in compiled.model.states]
-        high = self.drive.stops[1]
-        stroke = rows[:, names.index("stroke")]
+        line, high = self.timeline, self.drive.stops[1]
+        stroke, force, air = rows[:, 0], rows[:, 1], rows[-1, 2:] - rows[0, 2:]
         up = slice(0, ROWS_UP)
-        events = events_of(compiled, solution.events)
         time = arrival(events, HIGH_STOP, line.on, line.off)
         back = arrival(events, LOW_STOP, line.off, np.inf) if returns else None
-        taken = [names.index(name) for name in ("supplied", f"supplied{COUNTER}") if name in names]
-        air = float(np.sum(rows[-1, taken] - rows[0, taken])) * self.design.group.parallel
-        force = rows[:, size + compiled.model.output_names.index("force")]
         return Figures(
             time,
             back,
             bool(np.min(stroke[up][-int(HOLD_SHARE * ROWS_UP) :]) >= high - ON_STOP),
-            air / ANR_DENSITY,
+            float(np.sum(air)) * self.design.group.parallel / ANR_DENSITY,
             float(force.max()),
             float(np.max(stroke[up]) - self.drive.stops[0]) / self.drive.load.lever_ratio,
         )
@@ -160,12 +170,22 @@ class Prepared:
 
         A pair starts on the lower stop: its second muscle has pulled it there before the fill.
         """
-        before = self.timeline.before.copy()
-        before[INPUTS.index("external_force")] = self.drive.load.force
+        return start_of(self.resting, self.compiled, parameters, self.before)
+
+    @cached_property
+    def resting(self) -> Drive:
+        """The drive before the run."""
         drive = self.drive
         if drive.pair:
             drive = replace(drive, start_position=drive.stops[0] / drive.load.lever_ratio)
-        return start_of(drive, self.compiled, parameters, before)
+        return drive
+
+    @property
+    def before(self) -> np.ndarray:
+        """Inputs before the run."""
+        before = self.timeline.before.copy()
+        before[INPUTS.index("external_force")] = self.drive.load.force
+        return before
 
 
 def arrival(events: tuple[Event, ...], stop: str, begin: float, end: float) -> float | None:

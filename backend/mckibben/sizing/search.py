@@ -216,10 +216,12 @@ class _Search:
         trials_by_candidate: dict[DesignCandidate, list[Trial]] = {}
         for candidate, _ in jobs:
             self.bench.compile(candidate.group)
+        middle = share[0] + 0.9 * (share[1] - share[0])
+        self.bench.run_ahead([candidate.design(index) for candidate, index in jobs], (share[0], middle))
         trials = self.bench.each(
             lambda job: trial_of(job[0].design(job[1]), self.bench, job[0].sheet.rest.only(job[1])),
             jobs,
-            share,
+            (middle, share[1]),
             len(jobs),
         )
         for (candidate, _), trial in zip(jobs, trials, strict=True):

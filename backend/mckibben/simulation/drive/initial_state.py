@@ -16,7 +16,7 @@ from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.integrate.engine import CompiledDrive
 
 # Net force that counts as none [N].
-_BALANCED = 1e-6
+BALANCED = 1e-6
 
 
 class Rest(Enum):
@@ -59,14 +59,14 @@ def start_of(drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inpu
     search = _Search(drive, compiled, parameters, inputs)
     low, high = drive.stops
     if drive.start_position is not None:
-        stroke, why = _stated(drive), Rest.STATED
+        stroke, why = stated_stroke(drive), Rest.STATED
     else:
         stroke, why = _rest(drive, search.net_force)
     net = search.net_force(stroke)
     switches = np.zeros(len(compiled.model.switches))
     for index, switch in enumerate(compiled.model.switches):
         if switch.name == LOW_STOP:
-            switches[index] = float(stroke <= low and net <= _BALANCED)
+            switches[index] = float(stroke <= low and net <= BALANCED)
         elif switch.name == HIGH_STOP:
             switches[index] = float(stroke >= high and net >= 0.0)
     start = search.settled(switches)
@@ -74,7 +74,12 @@ def start_of(drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inpu
     return Start(start, switches, stroke, why)
 
 
-def _stated(drive: Drive) -> float:
+def stated_stroke(drive: Drive) -> float:
+    """The stroke of the muscle at the stated position [m].
+
+    Raises:
+        InputError: the position is not between the stops.
+    """
     lever = drive.load.lever_ratio
     low, high = drive.stops
     stroke = (drive.start_position or 0.0) * lever
@@ -87,6 +92,15 @@ def _stated(drive: Drive) -> float:
     return min(max(stroke, low), high)
 
 
+def beyond_lock() -> InputError:
+    """The error of a load that no start position holds."""
+    return InputError(
+        "the load stretches the muscle beyond its braid lock at the start pressure",
+        field="load",
+        hint="lower the mass or the external force, or set stops.min_contraction",
+    )
+
+
 def _rest(drive: Drive, net_force: Callable[[float], float]) -> tuple[float, Rest]:
     """The stroke at rest, and why; the net force does not increase with the stroke."""
     low, high = drive.stops
@@ -94,22 +108,18 @@ def _rest(drive: Drive, net_force: Callable[[float], float]) -> tuple[float, Res
     lock = rest * (1.0 - drive.precontraction) - drive.model.longest  # the stroke at the braid lock
     lowest = max(low, lock)
     below = net_force(lowest)
-    if below < -_BALANCED:
+    if below < -BALANCED:
         if low < lock:
-            raise InputError(
-                "the load stretches the muscle beyond its braid lock at the start pressure",
-                field="load",
-                hint="lower the mass or the external force, or set stops.min_contraction",
-            )
+            raise beyond_lock()
         return low, Rest.LOW_STOP
-    if below <= _BALANCED:
-        return lowest, Rest.ANYWHERE if net_force(high) >= -_BALANCED else Rest.BALANCED
-    if net_force(high) > _BALANCED:
+    if below <= BALANCED:
+        return lowest, Rest.ANYWHERE if net_force(high) >= -BALANCED else Rest.BALANCED
+    if net_force(high) > BALANCED:
         return high, Rest.HIGH_STOP
 
     from scipy.optimize import root_scalar
 
-    found = root_scalar(lambda x: net_force(x) - _BALANCED, bracket=(lowest, high), xtol=1e-14)
+    found = root_scalar(lambda x: net_force(x) - BALANCED, bracket=(lowest, high), xtol=1e-14)
     return float(found.root), Rest.BALANCED
 
 

@@ -6,12 +6,12 @@ background, then cached on disk); until then the same compiled functions run und
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
+from mckibben.simulation.integrate.background import Background
 from mckibben.simulation.integrate.lsoda import by_lsoda
 from mckibben.simulation.integrate.problem import (
     EVENT_WIDTH,
@@ -59,36 +59,14 @@ class Kernels(NamedTuple):
     sampled: Callable[..., int]
 
 
-class _Kernel:
-    """The Rodas4 kernel, imported (and on first use compiled) in the background."""
+def _load_kernels() -> Kernels:
+    # numba: 0.6 s cached, 5 s the first time ever
+    from mckibben.simulation.integrate.kernels import rodas4, rodas4_sampled
 
-    def __init__(self) -> None:
-        self._lock = threading.Lock()
-        self._thread: threading.Thread | None = None
-        self._function: Kernels | None = None
-
-    def warm(self) -> threading.Thread:
-        """Start getting the kernel ready; returns the thread that does it."""
-        with self._lock:
-            if self._thread is None:
-                self._thread = threading.Thread(target=self._load, name="rodas-kernel", daemon=True)
-                self._thread.start()
-            return self._thread
-
-    def ready(self) -> Kernels | None:
-        """The kernel, or None while it is not ready."""
-        if self._function is None:
-            self.warm()
-        return self._function
-
-    def _load(self) -> None:
-        # numba: 0.6 s cached, 5 s the first time ever
-        from mckibben.simulation.integrate.kernels import rodas4, rodas4_sampled
-
-        self._function = Kernels(rodas4, rodas4_sampled)
+    return Kernels(rodas4, rodas4_sampled)
 
 
-kernel = _Kernel()
+kernel = Background(_load_kernels, "rodas-kernel")
 
 
 def integrate(
@@ -124,8 +102,7 @@ def integrate(
     """
     kernels = kernel.ready() if engine == "auto" else None
     if engine == "rodas":
-        kernel.warm().join()
-        kernels = kernel.ready()
+        kernels = kernel.awaited()
     began = np.zeros(len(drive.model.switches)) if switches is None else np.array(switches, dtype=float)
     problem = Problem(
         drive=drive,

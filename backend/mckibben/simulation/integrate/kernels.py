@@ -5,18 +5,17 @@ Both go through the same step (`mckibben.simulation.integrate.rodas.advance`) an
 
 from __future__ import annotations
 
-import zlib
-from collections.abc import Callable
 from enum import IntEnum
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numba import njit
 
 from mckibben.simulation.command import pid
-from mckibben.simulation.integrate import rodas
-from mckibben.simulation.integrate.rodas import advance, buffers_of, call, packed_for
+from mckibben.simulation.integrate import coefficients, rodas, switching
+from mckibben.simulation.integrate.rodas import advance, buffers_of, packed_for
+from mckibben.simulation.integrate.stamp import stamped_with
+from mckibben.simulation.integrate.switching import call
 
 _pid_step: Any = pid.compiled_pid_step()
 
@@ -30,17 +29,7 @@ class Status(IntEnum):
     NOT_FINITE = 3
 
 
-def _stamped(function: Callable[..., int]) -> Callable[..., int]:
-    """Name a function by a hash of its sources.
-
-    numba's cache goes by the name, and by the age of this file alone: a change of the others must not leave
-    it with old code.
-    """
-    sources = b"".join(Path(str(module.__file__)).read_bytes() for module in (pid, rodas))
-    function.__qualname__ += f"_{zlib.crc32(sources):08x}"
-    return function
-
-
+_stamped = stamped_with(pid, coefficients, switching, rodas)
 _PLAN = (
     "Tuple((uint64[::1],uint64[::1],uint64[::1],uint64[:,::1],uint64[::1],uint64[:,::1],uint64[:,::1],"
     "uint64[:,::1]))"
@@ -84,8 +73,8 @@ def rodas4(
         clock: number of the state that is time.
         moved: numbers of the states stroke and speed, which end stops act on; -1 without stops.
         switching: of each switch the least guard and the stroke of its end stop (NaN: none); the coefficient
-            of restitution, the speed below which the load does not rebound [m/s] and the stiffness of guards
-            of lengths [N/m]; and of each switch the number of the length that follows (-1: none).
+            of restitution, the speed and the height below which the load does not rebound [m/s], [m] and the
+            stiffness of guards of lengths [N/m]; and of each switch the number of the length that follows (-1: none).
         constants: arguments of the functions between states and inputs.
         state: start, overwritten with the end.
         switches: start, overwritten with the end.

@@ -8,7 +8,13 @@ from collections.abc import Callable
 import numpy as np
 
 from mckibben.physics.drive_terms import GUARD_STIFFNESS
-from mckibben.simulation.integrate.problem import EVENT_WIDTH, SLOWEST_REBOUND, Problem, Solution
+from mckibben.simulation.integrate.problem import (
+    EVENT_WIDTH,
+    LOWEST_REBOUND,
+    SLOWEST_REBOUND,
+    Problem,
+    Solution,
+)
 from mckibben.simulation.outcome import Outcome, Watch
 
 _MOST_CHANGES = 10_000  # switches that change more often in one run make it chatter
@@ -76,7 +82,8 @@ class _Run:
             acceleration = float(self.codes.rates(self.at(problem.state))[speed_place])
         if to == 1.0 and not np.isnan(stop):
             problem.state[stroke_place], problem.state[speed_place] = stop, 0.0
-            if problem.restitution * abs(speed) > SLOWEST_REBOUND:
+            left, pressing = problem.restitution * abs(speed), np.sign(speed) * acceleration
+            if left > SLOWEST_REBOUND and left * left > 2.0 * LOWEST_REBOUND * pressing:
                 problem.state[speed_place] = -problem.restitution * speed
                 to = 0.0
         place = int(problem.drive.follows[number])

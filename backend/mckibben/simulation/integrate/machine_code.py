@@ -10,7 +10,7 @@ from __future__ import annotations
 import ctypes
 import ctypes.util
 import struct
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from typing import Any
 
@@ -70,22 +70,35 @@ def machine_code(
     Raises:
         NotImplementedError: an expression with a function that has no machine code here.
     """
-    import llvmlite.binding as llvm
-
-    wanted = [se.sympify(result) for _, results in functions.values() for result in results]
-    shared, reduced = se.cse(wanted)
-    left, texts, declared = iter(reduced), [], set()
-    for name, (arguments, results) in functions.items():
-        writer = _Writer(arguments, dict(shared))
-        texts.append(writer.function(name, [next(left) for _ in results]))
-        declared |= writer.declared
-    module = llvm.parse_assembly("\n".join([*texts, *sorted(declared)]))
-    engine = llvm.create_mcjit_compiler(module, _host(level))
-    engine.finalize_object()
+    engine = engine_of(texts_of(functions, Writer), level)
     return {
         name: Function(engine, name, len(arguments), len(results))
         for name, (arguments, results) in functions.items()
     }
+
+
+def texts_of(
+    functions: Mapping[str, tuple[Sequence[Any], Sequence[Any]]],
+    writer_of: Callable[[Sequence[Any], Mapping[Any, Any]], Writer],
+) -> list[str]:
+    """LLVM's text of functions that share their common subexpressions, with the declarations it needs."""
+    wanted = [se.sympify(result) for _, results in functions.values() for result in results]
+    shared, reduced = se.cse(wanted)
+    left, texts, declared = iter(reduced), [], set()
+    for name, (arguments, results) in functions.items():
+        writer = writer_of(arguments, dict(shared))
+        texts.append(writer.function(name, [next(left) for _ in results]))
+        declared |= writer.declared
+    return [*texts, *sorted(declared)]
+
+
+def engine_of(texts: Sequence[str], level: int, features: str = "") -> Any:
+    """The compiled code of texts, for this machine; ``features`` are added to those of its processor."""
+    import llvmlite.binding as llvm
+
+    engine = llvm.create_mcjit_compiler(llvm.parse_assembly("\n".join(texts)), _host(level, features))
+    engine.finalize_object()
+    return engine
 
 
 @cache
@@ -101,17 +114,25 @@ def _ready() -> Any:
     return llvm.Target.from_default_triple()
 
 
-def _host(level: int) -> Any:
+def _host(level: int, more: str) -> Any:
     """A target machine; each compilation needs a new one."""
     import llvmlite.binding as llvm
 
     target = _ready()
-    features = llvm.get_host_cpu_features().flatten()
+    features = ",".join(filter(None, (llvm.get_host_cpu_features().flatten(), more)))
     return target.create_target_machine(cpu=llvm.get_host_cpu_name(), features=features, opt=level)
 
 
-class _Writer:
-    """Writes the code of one function; equal expressions are computed once."""
+class Writer:
+    """Writes the code of one function; equal expressions are computed once.
+
+    Attributes:
+        real, truth: LLVM's types of a value and of a condition.
+        lanes: numbers in a value.
+        declared: declarations that the text of `function` needs.
+    """
+
+    real, truth, lanes = "double", "i1", 1
 
     def __init__(self, arguments: Sequence[Any], shared: Mapping[Any, Any]) -> None:
         self._index = {symbol: index for index, symbol in enumerate(arguments)}
@@ -125,8 +146,8 @@ class _Writer:
         """The code; `declared` then holds the declarations it needs."""
         for index, result in enumerate(results):
             value = self._value(result)
-            place = self._new(f"getelementptr double, ptr %out, i64 {index}")
-            self._lines.append(f"store double {value}, ptr {place}")
+            place = self._new(f"getelementptr {self.real}, ptr %out, i64 {index}")
+            self._lines.append(f"store {self.real} {value}, ptr {place}")
         body = "\n".join(self._lines)
         return f"define void @{name}(ptr noalias %out, ptr noalias %in, ptr %data) {{\n{body}\nret void\n}}"
 
@@ -136,7 +157,11 @@ class _Writer:
         return name
 
     def _binary(self, operation: str, a: str, b: str) -> str:
-        return self._new(f"{operation} contract double {a}, {b}")
+        return self._new(f"{operation} contract {self.real} {a}, {b}")
+
+    def _number(self, value: float) -> str:
+        """A constant."""
+        return number(value)
 
     def _call(self, function: str, *arguments: str) -> str:
         self.declared.add(f"declare double @{function}({', '.join(['double'] * len(arguments))})")
@@ -153,10 +178,10 @@ class _Writer:
         if expression.is_Symbol:
             if expression in self._shared:
                 return self._value(self._shared[expression])
-            place = self._new(f"getelementptr double, ptr %in, i64 {self._index[expression]}")
-            return self._new(f"load double, ptr {place}")
+            place = self._new(f"getelementptr {self.real}, ptr %in, i64 {self._index[expression]}")
+            return self._new(f"load {self.real}, ptr {place}")
         if not expression.args or expression.is_Number:
-            return _number(float(expression.n(53, real=True)))
+            return self._number(float(expression.n(53, real=True)))
         if kind == "Add":
             return self._folded("fadd", expression.args)
         if kind == "Mul":
@@ -176,13 +201,18 @@ class _Writer:
         raise NotImplementedError(f"there is no machine code for {kind}")
 
     def _select(self, condition: Any, yes: str, no: str) -> str:
-        return self._new(f"select i1 {self._condition(condition)}, double {yes}, double {no}")
+        return self._chosen(self._condition(condition), yes, no)
+
+    def _chosen(self, condition: str, yes: str, no: str) -> str:
+        return self._new(f"select {self.truth} {condition}, {self.real} {yes}, {self.real} {no}")
+
+    def _comparison(self, kind: str, a: str, b: str) -> str:
+        return self._new(f"fcmp {kind} {self.real} {a}, {b}")
 
     def _extreme(self, comparison: str, arguments: Sequence[Any]) -> str:
         value, *others = map(self._value, arguments)
         for other in others:
-            wins = self._new(f"fcmp {comparison} double {value}, {other}")
-            value = self._new(f"select i1 {wins}, double {value}, double {other}")
+            value = self._chosen(self._comparison(comparison, value, other), value, other)
         return value
 
     def _folded(self, operation: str, arguments: Sequence[Any]) -> str:
@@ -200,7 +230,7 @@ class _Writer:
                 below.append(base**-exponent)
             else:
                 above.append(factor)
-        value = self._folded("fmul", above) if above else _number(1.0)
+        value = self._folded("fmul", above) if above else self._number(1.0)
         return self._binary("fdiv", value, self._folded("fmul", below)) if below else value
 
     def _power(self, base: Any, exponent: Any) -> str:
@@ -209,13 +239,13 @@ class _Writer:
         if exponent.is_Number:
             power = float(exponent)
             if power < 0.0:
-                return self._binary("fdiv", _number(1.0), self._value(base**-exponent))
+                return self._binary("fdiv", self._number(1.0), self._value(base**-exponent))
             whole = int(power)
             if power - whole in (0.0, 0.5) and whole <= _MOST_FACTORS:
                 root = self._call("llvm.sqrt.f64", self._value(base)) if power > whole else None
                 raised = self._whole_power(self._value(base), whole) if whole else None
                 if root is None or raised is None:
-                    return root or raised or _number(1.0)
+                    return root or raised or self._number(1.0)
                 return self._binary("fmul", raised, root)
         return self._call("llvm.pow.f64", self._value(base), self._value(exponent))
 
@@ -232,27 +262,30 @@ class _Writer:
             known = self._conditions[condition] = self._compared(condition)
         return known
 
+    def _truth(self, value: bool) -> str:
+        return "true" if value else "false"
+
     def _compared(self, condition: Any) -> str:
         kind = type(condition).__name__
         if kind in ("BooleanTrue", "BooleanFalse"):
-            return "true" if kind == "BooleanTrue" else "false"
+            return self._truth(kind == "BooleanTrue")
         if condition.is_Symbol:  # a condition that is shared
             return self._condition(self._shared[condition])
         if kind == "Equality" and condition.args[1] == se.true:
             return self._condition(condition.args[0])
         if kind in _COMPARISONS:
             a, b = map(self._value, condition.args)
-            return self._new(f"fcmp {_COMPARISONS[kind]} double {a}, {b}")
+            return self._comparison(_COMPARISONS[kind], a, b)
         if kind in ("And", "Or"):
             value, *others = map(self._condition, condition.args)
             for other in others:
-                value = self._new(f"{kind.lower()} i1 {value}, {other}")
+                value = self._new(f"{kind.lower()} {self.truth} {value}, {other}")
             return value
         if kind == "Not":
-            return self._new(f"xor i1 {self._condition(condition.args[0])}, true")
+            return self._new(f"xor {self.truth} {self._condition(condition.args[0])}, {self._truth(True)}")
         raise NotImplementedError(f"there is no machine code for the condition {kind}")
 
 
-def _number(value: float) -> str:
+def number(value: float) -> str:
     """A constant, bit by bit."""
     return f"0x{struct.unpack('<Q', struct.pack('<d', value))[0]:016X}"

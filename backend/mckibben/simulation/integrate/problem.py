@@ -12,6 +12,7 @@ from mckibben.simulation.outcome import Outcome
 
 FIRST_STEP = 1e-4  # s
 SLOWEST_REBOUND = 1e-3  # m/s; an impact that would leave less leaves the load at rest on its stop
+LOWEST_REBOUND = 1e-7  # m; a lower one would be a matter of rounding, and leaves the load at rest too
 MOST_EVENTS = 256  # events of a run that are kept
 EVENT_WIDTH = 5  # see `Solution.events`
 
@@ -62,7 +63,12 @@ def switching_of(
     drive: CompiledDrive, stops: np.ndarray, restitution: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """``switching`` of `mckibben.simulation.integrate.kernels.rodas4`."""
-    return drive.least, stops, np.array([restitution, SLOWEST_REBOUND, GUARD_STIFFNESS]), drive.follows
+    return drive.least, stops, bounce_of(restitution), drive.follows
+
+
+def bounce_of(restitution: float) -> np.ndarray:
+    """Restitution, slowest rebound, stiffness of guards of lengths and lowest rebound, for the kernels."""
+    return np.array([restitution, SLOWEST_REBOUND, GUARD_STIFFNESS, LOWEST_REBOUND])
 
 
 @dataclass(frozen=True)

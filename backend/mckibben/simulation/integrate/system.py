@@ -15,6 +15,7 @@ from mckibben.physics.driven import DrivenModel
 from mckibben.physics.effect import Effect
 from mckibben.simulation.integrate.elimination import Plan, plan_of
 from mckibben.simulation.integrate.invariants import Invariants
+from mckibben.simulation.integrate.lane_code import Functions, LaneCodes
 from mckibben.simulation.integrate.machine_code import Function, machine_code
 
 # The state that is time.
@@ -68,11 +69,18 @@ class CompiledDrive:
         model: names of states, parameters, inputs.
         codes: the functions for the integrators.
         scales: magnitude of each state, for error control.
+        functions: those of ``codes`` as symbols and expressions.
     """
 
     model: DriveModel | DrivenModel
     codes: Codes
     scales: np.ndarray
+    functions: Functions
+
+    @cached_property
+    def lanes(self) -> LaneCodes:
+        """The functions on rows of lanes; compiled when first used."""
+        return LaneCodes(self.functions, self.codes.plan)
 
     @property
     def width(self) -> int:
@@ -100,7 +108,7 @@ class CompiledDrive:
     def stops(self, parameters: np.ndarray) -> np.ndarray:
         """Stroke of the end stop of each switch [m], NaN for other switches."""
         return np.array(
-            [np.nan if place is None else parameters[place] for place in self._stop_places], dtype=float
+            [np.nan if place is None else parameters[place] for place in self.stop_places], dtype=float
         )
 
     @cached_property
@@ -110,7 +118,8 @@ class CompiledDrive:
         return np.array([names.index(s.follows) if s.follows else -1.0 for s in self.model.switches], float)
 
     @cached_property
-    def _stop_places(self) -> tuple[int | None, ...]:
+    def stop_places(self) -> tuple[int | None, ...]:
+        """Position of the parameter that is the end stop of each switch, None for other switches."""
         names = list(self.model.parameters)
         return tuple(names.index(s.stop) if s.stop else None for s in self.model.switches)
 
@@ -195,16 +204,14 @@ def compile_system(model: DriveModel | DrivenModel, level: int = 0) -> CompiledD
     parameters = list(model.parameters.values())
     switches = [switch.symbol for switch in model.switches]
     arguments = [*states, *invariants.values.values(), *model.inputs.values(), *switches]
-    codes = machine_code(
-        {
-            "constants": (parameters, list(invariants.values)),
-            "rates": (arguments, rates),
-            "outputs": (arguments, outputs),
-            "guards": (arguments, guards),
-            "jacobian": (arguments, [*rates, *derivatives, *guards]),
-        },
-        level=level,
-    )
+    functions: Functions = {
+        "constants": (parameters, list(invariants.values)),
+        "rates": (arguments, rates),
+        "outputs": (arguments, outputs),
+        "guards": (arguments, guards),
+        "jacobian": (arguments, [*rates, *derivatives, *guards]),
+    }
+    codes = machine_code(functions, level=level)
     return CompiledDrive(
         model,
         Codes(
@@ -219,4 +226,5 @@ def compile_system(model: DriveModel | DrivenModel, level: int = 0) -> CompiledD
             clock,
         ),
         np.array([state.scale for state in model.states]),
+        functions,
     )

@@ -1,0 +1,248 @@
+"""The starts of many runs at once; the rules are those of `mckibben.simulation.drive.initial_state`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mckibben.physics import gas
+from mckibben.physics.braid import volume as braid_volume
+from mckibben.physics.drive_terms import COUNTER, HIGH_STOP, LOW_STOP, SLACK
+from mckibben.physics.errors import InputError
+from mckibben.simulation.drive.initial_state import BALANCED, Rest, beyond_lock, stated_stroke
+from mckibben.simulation.drive.parts import Drive
+from mckibben.simulation.integrate.engine import CompiledDrive
+from mckibben.simulation.integrate.lane_calls import LaneCalls
+
+_NARROW = 1e-13  # m; bracket of a root
+_MOST_TRIES = 200
+
+
+@dataclass(frozen=True, eq=False)
+class Starts:
+    """Starts of many runs.
+
+    Attributes:
+        states, switches: shapes (sets, states), (sets, switches).
+        strokes: of the muscle [m], shape (sets,).
+        why: of each set.
+        errors: of each set why it has no start, None if it has one; states are NaN without one.
+    """
+
+    states: np.ndarray
+    switches: np.ndarray
+    strokes: np.ndarray
+    why: tuple[Rest, ...]
+    errors: tuple[InputError | None, ...]
+
+
+def starts_of_many(
+    drives: Drive | Sequence[Drive], compiled: CompiledDrive, parameters: np.ndarray, inputs: np.ndarray
+) -> Starts:
+    """The states at the start of each set, as `mckibben.simulation.drive.initial_state.start_of` finds them.
+
+    Args:
+        drives: the drive of each set, or one for all.
+        compiled: their equations.
+        parameters: constants of the runs, shape (sets, parameters).
+        inputs: inputs before the runs, shape (inputs,) or (sets, inputs).
+    """
+    sets = len(parameters)
+    each = [drives] * sets if isinstance(drives, Drive) else list(drives)
+    with np.errstate(all="ignore"):
+        return _Search(each, compiled, np.asarray(parameters, float), np.asarray(inputs, float)).found()
+
+
+def _of_drives(drives: list[Drive], value: Callable[[Drive], float]) -> np.ndarray:
+    known: dict[int, float] = {}
+    for drive in drives:
+        if id(drive) not in known:
+            known[id(drive)] = value(drive)
+    return np.array([known[id(drive)] for drive in drives])
+
+
+class _Search:
+    """The compiled equations at rest, as functions of the strokes."""
+
+    def __init__(
+        self, drives: list[Drive], compiled: CompiledDrive, parameters: np.ndarray, inputs: np.ndarray
+    ) -> None:
+        self.drives, self.compiled, model = drives, compiled, compiled.model
+        self.calls = LaneCalls(compiled, parameters, inputs)
+        self.names = [state.name for state in model.states]
+        absolute = _of_drives(drives, lambda drive: drive.start_pressure + drive.ambient_pressure)
+        temperature = _of_drives(drives, lambda drive: drive.temperature)
+        self.specific = absolute / (gas.GAS_CONSTANT * temperature)
+        for index, state in enumerate(model.states):
+            plain = state.name.removesuffix(COUNTER)
+            pressure = plain in ("pressure", "tube_pressure", "regulator_pressure")
+            start = absolute if pressure else 0.0
+            self.calls.put(index, start if state.initial is None else state.initial)
+        rough = _of_drives(
+            drives,
+            lambda drive: float(braid_volume(braid=drive.muscle.braid, length=drive.muscle.nominal_length)),
+        )
+        for index in self._places("gas_mass"):
+            self.calls.put(index, self.specific * rough)
+        places = list(model.parameters)
+        self.middle = (
+            parameters[:, places.index("nominal_length")] - parameters[:, places.index("precontraction")]
+        )
+        self.lengths = self._places("length")
+        volumes = [
+            "volume" + self.names[index].removeprefix("gas_mass") for index in self._places("gas_mass")
+        ]
+        outputs = [model.output_names.index(name) for name in ("net_force", *volumes)]
+        self.outputs, _ = compiled.lanes.outputs(outputs)
+        self.nominal = _of_drives(drives, lambda drive: drive.muscle.nominal_length)
+        self.longest = _of_drives(drives, lambda drive: drive.model.longest)
+
+    def _places(self, name: str) -> list[int]:
+        return [index for index, full in enumerate(self.names) if full.removesuffix(COUNTER) == name]
+
+    def net_force(self, strokes: np.ndarray) -> np.ndarray:
+        """Force along the stroke without that of the stops [N]."""
+        self.calls.put(self.names.index("stroke"), strokes)
+        for place, sense in zip(self.lengths, (1.0, -1.0), strict=False):
+            self.calls.put(place, self.middle - sense * strokes)
+        return self.calls.call(self.outputs)[0]
+
+    def found(self) -> Starts:
+        drives, model = self.drives, self.compiled.model
+        low = _of_drives(drives, lambda drive: drive.stops[0])
+        high = _of_drives(drives, lambda drive: drive.stops[1])
+        strokes, why, errors = self._rest(low, high)
+        for index, drive in enumerate(drives):
+            if drive.start_position is not None:
+                try:
+                    strokes[index], why[index], errors[index] = stated_stroke(drive), Rest.STATED, None
+                except InputError as error:
+                    errors[index] = error
+        net = self.net_force(strokes)
+        switches = np.zeros((len(drives), len(model.switches)))
+        for index, switch in enumerate(model.switches):
+            if switch.name == LOW_STOP:
+                switches[:, index] = (strokes <= low) & (net <= BALANCED)
+            elif switch.name == HIGH_STOP:
+                switches[:, index] = (strokes >= high) & (net >= 0.0)
+        self._loosen(switches)
+        volumes = self.calls.call(self.outputs)[1:]
+        for place, volume in zip(self._places("gas_mass"), volumes, strict=True):
+            self.calls.put(place, self.specific * volume)
+        self._settle()
+        states = np.column_stack([self.calls.get(index) for index in range(self.compiled.size)])
+        states[[error is not None for error in errors]] = np.nan
+        return Starts(states, switches, strokes, tuple(why), tuple(errors))
+
+    def _rest(
+        self, low: np.ndarray, high: np.ndarray
+    ) -> tuple[np.ndarray, list[Rest], list[InputError | None]]:
+        """Strokes at rest, and why; the net force does not increase with the stroke."""
+        precontraction = _of_drives(self.drives, lambda drive: drive.precontraction)
+        lock = self.nominal * (1.0 - precontraction) - self.longest  # the stroke at the braid lock
+        lowest = np.maximum(low, lock)
+        below, above = self.net_force(lowest), self.net_force(high)
+        hangs = below < -BALANCED
+        free = ~hangs & (below <= BALANCED)
+        lifted = ~hangs & ~free & (above > BALANCED)
+        between = ~(hangs | free | lifted)
+        strokes = np.where(hangs, low, np.where(lifted, high, lowest))
+        root = _root(lambda x: self.net_force(x) - BALANCED, lowest, high, between)
+        strokes = np.where(between, root, strokes)
+        why = [
+            Rest.LOW_STOP
+            if hangs[index]
+            else Rest.HIGH_STOP
+            if lifted[index]
+            else Rest.ANYWHERE
+            if free[index] and above[index] >= -BALANCED
+            else Rest.BALANCED
+            for index in range(len(self.drives))
+        ]
+        return strokes, why, [beyond_lock() if lost else None for lost in hangs & (low < lock)]
+
+    def _loosen(self, switches: np.ndarray) -> None:
+        """Give slack muscles their free length, and set their switches."""
+        slack = [i for i, switch in enumerate(self.compiled.model.switches) if switch.name.startswith(SLACK)]
+        for place, number in zip(self.lengths, slack, strict=True):
+            short = self.calls.get(place)
+            loose = self._tension(number) < 0.0
+            if not loose.any():
+                continue
+            switches[loose, number] = 1.0
+
+            def tension(length: np.ndarray, place: int = place, number: int = number) -> np.ndarray:
+                self.calls.put(place, length)
+                return self._tension(number)
+
+            long = np.minimum(self.nominal, self.longest)
+            long = np.where((long > short) & (tension(long) >= 0.0), long, self.longest)
+            taut = (long > short) & (tension(long) >= 0.0)
+            root = _root(lambda x, t=tension: -t(x), short, long, loose & taut)
+            self.calls.put(place, np.where(loose & taut, root, short))
+
+    def _tension(self, number: int) -> np.ndarray:
+        """Tensions at rest of the muscles that a switch belongs to [N]; the switches are 0 here."""
+        guards = self.calls.call(self.compiled.lanes.step["jacobian"])[-len(self.compiled.model.switches) :]
+        return guards[number]
+
+    def _settle(self) -> None:
+        """Set the states that start settled to where their rates, linear in them, are zero."""
+        states = self.compiled.model.states
+        chosen = [index for index, state in enumerate(states) if state.settled]
+        if not chosen:
+            return
+        rates = self.compiled.lanes.step["rates"]
+        zero = self.calls.call(rates)[chosen]
+        scales = np.array([states[index].scale for index in chosen])
+        columns = []
+        for index, scale in zip(chosen, scales, strict=True):
+            start = self.calls.get(index)
+            self.calls.put(index, start + scale)
+            columns.append(self.calls.call(rates)[chosen] - zero)
+            self.calls.put(index, start)
+        # Least squares, because a lag of zero makes a rate that is always zero.
+        matrices = np.stack(columns, axis=-1).transpose(1, 0, 2)  # (sets, rates, states)
+        broken = ~np.isfinite(matrices).all(axis=(1, 2))
+        matrices[broken] = 0.0
+        changes = -np.einsum("qij,jq->iq", np.linalg.pinv(matrices), np.where(broken, 0.0, zero))
+        for row, index in enumerate(chosen):
+            self.calls.put(index, self.calls.get(index) + scales[row] * changes[row])
+
+
+def _root(
+    function: Callable[[np.ndarray], np.ndarray], low: np.ndarray, high: np.ndarray, wanted: np.ndarray
+) -> np.ndarray:
+    """Roots of functions that are positive at ``low`` and not at ``high``, where wanted.
+
+    Regula falsi of the Illinois kind; a bracket that three tries do not halve is bisected.
+    """
+    low, high = low.copy(), np.where(wanted, high, low)
+    if not wanted.any():
+        return low
+    at_low, at_high = function(low), function(high)
+    side, width = np.zeros(len(low)), high - low
+    for attempt in range(_MOST_TRIES):
+        open_ = wanted & (high - low > _NARROW)
+        if not open_.any():
+            break
+        middle = 0.5 * (low + high)
+        straight = (low * at_high - high * at_low) / (at_high - at_low)
+        inside = (straight > low) & (straight < high)
+        if attempt % 4 == 3:
+            inside &= high - low < 0.5 * width
+            width = high - low
+        middle = np.where(inside, straight, middle)
+        middle = np.where(open_, middle, low)
+        value = function(middle)
+        above, zero = open_ & (value > 0.0), open_ & (value == 0.0)
+        down = open_ & ~above
+        at_high = np.where(above & (side == 1.0), 0.5 * at_high, at_high)
+        at_low = np.where(down & (side == -1.0), 0.5 * at_low, at_low)
+        low, at_low = np.where(above | zero, middle, low), np.where(above, value, at_low)
+        high, at_high = np.where(down, middle, high), np.where(down, value, at_high)
+        side = np.where(above, 1.0, np.where(down, -1.0, side))
+    # The end with the smaller value of the function.
+    return np.where(np.abs(function(low)) < np.abs(function(high)), low, high)

@@ -1,0 +1,52 @@
+"""What takes long to import, imported in the background."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Generic, TypeVar
+
+Loaded = TypeVar("Loaded")
+
+
+class Background(Generic[Loaded]):
+    """Something imported (and on first use compiled) in the background.
+
+    Args:
+        load: imports and returns it.
+        name: of the thread.
+    """
+
+    def __init__(self, load: Callable[[], Loaded], name: str) -> None:
+        self._load, self._name = load, name
+        self._lock = threading.Lock()
+        self._thread: threading.Thread | None = None
+        self._loaded: Loaded | None = None
+
+    def warm(self) -> threading.Thread:
+        """Start getting it ready; returns the thread that does it."""
+        with self._lock:
+            if self._thread is None:
+                self._thread = threading.Thread(target=self._run, name=self._name, daemon=True)
+                self._thread.start()
+            return self._thread
+
+    def ready(self) -> Loaded | None:
+        """It, or None while it is not ready."""
+        if self._loaded is None:
+            self.warm()
+        return self._loaded
+
+    def awaited(self) -> Loaded:
+        """It, as soon as it is ready.
+
+        Raises:
+            RuntimeError: it cannot be loaded; the thread has printed why.
+        """
+        self.warm().join()
+        if self._loaded is None:
+            raise RuntimeError(f"{self._name} cannot be loaded")
+        return self._loaded
+
+    def _run(self) -> None:
+        self._loaded = self._load()

@@ -1,0 +1,163 @@
+"""Switches of a lane: the event rules of `mckibben.simulation.integrate.switching` on its column."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from mckibben.simulation.integrate.lane_control import (
+    ACCEPTED,
+    CUT,
+    FLAG,
+    FRESH,
+    INSTANT,
+    LANDING,
+    LEAST_STEP,
+    REJECTED,
+    SHARE,
+    STEP,
+    UNCUT,
+    WANTED,
+    WANTED_NEXT,
+)
+from mckibben.simulation.integrate.lane_type import LANES, load, positive_bits, splat, store, where_positive
+from mckibben.simulation.integrate.switching import call, change_switch, first_event
+
+
+@njit(error_model="numpy")
+def change(k: int, lane: int, q: int, t: float, rates: np.ndarray, model: Any, lanes: Any, kept: Any) -> None:
+    """Change switch k of a lane; ``rates`` (rows of lanes) are those before.
+
+    Args:
+        model: addresses of the guards and of the functions on rows of lanes, states moved, ``switching_``.
+        lanes: state, arguments and arguments by lane; arrays for one lane.
+        kept: of each set: strokes of stops, events, counts.
+    """
+    guards, moved, (least, bounce, follows) = model
+    state, packed, own, (start, before, _, guarded, switches) = lanes
+    stops, events, counts = kept
+    n, kinds = state.shape[0], switches.shape[0]
+    first = packed.shape[0] - kinds
+    for i in range(n):
+        start[i], before[i] = state[i, lane], rates[i, lane]
+    for i in range(kinds):
+        switches[i] = packed[first + i, lane]
+    change_switch(
+        k, t, before, guards, moved, (least, stops[q], bounce, follows), own[lane], guarded, start, switches,
+        events[q], counts[q],
+    )  # fmt: skip
+    for i in range(n):
+        state[i, lane] = start[i]
+    for i in range(kinds):
+        packed[first + i, lane] = own[lane, first + i] = switches[i]
+
+
+@njit(error_model="numpy")
+def _event(
+    lane: int, q: int, clock: int, ends: np.ndarray, first_guard: int, room: Any, model: Any, lanes: Any,
+    kept: Any,
+) -> tuple[float, int]:  # fmt: skip
+    """`first_event` of a lane."""
+    guards, moved, (least, bounce, follows) = model
+    state, packed, own, (start, end, stages, guarded, switches) = lanes
+    _, trial, u, _, _, _, control = room
+    n, kinds = state.shape[0], switches.shape[0]
+    first = packed.shape[0] - kinds
+    for i in range(n):
+        start[i], end[i] = state[i, lane], trial[i, lane]
+        for j in range(6):
+            stages[i, j] = u[n * j + i, lane]
+    column = np.empty(kinds)
+    for i in range(kinds):
+        switches[i], column[i] = packed[first + i, lane], ends[first_guard + i, lane]
+    return first_event(
+        guards, control[INSTANT, lane], control[STEP, lane], column, 0, switches, moved,
+        (least, kept[0][q], bounce, follows), clock, own[lane], guarded, start, end, stages,
+    )  # fmt: skip
+
+
+@njit(error_model="numpy")
+def settle(
+    jacobian: int, whole: np.ndarray, following: np.ndarray, first_guard: int, owner: np.ndarray,
+    control: np.ndarray, model: Any, lanes: Any, kept: Any,
+) -> None:  # fmt: skip
+    """Lanes whose inputs or switches have changed: change violated switches, then renew the Jacobian."""
+    least = model[2][0]
+    state, packed, _, _ = lanes
+    n, kinds = state.shape[0], least.shape[0]
+    at_state, at_packed = state.ctypes.data, packed.ctypes.data
+    tries, waiting = 0, 1
+    while waiting > 0:
+        for i in range(n):
+            store(at_packed, i, load(at_state, i))
+        call(jacobian, following.ctypes.data, at_packed)
+        waiting = 0
+        for lane in range(LANES):
+            if control[FRESH, lane] == 0.0:
+                continue
+            wrong = -1
+            for k in range(kinds if tries < 2 * kinds + 1 else 0):
+                if following[first_guard + k, lane] < -least[k]:
+                    wrong = k
+                    break
+            if wrong >= 0:
+                change(wrong, lane, owner[lane], control[INSTANT, lane], following, model, lanes, kept)
+                waiting += 1
+            else:
+                for i in range(whole.shape[0]):
+                    whole[i, lane] = following[i, lane]
+                control[FRESH, lane] = 0.0
+        tries += 1
+
+
+@njit(inline="always", error_model="numpy")
+def suspicious(at: int, at_guards: int, at_state: int, at_trial: int, speed: int, least: np.ndarray) -> int:
+    """Accepted lanes in whose step a switch may change; those that end at a change already are left out."""
+    one, flag = splat(1.0), splat(0.0)
+    for k in range(least.shape[0]):
+        flag = where_positive(splat(-least[k]) - load(at_guards, k), one, flag)
+    if speed >= 0:
+        flag = where_positive(splat(0.0) - load(at_state, speed) * load(at_trial, speed), one, flag)
+    flag = where_positive(load(at, LANDING) + 1.0, splat(0.0), flag)
+    flag = where_positive(load(at, ACCEPTED), flag, splat(0.0))
+    store(at, FLAG, flag)
+    return positive_bits(flag)
+
+
+@njit(error_model="numpy")
+def locate(
+    clock: int, whole: np.ndarray, following: np.ndarray, first_guard: int, owner: np.ndarray, together: bool,
+    room: Any, model: Any, lanes: Any, kept: Any,
+) -> None:  # fmt: skip
+    """Find the changes in the flagged lanes; these lanes repeat the step up to there, together all lanes."""
+    control = room[6]
+    share = 2.0
+    for lane in range(LANES):
+        control[SHARE, lane] = 2.0
+        if control[FLAG, lane] > 0.0:
+            control[SHARE, lane], landing = _event(
+                lane, owner[lane], clock, following, first_guard, room, model, lanes, kept
+            )
+            control[LANDING, lane] = landing
+            share = min(share, control[SHARE, lane])
+    for lane in range(LANES):
+        mine = share if together else control[SHARE, lane]
+        if control[ACCEPTED, lane] == 0.0 or mine == 2.0:
+            continue
+        if control[SHARE, lane] > mine:
+            control[LANDING, lane] = -1.0
+        used, t = control[STEP, lane], control[INSTANT, lane]
+        control[REJECTED, lane] += 1.0
+        control[ACCEPTED, lane] = 0.0
+        if mine * used > LEAST_STEP * max(1.0, abs(t)):
+            control[WANTED_NEXT, lane] = mine * used
+            if control[CUT, lane] == 0.0:
+                control[CUT, lane], control[UNCUT, lane] = 1.0, control[WANTED, lane]
+        else:
+            control[WANTED_NEXT, lane] = used
+            if control[LANDING, lane] >= 0.0:
+                change(int(control[LANDING, lane]), lane, owner[lane], t, whole, model, lanes, kept)
+                control[FRESH, lane] = 1.0
+            control[LANDING, lane] = -1.0

@@ -1,0 +1,337 @@
+"""Runs of many parameter sets of one structure, in lanes: see `mckibben.simulation.integrate.lane_kernel`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mckibben.simulation.integrate.background import Background
+from mckibben.simulation.integrate.engine import MAX_STEPS, CompiledDrive, outcome_of
+from mckibben.simulation.integrate.lane_code import aligned
+from mckibben.simulation.integrate.problem import EVENT_WIDTH, FIRST_STEP, MOST_EVENTS, bounce_of
+from mckibben.simulation.outcome import Outcome
+
+
+@dataclass(frozen=True, eq=False)
+class ManySolutions:
+    """Rows, and how each run went.
+
+    Attributes:
+        rows: shape (sets, rows, columns); NaN after the end of a run that ended early.
+        written: number of rows of each set that hold a result, shape (sets,).
+        ends, switches: at the end, shapes (sets, states), (sets, switches).
+        events: of each set, see `mckibben.simulation.integrate.problem.Solution`.
+        outcomes: of each set.
+        steps, rejected: of each set, shape (sets,).
+        nominals: with ``together`` the rows of the first set as it ran beside each set, shape (sets, rows,
+            columns), else empty.
+    """
+
+    rows: np.ndarray
+    written: np.ndarray
+    ends: np.ndarray
+    switches: np.ndarray
+    events: tuple[np.ndarray, ...]
+    outcomes: tuple[Outcome, ...]
+    steps: np.ndarray
+    rejected: np.ndarray
+    nominals: np.ndarray
+
+
+class LaneKernels(NamedTuple):
+    """The kernel of `mckibben.simulation.integrate.lane_kernel`, sizes of its arrays, and repeated calls."""
+
+    run: Callable[..., None]
+    call_blocks: Callable[[int, np.ndarray, np.ndarray], None]
+    lanes: int
+    window: int
+    numbers: int
+    entries: int
+    control: int
+
+
+def _load() -> LaneKernels:
+    # numba: 1 s cached, 20 s the first time ever
+    from mckibben.simulation.integrate.lane_control import CONTROL_ROWS
+    from mckibben.simulation.integrate.lane_kernel import rodas4_lanes
+    from mckibben.simulation.integrate.lane_rows import ENTRIES, NUMBERS, WINDOW
+    from mckibben.simulation.integrate.lane_type import LANES
+    from mckibben.simulation.integrate.repeated import call_blocks
+
+    return LaneKernels(rodas4_lanes, call_blocks, LANES, WINDOW, NUMBERS, ENTRIES, CONTROL_ROWS)
+
+
+lane_kernels = Background(_load, "lane-kernels")
+
+
+def constants_of_many(drive: CompiledDrive, parameters: np.ndarray) -> np.ndarray:
+    """Constants of the runs, shape (sets, constants), of parameters, shape (sets, parameters)."""
+    code = drive.codes.constants
+    given = np.ascontiguousarray(parameters, dtype=float)
+    constants = np.empty((len(given), code.width))
+    lane_kernels.awaited().call_blocks(code.address, given[:, :, None], constants[:, :, None])
+    return constants
+
+
+def integrate_many(
+    drive: CompiledDrive,
+    *,
+    parameters: np.ndarray,
+    starts: np.ndarray,
+    times: np.ndarray,
+    inputs: np.ndarray,
+    grid: np.ndarray,
+    tolerance: float,
+    columns: Sequence[str] | None = None,
+    switches: np.ndarray | None = None,
+    restitution: float = 0.0,
+    first_step: float = FIRST_STEP,
+    max_steps: int = MAX_STEPS,
+    together: bool = False,
+) -> ManySolutions:
+    """Integrate many parameter sets of a structure, each from its ``times[0]`` to its ``times[-1]``.
+
+    The result of a set does not depend on the others, except with ``together``. It releases the interpreter
+    lock and may be called from several threads.
+
+    Args:
+        drive: the compiled structure.
+        parameters: of each set in the order of ``drive.model.parameters``, shape (sets, parameters).
+        starts: states at the first boundary, shape (sets, states).
+        times: segment boundaries, shape (segments + 1,) or (sets, segments + 1).
+        inputs: of each segment, shape (segments, inputs) or (sets, segments, inputs).
+        grid: ascending times of the rows within the boundaries, shape (rows,) or (sets, rows).
+        tolerance: relative error per step; the absolute one is this times the scale of the state.
+        columns: names of the states and outputs wanted; only these are computed. Default: all states, then
+            all outputs.
+        switches: at the first boundary, shape (sets, switches); default 0.
+        restitution: see `mckibben.simulation.integrate.engine.integrate`.
+        first_step: first step that is tried [s].
+        max_steps: limit of accepted and rejected steps of a set.
+        together: all sets take the same steps as the first, in groups of as many as there are lanes. The
+            difference of a set to ``nominals`` is then smooth in its parameters: for derivatives by
+            differences. Needs common ``times``.
+
+    Raises:
+        ValueError: arrays whose shapes do not fit, or an unknown column.
+    """
+    kernels = lane_kernels.awaited()
+    parameters = np.ascontiguousarray(parameters, dtype=float)
+    sets = len(parameters)
+    given = _Given(
+        parameters,
+        np.ascontiguousarray(starts, dtype=float),
+        np.zeros((sets, len(drive.model.switches))) if switches is None else np.array(switches, dtype=float),
+        _of_sets(times, 1),
+        _of_sets(inputs, 2),
+        _of_sets(grid, 1),
+    )
+    given.check(drive, together)
+    order = np.arange(sets)
+    if together and sets:
+        order = _groups(sets, kernels.lanes)
+        given = given.picked(order)
+    chosen = _Columns(drive, columns)
+    done = _run(
+        drive, kernels, given, chosen, tolerance, (restitution, first_step), max_steps, together=together
+    )
+    if not together or not sets:
+        return done
+    return _separated(done, order)
+
+
+@dataclass(frozen=True, eq=False)
+class _Given:
+    """The arrays of the sets."""
+
+    parameters: np.ndarray
+    starts: np.ndarray
+    switches: np.ndarray
+    times: np.ndarray
+    inputs: np.ndarray
+    grid: np.ndarray
+
+    def check(self, drive: CompiledDrive, together: bool) -> None:
+        """Raise ValueError for shapes that do not fit."""
+        sets, segments = len(self.parameters), self.inputs.shape[1]
+        wanted = {
+            "parameters": (self.parameters, (sets, len(drive.model.parameters))),
+            "starts": (self.starts, (sets, drive.size)),
+            "switches": (self.switches, (sets, len(drive.model.switches))),
+            "times": (self.times, (len(self.times), segments + 1)),
+            "inputs": (self.inputs, (len(self.inputs), segments, len(drive.model.inputs))),
+        }
+        for name, (array, shape) in wanted.items():
+            if array.shape != shape:
+                raise ValueError(f"{name} has the shape {array.shape}, not {shape}")
+        for name, array in (("times", self.times), ("inputs", self.inputs), ("grid", self.grid)):
+            if len(array) not in (1, sets):
+                raise ValueError(f"{name} is for {len(array)} sets, not {sets} and not 1")
+        if together and len(self.times) > 1:
+            raise ValueError("sets that run together need common times")
+
+    def picked(self, order: np.ndarray) -> _Given:
+        """The sets in another order, some of them repeatedly."""
+
+        def pick(array: np.ndarray) -> np.ndarray:
+            return array if len(array) == 1 else array[order]
+
+        shared = (pick(array) for array in (self.times, self.inputs, self.grid))
+        return _Given(self.parameters[order], self.starts[order], self.switches[order], *shared)
+
+
+class _Columns:
+    """Which states, switches and outputs have to be written, and where."""
+
+    def __init__(self, drive: CompiledDrive, names: Sequence[str] | None) -> None:
+        states = [state.name for state in drive.model.states]
+        outputs = list(drive.model.output_names)
+        names = [*states, *outputs] if names is None else list(names)
+        unknown = [name for name in names if name not in states and name not in outputs]
+        if unknown:
+            raise ValueError(
+                f"there is no state or output {unknown[0]}; there are {', '.join([*states, *outputs])}"
+            )
+        self.count = len(names)
+        place = {states.index(name): column for column, name in enumerate(names) if name in states}
+        wanted = [(column, outputs.index(name)) for column, name in enumerate(names) if name not in states]
+        self.address, needs, first_switch = 0, np.zeros(0, np.int64), drive.codes.outputs.size
+        if wanted:
+            code, needs = drive.lanes.outputs([index for _, index in wanted])
+            self.address, first_switch = code.address, code.size - len(drive.model.switches)
+        kept = sorted({*place, *needs[needs < drive.size].tolist()})
+        self.kept = np.array(kept, np.int64)
+        self.column_of = np.array([place.get(state, -1) for state in kept], np.int64)
+        self.kept_switches = needs[needs >= first_switch] - first_switch
+        self.outputs = np.array([column for column, _ in wanted], np.int64)
+
+    @property
+    def given(self) -> tuple[np.ndarray, ...]:
+        """``columns`` of the kernel."""
+        return self.kept, self.column_of, self.kept_switches, self.outputs
+
+
+def _of_sets(array: np.ndarray, dimensions: int) -> np.ndarray:
+    """An array with the sets as its first dimension."""
+    array = np.ascontiguousarray(array, dtype=float)
+    return array[None] if array.ndim == dimensions else array
+
+
+def _groups(sets: int, lanes: int) -> np.ndarray:
+    """Numbers of the sets in the order in which they run together: the first one in every group."""
+    others = np.arange(1, sets)
+    parts = [others[begin : begin + lanes - 1] for begin in range(0, max(sets - 1, 1), lanes - 1)]
+    return np.concatenate([np.concatenate([[0], part]) for part in parts]).astype(int)
+
+
+def _run(
+    drive: CompiledDrive,
+    kernels: LaneKernels,
+    given: _Given,
+    chosen: _Columns,
+    tolerance: float,
+    options: tuple[float, float],
+    max_steps: int,
+    *,
+    together: bool,
+) -> ManySolutions:
+    codes, lanes, n = drive.codes, kernels.lanes, drive.size
+    sets, rows, kinds = len(given.parameters), given.grid.shape[1], given.switches.shape[1]
+    constants = constants_of_many(drive, given.parameters)
+    stops = np.full((sets, kinds), np.nan)
+    for index, place in enumerate(drive.stop_places):
+        if place is not None:
+            stops[:, index] = given.parameters[:, place]
+    step = drive.lanes.step
+    room = (rows + 2 * lanes - 1) // lanes * lanes
+    padded = np.full((len(given.grid), rows + 2 * lanes), np.inf)
+    padded[:, :rows] = given.grid
+    out = aligned(sets, chosen.count, room, zeros=False)
+    ends, counts, statuses = np.empty((sets, n)), np.zeros((sets, 4), np.int64), np.zeros(sets, np.int64)
+    events = np.empty((sets, MOST_EVENTS, EVENT_WIDTH))
+    functions = [step[name].address for name in ("rates", "jacobian", "factorise", "solve")]
+    kernels.run(
+        (*functions, chosen.address),
+        codes.guards.address,
+        np.ascontiguousarray(codes.timed, np.uint64),
+        len(codes.entries),
+        codes.plan.size,
+        codes.clock,
+        drive.moved,
+        (drive.least, bounce_of(options[0]), drive.follows),
+        stops,
+        constants,
+        given.starts,
+        given.switches,
+        given.times,
+        given.inputs,
+        options[1],
+        padded,
+        tolerance,
+        tolerance * drive.scales,
+        chosen.given,
+        out,
+        ends,
+        events,
+        counts,
+        statuses,
+        max_steps,
+        together,
+        _arrays(drive, step["jacobian"].width, chosen, kernels),
+    )
+    table = out[:, :, :rows].transpose(0, 2, 1)
+    for index in np.flatnonzero(counts[:, 2] < rows):
+        table[index, counts[index, 2] :] = np.nan
+    return ManySolutions(
+        table,
+        counts[:, 2],
+        ends,
+        given.switches,
+        tuple(events[index, : counts[index, 3]].copy() for index in range(sets)),
+        tuple(outcome_of(int(status)) for status in statuses),
+        counts[:, 0],
+        counts[:, 1],
+        np.empty((0, rows, chosen.count)),
+    )
+
+
+def _arrays(drive: CompiledDrive, entries: int, chosen: _Columns, kernels: LaneKernels) -> tuple[Any, ...]:
+    """``arrays`` of the kernel."""
+    lanes = kernels.lanes
+    n, kinds = drive.size, len(drive.model.switches)
+    arguments = drive.codes.rates.size
+    widest = max(n, len(chosen.outputs))
+    sizes = (n, n, 6 * n, n, drive.codes.plan.size, widest, kernels.control)
+    kept = len(chosen.kept) + len(chosen.kept_switches)
+    return (
+        tuple(aligned(size, lanes) for size in sizes),
+        (aligned(entries, lanes), aligned(entries, lanes)),
+        aligned(arguments, lanes),
+        aligned(arguments, lanes),
+        aligned(4 * max(len(chosen.kept), 1), lanes),
+        np.zeros((lanes, arguments)),
+        aligned(lanes, kept, lanes + kernels.window),
+        (np.zeros(n), np.zeros(n), np.zeros((n, 6)), np.zeros(kinds + 1), np.zeros(kinds)),
+        (np.zeros((kernels.numbers, lanes), np.int64), np.zeros(kernels.entries, np.int64)),
+    )
+
+
+def _separated(done: ManySolutions, order: np.ndarray) -> ManySolutions:
+    """Results by set of sets that ran together."""
+    first = np.flatnonzero(order == 0)
+    groups = np.searchsorted(first, np.arange(len(order)), side="right") - 1
+    wanted = np.concatenate([first[:1], np.flatnonzero(order != 0)])
+    return ManySolutions(
+        done.rows[wanted],
+        done.written[wanted],
+        done.ends[wanted],
+        done.switches[wanted],
+        tuple(done.events[index] for index in wanted),
+        tuple(done.outcomes[index] for index in wanted),
+        done.steps[wanted],
+        done.rejected[wanted],
+        done.rows[first[groups[wanted]]],
+    )

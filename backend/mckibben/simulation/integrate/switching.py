@@ -1,0 +1,170 @@
+"""Where within a step a switch changes, and what happens there: the event rules of the kernels.
+
+They hold no physics: guards are a compiled function, end stops and lengths that follow are given by
+``switching``, see `mckibben.simulation.integrate.kernels.rodas4`. A step is known by its start and end and by
+the stages ``u`` of Rodas4, whose dense output lies between.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from llvmlite import ir
+from numba import njit, types
+from numba.extending import intrinsic
+
+from mckibben.simulation.integrate.coefficients import DENSE_2, DENSE_3
+
+
+def _call_at(_typing: Any, _address: Any, _out: Any, _inputs: Any) -> Any:
+    """Call ``void f(double* out, double* inputs, void*)`` at an address."""
+
+    def generate(_context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+        double = ir.DoubleType().as_pointer()
+        function = ir.FunctionType(ir.VoidType(), [double] * 3)
+        out, inputs = (builder.inttoptr(argument, double) for argument in args[1:])
+        builder.call(builder.inttoptr(args[0], function.as_pointer()), [out, inputs, inputs])
+        return _context.get_dummy_value()
+
+    return types.void(types.int64, types.uintp, types.uintp), generate
+
+
+call: Any = intrinsic(_call_at)
+
+
+@njit(inline="always", error_model="numpy")
+def _interpolated(i: int, s: float, start: np.ndarray, end: np.ndarray, u: np.ndarray) -> float:
+    """Dense output of a state at the share s of a step."""
+    first = second = 0.0
+    for j in range(5):
+        first += DENSE_2[j] * u[i, j]
+        second += DENSE_3[j] * u[i, j]
+    return start[i] * (1.0 - s) + s * (end[i] + (1.0 - s) * (first + s * second))
+
+
+@njit(error_model="numpy")
+def _guard_at(
+    guards: int, s: float, t: float, h: float, k: int, clock: int, packed: np.ndarray, values: np.ndarray,
+    start: np.ndarray, end: np.ndarray, u: np.ndarray,
+) -> float:  # fmt: skip
+    """Guard of switch k at the share s of a step."""
+    for i in range(start.shape[0]):
+        packed[i] = _interpolated(i, s, start, end, u)
+    packed[clock] = t + s * h
+    call(guards, values.ctypes.data, packed.ctypes.data)
+    return values[k]
+
+
+@njit(error_model="numpy")
+def _crossing(
+    guards: int, upper: float, t: float, h: float, k: int, least: float, clock: int, packed: np.ndarray,
+    values: np.ndarray, start: np.ndarray, end: np.ndarray, u: np.ndarray,
+) -> float:  # fmt: skip
+    """Share of a step at which guard k falls below -least; it is above at 0 and below at ``upper``.
+
+    Regula falsi of the Illinois kind.
+    """
+    low, high = 0.0, upper
+    at_low = _guard_at(guards, low, t, h, k, clock, packed, values, start, end, u) + least
+    at_high = _guard_at(guards, high, t, h, k, clock, packed, values, start, end, u) + least
+    if at_low <= 0.0:
+        return 0.0
+    side = 0
+    for _ in range(60):
+        if high - low < 1e-12 or not at_high < 0.0:
+            break
+        middle = (low * at_high - high * at_low) / (at_high - at_low)
+        value = _guard_at(guards, middle, t, h, k, clock, packed, values, start, end, u) + least
+        if abs(value) <= 0.5 * least:
+            return middle
+        if value < 0.0:
+            high, at_high = middle, value
+            if side == -1:
+                at_low *= 0.5
+            side = -1
+        else:
+            low, at_low = middle, value
+            if side == 1:
+                at_high *= 0.5
+            side = 1
+    return high
+
+
+@njit(error_model="numpy")
+def _turning(i: int, start: np.ndarray, end: np.ndarray, u: np.ndarray) -> float:
+    """Share of a step at which a speed that changes its sign is zero."""
+    low, high = 0.0, 1.0
+    for _ in range(30):
+        middle = 0.5 * (low + high)
+        if _interpolated(i, middle, start, end, u) * start[i] > 0.0:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+@njit(inline="always", error_model="numpy")
+def first_event(
+    guards: int, t: float, h: float, ends: np.ndarray, first_guard: int, switches: np.ndarray,
+    moved: tuple[int, int], switching: Any, clock: int, packed: np.ndarray, guarded: np.ndarray,
+    start: np.ndarray, end: np.ndarray, u: np.ndarray,
+) -> tuple[float, int]:  # fmt: skip
+    """Share of a step at which a switch changes first, and its number; (2, -1) if none changes.
+
+    ``ends`` holds the guards at the end of the step from ``first_guard`` on; ``packed`` the constants, the
+    inputs and the switches.
+    """
+    least, stops, _, _ = switching
+    share, landing = 2.0, -1
+    for k in range(switches.shape[0]):
+        upper = 1.0 if ends[first_guard + k] < -least[k] else 0.0
+        free = upper == 0.0 and switches[k] == 0.0 and stops[k] == stops[k]
+        if free and start[moved[1]] * end[moved[1]] < 0.0:
+            # A load that turns round within the step may have touched the stop.
+            turn = _turning(moved[1], start, end, u)
+            at = _guard_at(guards, turn, t, h, k, clock, packed, guarded, start, end, u)
+            upper = turn if at < -least[k] else 0.0
+        if upper > 0.0:
+            at = _crossing(guards, upper, t, h, k, least[k], clock, packed, guarded, start, end, u)
+            if at < share:
+                share, landing = at, k
+    return share, landing
+
+
+@njit(error_model="numpy")
+def change_switch(
+    k: int, t: float, rates: np.ndarray, guards: int, moved: tuple[int, int], switching: Any,
+    packed: np.ndarray, guarded: np.ndarray, state: np.ndarray, switches: np.ndarray, events: np.ndarray,
+    counts: np.ndarray,
+) -> None:  # fmt: skip
+    """Change switch k; an end stop stops the load or throws it back. ``rates`` are those before."""
+    _, stops, bounce, follows = switching
+    speed = acceleration = 0.0
+    if moved[1] >= 0:
+        speed, acceleration = state[moved[1]], rates[moved[1]]
+    to = 1.0 - switches[k]
+    if to == 1.0 and stops[k] == stops[k]:
+        state[moved[0]] = stops[k]
+        state[moved[1]] = 0.0
+        left = bounce[0] * abs(speed)
+        pressing = acceleration if speed > 0.0 else -acceleration
+        if left > bounce[1] and left * left > 2.0 * bounce[3] * pressing:
+            state[moved[1]] = -bounce[0] * speed
+            to = 0.0
+    if follows[k] >= 0.0:
+        # The guard of a switch that is 1 is the distance to be closed, times a stiffness.
+        for i in range(state.shape[0]):
+            packed[i] = state[i]
+        first = packed.shape[0] - switches.shape[0]
+        for i in range(switches.shape[0]):
+            packed[first + i] = switches[i]
+        packed[first + k] = 1.0
+        call(guards, guarded.ctypes.data, packed.ctypes.data)
+        state[int(follows[k])] -= guarded[k] / bounce[2]
+    switches[k] = to
+    if counts[3] < events.shape[0]:
+        row = counts[3]
+        events[row, 0], events[row, 1], events[row, 2] = t, float(k), to
+        events[row, 3], events[row, 4] = speed, acceleration
+    counts[3] += 1

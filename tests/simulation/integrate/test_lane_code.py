@@ -1,0 +1,90 @@
+"""Machine code on rows of lanes: every kind of expression, and exp, log and pow over their whole range."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import symengine as se
+
+from mckibben.simulation.integrate.lane_code import lane_code
+from tests.simulation.integrate.test_machine_code import EXPRESSIONS, X, Y
+
+WIDTHS = (2, 4, 8)
+RANDOM = np.random.default_rng(3)
+
+
+def evaluated(expression, x, y, lanes):
+    """An expression at many points, through rows of lanes."""
+    function = lane_code({"f": ([X, Y], [expression])}, lanes=lanes)["f"]
+    rows = zip(np.reshape(x, (-1, lanes)), np.reshape(y, (-1, lanes)), strict=True)
+    return np.concatenate([function(np.array(row))[0] for row in rows])
+
+
+@pytest.mark.parametrize("lanes", WIDTHS)
+def test_every_lane_has_its_own_value(lanes):
+    x, y = RANDOM.uniform(0.3, 3.1, 16), RANDOM.uniform(0.4, 2.6, 16)
+    functions = lane_code(
+        {"f": ([X, Y], [expression for expression, _ in EXPRESSIONS.values()])}, lanes=lanes
+    )
+    found = np.hstack([functions["f"](np.array([x, y])[:, i : i + lanes]) for i in range(0, 16, lanes)])
+    for row, (name, (_, plain)) in zip(found, EXPRESSIONS.items(), strict=True):
+        expected = [plain(a, b) for a, b in zip(x.tolist(), y.tolist(), strict=True)]
+        assert row == pytest.approx(expected, rel=1e-13), name
+
+
+@pytest.mark.parametrize("lanes", WIDTHS)
+def test_exp_and_log_to_a_few_units_in_the_last_place(lanes):
+    x = np.concatenate([RANDOM.uniform(-708.0, 709.0, 4000), RANDOM.uniform(-1e-3, 1e-3, 96)])
+    exact = np.exp(x.astype(np.longdouble))
+    assert np.max(np.abs(evaluated(se.exp(X), x, x, lanes) / exact - 1)) < 3e-15
+    y = np.concatenate([np.exp(RANDOM.uniform(-740.0, 709.0, 4000)), 1.0 + RANDOM.uniform(-1e-3, 1e-3, 96)])
+    exact = np.log(y.astype(np.longdouble))
+    assert np.max(np.abs(evaluated(se.log(Y), y, y, lanes) / exact - 1)) < 3e-15
+
+
+@pytest.mark.parametrize("lanes", WIDTHS)
+def test_pow_loses_no_more_than_its_exponent_takes(lanes):
+    x, y = np.exp(RANDOM.uniform(-20.0, 20.0, 4000)), RANDOM.uniform(-20.0, 20.0, 4000)
+    exact = x.astype(np.longdouble) ** y
+    size = np.abs(y * np.log(x))
+    assert np.all(np.abs(evaluated(X**Y, x, y, lanes) / exact - 1) < 3e-15 + 3e-16 * size)
+
+
+INFINITE = math.inf
+SPECIAL = {
+    "exp": (
+        se.exp(X),
+        [0.0, INFINITE, -INFINITE, math.nan, 710.0, -746.0, -745.0, 1.0],
+        [1.0, INFINITE, 0.0, math.nan, INFINITE, 0.0, 5e-324, math.e],
+    ),
+    "log": (
+        se.log(X),
+        [1.0, 0.0, -1.0, INFINITE, -INFINITE, math.nan, 5e-324, math.e],
+        [0.0, -INFINITE, math.nan, INFINITE, math.nan, math.nan, math.log(5e-324), 1.0],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SPECIAL)
+@pytest.mark.parametrize("lanes", WIDTHS)
+def test_special_values(name, lanes):
+    expression, x, expected = SPECIAL[name]
+    assert evaluated(expression, x, x, lanes) == pytest.approx(expected, rel=1e-15, nan_ok=True)
+
+
+@pytest.mark.parametrize("lanes", WIDTHS)
+def test_special_powers_are_those_of_the_c_library(lanes):
+    pairs = [(x, y) for x in (-2.0, 0.0, 0.5, 1.0, INFINITE) for y in (-3.0, -0.5, 0.0, 0.5, 2.0, 3.0)]
+    x, y = np.array([*pairs, (1.0, 1.0), (1.0, 1.0)]).T
+    with np.errstate(all="ignore"):
+        expected = np.abs(x) ** y * np.where((x < 0) & (y % 2 == 1), -1.0, 1.0)
+        expected[(x < 0) & (y % 1 != 0)] = np.nan
+    assert evaluated(X**Y, x, y, lanes) == pytest.approx(expected, rel=1e-14, nan_ok=True)
+
+
+def test_rows_of_another_shape_are_refused():
+    function = lane_code({"f": ([X, Y], [X * Y])}, lanes=4)["f"]
+    with pytest.raises(ValueError, match=r"\(2, 4\)"):
+        function(np.zeros((2, 8)))

@@ -1,0 +1,246 @@
+"""Many parameter sets in lanes against the same sets one by one."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from functools import cache
+from math import radians
+
+import numpy as np
+import pytest
+
+from mckibben.documents.drive_files import preset_document, read_document
+from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.studio import Studio
+from mckibben.physics.muscle import Muscle
+from mckibben.resources import presets_folder
+from mckibben.simulation.command.signals import signal_from
+from mckibben.simulation.drive.initial_state import start_of
+from mckibben.simulation.drive.initial_states import starts_of_many
+from mckibben.simulation.drive.parts import Drive, Load, Valve
+from mckibben.simulation.drive.transient import parameters_of, segments_of
+from mckibben.simulation.integrate.engine import CompiledDrive, Outcome, Solution, compiled_drive, integrate
+from mckibben.simulation.integrate.many import ManySolutions, integrate_many, lane_kernels
+from mckibben.simulation.statics.model import StaticModel
+from tests.benchmarks.lift import DOCUMENT
+
+STUDIO = Studio(presets=presets_folder())
+SETS, TOLERANCE = 19, 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """A drive and random parameter sets."""
+
+    drive: Drive
+    compiled: CompiledDrive
+    parameters: np.ndarray
+    starts: np.ndarray
+    switches: np.ndarray
+    times: np.ndarray
+    inputs: np.ndarray
+    grid: np.ndarray
+
+    def one(self, index: int, tolerance: float = TOLERANCE) -> Solution:
+        return integrate(
+            self.compiled, parameters=self.parameters[index], start=self.starts[index],
+            switches=self.switches[index], restitution=self.drive.restitution, times=self.times,
+            inputs=self.inputs, grid=self.grid, tolerance=tolerance, engine="rodas",
+        )  # fmt: skip
+
+    def many(self, chosen=None, tolerance: float = TOLERANCE, **options) -> ManySolutions:
+        chosen = np.arange(len(self.parameters)) if chosen is None else np.asarray(chosen)
+        given = {
+            "parameters": self.parameters[chosen], "starts": self.starts[chosen],
+            "switches": self.switches[chosen], "restitution": self.drive.restitution, "times": self.times,
+            "inputs": self.inputs, "grid": self.grid, "tolerance": tolerance,
+        }  # fmt: skip
+        return integrate_many(self.compiled, **{**given, **options})
+
+    @property
+    def stroke(self) -> int:
+        return [state.name for state in self.compiled.model.states].index("stroke")
+
+
+def signal(unit: str = "1", **shape):
+    return signal_from(shape, unit=unit, field="command")
+
+
+SLACK_PAIR = Drive(
+    model=StaticModel(Muscle(0.3, 0.0218, radians(26.5), 0.0018, 0.02), {"bladder_elasticity": {}}),
+    valve=Valve(2e-8, 2e-8),
+    load=Load(mass=8.0, inclination=0.0),
+    command=signal(shape="pulse", on="0.05 s", off="0.8 s"),
+    duration=1.5,
+    supply_pressure=5e5,
+    min_contraction=0.02,
+    max_contraction=0.14,
+    pair=True,
+    precontraction=0.08,
+)
+
+
+@cache
+def case_of(name: str) -> Case:
+    if name == "slack pair":
+        drive = SLACK_PAIR
+    elif name in ("lift", "rebound"):
+        drive = drive_of(read_document(DOCUMENT, "the lift"), STUDIO).drive
+        drive = replace(drive, restitution=0.5 if name == "rebound" else 0.0)
+    else:
+        drive = drive_of(preset_document(name, STUDIO), STUDIO).drive
+    compiled = compiled_drive(drive.structure, 1)
+    times, inputs, _ = segments_of(drive)
+    names, random = list(compiled.model.parameters), np.random.default_rng(11)
+    parameters = np.tile(parameters_of(drive, compiled), (SETS, 1))
+    for free in ("mass", "fill_conductance", "exhaust_conductance", "supply_pressure"):
+        parameters[1:, names.index(free)] *= np.exp(random.uniform(np.log(0.7), np.log(1.4), SETS - 1))
+    before = inputs[0] * 0.0
+    starts = [start_of(drive, compiled, row, before) for row in parameters]
+    return Case(
+        drive, compiled, parameters, np.array([start.state for start in starts]),
+        np.array([start.switches for start in starts]), times, inputs,
+        np.linspace(0.0, drive.duration, 401),
+    )  # fmt: skip
+
+
+CASES = ["lift", "rebound", "propneu-20", "slack pair"]
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_each_set_is_as_if_alone(name):
+    case = case_of(name)
+    found, kinds = case.many(), set()
+    assert found.rows.shape == (SETS, 401, case.compiled.size + case.compiled.width)
+    for index in range(SETS):
+        alone = case.one(index)
+        assert found.outcomes[index] is alone.outcome is Outcome.COMPLETED
+        assert found.rows[index, :, case.stroke] == pytest.approx(alone.rows[:, case.stroke], abs=1e-6)
+        assert found.ends[index, case.stroke] == pytest.approx(alone.end[case.stroke], abs=1e-6)
+        assert np.array_equal(found.switches[index], alone.switches)
+        assert np.array_equal(found.events[index][:, 1:3], alone.events[:, 1:3]), "the same switches change"
+        assert found.events[index][:, 0] == pytest.approx(alone.events[:, 0], abs=1e-4)
+        scale = np.max(np.abs(alone.rows), axis=0) + 1e-12
+        assert np.median(np.abs(found.rows[index] - alone.rows) / scale) < 1e-6
+        kinds |= set(found.events[index][:, 1])
+    assert kinds, "switches change in these runs"
+
+
+def test_the_cases_have_what_they_are_for():
+    rebounds = case_of("rebound").many(columns=["stroke"]).events
+    assert any(np.any((rows[:, 3] != 0.0) & (rows[:, 2] == 0.0)) for rows in rebounds)
+    names = [switch.name for switch in case_of("slack pair").compiled.model.switches]
+    slack = {index for index, switch in enumerate(names) if switch.startswith("slack")}
+    assert any(slack & set(rows[:, 1]) for rows in case_of("slack pair").many(columns=["stroke"]).events)
+
+
+def test_neighbours_order_and_division_do_not_matter():
+    case = case_of("lift")
+    whole = case.many()
+    order = np.random.default_rng(5).permutation(SETS)
+    assert np.array_equal(case.many(order).rows, whole.rows[order])
+    parts = [case.many(range(begin, min(begin + 5, SETS))).rows for begin in range(0, SETS, 5)]
+    assert np.array_equal(np.concatenate(parts), whole.rows)
+    with ThreadPoolExecutor(2) as pool:
+        for found in pool.map(lambda _: case.many(), range(4)):
+            assert np.array_equal(found.rows, whole.rows)
+
+
+def test_columns_are_those_of_all_and_only_those():
+    case = case_of("lift")
+    names = [*(state.name for state in case.compiled.model.states), *case.compiled.model.output_names]
+    wanted = ["contact", "speed", "clock", "force"]
+    found = case.many(columns=wanted).rows
+    assert np.array_equal(found, case.many().rows[:, :, [names.index(name) for name in wanted]])
+    assert np.array_equal(found[3, :, 2], case.grid)
+    assert case.many(columns=[]).rows.shape == (SETS, 401, 0)
+    with pytest.raises(ValueError, match="no state or output torsion"):
+        case.many(columns=["torsion"])
+
+
+def test_times_inputs_and_grids_of_each_set():
+    case = case_of("lift")
+    delays = np.linspace(0.0, 0.3, SETS)
+    times = np.tile(case.times, (SETS, 1))
+    times[:, 2:-1] += delays[:, None]
+    grids = np.ascontiguousarray(np.linspace(0.0, 3.0 + delays, 301).T)
+    inputs = np.tile(case.inputs, (SETS, 1, 1))
+    inputs[:, :, -1] = times[:, :-1]
+    found = case.many(times=times, inputs=inputs, grid=grids, columns=["stroke", "supply_flow"])
+    for index in (0, 7, 18):
+        alone = integrate(
+            case.compiled, parameters=case.parameters[index], start=case.starts[index],
+            switches=case.switches[index], times=times[index], inputs=inputs[index], grid=grids[index],
+            tolerance=TOLERANCE, engine="rodas",
+        )  # fmt: skip
+        assert found.rows[index, :, 0] == pytest.approx(alone.rows[:, case.stroke], abs=1e-6)
+
+
+def test_a_set_that_fails_fails_alone():
+    case = case_of("lift")
+    sound, parameters = case.many(), case.parameters.copy()
+    parameters[4] = np.nan
+    parameters[9, list(case.compiled.model.parameters).index("mass")] = -np.inf
+    found = case.many(parameters=parameters)
+    rest = [index for index in range(SETS) if index not in (4, 9)]
+    assert found.outcomes[4] is found.outcomes[9] is Outcome.DIVERGED
+    assert found.written[4] == 0
+    assert np.isnan(found.rows[4]).all()
+    assert np.array_equal(found.rows[rest], sound.rows[rest])
+    most = int(np.median(sound.steps + sound.rejected))
+    limited = case.many(max_steps=most)
+    late = sound.steps + sound.rejected > most
+    assert late.any()
+    assert [outcome is Outcome.STUCK for outcome in limited.outcomes] == late.tolist()
+    assert np.array_equal(limited.rows[~late], sound.rows[~late])
+
+
+def test_shapes_that_do_not_fit_are_refused():
+    case = case_of("lift")
+    with pytest.raises(ValueError, match="starts has the shape"):
+        case.many(starts=case.starts[:3])
+    with pytest.raises(ValueError, match="2 sets"):
+        case.many(grid=np.tile(case.grid, (2, 1)))
+    with pytest.raises(ValueError, match="common times"):
+        case.many(times=np.tile(case.times, (SETS, 1)), together=True)
+
+
+def test_differences_of_sets_that_run_together_are_derivatives():
+    case = case_of("lift")
+    names = list(case.compiled.model.parameters)
+    free = [names.index(name) for name in ("dahl.force", "creep.stiffness", "fill_conductance", "mass")] * 3
+    step = 1e-4
+
+    def varied(share: float) -> np.ndarray:
+        rows = np.tile(case.parameters[0], (1 + len(free), 1))
+        for row, index in enumerate(free, 1):
+            rows[row, index] *= 1.0 + share
+        return rows
+
+    def run(parameters, tolerance, together):
+        before = case.inputs[0] * 0.0
+        starts = starts_of_many(case.drive, case.compiled, parameters, before)
+        return integrate_many(
+            case.compiled, parameters=parameters, starts=starts.states, switches=starts.switches,
+            times=case.times, inputs=case.inputs, grid=case.grid, tolerance=tolerance, columns=["stroke"],
+            together=together,
+        )  # fmt: skip
+
+    exact = (run(varied(step), 1e-10, False).rows - run(varied(-step), 1e-10, False).rows)[1:] / (2 * step)
+    found = run(varied(step), 1e-5, True)
+    together = (found.rows - found.nominals)[1:] / step
+    alone = run(varied(step), 1e-5, False)
+    apart = (alone.rows[1:] - alone.rows[0]) / step
+    size = np.linalg.norm(exact, axis=1)
+    errors = [np.max(np.linalg.norm(jacobian - exact, axis=1) / size) for jacobian in (together, apart)]
+    assert errors[0] < 0.03
+    assert errors[0] < 0.5 * errors[1]
+    assert np.max(np.abs(found.nominals - found.rows[0])) < 1e-4, "the first set in each group"
+
+
+def test_no_sets():
+    case = case_of("lift")
+    found = case.many(np.zeros(0, int))
+    assert found.rows.shape[0] == 0
+    assert lane_kernels.awaited().lanes in (2, 4, 8)
