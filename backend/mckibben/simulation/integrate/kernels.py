@@ -73,8 +73,9 @@ def rodas4(
         clock: number of the state that is time.
         moved: numbers of the states stroke and speed, which end stops act on; -1 without stops.
         switching: of each switch the least guard and the stroke of its end stop (NaN: none); the coefficient
-            of restitution, the speed and the height below which the load does not rebound [m/s], [m] and the
-            stiffness of guards of lengths [N/m]; and of each switch the number of the length that follows (-1: none).
+            of restitution, the speed [m/s] and the height [m] below which the load does not rebound, and the
+            stiffness of guards of lengths [N/m]; and of each switch the number of the length that follows
+            (-1: none).
         constants: arguments of the functions between states and inputs.
         state: start, overwritten with the end.
         switches: start, overwritten with the end.
