@@ -3,9 +3,9 @@
     python -m tests.benchmarks.lanes
 
 The reference lift and the preset propneu-20, 1000 sets with conductances, mass, pressure and effects times
-0.7 to 1.4, 4001 rows. Scalar kernel and lanes take turns; the table gives medians of processor time and of
-the clock. All columns are written in parts of `PART` sets: 1000 sets with all columns would take a gigabyte.
-Beside it the error of the stroke against a run at 1e-9 by tolerance, the cost of a start, and the compilation.
+0.7 to 1.4, 4001 rows. Scalar kernel and lanes take turns; the table gives medians. All columns are written in
+parts of `PART` sets: 1000 sets with all columns would take a gigabyte. Beside it the error of the stroke
+against a run at 1e-9 by tolerance, the cost of a start, and the compilation.
 """
 
 from __future__ import annotations
@@ -64,8 +64,8 @@ class Sets:
             for index in sets:
                 rows = integrate(
                     self.compiled, parameters=self.parameters[index], start=self.starts.states[index],
-                    switches=self.starts.switches[index], times=self.times, inputs=self.inputs, grid=self.grid,
-                    tolerance=tolerance, engine="rodas", restitution=self.drive.restitution,
+                    switches=self.starts.switches[index], times=self.times, inputs=self.inputs,
+                    grid=self.grid, tolerance=tolerance, engine="rodas", restitution=self.drive.restitution,
                 ).rows  # fmt: skip
                 found.append(rows[:, self.stroke].copy())
             return np.array(found)
@@ -94,9 +94,8 @@ def speed(name: str, sets: Sets) -> None:
         "lanes, all columns": sets.in_lanes(None, PART),
         "lanes, stroke only": sets.in_lanes(["stroke"], SETS),
     }
-    say(
-        f"\n| {name}: {sets.compiled.size} states | threads | runs/s | runs/s of processor | times one by one |"
-    )
+    head = f"\n| {name}: {sets.compiled.size} states | threads | runs/s | runs/s of processor "
+    say(f"{head}| times one by one |")
     say("|---|---:|---:|---:|---:|")
     for threads in (1, 2):
         halves = [range(i * SETS // threads, (i + 1) * SETS // threads) for i in range(threads)]

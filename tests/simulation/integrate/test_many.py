@@ -17,13 +17,13 @@ from mckibben.physics.muscle import Muscle
 from mckibben.resources import presets_folder
 from mckibben.simulation.command.signals import signal_from
 from mckibben.simulation.drive.initial_state import start_of
-from mckibben.simulation.drive.initial_states import starts_of_many
 from mckibben.simulation.drive.parts import Drive, Load, Valve
 from mckibben.simulation.drive.transient import parameters_of, segments_of
 from mckibben.simulation.integrate.engine import CompiledDrive, Outcome, Solution, compiled_drive, integrate
 from mckibben.simulation.integrate.many import ManySolutions, integrate_many, lane_kernels
 from mckibben.simulation.statics.model import StaticModel
 from tests.benchmarks.lift import DOCUMENT
+from tests.simulation.integrate.test_engine import K, Y, Z, system
 
 STUDIO = Studio(presets=presets_folder())
 SETS, TOLERANCE = 19, 1e-6
@@ -207,36 +207,39 @@ def test_shapes_that_do_not_fit_are_refused():
 
 
 def test_differences_of_sets_that_run_together_are_derivatives():
-    case = case_of("lift")
-    names = list(case.compiled.model.parameters)
-    free = [names.index(name) for name in ("dahl.force", "creep.stiffness", "fill_conductance", "mass")] * 3
-    step = 1e-4
+    # Van der Pol.
+    equation = system({"clock": 1.0, "y": Z, "z": K * ((1 - Y**2) * Z - Y)}, {})
+    step, grid = 1e-7, np.linspace(0.0, 12.0, 241)
 
-    def varied(share: float) -> np.ndarray:
-        rows = np.tile(case.parameters[0], (1 + len(free), 1))
-        for row, index in enumerate(free, 1):
-            rows[row, index] *= 1.0 + share
-        return rows
-
-    def run(parameters, tolerance, together):
-        before = case.inputs[0] * 0.0
-        starts = starts_of_many(case.drive, case.compiled, parameters, before)
+    def run(factors, tolerance, together=False):
         return integrate_many(
-            case.compiled, parameters=parameters, starts=starts.states, switches=starts.switches,
-            times=case.times, inputs=case.inputs, grid=case.grid, tolerance=tolerance, columns=["stroke"],
-            together=together,
+            equation, parameters=5.0 * np.asarray(factors)[:, None],
+            starts=np.tile([0.0, 2.0, 0.0], (len(factors), 1)), times=np.array([0.0, 12.0]),
+            inputs=np.zeros((1, 1)), grid=grid, tolerance=tolerance, columns=["y"], together=together,
         )  # fmt: skip
 
-    exact = (run(varied(step), 1e-10, False).rows - run(varied(-step), 1e-10, False).rows)[1:] / (2 * step)
-    found = run(varied(step), 1e-5, True)
-    together = (found.rows - found.nominals)[1:] / step
-    alone = run(varied(step), 1e-5, False)
-    apart = (alone.rows[1:] - alone.rows[0]) / step
-    size = np.linalg.norm(exact, axis=1)
-    errors = [np.max(np.linalg.norm(jacobian - exact, axis=1) / size) for jacobian in (together, apart)]
-    assert errors[0] < 0.03
-    assert errors[0] < 0.5 * errors[1]
-    assert np.max(np.abs(found.nominals - found.rows[0])) < 1e-4, "the first set in each group"
+    high, low = run([1.0 + 1e-4, 1.0 - 1e-4], 1e-12).rows
+    exact = (high - low) / 2e-4
+    factors = np.concatenate([[1.0], np.full(10, 1.0 + step)])
+    found = run(factors, 1e-5, together=True)
+    assert len(found.rows) == len(found.nominals) == 11, "more sets than lanes"
+    size = np.linalg.norm(exact)
+    for jacobian in (found.rows - found.nominals)[1:] / step:
+        assert np.linalg.norm(jacobian - exact) / size < 0.02
+    apart = run([1.0, 0.5, 2.0], 1e-5)
+    assert len(set(apart.steps)) == 3, "each its own steps"
+    lanes = lane_kernels.awaited().lanes
+    common = run([1.0, *np.linspace(0.5, 2.0, lanes - 1)], 1e-5, together=True)
+    assert len(set(common.steps)) == len(set(common.rejected)) == 1
+    assert common.steps[0] >= max(run([0.5, 2.0], 1e-5).steps)
+
+
+def test_sets_with_events_run_together():
+    case = case_of("lift")
+    alone, found = case.many(columns=["stroke"]), case.many(columns=["stroke"], together=True)
+    assert np.max(np.abs(found.rows - alone.rows)) < 5e-6
+    assert [len(rows) for rows in found.events] == [len(rows) for rows in alone.events]
+    assert np.max(np.abs(found.nominals - alone.rows[0])) < 5e-6, "the first set in each group"
 
 
 def test_no_sets():
