@@ -112,8 +112,8 @@ def integrate_many(
         first_step: first step that is tried [s].
         max_steps: limit of accepted and rejected steps of a set.
         together: all sets take the same steps as the first, in groups of as many as there are lanes. The
-            difference of a set to ``nominals`` is then smooth in its parameters: for derivatives by
-            differences. Needs common ``times``.
+            difference of a set to ``nominals`` is then smooth in its parameters, except that a change of a
+            switch is located in each set on its own: for derivatives by differences. Needs common ``times``.
 
     Raises:
         ValueError: arrays whose shapes do not fit, or an unknown column.
