@@ -207,12 +207,12 @@ def test_a_second_file_checks_the_first(page: Page, sweeps: FilePayload) -> None
 def test_a_wrong_column_is_corrected_before_the_file_is_taken(page: Page) -> None:
     open_compare(page)
     rows = "\n".join(f"3,{300 - i},{700 - 9 * i},{20 + i % 3}" if i != 7 else "3,293,x,21" for i in range(30))
-    choose(page, file("bench.csv", f"p [bar],L [mm],T [N],extra\n{rows}\n"))
+    choose(page, file("bench.csv", f"p [bar],L [mm],ch3,extra\n{rows}\n"))
     dialog = page.get_by_role("dialog", name="How bench.csv is read")
     use = dialog.get_by_role("button", name="Use these columns")
     expect(dialog.get_by_role("status")).to_contain_text("30 rows")
     expect(dialog.get_by_label("Load mass")).to_be_visible()  # it reads as a test without forces
-    dialog.get_by_label("Channel of T [N]").select_option("force")
+    dialog.get_by_label("Channel of ch3").select_option("force")
     expect(dialog.get_by_label("Load mass")).to_be_hidden()
     expect(dialog.get_by_role("alert")).to_contain_text("'x' is not a number")
     expect(use).to_be_disabled()
@@ -226,7 +226,7 @@ def test_a_wrong_column_is_corrected_before_the_file_is_taken(page: Page) -> Non
     expect(page.locator(".file")).to_contain_text("29 of 29 rows; left out: 1 not a number")
     expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
     page.get_by_role("button", name="Mapping…").click()
-    expect(dialog.get_by_label("Channel of T [N]")).to_have_value("force")
+    expect(dialog.get_by_label("Channel of ch3")).to_have_value("force")
     page.keyboard.press("Escape")
     expect(page.locator(".file")).to_have_count(1)
 

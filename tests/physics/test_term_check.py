@@ -52,7 +52,7 @@ TOWERS = {
 }
 SMALL_ENOUGH = {
     "roots": nest("sqrt", 15),
-    "exponentials": nest("exp", 38),
+    "exponentials": "exp(sin(" * 19 + "c*v" + "))" * 19,
     "sines": nest("sin", 38),
     "tanh": nest("tanh", 38),
     "powers to the right": "**".join(["c"] * 39),

@@ -54,13 +54,19 @@ _BASE = (
     ),
     _Law(
         "Pressure",
-        (r"\dot p\,(V + n p\,\partial_p V) = n R T\,\dot m - n p\,\partial_s V\,\dot s",),
-        "Polytropic exponent n, stroke s of the muscle.",
+        (
+            r"\dot p\,(V + \gamma p\,\partial_p V) = (\gamma - 1)(\dot Q + c_p T_0 \dot m_{in} - "
+            r"c_p T \dot m_{out}) - \gamma p\,\partial_l V\,\dot l",
+            r"T = \frac{p V}{m R}, \quad \dot Q = h\,(\pi D l + \tfrac{\pi}{2} D^2)\,(T_w - T)",
+        ),
+        "Energy balance of the air, γ = 1.4; length l and diameter D of the muscle, gas mass m, heat "
+        "transfer coefficient h, wall at ambient temperature.",
     ),
     _Law(
         "Motion",
-        (r"M\ddot s = r^2 F - r\,(m g\sin\alpha + F_{ext}) - k s - F_{stop}",),
-        "Lever ratio r, inclination α, spring k. In a pair, the tension of the second muscle opposes "
+        (r"M\ddot s = r^2 F - r\,(m g\sin\alpha + F_{ext}) - k s",),
+        "Lever ratio r, inclination α, spring k. The end stops are rigid: an impact takes the speed, and the "
+        "load rests there while the force presses it. In a pair, the tension of the second muscle opposes "
         "the first.",
     ),
 )  # fmt: skip

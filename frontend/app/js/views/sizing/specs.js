@@ -203,7 +203,6 @@ export const FIELDS = {
     label: "Impact",
     quantity: "energy",
     bounds: [0.01, 100],
-    log: true,
     usual: null,
     empty: "no limit",
     why:
@@ -253,7 +252,6 @@ export const FIELDS = {
     label: "Cycles per year",
     quantity: "number",
     bounds: [1e3, 1e8],
-    log: true,
     usual: 1e6,
     why: "For the cost of the air. Default one million.",
   },
