@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from functools import lru_cache
 from pathlib import Path
 
 from mckibben.documents.start_model import PresetFacts, StartModel, StatedMuscle, preset_facts, start_model
 from mckibben.physics.catalogue import EffectCatalogue, default_catalogue
+from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.physics.sliding import sliding_effects
 from mckibben.presets import MusclePreset, PresetLibrary
@@ -75,8 +77,7 @@ class Studio:
             InputError: as there.
         """
         known = start.catalogue or self.catalogue
-        chosen = sliding_effects(effects=(known[name] for name in start.effects))
-        catalogue = {effect.id: effect for effect in chosen}
+        catalogue = _sliding_catalogue(tuple(known[name] for name in start.effects))
         return StaticModel(start.muscle, start.effects, catalogue=catalogue, limits=start.limits)
 
     def static_model(self, start: StartModel) -> StaticModel:
@@ -88,3 +89,8 @@ class Studio:
         return StaticModel(
             start.muscle, start.effects, catalogue=start.catalogue or self.catalogue, limits=start.limits
         )
+
+
+@lru_cache(maxsize=256)
+def _sliding_catalogue(effects: tuple[Effect, ...]) -> dict[str, Effect]:
+    return {effect.id: effect for effect in sliding_effects(effects=effects)}
