@@ -18,7 +18,7 @@ from mckibben.simulation.statics.model import StaticModel
 SEARCH_PRESSURE = 4e6  # Pa; upper end of the search: no fluidic muscle works beyond
 _SHORTEST = 0.35  # lower end of the search, as a share of the nominal length
 _STEPS = 60
-_FEW, _TABLE = 24, 24  # pressures that start from a table, and its lengths
+_FEW, _TABLE = 24, 8  # pressures that start from a table, and its lengths
 
 
 @dataclass(frozen=True, slots=True)
