@@ -9,7 +9,7 @@ from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import Muscle
-from mckibben.physics.sliding import sliding_effects
+from mckibben.physics.sliding import acting_at_rest, sliding_effects
 
 CATALOGUE = default_catalogue()
 MUSCLE = Muscle(0.3, 0.0218, 0.46, 0.0018, 0.02)
@@ -66,3 +66,14 @@ def test_others_stay_the_same_object_and_the_changed_one_is_made_once() -> None:
     assert first == second
     assert first[0] is not effects[0]
     assert first[1:] == effects[1:]
+
+
+def test_effects_that_are_left_out_at_rest_change_nothing_there() -> None:
+    left_out = set(CATALOGUE.values()) - set(acting_at_rest(effects=CATALOGUE.values()))
+    assert {"dahl", "viscous_damping", "coulomb_friction"} <= {effect.id for effect in left_out}
+    assert "elasticity" not in {effect.id for effect in left_out}
+    ideal = Model([])
+    for effect in left_out:
+        for length in (0.22, 0.28, 0.3, 0.305):
+            at = {"length": length, "pressure": 4e5, "velocity": 0.0, "direction": 0.0}
+            assert force(effect, **at) == ideal.evaluate(muscle=MUSCLE, values={}, **at).force, effect.id

@@ -6,6 +6,7 @@ import json
 import math
 from concurrent.futures import ThreadPoolExecutor
 
+import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
@@ -262,3 +263,16 @@ def test_a_free_muscle_still_has_its_stiffness(shared_client: TestClient) -> Non
     request = {"muscle": {"preset": "MAS-10", "nominal_length": "274 mm"}, "load": 0.0, "points": 2}
     points = shared_client.post("/api/curves", json=request).json()["operating_points"]
     assert all(point["stiffness"] > 1000.0 for point in points if point["contraction"] > 0.0)
+
+
+def test_curves_without_a_direction_leave_out_what_acts_in_motion_alone(shared_client: TestClient) -> None:
+    """The mean of the two branches, which do hold the friction, and the answer lists every effect."""
+    question = {"muscle": {"preset": "DMSP-20"}, "points": 9, "contraction_to": "20 %", "unclipped": True}
+    mean, filling, venting = (
+        shared_client.post("/api/curves", json={**question, "direction": way}).json() for way in (0, -1, 1)
+    )
+    assert {"dahl", "viscous_damping"} <= set(mean["model"]["effects"])
+    assert mean["model"] == filling["model"]
+    branches = np.array([filling["force"], venting["force"]])
+    assert np.all(branches[1] > branches[0])
+    np.testing.assert_allclose(mean["force"], branches.mean(axis=0), rtol=1e-9, atol=1e-9)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -168,9 +168,10 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
             the question.
     """
     start, conditions = question.start, question.conditions
-    model = studio.slow_model(start)
+    one_curve = question.load is None and question.fixed_length is None  # no branches of filling and venting
+    model = studio.slow_model(start, directed=not (one_curve and conditions.direction == 0.0))
     pressures = np.array(question.pressures)
-    grid = np.linspace(0.0, float(np.max(pressures)), _OVER_PRESSURE_POINTS)
+    grid = np.empty(0) if one_curve else np.linspace(0.0, float(np.max(pressures)), _OVER_PRESSURE_POINTS)
     under_load = held_contractions(model, pressures, grid, question.load, conditions)
     contraction = _range(question, model, under_load.free)
     length = model.muscle.nominal_length * (1.0 - contraction)
@@ -203,7 +204,10 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
         diameter=columns.diameter[top],
         outer_diameter=columns.outer_diameter[top],
         limits=CurveLimits(
-            **asdict(model.limits),
+            max_pressure=model.limits.max_pressure,
+            max_force=model.limits.max_force,
+            max_contraction=model.limits.max_contraction,
+            max_pretension=model.limits.max_pretension,
             ideal_max_contraction=ideal_contraction(model),
             braid_lock_force=lock_forces(model, pressures),
         ),

@@ -10,7 +10,7 @@ from mckibben.documents.start_model import PresetFacts, StartModel, StatedMuscle
 from mckibben.physics.catalogue import EffectCatalogue, default_catalogue
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
-from mckibben.physics.sliding import sliding_effects
+from mckibben.physics.sliding import acting_at_rest, sliding_effects
 from mckibben.presets import MusclePreset, PresetLibrary
 from mckibben.simulation.statics.model import StaticModel
 
@@ -70,15 +70,26 @@ class Studio:
             known = self._facts[preset.id] = preset, preset_facts(preset, self.catalogue)
         return known[1]
 
-    def slow_model(self, start: StartModel) -> StaticModel:
+    def slow_model(self, start: StartModel, *, directed: bool = True) -> StaticModel:
         """As `static_model`, for curves with a direction: friction with memory is fully built up in it.
+
+        Args:
+            start: the muscle with its effects.
+            directed: False = only the mean curve is asked (direction and velocity are zero); effects of the
+                program that act in motion alone are then left out of what is compiled. Those of the user
+                stay: nobody has checked that they vanish at rest.
 
         Raises:
             InputError: as there.
         """
         known = start.catalogue or self.catalogue
-        catalogue = _sliding_catalogue(tuple(known[name] for name in start.effects))
-        return StaticModel(start.muscle, start.effects, catalogue=catalogue, limits=start.limits)
+        effects = tuple(known[name] for name in start.effects)
+        model = StaticModel(
+            start.muscle, start.effects, catalogue=_sliding_catalogue(effects), limits=start.limits
+        )
+        if not directed:
+            model.effects = _at_rest(model.effects)
+        return model
 
     def static_model(self, start: StartModel) -> StaticModel:
         """The compiled static model of a muscle with its effects.
@@ -94,3 +105,10 @@ class Studio:
 @lru_cache(maxsize=256)
 def _sliding_catalogue(effects: tuple[Effect, ...]) -> dict[str, Effect]:
     return {effect.id: effect for effect in sliding_effects(effects=effects)}
+
+
+@lru_cache(maxsize=256)
+def _at_rest(effects: tuple[Effect, ...]) -> tuple[Effect, ...]:
+    built_in = default_catalogue()
+    acting = set(acting_at_rest(effects=effects))
+    return tuple(effect for effect in effects if effect in acting or effect.id not in built_in)

@@ -3,7 +3,7 @@
 A static curve knows a direction of motion, but no history. Dahl friction, Maxwell slip and their relatives
 build up over a short travel after a reversal; on the branches of a loop they have long reached their value
 `StateVariable.sliding`, times the sign of the velocity. Without a direction the states are at rest, so the
-curve is the mean of the two branches.
+curve is the mean of the two branches: there friction and damping are zero and need not be computed.
 """
 
 from __future__ import annotations
@@ -25,6 +25,19 @@ def sliding_effects(*, effects: Iterable[Effect]) -> tuple[Effect, ...]:
     return tuple(
         _sliding(effect) if any(state.sliding for state in effect.states) else effect for effect in effects
     )
+
+
+def acting_at_rest(*, effects: Iterable[Effect]) -> tuple[Effect, ...]:
+    """The effects without those that act in motion alone, for curves without a direction and a velocity.
+
+    Left out is what acts through ``friction`` only and declares to be zero without motion.
+    """
+    return tuple(effect for effect in effects if not _acts_in_motion_alone(effect))
+
+
+def _acts_in_motion_alone(effect: Effect) -> bool:
+    slots = set(effect.slots)
+    return slots <= {"friction", "rates"} and "no_motion" in effect.signature.zero_at
 
 
 @lru_cache(maxsize=256)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import isfinite
 from typing import NamedTuple
 
 import numpy as np
@@ -18,6 +19,8 @@ Array = NDArray[np.float64]
 
 # Gauss-Legendre: exact for polynomials up to degree 31, far above what a force curve needs.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
+# The first column is the nominal length, the others cover the range of each pressure.
+_COLUMNS = np.concatenate([[0.0], (_NODES + 1.0) / 2.0])
 FILLING, VENTING = -1.0, 1.0  # sign of dL/dt
 
 
@@ -145,8 +148,7 @@ def characteristics(
     """
     rest = model.muscle.nominal_length
     stroke = np.where(np.isfinite(free) & (free > 0.0), free, 0.0)
-    # The first column is the nominal length, the others cover the range of each pressure.
-    at = np.concatenate([[0.0], (_NODES + 1.0) / 2.0]) * stroke[:, None]
+    at = _COLUMNS * stroke[:, None]
     force = model.force(
         length=rest * (1.0 - at.ravel()),
         pressure=np.repeat(pressures, at.shape[1]),
@@ -157,19 +159,19 @@ def characteristics(
     tension = ideal.thread_tension(braid=model.muscle.braid, pressure=pressures, length=rest)
     return [
         Characteristics(
-            pressure=float(pressure),
+            pressure=pressure,
             blocked_force=force[index, 0],
-            free_contraction=free[index],
-            free_contraction_flag=_free_flag(model, free[index]),
+            free_contraction=contraction,
+            free_contraction_flag=_free_flag(model, contraction),
             max_work=work[index],
             thread_tension_total=tension[index],
         )
-        for index, pressure in enumerate(pressures)
+        for index, (pressure, contraction) in enumerate(zip(pressures.tolist(), free.tolist(), strict=True))
     ]
 
 
 def _free_flag(model: StaticModel, contraction: float) -> str | None:
-    if not np.isfinite(contraction):
+    if not isfinite(contraction):
         return str(FlagCode.OUT_OF_REACH)
     crossed = model.limits.flags(contraction=contraction)
     return str(crossed[0].code) if crossed else None

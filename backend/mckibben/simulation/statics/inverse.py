@@ -18,7 +18,8 @@ from mckibben.simulation.statics.model import StaticModel
 SEARCH_PRESSURE = 4e6  # Pa; upper end of the search: no fluidic muscle works beyond
 _SHORTEST = 0.35  # lower end of the search, as a share of the nominal length
 _STEPS = 60
-_FEW, _TABLE = 24, 8  # pressures that start from a table, and its lengths
+_FEW, _TABLE = 24, 12  # pressures that start from a table, and its lengths
+_SHARES = np.linspace(0.0, 1.0, _TABLE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,24 +94,32 @@ def _bracketed(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Whether the load can be carried at all, a bracket of the length, and a first guess in it.
 
-    From a table of lengths: the last of them with too small a force, and the next.
+    From a table of lengths: the last of them with too small a force, and the next. Between the two the length
+    over the force is Hermite's cubic; where that leaves the bracket, a straight line, or else the middle.
     """
     count = len(low)
-    lengths = np.linspace(low[0], high[0], _TABLE)
-    rows = np.repeat(np.arange(count), _TABLE)
-    value = excess_at(np.tile(lengths, count), rows)[0].reshape(count, _TABLE)
+    lengths = low[0] + (high[0] - low[0]) * _SHARES
+    rows = np.arange(count).repeat(_TABLE)
+    value, slope = (column.reshape(count, _TABLE) for column in excess_at(np.tile(lengths, count), rows))
     reachable = value[:, -1] >= 0.0
     small = value < 0.0
-    last = np.where(small.any(axis=1), _TABLE - 1 - np.argmax(small[:, ::-1], axis=1), 0)
+    last = np.where(small.any(axis=1), _TABLE - 1 - small[:, ::-1].argmax(axis=1), 0)
     last = np.minimum(last, _TABLE - 2)
     each = np.arange(count)
     below, above = value[each, last], value[each, last + 1]
     with np.errstate(divide="ignore", invalid="ignore"):
-        share = np.clip(np.nan_to_num(below / (below - above), nan=0.5), 0.0, 1.0)
-    first, width = lengths[last], lengths[1] - lengths[0]
+        span = above - below
+        share = -below / span
+        rest = 1.0 - share
+        width = lengths[1] - lengths[0]
+        bend = rest * (span / (slope[each, last] * width) - 1.0)
+        bend -= share * (span / (slope[each, last + 1] * width) - 1.0)
+        cubic = share + share * rest * bend
+        guess = np.where((cubic >= 0.0) & (cubic <= 1.0), cubic, share)
+        guess = np.where((guess >= 0.0) & (guess <= 1.0), guess, 0.5)
+    first = lengths[last]
     # Too much force even at the shortest length of the table: as without a table.
-    inside = small[:, 0]
-    return reachable, np.where(inside, first, low), first + width, first + share * width
+    return reachable, np.where(small[:, 0], first, low), first + width, first + guess * width
 
 
 def pressure_for_force(
