@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mckibben.identification.diagnose.contest import WrongEntry, contest
+from mckibben.identification.diagnose.entries import Entry, Statements
 from mckibben.identification.diagnose.gauge_zero import GaugeZero, vented
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment
 from mckibben.identification.diagnose.reason import ResidualTraits, traits_of, why
@@ -25,7 +27,7 @@ from mckibben.identification.fit.effort import SearchEffort, diagnosis_effort
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import CancelledError, Fitter
 from mckibben.identification.fit.least_squares import FitResult, least_squares_fit
-from mckibben.identification.predict.fit_model import FitModel
+from mckibben.identification.predict.fit_model import LOAD, FitModel
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.noise import noise_of
@@ -99,6 +101,7 @@ class Diagnosis:
         proposals: experiments that would separate the alternatives.
         messages: notes for the user.
         not_tried: effects of the catalogue that were not candidates, with the reason.
+        context: entries that may be wrong instead, the most convincing first.
     """
 
     predictor: Predictor
@@ -119,6 +122,7 @@ class Diagnosis:
     proposals: tuple[SeparatingExperiment, ...]
     messages: tuple[str, ...] = ()
     not_tried: tuple[NotTried, ...] = ()
+    context: tuple[WrongEntry, ...] = ()
 
 
 def diagnose(
@@ -129,6 +133,8 @@ def diagnose(
     geometry: Sequence[Free] = (),
     freed: Sequence[str] = (),
     noise: float | None = None,
+    statements: Statements | None = None,
+    accepted: Sequence[Entry] = (),
     effort: SearchEffort | None = None,
     watch: Watch | None = None,
     on_candidate: Callable[[SingleAddition], None] = lambda _: None,
@@ -142,6 +148,8 @@ def diagnose(
         geometry: geometry fields that fits may change.
         freed: further constants of the start model that fits may change, as "effect.parameter".
         noise: standard deviation of the predicted channel [SI], when it is known.
+        statements: what is stated about the data and may be wrong; by default nothing is doubted.
+        accepted: statements that the user has accepted as wrong: their quantities are fitted in every model.
         effort: limits of the search; by default they depend on the cost of a prediction.
         watch: receives the progress and may cancel.
         on_candidate: receives each candidate as soon as it is fitted.
@@ -157,9 +165,14 @@ def diagnose(
             predictor,
             fit_model,
             catalogue=catalogue,
-            geometry=geometry,
+            geometry=(
+                *geometry,
+                *(entry.free for entry in accepted if entry.free and entry.free.name != LOAD),
+            ),
+            load=next((entry.free for entry in accepted if entry.free and entry.free.name == LOAD), None),
             freed=frozenset(freed),
             noise=noise,
+            statements=statements,
             effort=effort or diagnosis_effort(simulated=predictor.simulated),
             watch=watch or Watch(time_limit=np.inf),
             on_candidate=on_candidate,
@@ -172,8 +185,10 @@ def _diagnose(
     *,
     catalogue: Mapping[str, Effect],
     geometry: Sequence[Free],
+    load: Free | None,
     freed: frozenset[str],
     noise: float | None,
+    statements: Statements | None,
     effort: SearchEffort,
     watch: Watch,
     on_candidate: Callable[[SingleAddition], None],
@@ -190,7 +205,7 @@ def _diagnose(
         geometry=tuple(geometry),
         candidates=candidates,
         noise=None,
-        load=predictor.unknown_load,
+        load=predictor.unknown_load or load,
         effort=effort,
         before_fit=progress.count_fit,
         estimate=lambda fitted_model: noise_of(predictor, fitted_model.residual, noise)[0],
@@ -252,7 +267,11 @@ def _diagnose(
         key=lambda candidate: candidate.score,
     )
     remaining = left_structure(predictor, best.residual, variables)
-    status = status_of(start, best, fitter.noise, added, exchangeable, remaining, full_scale)
+    context = ()
+    if statements is not None:
+        context = contest(statements, fitter=fitter, first=first, root=root, best=best, stated_noise=noise)
+    doubted = any(entry.stands for entry in context)
+    status = status_of(start, best, fitter.noise, added, exchangeable, remaining, full_scale, doubted=doubted)
     term = None
     if status == "unknown_effect" and is_force(predictor):
         term = proposed_term(best.residual, variables, best.jacobian[:, best.inner])
@@ -274,8 +293,9 @@ def _diagnose(
         structure=remaining,
         term=term,
         proposals=tuple(proposals(best, exchangeable, catalogue, level, predictor)),
-        messages=(*([] if gauge_zero is None else [gauge_zero.message]), *messages(fitter, first, best, fit)),
+        messages=(*([] if gauge_zero is None else [gauge_zero.message]), *messages(fitter, best, fit)),
         not_tried=tuple(not_tried),
+        context=context,
     )
 
 

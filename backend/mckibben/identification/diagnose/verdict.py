@@ -13,13 +13,11 @@ from mckibben.identification.diagnose.next_measurement import (
     protocols,
     separation,
 )
-from mckibben.identification.diagnose.other_geometry import geometry_instead
 from mckibben.identification.diagnose.score import AT_FLOOR
 from mckibben.identification.diagnose.twins import Alternative
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
 from mckibben.identification.fit.least_squares import FitResult
-from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.structure import ResidualStructure, structure
 from mckibben.physics.effect import Effect
@@ -61,6 +59,8 @@ def status_of(
     others: Sequence[Alternative],
     rest: ResidualStructure,
     full_scale: float,
+    *,
+    doubted: bool = False,
 ) -> Status:
     """What the diagnosis ends with.
 
@@ -71,7 +71,10 @@ def status_of(
         others: effects that could replace them.
         rest: structure left in the residual.
         full_scale: largest measured magnitude over the scale of the residual.
+        doubted: whether a changed entry explains the data better: missing physics cannot be told from it.
     """
+    if doubted:
+        return "ambiguous"
     if noise is None and not added:
         return "adequate" if best.rmse <= _SMALL * full_scale else "unknown_effect"
     floor = noise or 0.0
@@ -133,19 +136,15 @@ def _assumptions(best: FittedModel) -> list[str]:
     return notes
 
 
-def messages(fitter: Fitter, first: FitModel, best: FittedModel, fit: FitResult | None) -> list[str]:
+def messages(fitter: Fitter, best: FittedModel, fit: FitResult | None) -> list[str]:
     """Notes for the user on assumptions, the noise, the geometry and the fit.
 
     Args:
         fitter: the fits of the search.
-        first: the start model.
         best: the best model.
         fit: its parameters with standard errors.
     """
     notes = _assumptions(best)
-    # Transients hardly determine the geometry, and each fit is slow: their effort skips the dimensions.
-    if fitter.effort.dimensions and len(best.fit_model.ids) > len(first.ids) and not fitter.geometry:
-        notes += geometry_instead(fitter.predictor, first, best, fixed=fitter.fixed, load=fitter.load)
     if fitter.noise is None:
         notes.append(
             "the sweeps are too short to estimate the noise: state it, so that the search can stop there"

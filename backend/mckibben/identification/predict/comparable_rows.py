@@ -54,6 +54,9 @@ class ComparableRows:
         excluded: reason -> number of excluded rows.
         unknown_load: whether the load is not stated and has to be fitted.
         messages: the assumptions.
+        rest_length: the nominal length that the lengths are calculated with [m].
+        by_rest_length: derivative of each length by it: 0 where the length itself is measured, 1 for a
+            displacement, 1 - contraction for a contraction.
     """
 
     kind: str
@@ -69,6 +72,8 @@ class ComparableRows:
     excluded: Mapping[str, int]
     unknown_load: bool
     messages: tuple[str, ...]
+    rest_length: float = 0.0
+    by_rest_length: np.ndarray | float = 0.0
 
     def chosen(self, keep: np.ndarray) -> ComparableRows:
         """Only some of the rows (a mask or indices)."""
@@ -81,6 +86,9 @@ class ComparableRows:
             groups=self.groups[keep],
             turning=self.turning[keep],
             rows=self.rows[keep],
+            by_rest_length=self.by_rest_length[keep]
+            if isinstance(self.by_rest_length, np.ndarray)
+            else self.by_rest_length,
         )
 
 
@@ -151,7 +159,18 @@ def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
         excluded={reason: number for reason, number in excluded.items() if number},
         unknown_load=unknown_load,
         messages=tuple(messages),
+        rest_length=muscle.nominal_length,
+        by_rest_length=_by_rest_length(columns)[keep] if length is not None else 0.0,
     )
+
+
+def _by_rest_length(columns: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Derivative of each row's length by the nominal length, as `lengths` calculates it."""
+    if "length" in columns:
+        return np.zeros(len(columns["length"]))
+    if "contraction" in columns:
+        return 1.0 - columns["contraction"]
+    return np.ones(len(columns["displacement"]))
 
 
 def _motion(

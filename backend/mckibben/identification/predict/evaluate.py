@@ -38,7 +38,18 @@ class Evaluation:
     def state(self, fit_model: FitModel) -> dict[str, np.ndarray]:
         """Inputs of the model: the measured ones, and the states of effects with memory."""
         state = {name: self.task.state[name] for name in INPUTS if name in self.task.state}
+        moved = self.moved(fit_model)
+        if "length" in state and np.any(moved):
+            state["length"] = state["length"] + moved
         return state | self._memory.states(fit_model)
+
+    def moved(self, fit_model: FitModel) -> np.ndarray | float:
+        """How much longer each length is with the nominal length of a model than with that of the rows [m].
+
+        A fit may change the nominal length; displacements and contractions then mean other lengths.
+        Velocities and the history of effects with memory stay those of the rows.
+        """
+        return self.task.by_rest_length * (fit_model.muscle.nominal_length - self.task.rest_length)
 
     def at(
         self, fit_model: FitModel, names: Sequence[str] = (), state: State | None = None
@@ -77,6 +88,8 @@ class Evaluation:
         for column, name in enumerate(names):
             if name != LOAD:
                 gradient[:, column] = total[inner.index(name)]
+            if name == "nominal_length" and state is None:
+                gradient[:, column] += out["force_by_length"] * self.task.by_rest_length
             for state_name, rate in moved.get(name, {}).items():
                 gradient[:, column] += total[inner.index(state_name)] * rate
         return out, gradient

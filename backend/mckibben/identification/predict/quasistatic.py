@@ -114,7 +114,8 @@ class QuasistaticPredictor(Predictor):
 
     def _everywhere(self, fit_model: FitModel, *, clipped: bool) -> np.ndarray:
         if self.task.channel == "length":
-            return predicted_lengths(self._evaluation, fit_model)[0]
+            # Compared with lengths that were calculated with the nominal length of the rows.
+            return predicted_lengths(self._evaluation, fit_model)[0] - self._evaluation.moved(fit_model)
         if self.task.channel == "diameter":
             return self._diameter(fit_model)
         out = self._evaluation.at(_at_once(fit_model))[0]
@@ -133,6 +134,9 @@ class QuasistaticPredictor(Predictor):
             gradient[self._slack(out)] = 0.0
             return self._followed(out)[self._counted], gradient[self._counted]
         length, gradient = predicted_lengths(self._evaluation, fit_model, names)
+        length = length - self._evaluation.moved(fit_model)
+        if "nominal_length" in names:
+            gradient[:, names.index("nominal_length")] -= self.task.by_rest_length
         return length[self._counted], gradient[self._counted]
 
     def _late_linearised(self, fit_model: FitModel, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:

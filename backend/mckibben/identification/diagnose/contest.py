@@ -1,0 +1,320 @@
+"""Wrong entry or missing physics: each statement that may be wrong competes with the effects.
+
+Elasticity alone imitates a wrong rest length, so an entry is changed **together with** the effects: first in
+the start model, then in the best model of the search, and for the most promising entries in a search of their
+own. An entry stands when the best model with it comes closer to the noise than any model without it, by more
+than chance.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mckibben.identification.diagnose.entries import Entry, Statements, predicted_scale
+from mckibben.identification.diagnose.score import AT_FLOOR, LEAST_SCORE, effective_rows, score
+from mckibben.identification.diagnose.search import search
+from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.fit.fitter import Fitter
+from mckibben.identification.predict.fit_model import FitModel
+from mckibben.identification.residual.noise import noise_of
+from mckibben.physics.errors import InputError
+
+_SEARCHED = 2  # entries with a search of their own
+_SINGLES = 4  # effects that each entry is fitted with alone
+_LEAST_GAIN = 0.1  # least relative reduction of the error
+_LEAST_CHANGE = 0.01  # least relative change of a quantity; less is the accuracy of a ruler
+_CERTAIN = 0.98  # largest confidence: the models themselves are not exact
+_SURE = LEAST_SCORE  # advantage in score from which an entry stands
+_MUCH = 0.5  # share of the excess over the noise that an entry above the noise must explain
+
+
+@dataclass(frozen=True)
+class WrongEntry:
+    """A changed entry that explains the data better than, or as well as, effects.
+
+    Attributes:
+        entry: what is changed.
+        value: the value that explains the data, SI; None for a way of reading.
+        stderr: its standard error; None without one.
+        explains: share of the start model's mean square over the noise that it explains by itself.
+        best: the best model with it; errors in the units of the changed data.
+        noise: of the changed data.
+        scale: factor between errors of the changed and of the stated data.
+        effects: effects that are missing with it.
+        confidence: probability against the best model without it, from score and prior.
+        stands: whether it explains the data better by more than chance, so that it is asked about first.
+        kept: whether it would stand, but the user has ruled it out.
+    """
+
+    entry: Entry
+    value: float | None
+    stderr: float | None
+    explains: float
+    best: FittedModel
+    noise: float | None
+    scale: float
+    effects: tuple[str, ...]
+    confidence: float
+    stands: bool
+    kept: bool = False
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """One entry changed: its data and fitter, and the start model fitted with it."""
+
+    entry: Entry
+    fitter: Fitter
+    root: FittedModel
+    best: FittedModel
+    scale: float
+
+    def score(self, rows: float, floor: float | None) -> float:
+        """Score of the best model, errors in the units of the stated data; a finer error does not count."""
+        noise = None if floor is None else floor * self.scale
+        return score(self.best, rows=rows, noise=noise) - 2.0 * rows * float(np.log(self.scale))
+
+    @property
+    def done(self) -> bool:
+        """Whether it reaches the noise with the start model's effects alone: nothing is left to search."""
+        noise = self.fitter.noise
+        return self.best is self.root and noise is not None and self.root.rmse <= AT_FLOOR * noise
+
+    @property
+    def rmse(self) -> float:
+        """Error in the units of the stated data."""
+        return self.best.rmse / self.scale
+
+
+def contest(
+    statements: Statements,
+    *,
+    fitter: Fitter,
+    first: FitModel,
+    root: FittedModel,
+    best: FittedModel,
+    stated_noise: float | None,
+) -> tuple[WrongEntry, ...]:
+    """The entries that explain the data better than the effects do, the most convincing first.
+
+    Args:
+        statements: what may be wrong.
+        fitter: of the search with the entries as stated.
+        first: the start model.
+        root: the start model fitted.
+        best: the best model of the search.
+        stated_noise: noise stated by the user.
+    """
+    added = [name for name in best.fit_model.ids if name not in set(first.ids)]
+    noise = fitter.noise
+    if noise is not None and best.rmse <= AT_FLOOR * noise and not added:
+        return ()  # nothing is missing, so nothing is wrong
+    trials = []
+    for entry in statements.entries:
+        trial = _tried(entry, statements, fitter, first, root, stated_noise)
+        if trial is not None:
+            trials.append(trial)
+    rows = effective_rows(best.residual, fitter.predictor.sweeps, fitter.predictor.folds)
+    trials = [_with_effects(trial, best, root, added, rows) for trial in trials]
+    noise = _lowest_noise(noise, trials, best)
+    here = score(best, rows=rows, noise=noise)
+    trials.sort(key=lambda trial: trial.score(rows, noise))
+    if fitter.effort.thorough:
+        at_floor = noise is not None and best.rmse <= AT_FLOOR * noise
+        # Where the effects reach the noise, an entry as good with fewer of them may be the better one.
+        least = 0.0 if at_floor and len(added) > 1 else _SURE
+        close = [trial for trial in trials if trial.score(rows, noise) < here - least and not trial.done]
+        for trial in close[:_SEARCHED]:
+            trials[trials.index(trial)] = _searched(trial)
+        noise = _lowest_noise(noise, trials, best)
+        here = score(best, rows=rows, noise=noise)
+        trials.sort(key=lambda trial: trial.score(rows, noise))
+    found = [
+        entry
+        for trial in trials
+        if (entry := _evidence(trial, first, root, best, rows=rows, noise=noise, here=here)) is not None
+    ]
+    found = [
+        replace(each, stands=False, kept=each.stands) if each.entry.hypothesis in statements.kept else each
+        for each in found
+    ]
+    return tuple(sorted(found, key=lambda each: (not each.stands, not each.kept)))
+
+
+def _lowest_noise(noise: float | None, trials: Sequence[_Trial], best: FittedModel) -> float | None:
+    """The lowest noise of the models that are as good as the best: missing physics may look like noise."""
+    levels = [noise, *(_level(trial) for trial in trials if trial.rmse <= best.rmse)]
+    known = [value for value in levels if value is not None]
+    return min(known) if known else None
+
+
+def _level(trial: _Trial) -> float | None:
+    """Noise in the units of the stated data."""
+    return None if trial.fitter.noise is None else trial.fitter.noise / trial.scale
+
+
+def _tried(
+    entry: Entry,
+    statements: Statements,
+    fitter: Fitter,
+    first: FitModel,
+    root: FittedModel,
+    stated_noise: float | None,
+) -> _Trial | None:
+    """The start model with an entry changed; None where the data do not allow the change."""
+    predictor, scale, load = fitter.predictor, 1.0, fitter.load
+    geometry = fitter.geometry
+    if entry.reading is not None:
+        try:
+            predictor = statements.read(entry.reading).prepared(first, fitter.candidates)
+        except InputError:
+            return None
+        scale = predicted_scale(predictor, entry.reading)
+    if entry.free is not None:
+        if entry.field == "load":
+            if load is not None:
+                return None
+            load = entry.free
+        elif entry.free.name in {free.name for free in geometry}:
+            return None  # the user has freed it
+        else:
+            geometry = (*geometry, entry.free)
+    own = replace(
+        fitter,
+        predictor=predictor,
+        geometry=geometry,
+        load=load,
+        noise=None,
+        known={},
+        off_values={},
+        refitted_keys=set(),
+        estimate=lambda fitted: noise_of(predictor, fitted.residual, _scaled(stated_noise, scale))[0],
+    )
+    fitted = own.fit(first, root.freed)
+    if not np.isfinite(fitted.rmse):
+        return None
+    own.update_noise(fitted)
+    return _Trial(entry, own, fitted, fitted, scale)
+
+
+def _scaled(noise: float | None, scale: float) -> float | None:
+    return None if noise is None else noise * scale
+
+
+def _with_effects(
+    trial: _Trial, best: FittedModel, root: FittedModel, added: Sequence[str], rows: float
+) -> _Trial:
+    """The entry with effects: all of the best model, all but one, and single ones that it needs."""
+    fitter = trial.fitter
+    if trial.done or (trial.entry.free is None and trial.rmse > root.rmse):
+        return trial
+    models = [trial.root]
+    if added:
+        models.append(fitter.fit(best.fit_model, best.freed))
+        models += [fitter.dropping(best, name) for name in added] if len(added) > 1 else []
+    if fitter.effort.thorough:
+        promising = fitter.promising(trial.root, fitter.candidates)[:_SINGLES]
+        models += [fitter.adding(trial.root, effect) for effect in promising]
+    for model in models:
+        if model.rmse <= min(other.rmse for other in models):
+            fitter.update_noise(model)
+    noise = fitter.noise
+    leading = min(models, key=lambda model: score(model, rows=rows, noise=noise))
+    return replace(trial, best=leading)
+
+
+def _searched(trial: _Trial) -> _Trial:
+    """The best model of a search with the entry changed."""
+    fitter = trial.fitter
+    fitter.noise = fitter.estimate(trial.root)
+    tried = fitter.promising(trial.root, fitter.candidates)[: fitter.effort.tried]
+    singles = [fitter.adding(trial.root, effect) for effect in tried]
+    best = search(fitter, trial.root, singles=singles)
+    fitter.update_noise(best)
+    rows = effective_rows(best.residual, fitter.predictor.sweeps, fitter.predictor.folds)
+    one, two = (score(model, rows=rows, noise=fitter.noise) for model in (best, trial.best))
+    return replace(trial, best=best if one <= two else trial.best)
+
+
+def _evidence(
+    trial: _Trial,
+    first: FitModel,
+    root: FittedModel,
+    best: FittedModel,
+    *,
+    rows: float,
+    noise: float | None,
+    here: float,
+) -> WrongEntry | None:
+    """The entry with its evidence; None where it explains nothing."""
+    entry, model = trial.entry, trial.best
+    value, stderr = None, None
+    if entry.free is not None:
+        place = next(i for i, p in enumerate(model.free) if p.name == entry.free.name)
+        number = model.free[place].start
+        if model.at_bound[place]:
+            return None
+        stated = entry.stated or 0.0
+        value = stated + number if entry.field == "load" else number
+        stderr = model.standard_errors[place]
+        if abs(value - stated) < _LEAST_CHANGE * abs(stated):
+            return None
+    floor = noise or 0.0
+    effects = tuple(name for name in model.fit_model.ids if name not in set(first.ids))
+    added = len(best.fit_model.ids) - len(first.ids)
+    drop = here - trial.score(rows, noise)
+    gain = 1.0 - trial.rmse / best.rmse if best.rmse > 0.0 else 0.0
+    excess, left = (max(rmse**2 - floor**2, 0.0) for rmse in (best.rmse, trial.rmse))
+    odds = entry.prior * float(np.exp(np.clip(0.5 * drop, -50.0, 50.0)))
+    confidence = min(odds / (1.0 + odds), _CERTAIN)
+    simpler = len(effects) < added
+    as_good = trial.rmse <= _AS_GOOD * best.rmse
+    reaches = trial.rmse <= AT_FLOOR * floor or (as_good and best.rmse <= _NEAR * floor)
+    closer = gain > _LEAST_GAIN and left <= _MUCH * excess
+    # A way of reading has no number to fit: it need not be better by as much.
+    sure = _SURE if entry.free is not None or not simpler else 0.0
+    stands = drop > sure and (closer or (reaches and simpler))
+    if not (stands or (as_good and len(effects) <= added and drop > -LEAST_SCORE)):
+        return None
+    whole = max(root.mean_square - floor**2, 1e-300)
+    alone = max(trial.root.mean_square / trial.scale**2 - floor**2, 0.0)
+    return WrongEntry(
+        entry=entry,
+        value=value,
+        stderr=stderr,
+        explains=float(np.clip(1.0 - alone / whole, 0.0, 1.0)),
+        best=model,
+        noise=None if noise is None else noise * trial.scale,
+        scale=trial.scale,
+        effects=effects,
+        confidence=confidence,
+        stands=stands,
+    )
+
+
+def shown(value: float, unit: str) -> str:
+    """A value of an entry with its unit, for sentences."""
+    if unit == "rad":
+        return f"{np.degrees(value):.1f}°"
+    return f"{1e3 * value:.4g} mm" if unit == "m" else f"{value:.4g} {unit}"
+
+
+def sentence_of(found: WrongEntry, titles: Mapping[str, str]) -> str:
+    """What a changed entry would explain, and what to do, in one or two sentences."""
+    entry = found.entry
+    if found.value is not None and entry.stated is not None:
+        what = f"{entry.title[4:].capitalize()} {shown(found.value, entry.unit)} instead of "
+        what += shown(entry.stated, entry.unit)
+    else:
+        assert entry.reading is not None  # noqa: S101 - an entry is one of the two
+        what = f"{entry.title[4:].capitalize()} {entry.reading.words}"
+    also = [titles.get(name, name) for name in found.effects]
+    rest = f", together with {', '.join(also)}," if also else ""
+    return (
+        f"{what}{rest} explains {100.0 * found.explains:.0f} % by itself"
+        if also
+        else f"{what} explains {100.0 * found.explains:.0f} %"
+    )

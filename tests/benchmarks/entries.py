@@ -1,0 +1,144 @@
+"""Wrong entries before missing physics: how often a mistake is named, how often a right entry is doubted.
+
+    python -m tests.benchmarks.entries [--seeds 0] [--apart] [--right TEXT]
+
+Every mistake of `tests.truth.wrong_entries` is made, alone and beside an effect: *first* = named first,
+*listed* = among the entries that explain the data as well. ``--right`` runs the cases of the sealed
+table instead, whose entries are right: none may be asked about.
+"""
+
+from __future__ import annotations
+
+import argparse
+import multiprocessing
+import os
+import time
+from dataclasses import dataclass
+from typing import Any
+
+from mckibben.physics.errors import InputError
+from tests.benchmarks.diagnosis import _studio, say, subject_and_start, true_floor
+from tests.truth.cases import Case
+from tests.truth.generate import all_cases
+from tests.truth.wrong_entries import ALONE, APART, Mistake, mistaken
+
+
+@dataclass
+class Line:
+    """What became of one case."""
+
+    case: str
+    right: frozenset[str]
+    hidden: int
+    named: list[str]
+    listed: list[str]
+    found: int = 0
+    status: str = ""
+    text: str = ""
+    seconds: float = 0.0
+
+
+def doubted(given: tuple[frozenset[str], Case]) -> Line:
+    """Diagnose one case with its entries open to doubt."""
+    from mckibben.identification.diagnose.contest import shown
+    from mckibben.identification.diagnose.diagnosis import diagnose
+    from mckibben.identification.diagnose.entries import statements
+
+    right, case = given
+    studio = _studio()
+    line = Line(f"{case.name}-{case.seed}", right, len(case.hidden), [], [])
+    try:
+        predictor, start, measurement, rebuilt = parts_of(case, studio)
+        began = time.perf_counter()
+        stated = statements(measurement, start, rebuilt)
+        result = diagnose(predictor, start, catalogue=studio.catalogue, statements=stated)
+        line.seconds = time.perf_counter() - began
+    except InputError as error:  # refused with a question
+        line.status, line.text = "asked", str(error)[:160]
+        return line
+    floor = true_floor(case, predictor)
+    line.status = result.status
+    line.named = [each.entry.hypothesis for each in result.context if each.stands]
+    line.listed = [each.entry.hypothesis for each in result.context]
+    if result.context:
+        leading = result.context[0]
+        line.found = sum(bool(hidden & set(leading.effects)) for hidden in case.hidden)
+    line.text = (
+        f"{result.start.rmse / floor:.1f} -> {result.best.rmse / floor:.2f} [{', '.join(result.added)}] "
+    )
+    line.text += "; ".join(
+        f"{each.entry.hypothesis}{'!' if each.stands else ''} "
+        f"{'' if each.value is None else shown(each.value, each.entry.unit)} {each.confidence:.2f} "
+        f"{each.best.rmse / each.scale / floor:.2f} [{', '.join(each.effects)}]"
+        for each in result.context[:4]
+    )
+    return line
+
+
+def parts_of(case: Case, studio: Any) -> tuple[Any, Any, Any, Any]:
+    """Predictor, start model, measurement, and the predictor of a changed measurement."""
+    from mckibben.documents.drive_files import read_document
+    from mckibben.documents.drive_reading import drive_of
+    from mckibben.identification.predict import predictor_of
+    from mckibben.measurement.points import Points, joined
+    from mckibben.measurement.read import read_measurement
+
+    predictor, start = subject_and_start(case, studio)
+    files = [Points(read_measurement(text.encode(), name)) for name, text in case.files.items()]
+    measurement = joined(files).measurement
+    drive = None
+    if case.drive is not None:
+        drive = drive_of(read_document({"effects": case.effects, **case.drive}, "the drive"), studio).drive
+    return predictor, start, measurement, lambda other: predictor_of(other, start.muscle, drive)
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--seeds", default="0")
+    parser.add_argument("--apart", action="store_true", help="the cases kept apart")
+    parser.add_argument("--only", default="", help="part of the case's name")
+    parser.add_argument("--right", default=None, help="cases with right entries; part of the kind or name")
+    given = parser.parse_args()
+    seeds = tuple(int(seed) for seed in given.seeds.split(","))
+    chosen: list[tuple[frozenset[str], Case]]
+    if given.right is not None:
+        chosen = [
+            (frozenset(), case)
+            for case in all_cases(seeds=seeds)
+            if given.right in f"{case.name} {case.kind}"
+        ]
+    else:
+        pairs: list[tuple[Mistake, Case]] = []
+        for seed in seeds:
+            pairs += mistaken(seed, APART) if given.apart else mistaken(seed)
+        chosen = [(mistake.right, case) for mistake, case in pairs if given.only in case.name]
+    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+        os.environ.setdefault(name, "1")
+    lines = []
+    with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
+        for line in pool.imap_unordered(doubted, chosen):
+            lines.append(line)
+            first = bool(line.named) and line.named[0] in line.right if line.right else not line.named
+            first = first or line.status == "asked"
+            mark = "ok" if first else "~ " if line.right & set(line.listed) else "--"
+            say(f"{mark} {line.case:44} {line.status:16} {line.seconds:5.1f} s {line.text}")
+    if given.right is not None:
+        say(f"right entries doubted: {sum(bool(line.named) for line in lines)} of {len(lines)}")
+        return
+    for words, part in (
+        ("alone", [line for line in lines if line.case.startswith(ALONE)]),
+        ("beside an effect", [line for line in lines if not line.case.startswith(ALONE)]),
+    ):
+        asked = sum(line.status == "asked" for line in part)
+        first = sum(bool(line.named) and line.named[0] in line.right for line in part)
+        either = sum(bool(line.right & set(line.listed)) for line in part)
+        effects = sum(line.found == line.hidden for line in part if line.listed)
+        say(
+            f"{words}: asked while reading {asked}, named first {first}, first or listed {either}, with all "
+            f"effects {effects}, of {len(part)}"
+        )
+
+
+if __name__ == "__main__":
+    main()

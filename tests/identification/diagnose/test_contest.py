@@ -1,0 +1,116 @@
+"""Wrong entry or missing physics, on data made by formulas written for the tests."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mckibben.identification.diagnose.contest import sentence_of
+from mckibben.identification.diagnose.diagnosis import Diagnosis, diagnose
+from mckibben.identification.diagnose.entries import statements
+from mckibben.identification.predict import predictor_of
+from mckibben.identification.predict.fit_model import FitModel
+from mckibben.measurement.read import read_measurement
+from mckibben.physics.muscle import Muscle
+from tests.identification.synthetic import CATALOGUE, MUSCLE, truth
+
+NOISE = 0.5
+TITLES = {name: effect.title for name, effect in CATALOGUE.items()}
+
+
+def diagnosis(
+    muscle: Muscle,
+    *,
+    kgf: bool = False,
+    use: tuple[str, ...] = (),
+    keep: tuple[str, ...] = (),
+    c10: float = 0.0,
+    wave: float = 0.0,
+) -> Diagnosis:
+    """Loops of a muscle of 300 mm with a hidden wall, diagnosed with another muscle stated."""
+    random = np.random.default_rng(3)
+    rows = ["# kind: isobaric", "time_s,pressure_bar,displacement_mm,force_N"]
+    time = 0.0
+    for pressure in (2e5, 3e5, 4e5, 5e5, 6e5):
+        for share in (*np.linspace(0.0, 0.18, 24), *np.linspace(0.18, 0.0, 24)):
+            time += 0.1
+            length = 0.3 * (1.0 - share)
+            force = float(truth(pressure, length, c10=c10)) + NOISE * random.standard_normal()
+            force += wave * np.sin(140.0 * share)
+            force /= 9.80665 if kgf else 1.0
+            rows.append(f"{time:.1f},{pressure / 1e5:.4f},{1e3 * (0.3 - length):.4f},{force:.5f}")
+    measurement = read_measurement("\n".join(rows).encode(), "loops.csv")
+    start = FitModel(muscle)
+    stated, accepted = (
+        statements(measurement, start, lambda other: predictor_of(other, muscle)).keeping(keep).using(use)
+    )
+    return diagnose(
+        predictor_of(stated.measurement, muscle),
+        start,
+        catalogue=CATALOGUE,
+        statements=stated,
+        accepted=accepted,
+    )
+
+
+LONG = MUSCLE._replace(nominal_length=0.36)
+
+
+def test_a_wrong_rest_length_beside_an_elastic_wall_is_asked_about_first() -> None:
+    result = diagnosis(LONG, c10=0.4e6)
+    assert result.status == "ambiguous"
+    assert result.term is None
+    leading = result.context[0]
+    assert leading.stands
+    assert leading.entry.hypothesis == "rest_length"
+    assert leading.value == pytest.approx(0.3, abs=2e-3)
+    assert leading.stderr is not None
+    assert abs(leading.value - 0.3) < 5.0 * leading.stderr
+    assert leading.effects == ("bladder_elasticity",)
+    assert leading.best.rmse == pytest.approx(NOISE, rel=0.1)
+    text = sentence_of(leading, TITLES)
+    assert "Rest length 300" in text
+    assert "instead of 360 mm" in text
+
+
+def test_accepted_it_is_fitted_and_the_effect_remains() -> None:
+    result = diagnosis(LONG, c10=0.4e6, use=("rest_length",))
+    assert result.added == ("bladder_elasticity",)
+    assert result.best.fit_model.muscle.nominal_length == pytest.approx(0.3, abs=2e-3)
+    assert not any(entry.stands for entry in result.context)
+
+
+def test_kept_it_is_told_but_not_asked_about() -> None:
+    result = diagnosis(LONG, c10=0.4e6, keep=("rest_length",))
+    kept = next(entry for entry in result.context if entry.entry.hypothesis == "rest_length")
+    assert kept.kept
+    assert not kept.stands
+
+
+def test_a_force_in_kgf_is_read_in_kgf() -> None:
+    leading = diagnosis(MUSCLE, kgf=True).context[0]
+    assert leading.stands
+    assert leading.entry.hypothesis == "force_in_kgf"
+    assert leading.effects == ()
+    assert leading.explains > 0.99
+    assert "in kgf" in sentence_of(leading, TITLES)
+
+
+@pytest.mark.parametrize(("c10", "wave"), [(0.0, 0.0), (0.4e6, 0.0), (0.0, 20.0)])
+def test_right_entries_are_not_doubted(c10: float, wave: float) -> None:
+    """With nothing hidden, with an elastic wall, and with something that no effect explains."""
+    result = diagnosis(MUSCLE, c10=c10, wave=wave)
+    assert not any(entry.stands for entry in result.context)
+    expected = "unknown_effect" if wave else "missing_effects" if c10 else "adequate"
+    assert result.status == expected
+
+
+def test_a_thicker_braid_is_a_twin_of_a_stronger_force() -> None:
+    """The ideal force goes with the square of the diameter: the data cannot tell the two."""
+    result = diagnosis(replace_diameter(MUSCLE, 1.1))
+    assert result.added == ("effectiveness",)
+    assert "braid_diameter" in {entry.entry.hypothesis for entry in result.context}
+
+
+def replace_diameter(muscle: Muscle, factor: float) -> Muscle:
+    return muscle._replace(braid_diameter=factor * muscle.braid_diameter)
