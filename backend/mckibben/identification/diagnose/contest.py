@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mckibben.identification.diagnose.entries import Entry, Statements, predicted_scale
-from mckibben.identification.diagnose.score import AT_FLOOR, LEAST_SCORE, effective_rows, score
+from mckibben.identification.diagnose.score import AT_FLOOR, LEAST_SCORE, better, effective_rows, score
 from mckibben.identification.diagnose.search import search
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
@@ -28,6 +28,8 @@ _LEAST_GAIN = 0.1  # least relative reduction of the error
 _LEAST_CHANGE = 0.01  # least relative change of a quantity; less is the accuracy of a ruler
 _CERTAIN = 0.98  # largest confidence: the models themselves are not exact
 _SURE = LEAST_SCORE  # advantage in score from which an entry stands
+_AS_GOOD = 1.05  # error over that of the best model up to which an entry explains the data as well
+_NEAR = 1.5  # error over the noise up to which the effects may have reached it; it is an estimate
 _MUCH = 0.5  # share of the excess over the noise that an entry above the noise must explain
 
 
@@ -223,7 +225,7 @@ def _with_effects(
             fitter.update_noise(model)
     noise = fitter.noise
     leading = min(models, key=lambda model: score(model, rows=rows, noise=noise))
-    return replace(trial, best=leading)
+    return replace(trial, best=leading) if better(leading, trial.root, rows=rows, noise=noise) else trial
 
 
 def _searched(trial: _Trial) -> _Trial:
