@@ -217,7 +217,7 @@ def _diagnose(
         fitter.known.clear()
         root = fitter.fit(first, freed)
     fitter.noise, how = noise_of(predictor, root.residual, noise)
-    variables = variables_of(predictor, fit_model.muscle.nominal_length)
+    variables = variables_of(predictor, fit_model)
     before = traits_of(root.residual, variables)
     where = profiles(start.residual, variables, predictor.folds[0])
     fitted = {effect.id for effect in fitter.promising(root, candidates)[: effort.tried]}
@@ -285,7 +285,7 @@ def _diagnose(
 
 def _why_not(effect: Effect, predictor: Predictor) -> str:
     """Why an effect is not a candidate; empty for a candidate."""
-    if effect.among_lengths:
+    if effect.among_lengths and not predictor.several_lengths:
         return "it shows only among muscles of several lengths, and these are the data of one"
     return predictor.why_hidden(effect)
 

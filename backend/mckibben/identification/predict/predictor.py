@@ -104,6 +104,15 @@ class Predictor(ABC):
     def prepared(self, fit_model: FitModel, candidates: Sequence[Effect]) -> Predictor:
         """This predictor, prepared for a search over the start model with any of the candidates."""
 
+    @property
+    def several_lengths(self) -> bool:
+        """Whether the data are of muscles of different rest lengths."""
+        return False
+
+    def rest_length(self, fit_model: FitModel) -> np.ndarray | float:
+        """Rest length of the muscle [m]; of each value where there are several muscles."""
+        return float(fit_model.muscle.nominal_length)
+
     def lost(self, fit_model: FitModel) -> tuple[int, int]:
         """Number of rows without a finite prediction, and of all rows."""
         return 0, len(self.measured)

@@ -1,8 +1,9 @@
 r"""Errors of readings within the stated accuracy: of a clamped length, of a sensor's zero.
 
-Such an error e belongs to some rows: one clamped length, one file. To first order it changes the residual by
-:math:`n e`, where n is 1 on these rows if the channel is predicted, and minus the derivative of the prediction
-by the channel if it is an input. A fit treats each e as a parameter with the accuracy as its prior deviation,
+Such an error e belongs to some rows: one clamped length, one file. To first order it changes the residual
+by :math:`n e`, where n is 1 on these rows if the channel is predicted, and minus the derivative of the
+prediction by the channel if it is an input. A fit treats each e as a parameter with the accuracy as its
+prior deviation,
 
 .. math:: \min_{\theta, e} \sum_i \frac{(r_i(\theta) - (N e)_i)^2}{s^2} + \sum_j \frac{e_j^2}{\sigma_j^2}
 
@@ -79,7 +80,9 @@ class ReadingWeights:
     def __call__(self, values: np.ndarray) -> np.ndarray:
         """W times values of shape (values,) or (values, columns)."""
         taken = self.basis.T @ values
-        return values - self.basis @ (self.shrunk[:, None] * taken if values.ndim > 1 else self.shrunk * taken)
+        return values - self.basis @ (
+            self.shrunk[:, None] * taken if values.ndim > 1 else self.shrunk * taken
+        )
 
 
 def reading_weights(
