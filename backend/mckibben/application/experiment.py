@@ -244,8 +244,9 @@ def _name_muscle(one: _One, model: SaidModel, start: StartModel) -> None:
     """The muscle of a measurement: the user's word for it, that of the request, else the file's."""
     own = one.values.get("muscle")
     if model.muscle is None or (own is not None and own.origin in ("you", "suggested")):
-        if own is None and start.preset is not None:
-            one.values["muscle"] = ExperimentValue(start.preset.id, "", "you", "")
+        if own is None:
+            name = "by its geometry" if start.preset is None else start.preset.id
+            one.values["muscle"] = ExperimentValue(name, "", "you", "")
         return
     if own is not None and start.preset is not None:
         other = str(own.value).partition(":")[0].upper()
