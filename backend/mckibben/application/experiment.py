@@ -33,6 +33,10 @@ from mckibben.physics.muscle import Muscle
 
 _SAME_LENGTH = 1e-3  # relative; rest lengths that differ by less are the same
 _ONE_MUSCLE = 0.02  # relative; a fit may change a rest length by as much, so this is no contradiction
+#: Question of a file -> field that answers it, whoever says it.
+_ANSWERS = {
+    "rest length": "rest_length", "load": "load", "supply": "supply", "zero of force": "force_zero",
+}  # fmt: skip
 #: Zero errors of the sensors where several specimens are mounted one after the other.
 _REMOUNTED = {
     "length": ChannelAccuracy(0.5e-3, "m"),
@@ -191,7 +195,7 @@ def resolved(
     specimens = [_specimen(one, model, start, studio) for one in ones]
     used = [each for each, one in zip(specimens, ones, strict=True) if not one.said.validation]
     judged = [each for each, one in zip(specimens, ones, strict=True) if one.said.validation]
-    several = specimens_of(_with_zeros(used, ones), start.muscle)
+    several = specimens_of(_with_zeros(used), start.muscle)
     remarks = tuple(dict.fromkeys(remark for one in ones for remark in one.remarks))
     return Resolved(
         start, several, specimens_of(judged, start.muscle) if judged else None, assumptions, remarks
@@ -228,7 +232,8 @@ def _rest_length(one: _One, model: SaidModel, start: StartModel) -> ExperimentVa
     apart = abs(mine - theirs) / theirs
     if apart <= _SAME_LENGTH:
         return own
-    at = f" ({own.where})" if own.where and own.where != name else ""
+    place = own.where.removeprefix(name).removeprefix(", ")
+    at = f" ({place})" if place else ""
     both = f"{name} says a rest length of {_shown(theirs)}{at}, {said.where} says {_shown(mine)}"
     if own.origin == "file" and apart > _ONE_MUSCLE:
         raise InputError(
@@ -291,12 +296,12 @@ def _assumed_words(one: _One) -> list[tuple[str, str]]:
         elif value.origin == "assumed":
             words.append((name, _in_words(name, value)))
     accuracies = [
-        f"{channel} {_of_accuracy(value)}"
+        f"{_of_accuracy(value)} of {channel}"
         for channel in CHANNELS
         if (value := values.get(f"{ACCURACY}{channel}")) is not None and value.origin == "assumed"
     ]
     if accuracies:
-        words.append((f"{ACCURACY}length", f"an accuracy of {', '.join(accuracies)}"))
+        words.append((f"{ACCURACY}length", f"readings accurate to {' and '.join(accuracies)}"))
     return words
 
 
@@ -333,6 +338,14 @@ def _refuse(ones: Sequence[_One]) -> None:
 def _specimen(one: _One, model: SaidModel, start: StartModel, studio: Studio) -> Specimen:
     points, values = one.said.points, one.values
     measurement = corrected(points.measurement, values)
+    answered = {
+        f"{question.text} ({question.option})"
+        for question in measurement.questions
+        if _ANSWERS.get(question.about) in values
+    }
+    if answered:
+        kept = tuple(message for message in measurement.messages if message not in answered)
+        measurement = replace(measurement, messages=kept)
     muscle = _own_geometry(one, start, studio)
     length = float(values["rest_length"].value)
     accuracy = {
@@ -364,7 +377,7 @@ def _own_geometry(one: _One, start: StartModel, studio: Studio) -> Muscle:
     return start.muscle._replace(nominal_length=length)
 
 
-def _with_zeros(specimens: Sequence[Specimen], ones: Sequence[_One]) -> list[Specimen]:
+def _with_zeros(specimens: Sequence[Specimen]) -> list[Specimen]:
     """Specimens of different geometry with a zero error of their own for every sensor."""
     first = specimens[0].muscle
     remounted = any(
@@ -372,7 +385,6 @@ def _with_zeros(specimens: Sequence[Specimen], ones: Sequence[_One]) -> list[Spe
         for each in specimens[1:]
         for a, b in zip(each.muscle, first, strict=True)
     )
-    del ones
     result = []
     for each in specimens:
         measurement = each.points.measurement
