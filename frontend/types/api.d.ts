@@ -13,6 +13,9 @@ export interface paths {
   "/api/effects": {
     get: operations["list_effects"];
   };
+  "/api/experiments": {
+    post: operations["describe_experiments"];
+  };
   "/api/health": {
     get: operations["read_health"];
   };
@@ -59,6 +62,21 @@ export interface paths {
 
 export interface components {
   schemas: {
+    /** What the accuracy of the measurement took up instead of the model: an error of a clamp or a sensor. */
+    Absorbed: {
+      channel: string;
+      /** What it belongs to. */
+      of: string;
+      /** Estimated error of the reading, SI. */
+      value: number;
+      /** Its standard error, SI. */
+      stderr: number;
+      /** Stated or assumed standard deviation, SI. */
+      accuracy: number;
+      unit: string;
+      /** What it changes of the predicted channel, SI. */
+      rms: number;
+    };
     /** The start model as given. */
     Baseline: {
       rmse: number;
@@ -187,6 +205,16 @@ export interface components {
       /** Effects and values in the form of a request. */
       model: { [key: string]: { [key: string]: { [key: string]: number | string } } };
       flags: components["schemas"]["Flag"][];
+      /** RMSE of what the accuracy of the readings does not explain; a diagnosis counts with it. */
+      rmse_beyond_accuracy: number | null;
+      /** Values of the experiment in which all measurements agree, each with its origin. */
+      experiment: { [key: string]: components["schemas"]["ExperimentValue"] };
+      /** What nobody said and was assumed; the messages begin with it too. */
+      assumptions: string[];
+      /** Each measurement, with its own experiment. */
+      specimens: components["schemas"]["Specimen"][];
+      /** Errors of readings within the accuracy, which a fit allows for. */
+      absorbed: components["schemas"]["Absorbed"][];
     };
     /** A model, the measurements to compare it with, and whether to fit it. */
     ComparisonRequest: {
@@ -204,6 +232,12 @@ export interface components {
       freed?: string[];
       /** Standard deviation of the predicted channel in SI, when it is known. */
       noise?: number | null;
+      /** For every measurement that does not say it in its own 'experiment'. */
+      experiment?: components["schemas"]["ExperimentInput"] | null;
+      /** Standard deviation of each channel of all measurements (% of the largest value), or sensors: 'length steel rule'. */
+      accuracy?: string | null;
+      /** Refuse instead of assuming what nobody said. */
+      strict?: boolean;
       /** Fit the effects' parameters to the data. */
       fit?: boolean;
     };
@@ -511,6 +545,14 @@ export interface components {
       /** Effects of the catalogue that were not tried, with the reason. */
       not_tried: components["schemas"]["NotTried"][];
       messages: string[];
+      /** Values of the experiment in which all measurements agree, each with its origin. */
+      experiment: { [key: string]: components["schemas"]["ExperimentValue"] };
+      /** What nobody said and was assumed; the messages begin with it too. */
+      assumptions: string[];
+      /** Each measurement, with its own experiment. */
+      specimens: components["schemas"]["Specimen"][];
+      /** Errors of readings within the accuracy, which a fit allows for. */
+      absorbed: components["schemas"]["Absorbed"][];
     };
     /** The start model and the measurements to explain. */
     DiagnosisRequest: {
@@ -528,6 +570,12 @@ export interface components {
       freed?: string[];
       /** Standard deviation of the predicted channel in SI, when it is known. */
       noise?: number | null;
+      /** For every measurement that does not say it in its own 'experiment'. */
+      experiment?: components["schemas"]["ExperimentInput"] | null;
+      /** Standard deviation of each channel of all measurements (% of the largest value), or sensors: 'length steel rule'. */
+      accuracy?: string | null;
+      /** Refuse instead of assuming what nobody said. */
+      strict?: boolean;
     };
     /** A drive document to start from; its content is checked when it is used. */
     DriveAnswer: {
@@ -759,6 +807,126 @@ export interface components {
       protocol: string;
       /** Expected difference, in standard deviations of one reading. */
       separation: number;
+    };
+    /** What is said about the experiment of each measurement, and what is open. */
+    ExperimentAnswer: {
+      measurements: components["schemas"]["StatedExperiment"][];
+      /** What a diagnosis would assume, in the words with which it begins. */
+      assumptions: string[];
+      /** A conflict, or a missing value without which the diagnosis is refused. */
+      problem: components["schemas"]["ErrorDetail"] | null;
+    };
+    /** A field of the experiment, for a form. */
+    ExperimentField: {
+      /** Name: the key of 'experiment' in a request. 'accuracy_length' and the like are parts of its 'accuracy'. */
+      field: string;
+      /** In words. */
+      title: string;
+      /** In SI, or a text; null = nobody said it. */
+      value: number | string | null;
+      /** SI unit; "" of a text. */
+      unit: string;
+      /** Units for a form. */
+      units: string[];
+      /** Who says it; null with value. */
+      origin: "file" | "you" | "preset" | "suggested" | "assumed" | null;
+      /** Place in the file, or the preset. */
+      where: string;
+      /** This kind of test needs it. */
+      required: boolean;
+      /** Required, and neither the file nor the user says it: ask before the first diagnosis. With origin 'assumed' a diagnosis goes on with the value; with value null it does not. */
+      unanswered: boolean;
+      /** The question of the field. */
+      question: string;
+      /** What it is needed for. */
+      why: string;
+      /** A value that the data suggest, SI; never used unasked. */
+      proposed: number | string | null;
+      /** Smallest allowed value, SI. */
+      least: number | null;
+      /** Largest allowed value, SI. */
+      most: number | null;
+      /** Allowed texts, or proposals of texts; empty = any. */
+      choices: string[];
+      /** Only the choices are allowed. */
+      closed: boolean;
+      example: string;
+      /** What says it on the command line. */
+      option: string;
+    };
+    /** What the user says about the experiment behind one measurement; it takes precedence over the file. */
+    ExperimentInput: {
+      /** Id of the preset of this specimen. Default: the file's, else that of the request. */
+      muscle?: string | {
+        value: string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Length of this specimen without air and load. Default: the file's, else the length of the request's muscle; the preset's default is assumed and the answer says so. [m] */
+      rest_length?: number | string | {
+        value: number | string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** A mass or a force. Default: the file's, else the drive's. [kg or N] */
+      load?: string | {
+        value: string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Supply pressure, gauge. Default: file, drive. [Pa] */
+      supply?: number | string | {
+        value: number | string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Id of a valve preset. Default: the drive's. */
+      valve?: string | {
+        value: string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Id of a tube preset, "4 mm x 1 m" or "none". Default: the drive's. */
+      tube?: string | {
+        value: string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Contractions between which the load can move. Default: the drive's. */
+      stops?: string | {
+        value: string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Angle between the motion of the load and the horizontal. Default: drive, 90 deg. [rad] */
+      inclination?: number | string | {
+        value: number | string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Which end of the muscle is fixed. It is recorded; no figure depends on it. */
+      fixed_end?: "upper" | "lower" | "both" | {
+        value: "upper" | "lower" | "both";
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Reading of the force sensor without force; it is subtracted. [N] */
+      force_zero?: number | string | {
+        value: number | string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Reading of the pressure sensor at atmospheric pressure; it is subtracted. [Pa] */
+      pressure_zero?: number | string | {
+        value: number | string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Standard deviation of each channel, as 'length 1 mm, force 0.5 %, pressure 20 mbar' (% of the largest value), or a sensor: 'length steel rule'. Default: that of the request. */
+      accuracy?: string | {
+        value: string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+    };
+    /** One value of the experiment, and who says it. */
+    ExperimentValue: {
+      /** In SI, or a text. */
+      value: number | string;
+      /** SI unit; "" of a text, "1" of a share. */
+      unit: string;
+      /** The file, the user (you), a preset that was chosen, a proposal that the user took over (suggested), or nobody (assumed). */
+      origin: "file" | "you" | "preset" | "suggested" | "assumed";
+      /** Line or cell of the file, option or field, or the preset. */
+      where: string;
     };
     /** A simulated design that fulfils the task; coarse figures, for a plot of the alternatives. */
     ExploredDesign: {
@@ -1470,6 +1638,8 @@ export interface components {
       stated: components["schemas"]["StatedCondition"][];
       /** Sheets, groups or structs that could be meant; 'sheet' of a mapping picks one. */
       table_choices: string[];
+      /** Every field of the experiment that matters for this kind of test; those 'unanswered' are asked before the first diagnosis. */
+      experiment: components["schemas"]["ExperimentField"][];
     };
     /** One column of the file, used or not. */
     PreviewColumn: {
@@ -1650,6 +1820,12 @@ export interface components {
       freed?: string[];
       /** Standard deviation of the predicted channel in SI, when it is known. */
       noise?: number | null;
+      /** For every measurement that does not say it in its own 'experiment'. */
+      experiment?: components["schemas"]["ExperimentInput"] | null;
+      /** Standard deviation of each channel of all measurements (% of the largest value), or sensors: 'length steel rule'. */
+      accuracy?: string | null;
+      /** Refuse instead of assuming what nobody said. */
+      strict?: boolean;
       /** Fit the effects' parameters to the data. */
       fit?: boolean;
       /** Oldest first. */
@@ -1898,6 +2074,17 @@ export interface components {
       /** S read in the source, S2 second-hand, C computed, D derived here, M general knowledge and E estimate (both unverified), user. */
       grade: string;
     };
+    /** One measurement of several. */
+    Specimen: {
+      /** Name of the file or preset. */
+      file: string;
+      rows_used: number;
+      /** Error of the model on it; of the best model in a diagnosis. */
+      rmse: number | null;
+      /** The same with whole groups left out of the fit. */
+      holdout_rmse: number | null;
+      experiment: { [key: string]: components["schemas"]["ExperimentValue"] };
+    };
     /** Where the load is at t = 0. */
     StartInput: {
       /** Position of the load, positive = muscle shorter; released there at t = 0. Default: where it rests at the start pressure; on the lower end stop where it would rest anywhere. [m] */
@@ -1921,6 +2108,15 @@ export interface components {
       origin: string;
       /** Line or cell of the file; empty for the user's own. */
       where: string;
+    };
+    /** The experiment of one measurement of a request. */
+    StatedExperiment: {
+      /** Id as in the request. */
+      id: string;
+      /** Name of the file or preset. */
+      name: string;
+      kind: string;
+      experiment: components["schemas"]["ExperimentField"][];
     };
     /** End stops as contraction ratios; below 0 the muscle may be stretched. */
     StopsInput: {
@@ -2115,6 +2311,8 @@ export interface components {
       id: string;
       /** Used for the fit, or only for validation. */
       use?: "fit" | "validation";
+      /** What the user says about its experiment; takes precedence over the file. */
+      experiment?: components["schemas"]["ExperimentInput"] | null;
     };
     /** The error of the model on measurements not used for the fit. */
     ValidationAnswer: {
@@ -2240,6 +2438,20 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
+  /** The experiment of each measurement of a diagnosis, before it is asked for. */
+  describe_experiments: {
+    requestBody: { content: { "application/json": components["schemas"]["DiagnosisRequest"] } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["ExperimentAnswer"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
   /** The missing effects with reasons, twins, path and verdict; closing the connection ends the search. */
   diagnose_model: {
     requestBody: { content: { "application/json": components["schemas"]["DiagnosisRequest"] } };
@@ -2283,10 +2495,10 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
-  /** How a file would be read: columns, units, rows, kind, conditions. Nothing is stored. */
+  /** How a file would be read: columns, units, rows, kind, experiment. Nothing is stored. */
   preview_measurement: {
     parameters: {
-      query: { name: string; mapping?: string | null };
+      query: { name: string; mapping?: string | null; muscle?: string | null };
     };
     requestBody: { content: { "application/csv": Blob | ArrayBuffer | string; "application/octet-stream": Blob | ArrayBuffer | string; "application/vnd.ms-excel": Blob | ArrayBuffer | string; "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet": Blob | ArrayBuffer | string; "application/x-matlab-data": Blob | ArrayBuffer | string; "text/csv": Blob | ArrayBuffer | string; "text/plain": Blob | ArrayBuffer | string; "text/tab-separated-values": Blob | ArrayBuffer | string } };
     responses: {

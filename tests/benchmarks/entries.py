@@ -79,6 +79,7 @@ def parts_of(case: Case, studio: Any) -> tuple[Any, Any, Any, Any]:
     """Predictor, start model, measurement, and the predictor of a changed measurement."""
     from mckibben.documents.drive_files import read_document
     from mckibben.documents.drive_reading import drive_of
+    from mckibben.identification.diagnose.entries import read_otherwise
     from mckibben.identification.predict import predictor_of
     from mckibben.measurement.points import Points, joined
     from mckibben.measurement.read import read_measurement
@@ -89,7 +90,11 @@ def parts_of(case: Case, studio: Any) -> tuple[Any, Any, Any, Any]:
     drive = None
     if case.drive is not None:
         drive = drive_of(read_document({"effects": case.effects, **case.drive}, "the drive"), studio).drive
-    return predictor, start, measurement, lambda other: predictor_of(other, start.muscle, drive)
+
+    def rebuilt(readings: Any) -> Any:
+        return predictor_of(read_otherwise(measurement, readings), start.muscle, drive)
+
+    return predictor, start, measurement, rebuilt
 
 
 def main() -> None:

@@ -33,7 +33,9 @@ def _white(random: np.random.Generator, clean: np.ndarray, sigma: float) -> np.n
 
 def _spikes(random: np.random.Generator, clean: np.ndarray, sigma: float) -> np.ndarray:
     hit = random.random(len(clean)) < 0.02
-    return _white(random, clean, sigma) + np.where(hit, 15.0 * sigma * random.standard_normal(len(clean)), 0.0)
+    return _white(random, clean, sigma) + np.where(
+        hit, 15.0 * sigma * random.standard_normal(len(clean)), 0.0
+    )
 
 
 def _students(random: np.random.Generator, clean: np.ndarray, sigma: float) -> np.ndarray:
@@ -72,11 +74,12 @@ INPUTS = {"pressure noise": ("pressure", 1500.0), "length noise": ("stroke", 5e-
 def judged(given: tuple[str, str, int]) -> tuple[str, str, int, str, str]:
     """Status and names for one base, noise and seed."""
     from mckibben.identification.diagnose.diagnosis import diagnose
-    from mckibben.identification.diagnose.entries import statements
+    from mckibben.identification.diagnose.entries import read_otherwise, statements
+    from mckibben.identification.predict import predictor_of
 
     base, noise, seed = given
     made = case(base, seed)
-    predictor, start, measurement, rebuilt = parts_of(made, _studio())
+    predictor, start, measurement, _ = parts_of(made, _studio())
     random = np.random.default_rng([seed, sum(map(ord, base + noise))])
     (channel,) = predictor.channels
     name = channel.name
@@ -95,20 +98,30 @@ def judged(given: tuple[str, str, int]) -> tuple[str, str, int, str, str]:
     columns[name] = true_read + unit * drawn
     if noise in INPUTS:
         what, size = INPUTS[noise]
-        names = [n for n in ("length", "contraction", "displacement") if n in columns] if what == "stroke" else [what]
+        names = (
+            [n for n in ("length", "contraction", "displacement") if n in columns]
+            if what == "stroke"
+            else [what]
+        )
         for each in names:
             scale = 1.0 / start.muscle.nominal_length if each == "contraction" else 1.0
             columns[each] = columns[each] + scale * size * random.standard_normal(len(read))
     changed = replace(measurement, columns=MappingProxyType(columns))
+
+    def again(readings: Any) -> Any:
+        return predictor_of(read_otherwise(changed, readings), start.muscle)
+
     try:
         result = diagnose(
-            rebuilt(changed), start, catalogue=_studio().catalogue, statements=statements(changed, start, rebuilt)
+            again(()), start, catalogue=_studio().catalogue, statements=statements(changed, start, again)
         )
     except Exception as error:
         return base, noise, seed, "problem", f"{type(error).__name__}: {error}"[:90]
     doubted = [each.entry.hypothesis for each in result.context if each.stands]
     floor = float("nan") if result.noise is None else result.best.rmse / result.noise
-    text = f"{floor:.2f} x noise, structure {result.structure.share:.2f} {', '.join((*result.added, *doubted))}"
+    text = (
+        f"{floor:.2f} x noise, structure {result.structure.share:.2f} {', '.join((*result.added, *doubted))}"
+    )
     return base, noise, seed, result.status, text
 
 

@@ -28,7 +28,9 @@ from mckibben.cli.options import (
     located,
 )
 from mckibben.cli.reading import (
+    Accuracy,
     Columns,
+    Experiment,
     Head,
     Ignored,
     Load,
@@ -37,6 +39,8 @@ from mckibben.cli.reading import (
     Strict,
     Supply,
     correction_of,
+    said_of,
+    with_said,
 )
 from mckibben.physics.errors import InputError
 
@@ -138,6 +142,8 @@ def compare(
     rest_length: RestLength = None,
     load: Load = None,
     supply: Supply = None,
+    accuracy: Accuracy = None,
+    experiment: Experiment = None,
     strict: Strict = False,
     as_json: AsJson = False,
     presets: PresetsFolder = None,
@@ -148,22 +154,27 @@ def compare(
     from mckibben.cli.compare import run
     from mckibben.cli.options import open_studio
 
+    correction = correction_of(
+        sheet=sheet,
+        head=head,
+        columns=column,
+        ignored=ignore,
+        rest_length=rest_length,
+        load=load,
+        supply=supply,
+        strict=strict,
+    )
+    said = said_of(
+        rest_length=rest_length, load=load, supply=supply, accuracy=accuracy, experiment=experiment
+    )
     run(
         open_studio(presets, effects, data),
         files=files,
         model=ModelOptions(muscle, ideal, effect or (), drive),
         fit=fit,
         free=free or [],
-        correction=correction_of(
-            sheet=sheet,
-            head=head,
-            columns=column,
-            ignored=ignore,
-            rest_length=rest_length,
-            load=load,
-            supply=supply,
-            strict=strict,
-        ),
+        correction=with_said(correction, said, accuracy),
+        said=said,
         as_json=as_json,
     )
 
@@ -192,6 +203,8 @@ def diagnose(
     rest_length: RestLength = None,
     load: Load = None,
     supply: Supply = None,
+    accuracy: Accuracy = None,
+    experiment: Experiment = None,
     strict: Strict = False,
     as_json: AsJson = False,
     presets: PresetsFolder = None,
@@ -202,22 +215,27 @@ def diagnose(
     from mckibben.cli.diagnose import run
     from mckibben.cli.options import open_studio
 
+    correction = correction_of(
+        sheet=sheet,
+        head=head,
+        columns=column,
+        ignored=ignore,
+        rest_length=rest_length,
+        load=load,
+        supply=supply,
+        strict=strict,
+    )
+    said = said_of(
+        rest_length=rest_length, load=load, supply=supply, accuracy=accuracy, experiment=experiment
+    )
     run(
         open_studio(presets, effects, data),
         files=files,
         model=ModelOptions(muscle, ideal, effect or (), drive),
         free=free or [],
         noise=noise,
-        correction=correction_of(
-            sheet=sheet,
-            head=head,
-            columns=column,
-            ignored=ignore,
-            rest_length=rest_length,
-            load=load,
-            supply=supply,
-            strict=strict,
-        ),
+        correction=with_said(correction, said, accuracy),
+        said=said,
         as_json=as_json,
         report=report,
     )
@@ -237,23 +255,29 @@ def convert(
     rest_length: RestLength = None,
     load: Load = None,
     supply: Supply = None,
+    accuracy: Accuracy = None,
+    experiment: Experiment = None,
     strict: Strict = False,
 ) -> None:
     """A measurement file as the canonical CSV, with its conditions and where they stand."""
     from mckibben.cli.convert import run
 
+    correction = correction_of(
+        sheet=sheet,
+        head=head,
+        columns=column,
+        ignored=ignore,
+        rest_length=rest_length,
+        load=load,
+        supply=supply,
+        strict=strict,
+    )
+    said = said_of(
+        rest_length=rest_length, load=load, supply=supply, accuracy=accuracy, experiment=experiment
+    )
     run(
         file=file,
-        correction=correction_of(
-            sheet=sheet,
-            head=head,
-            columns=column,
-            ignored=ignore,
-            rest_length=rest_length,
-            load=load,
-            supply=supply,
-            strict=strict,
-        ),
+        correction=with_said(correction, said, accuracy),
         out=out,
     )
 

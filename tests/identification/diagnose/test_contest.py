@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
 from mckibben.identification.diagnose.contest import sentence_of
 from mckibben.identification.diagnose.diagnosis import Diagnosis, diagnose
-from mckibben.identification.diagnose.entries import statements
-from mckibben.identification.predict import predictor_of
+from mckibben.identification.diagnose.entries import Reading, read_otherwise, statements
+from mckibben.identification.predict import Predictor, predictor_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.measurement.read import read_measurement
 from mckibben.physics.muscle import Muscle
@@ -41,11 +43,13 @@ def diagnosis(
             rows.append(f"{time:.1f},{pressure / 1e5:.4f},{1e3 * (0.3 - length):.4f},{force:.5f}")
     measurement = read_measurement("\n".join(rows).encode(), "loops.csv")
     start = FitModel(muscle)
-    stated, accepted = (
-        statements(measurement, start, lambda other: predictor_of(other, muscle)).keeping(keep).using(use)
-    )
+
+    def predictor(readings: Sequence[Reading]) -> Predictor:
+        return predictor_of(read_otherwise(measurement, readings), muscle)
+
+    stated, accepted = statements(measurement, start, predictor).keeping(keep).using(use)
     return diagnose(
-        predictor_of(stated.measurement, muscle),
+        predictor(stated.readings),
         start,
         catalogue=CATALOGUE,
         statements=stated,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mckibben.identification.diagnose.entries import ATMOSPHERE, Statements, statements
+from mckibben.identification.diagnose.entries import ATMOSPHERE, Statements, read_otherwise, statements
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.measurement.measurement import Measurement
@@ -32,7 +32,11 @@ def loops(*, absolute: bool = False, stroke: bool = True) -> Measurement:
 
 
 def stated(measurement: Measurement) -> Statements:
-    return statements(measurement, FitModel(MUSCLE), lambda other: predictor_of(other, MUSCLE))
+    return statements(
+        measurement,
+        FitModel(MUSCLE),
+        lambda readings: predictor_of(read_otherwise(measurement, readings), MUSCLE),
+    )
 
 
 def ids(found: Statements) -> set[str]:
@@ -58,7 +62,10 @@ def test_an_accepted_reading_gives_the_data_written_in_the_right_way() -> None:
     wrong, (entry,) = stated(loops(absolute=True)).using(["absolute_pressure"])
     assert entry.reading is not None
     np.testing.assert_allclose(
-        wrong.measurement.columns["pressure"], loops().columns["pressure"], rtol=0, atol=1.0
+        wrong.predictor(wrong.readings).inputs["pressure"],
+        predictor_of(loops(), MUSCLE).inputs["pressure"],
+        rtol=0,
+        atol=1.0,
     )
     assert not {"absolute_pressure", "pressure_in_psi"} & ids(wrong), "the pressure is settled"
 

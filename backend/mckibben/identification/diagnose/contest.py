@@ -19,7 +19,7 @@ from mckibben.identification.diagnose.search import search
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
 from mckibben.identification.predict.fit_model import FitModel
-from mckibben.identification.residual.noise import noise_of
+from mckibben.identification.residual.noise import allowing_for_errors, noise_of
 from mckibben.physics.errors import InputError
 
 _SEARCHED = 2  # entries with a search of their own
@@ -171,7 +171,8 @@ def _tried(
     geometry = fitter.geometry
     if entry.reading is not None:
         try:
-            predictor = statements.read(entry.reading).prepared(first, fitter.candidates)
+            read = statements.read(entry.reading).prepared(first, fitter.candidates)
+            predictor = allowing_for_errors(read, first)
         except InputError:
             return None
         scale = predicted_scale(predictor, entry.reading)

@@ -7,7 +7,7 @@ effect of the catalogue and not listed here.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -71,15 +71,15 @@ class Statements:
     """What is stated about a measurement, and what of it may be wrong.
 
     Attributes:
-        measurement: the data as stated.
-        predictor_of: the predictor of a changed measurement.
         entries: the statements that may be wrong.
+        predictor: the data with some channels read in other ways.
+        readings: accepted ways of reading.
         kept: hypotheses that the user has ruled out; they are still examined and told, but never asked about.
     """
 
-    measurement: Measurement
-    predictor_of: Callable[[Measurement], Predictor]
     entries: tuple[Entry, ...]
+    predictor: Callable[[Sequence[Reading]], Predictor]
+    readings: tuple[Reading, ...] = ()
     kept: frozenset[str] = frozenset()
 
     def read(self, reading: Reading) -> Predictor:
@@ -88,7 +88,7 @@ class Statements:
         Raises:
             InputError: the changed data cannot be compared.
         """
-        return self.predictor_of(_read(self.measurement, reading))
+        return self.predictor((*self.readings, reading))
 
     def using(self, hypotheses: Iterable[str]) -> tuple[Statements, tuple[Entry, ...]]:
         """The statements after accepting some hypotheses, and the accepted entries.
@@ -99,13 +99,10 @@ class Statements:
             InputError: there is no such hypothesis for these data.
         """
         accepted = tuple(self._entry(hypothesis, "use") for hypothesis in dict.fromkeys(hypotheses))
-        measurement = self.measurement
-        for entry in accepted:
-            if entry.reading is not None:
-                measurement = _read(measurement, entry.reading)
-        channels = {entry.field for entry in accepted}
-        left = tuple(entry for entry in self.entries if entry.field not in channels)
-        return replace(self, measurement=measurement, entries=left), accepted
+        readings = tuple(entry.reading for entry in accepted if entry.reading is not None)
+        settled = {entry.field for entry in accepted}
+        left = tuple(entry for entry in self.entries if entry.field not in settled)
+        return replace(self, readings=(*self.readings, *readings), entries=left), accepted
 
     def keeping(self, hypotheses: Iterable[str]) -> Statements:
         """The statements with some hypotheses ruled out.
@@ -128,22 +125,28 @@ class Statements:
         )
 
 
-def _read(measurement: Measurement, reading: Reading) -> Measurement:
-    return rescaled(measurement, reading.channel, factor=reading.factor, offset=reading.offset)
+def read_otherwise(measurement: Measurement, readings: Iterable[Reading]) -> Measurement:
+    """A measurement with some channels read in other ways.
+
+    Raises:
+        InputError: the channels fit the measurement's kind no longer.
+    """
+    for reading in readings:
+        measurement = rescaled(measurement, reading.channel, factor=reading.factor, offset=reading.offset)
+    return measurement
 
 
 def statements(
-    measurement: Measurement, fit_model: FitModel, predictor_of: Callable[[Measurement], Predictor]
+    measurement: Measurement, fit_model: FitModel, predictor: Callable[[Sequence[Reading]], Predictor]
 ) -> Statements:
     """Everything stated about a measurement that may be wrong.
 
     Args:
-        measurement: the data.
+        measurement: the data; of several files all together.
         fit_model: the start model, with the stated muscle.
-        predictor_of: the predictor of a changed measurement.
+        predictor: the data with some channels read in other ways.
     """
-    entries = (*_quantities(measurement, fit_model), *_readings(measurement, fit_model))
-    return Statements(measurement, predictor_of, entries)
+    return Statements((*_quantities(measurement, fit_model), *_readings(measurement, fit_model)), predictor)
 
 
 def _quantities(measurement: Measurement, fit_model: FitModel) -> Iterator[Entry]:

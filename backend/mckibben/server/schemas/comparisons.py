@@ -7,10 +7,12 @@ from typing import Annotated, Literal
 from pydantic import Field, StringConstraints
 
 from mckibben.documents.drive import DriveDocument
+from mckibben.documents.experiment import ExperimentInput
 from mckibben.documents.muscle import EffectsInput, MuscleInput
 from mckibben.documents.strict import Series, Strict, si_field
 from mckibben.server.schemas.common import Flag
 from mckibben.server.schemas.curves import MuscleGeometry
+from mckibben.server.schemas.experiments import Absorbed, ExperimentValue, Specimen
 
 MeasurementId = Annotated[
     str,
@@ -28,6 +30,9 @@ class UsedMeasurement(Strict):
 
     id: MeasurementId
     use: Literal["fit", "validation"] = Field("fit", description="Used for the fit, or only for validation.")
+    experiment: ExperimentInput | None = Field(
+        None, description="What the user says about its experiment; takes precedence over the file."
+    )
 
 
 class ModelRequest(Strict):
@@ -54,11 +59,24 @@ class ModelRequest(Strict):
         allow_inf_nan=False,
         description="Standard deviation of the predicted channel in SI, when it is known.",
     )
+    experiment: ExperimentInput | None = Field(
+        None, description="For every measurement that does not say it in its own 'experiment'."
+    )
+    accuracy: str | None = Field(
+        None,
+        min_length=1,
+        max_length=200,
+        description="Standard deviation of each channel of all measurements (% of the largest value), or "
+        "sensors: 'length steel rule'.",
+        examples=["length 1 mm, force 0.5 %, pressure 20 mbar"],
+    )
+    strict: bool = Field(False, description="Refuse instead of assuming what nobody said.")
 
     def chosen(self) -> list[UsedMeasurement]:
         """All measurements, from either field."""
-        single = [] if self.measurement is None else [UsedMeasurement(id=self.measurement, use="fit")]
-        return [*single, *self.measurements]
+        if self.measurement is None:
+            return self.measurements
+        return [UsedMeasurement(id=self.measurement, use="fit", experiment=None), *self.measurements]
 
 
 class ComparisonRequest(ModelRequest):
@@ -200,3 +218,16 @@ class ComparisonAnswer(Strict):
     series: list[ComparisonSeries]
     model: dict[str, EffectsJson] = Field(description="Effects and values in the form of a request.")
     flags: list[Flag]
+    rmse_beyond_accuracy: float | None = Field(
+        description="RMSE of what the accuracy of the readings does not explain; a diagnosis counts with it."
+    )
+    experiment: dict[str, ExperimentValue] = Field(
+        description="Values of the experiment in which all measurements agree, each with its origin."
+    )
+    assumptions: list[str] = Field(
+        description="What nobody said and was assumed; the messages begin with it too."
+    )
+    specimens: list[Specimen] = Field(description="Each measurement, with its own experiment.")
+    absorbed: list[Absorbed] = Field(
+        description="Errors of readings within the accuracy, which a fit allows for."
+    )

@@ -6,6 +6,7 @@ from pydantic import Field
 
 from mckibben.documents.strict import Strict
 from mckibben.server.schemas.common import ErrorDetail
+from mckibben.server.schemas.experiments import ExperimentField
 
 
 class Channel(Strict):
@@ -182,4 +183,8 @@ class PreviewAnswer(Strict):
     stated: list[StatedCondition] = Field(description="The conditions with their origin.")
     table_choices: list[str] = Field(
         description="Sheets, groups or structs that could be meant; 'sheet' of a mapping picks one."
+    )
+    experiment: list[ExperimentField] = Field(
+        description="Every field of the experiment that matters for this kind of test; those 'unanswered' "
+        "are asked before the first diagnosis."
     )
