@@ -553,6 +553,8 @@ export interface components {
       specimens: components["schemas"]["Specimen"][];
       /** Errors of readings within the accuracy, which a fit allows for. */
       absorbed: components["schemas"]["Absorbed"][];
+      /** Entries that may be wrong instead, the most convincing first. */
+      context: components["schemas"]["DoubtfulEntry"][];
     };
     /** The start model and the measurements to explain. */
     DiagnosisRequest: {
@@ -576,6 +578,36 @@ export interface components {
       accuracy?: string | null;
       /** Refuse instead of assuming what nobody said. */
       strict?: boolean;
+      /** Entries of 'context' that are wrong as stated: use what fits. */
+      use?: string[];
+      /** Entries of 'context' that are right as stated. */
+      keep?: string[];
+    };
+    /** A statement about the data that may be wrong, with the evidence. */
+    DoubtfulEntry: {
+      /** Id, for 'use' and 'keep'. */
+      hypothesis: string;
+      /** Field of the muscle, or channel. */
+      field: string;
+      /** Stated value, SI; null for a way of reading. */
+      stated: number | null;
+      /** What explains the data: SI value, or in words. */
+      value: number | string | null;
+      stderr: number | null;
+      unit: string;
+      /** Share of the error above the noise that it explains by itself. */
+      explains: number;
+      /** Error of the best model with it. */
+      rmse_after: number;
+      /** Probability against the best model without it. */
+      confidence: number;
+      /** Effects that are missing with it. */
+      effects: string[];
+      /** To be answered before anything else. */
+      asked: boolean;
+      /** Would be asked about, but the request keeps it. */
+      kept: boolean;
+      sentence: string;
     };
     /** A drive document to start from; its content is checked when it is used. */
     DriveAnswer: {
@@ -1834,6 +1866,10 @@ export interface components {
       title?: string;
       /** Include a diagnosis; takes some seconds. */
       diagnose?: boolean;
+      /** As in a diagnosis. */
+      use?: string[];
+      /** As in a diagnosis. */
+      keep?: string[];
     };
     /** The residual over one variable. */
     ResidualProfile: {

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -20,6 +20,14 @@ from mckibben.application.diagnosis_result import (
     TermProposal,
     Verdict,
 )
+from mckibben.application.doubts import (
+    Doubts,
+    doubted,
+    doubtful_entries,
+    notes_of,
+    questions_of,
+    with_accepted,
+)
 from mckibben.application.experiment_result import absorbed_message, common_experiment, specimen_results
 from mckibben.application.model_question import ModelQuestion
 from mckibben.application.muscle_summary import geometry_of
@@ -30,6 +38,7 @@ from mckibben.identification.diagnose.diagnosis import (
     SingleAddition,
 )
 from mckibben.identification.diagnose.diagnosis import diagnose as search_effects
+from mckibben.identification.diagnose.entries import Entry
 from mckibben.identification.diagnose.next_measurement import declared
 from mckibben.identification.diagnose.words import sentence_of, title_of
 from mckibben.identification.fit.comparison import (
@@ -64,16 +73,27 @@ class _Data:
     rows: int
     excluded: dict[str, int]
     notes: list[str] = field(default_factory=list)
+    most_rows: int | None = None
 
 
-def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], DiagnosisResult]:
+def prepare(
+    question: ModelQuestion, studio: Studio, doubts: Doubts | None = None
+) -> Callable[[Watch], DiagnosisResult]:
     """The diagnosis of a question, ready to start; the watch receives each candidate when it is fitted.
 
+    Args:
+        question: model and data.
+        studio: presets and effects.
+        doubts: what the user has decided about entries that may be wrong.
+
     Raises:
-        InputError: the measurement does not allow a diagnosis.
+        InputError: the measurement does not allow a diagnosis, or a decision names no doubtful entry.
     """
     start = question.fit_model()
     data = _data(question)
+    doubt = doubted(question, doubts or Doubts(), data.most_rows)
+    if doubt.predictor is not None:
+        data = replace(data, predictor=doubt.predictor)
     check_finite(data.predictor, start)
     if len(data.predictor.measured) < FEWEST_VALUES:
         name = question.points.measurement.name
@@ -103,6 +123,8 @@ def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], Diagno
                 geometry=geometry,
                 freed=question.freed,
                 noise=question.noise,
+                statements=doubt.statements,
+                accepted=doubt.accepted,
                 watch=watch,
                 on_candidate=report_candidate,
             )
@@ -112,7 +134,7 @@ def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], Diagno
                 hint="use fewer rows or effects",
                 code="stopped",
             ) from stop
-        return _result(question, data, diagnosis, catalogue)
+        return _result(question, data, diagnosis, catalogue, doubt.accepted)
 
     return work
 
@@ -131,12 +153,17 @@ def _data(question: ModelQuestion) -> _Data:
     excluded |= predictor.excluded
     if averaged := rows - predictor.rows_used - sum(excluded.values()):
         excluded["averaged into the others"] = averaged
-    return _Data(predictor, rows, excluded, notes)
+    return _Data(predictor, rows, excluded, notes, most if most is not None and total > most else None)
 
 
 def _result(
-    question: ModelQuestion, data: _Data, diagnosis: Diagnosis, catalogue: Mapping[str, Effect]
+    question: ModelQuestion,
+    data: _Data,
+    diagnosis: Diagnosis,
+    catalogue: Mapping[str, Effect],
+    accepted: Sequence[Entry],
 ) -> DiagnosisResult:
+    titles = {name: effect.title for name, effect in catalogue.items()}
     predictor, best, start = diagnosis.predictor, diagnosis.best, question.start
     full_scale = float(np.max(np.abs(predictor.measured / predictor.scale)))
     muscle = best.fit_model.muscle
@@ -181,12 +208,14 @@ def _result(
             *question.points.measurement.messages,
             *data.notes,
             *diagnosis.messages,
+            *notes_of(diagnosis.context, titles),
             *absorbed_message(diagnosis.absorbed, predictor.unit),
         ],
-        experiment=common_experiment(question),
+        experiment=with_accepted(common_experiment(question), accepted, best),
         assumptions=[assumption.message for assumption in question.assumptions],
         specimens=specimen_results(question, predictor, best.residual, best),
         absorbed=list(diagnosis.absorbed),
+        context=doubtful_entries(diagnosis.context, titles),
     )
 
 
@@ -199,7 +228,11 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
     nexts = [proposal.sentence(titles) for proposal in diagnosis.proposals]
     return Verdict(
         status=diagnosis.status,
-        title=title_of(diagnosis.status, added=bool(diagnosis.added)),
+        title=title_of(
+            diagnosis.status,
+            added=bool(diagnosis.added),
+            doubted=any(entry.stands for entry in diagnosis.context),
+        ),
         effects=list(diagnosis.added),
         indistinguishable=groups_of(diagnosis),
         unexplained_share=diagnosis.structure.share,
@@ -211,7 +244,13 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
             for p in diagnosis.proposals
         ],
         sentence=" ".join(
-            [*(assumption.sentence for assumption in question.assumptions), sentence_of(diagnosis, titles)]
+            text
+            for text in (
+                *(assumption.sentence for assumption in question.assumptions),
+                questions_of(diagnosis.context, titles),
+                sentence_of(diagnosis, titles),
+            )
+            if text
         ),
     )
 

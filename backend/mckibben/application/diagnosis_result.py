@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.application.compare import ModelDocument
+from mckibben.application.doubts import DoubtfulEntry
 from mckibben.application.experiment_result import SpecimenResult
 from mckibben.application.model_question import EffectDocument
 from mckibben.application.muscle_summary import GeometrySummary
@@ -164,6 +165,7 @@ class DiagnosisResult:
         experiment: values of the experiment in which all measurements agree.
         assumptions: what nobody said and was assumed; they also begin messages and verdict.
         specimens: each measurement, with the error of the best model on it.
+        context: entries that may be wrong instead, the most convincing first.
         absorbed: errors of readings within the accuracy.
     """
 
@@ -191,3 +193,4 @@ class DiagnosisResult:
     assumptions: list[str]
     specimens: list[SpecimenResult]
     absorbed: list[AbsorbedError]
+    context: list[DoubtfulEntry]

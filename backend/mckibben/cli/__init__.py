@@ -196,6 +196,14 @@ def diagnose(
     report: Annotated[
         Path | None, typer.Option("--report", metavar="FILE", help="Also write an HTML report.")
     ] = None,
+    use: Annotated[
+        list[str] | None,
+        typer.Option(metavar="HYPOTHESIS", help="An entry that is wrong as stated: use what fits the data."),
+    ] = None,
+    keep: Annotated[
+        list[str] | None,
+        typer.Option(metavar="HYPOTHESIS", help="An entry that is right as stated: do not ask about it."),
+    ] = None,
     sheet: Sheet = None,
     head: Head = None,
     column: Columns = None,
@@ -212,6 +220,7 @@ def diagnose(
     data: DataFolder = None,
 ) -> None:
     """Which physical effect a model of measurements is missing, and what the data cannot distinguish."""
+    from mckibben.application.doubts import Doubts
     from mckibben.cli.diagnose import run
     from mckibben.cli.options import open_studio
 
@@ -237,6 +246,7 @@ def diagnose(
         correction=with_said(correction, said, accuracy),
         said=said,
         as_json=as_json,
+        doubts=Doubts(use or (), keep or ()),
         report=report,
     )
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from mckibben.application.diagnose import prepare
 from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.application.doubts import Doubts
 from mckibben.cli.data import measurements_of
 from mckibben.cli.model import model_question
 from mckibben.cli.options import ModelOptions
@@ -37,6 +38,7 @@ def run(
     correction: Correction,
     said: Mapping[str, ExperimentValue],
     as_json: bool,
+    doubts: Doubts,
     report: Path | None = None,
 ) -> None:
     """Print the diagnosis, and write a report if requested.
@@ -46,7 +48,7 @@ def run(
     """
     measurements = measurements_of(files, studio, correction, said)
     question = model_question(studio, measurements, model, free=free, noise=noise, strict=correction.strict)
-    work = prepare(question, studio)
+    work = prepare(question, studio, doubts)
     with progress("trying effects") as watch:
         result = work(watch)
     if report is not None:

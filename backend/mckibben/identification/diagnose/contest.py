@@ -306,7 +306,7 @@ def shown(value: float, unit: str) -> str:
 
 
 def sentence_of(found: WrongEntry, titles: Mapping[str, str]) -> str:
-    """What a changed entry would explain, and what to do, in one or two sentences."""
+    """What a changed entry would explain, without a full stop."""
     entry = found.entry
     if found.value is not None and entry.stated is not None:
         what = f"{entry.title[4:].capitalize()} {shown(found.value, entry.unit)} instead of "
@@ -314,10 +314,9 @@ def sentence_of(found: WrongEntry, titles: Mapping[str, str]) -> str:
     else:
         assert entry.reading is not None  # noqa: S101 - an entry is one of the two
         what = f"{entry.title[4:].capitalize()} {entry.reading.words}"
-    also = [titles.get(name, name) for name in found.effects]
-    rest = f", together with {', '.join(also)}," if also else ""
-    return (
-        f"{what}{rest} explains {100.0 * found.explains:.0f} % by itself"
-        if also
-        else f"{what} explains {100.0 * found.explains:.0f} %"
-    )
+    also = ", ".join(titles.get(name, name) for name in found.effects)
+    share = 100.0 * found.explains
+    if not also:
+        return f"{what} explains {share:.0f} % of the error"
+    alone = f" (by itself {share:.0f} %)" if share >= 1.0 else ""
+    return f"{what} explains the error together with {also}{alone}"

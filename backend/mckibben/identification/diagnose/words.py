@@ -26,8 +26,16 @@ _TITLES: dict[Status, str] = {
 _PARTLY = "Effects are missing, and the rest is unknown"
 
 
-def title_of(status: Status, *, added: bool) -> str:
-    """The status as a title; ``added``: whether effects were found to be missing."""
+def title_of(status: Status, *, added: bool, doubted: bool = False) -> str:
+    """The status as a title.
+
+    Args:
+        status: of the verdict.
+        added: whether effects were found to be missing.
+        doubted: whether an entry has to be checked first.
+    """
+    if doubted:
+        return "An entry may be wrong: check it before the physics"
     return _PARTLY if added and status == "unknown_effect" else _TITLES[status]
 
 
@@ -47,6 +55,8 @@ def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
         error = f"the error of {after:.3g} {unit}"
         if after < _REFITTED * before:
             error += f" (with the numbers of the model refitted; before {before:.3g} {unit})"
+        if any(entry.stands for entry in result.context):
+            return f"With the entries as stated no catalogued effect explains {error}."
         if result.status == "unknown_effect":
             unsure = "" if result.noise is not None else f" {_UNKNOWN_NOISE}"
             return f"No catalogued effect explains {error}: {rest}.{unsure}"

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Field, StringConstraints
 
 from mckibben.documents.strict import Series, Strict
 from mckibben.server.schemas.comparisons import (
@@ -18,9 +18,36 @@ from mckibben.server.schemas.comparisons import (
 from mckibben.server.schemas.curves import MuscleGeometry
 from mckibben.server.schemas.experiments import Absorbed, ExperimentValue, Specimen
 
+Hypothesis = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_]+$", max_length=64)]
+
 
 class DiagnosisRequest(ModelRequest):
     """The start model and the measurements to explain."""
+
+    use: list[Hypothesis] = Field(
+        default=[], max_length=8, description="Entries of 'context' that are wrong as stated: use what fits."
+    )
+    keep: list[Hypothesis] = Field(
+        default=[], max_length=32, description="Entries of 'context' that are right as stated."
+    )
+
+
+class DoubtfulEntry(Strict):
+    """A statement about the data that may be wrong, with the evidence."""
+
+    hypothesis: str = Field(description="Id, for 'use' and 'keep'.", examples=["rest_length"])
+    field: str = Field(description="Field of the muscle, or channel.", examples=["muscle.nominal_length"])
+    stated: float | None = Field(description="Stated value, SI; null for a way of reading.")
+    value: float | str | None = Field(description="What explains the data: SI value, or in words.")
+    stderr: float | None
+    unit: str
+    explains: float = Field(description="Share of the error above the noise that it explains by itself.")
+    rmse_after: float = Field(description="Error of the best model with it.")
+    confidence: float = Field(description="Probability against the best model without it.")
+    effects: list[str] = Field(description="Effects that are missing with it.")
+    asked: bool = Field(description="To be answered before anything else.")
+    kept: bool = Field(description="Would be asked about, but the request keeps it.")
+    sentence: str
 
 
 class Baseline(Strict):
@@ -159,6 +186,9 @@ class DiagnosisAnswer(Strict):
     specimens: list[Specimen] = Field(description="Each measurement, with its own experiment.")
     absorbed: list[Absorbed] = Field(
         description="Errors of readings within the accuracy, which a fit allows for."
+    )
+    context: list[DoubtfulEntry] = Field(
+        description="Entries that may be wrong instead, the most convincing first."
     )
 
 
