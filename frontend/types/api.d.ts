@@ -238,6 +238,10 @@ export interface components {
       accuracy?: string | null;
       /** Refuse instead of assuming what nobody said. */
       strict?: boolean;
+      /** Entries of a diagnosis's 'context' that are wrong as stated: the channel is read in the other way, a quantity is fitted in diagnoses and fits. */
+      use?: string[];
+      /** Entries of 'context' that are right as stated. */
+      keep?: string[];
       /** Fit the effects' parameters to the data. */
       fit?: boolean;
     };
@@ -578,7 +582,7 @@ export interface components {
       accuracy?: string | null;
       /** Refuse instead of assuming what nobody said. */
       strict?: boolean;
-      /** Entries of 'context' that are wrong as stated: use what fits. */
+      /** Entries of a diagnosis's 'context' that are wrong as stated: the channel is read in the other way, a quantity is fitted in diagnoses and fits. */
       use?: string[];
       /** Entries of 'context' that are right as stated. */
       keep?: string[];
@@ -1497,6 +1501,8 @@ export interface components {
     NoiseFloor: {
       rmse: number | null;
       how: string;
+      /** From the scatter of neighbouring readings to all that no variable explains; null where a structure remains. */
+      interval: number[] | null;
     };
     /** An effect that these data cannot show, or that the request excludes. */
     NotTried: {
@@ -1591,9 +1597,11 @@ export interface components {
       tolerance?: { [key: string]: number };
       excluded?: { [key: string]: string };
     };
-    /** The error after adding an effect; the first step is the start model as given. */
+    /** The error after adding an effect; first the start model as given, then its own numbers refitted. */
     PathStep: {
       added: string | null;
+      /** The start model with its own numbers fitted, before any effect. */
+      refitted: boolean;
       rmse: number;
       holdout_rmse: number;
       model: components["schemas"]["ModelJson"];
@@ -1858,6 +1866,10 @@ export interface components {
       accuracy?: string | null;
       /** Refuse instead of assuming what nobody said. */
       strict?: boolean;
+      /** Entries of a diagnosis's 'context' that are wrong as stated: the channel is read in the other way, a quantity is fitted in diagnoses and fits. */
+      use?: string[];
+      /** Entries of 'context' that are right as stated. */
+      keep?: string[];
       /** Fit the effects' parameters to the data. */
       fit?: boolean;
       /** Oldest first. */
@@ -1866,10 +1878,6 @@ export interface components {
       title?: string;
       /** Include a diagnosis; takes some seconds. */
       diagnose?: boolean;
-      /** As in a diagnosis. */
-      use?: string[];
-      /** As in a diagnosis. */
-      keep?: string[];
     };
     /** The residual over one variable. */
     ResidualProfile: {

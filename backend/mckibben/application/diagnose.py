@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -21,11 +21,10 @@ from mckibben.application.diagnosis_result import (
     Verdict,
 )
 from mckibben.application.doubts import (
-    Doubts,
-    doubted,
     doubtful_entries,
     notes_of,
     questions_of,
+    statements_of,
     with_accepted,
 )
 from mckibben.application.experiment_result import absorbed_message, common_experiment, specimen_results
@@ -38,7 +37,6 @@ from mckibben.identification.diagnose.diagnosis import (
     SingleAddition,
 )
 from mckibben.identification.diagnose.diagnosis import diagnose as search_effects
-from mckibben.identification.diagnose.entries import Entry
 from mckibben.identification.diagnose.next_measurement import declared
 from mckibben.identification.diagnose.words import sentence_of, title_of
 from mckibben.identification.fit.comparison import (
@@ -76,24 +74,15 @@ class _Data:
     most_rows: int | None = None
 
 
-def prepare(
-    question: ModelQuestion, studio: Studio, doubts: Doubts | None = None
-) -> Callable[[Watch], DiagnosisResult]:
+def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], DiagnosisResult]:
     """The diagnosis of a question, ready to start; the watch receives each candidate when it is fitted.
 
-    Args:
-        question: model and data.
-        studio: presets and effects.
-        doubts: what the user has decided about entries that may be wrong.
-
     Raises:
-        InputError: the measurement does not allow a diagnosis, or a decision names no doubtful entry.
+        InputError: the measurement does not allow a diagnosis.
     """
     start = question.fit_model()
     data = _data(question)
-    doubt = doubted(question, doubts or Doubts(), data.most_rows)
-    if doubt.predictor is not None:
-        data = replace(data, predictor=doubt.predictor)
+    doubtful = statements_of(question, data.most_rows)
     check_finite(data.predictor, start)
     if len(data.predictor.measured) < FEWEST_VALUES:
         name = question.points.measurement.name
@@ -123,8 +112,8 @@ def prepare(
                 geometry=geometry,
                 freed=question.freed,
                 noise=question.noise,
-                statements=doubt.statements,
-                accepted=doubt.accepted,
+                statements=doubtful,
+                load=question.free_load,
                 watch=watch,
                 on_candidate=report_candidate,
             )
@@ -134,7 +123,7 @@ def prepare(
                 hint="use fewer rows or effects",
                 code="stopped",
             ) from stop
-        return _result(question, data, diagnosis, catalogue, doubt.accepted)
+        return _result(question, data, diagnosis, catalogue)
 
     return work
 
@@ -161,7 +150,6 @@ def _result(
     data: _Data,
     diagnosis: Diagnosis,
     catalogue: Mapping[str, Effect],
-    accepted: Sequence[Entry],
 ) -> DiagnosisResult:
     titles = {name: effect.title for name, effect in catalogue.items()}
     predictor, best, start = diagnosis.predictor, diagnosis.best, question.start
@@ -179,13 +167,18 @@ def _result(
             nrmse_percent=100.0 * diagnosis.start.rmse / full_scale if full_scale else None,
             holdout_rmse=diagnosis.start.holdout_rmse,
         ),
-        noise_floor=NoiseFloor(diagnosis.noise, diagnosis.noise_how),
+        noise_floor=NoiseFloor(
+            diagnosis.noise,
+            diagnosis.noise_how,
+            None if diagnosis.noise_interval is None else list(diagnosis.noise_interval),
+        ),
         channels=channel_misfits(predictor, best.residual * predictor.scale),
         where=list(diagnosis.where),
         candidates=[_candidate(question, candidate, catalogue) for candidate in diagnosis.candidates],
         path=[
             PathPoint(
                 added=step.added,
+                refitted=step.refitted,
                 rmse=step.fitted_model.rmse,
                 holdout_rmse=step.fitted_model.holdout_rmse,
                 model=_model(question, step.fitted_model),
@@ -211,7 +204,7 @@ def _result(
             *notes_of(diagnosis.context, titles),
             *absorbed_message(diagnosis.absorbed, predictor.unit),
         ],
-        experiment=with_accepted(common_experiment(question), accepted, best),
+        experiment=with_accepted(common_experiment(question), question.accepted, best.fit_model),
         assumptions=[assumption.message for assumption in question.assumptions],
         specimens=specimen_results(question, predictor, best.residual, best),
         absorbed=list(diagnosis.absorbed),

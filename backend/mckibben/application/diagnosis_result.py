@@ -34,10 +34,15 @@ class Baseline:
 
 @dataclass(frozen=True, slots=True)
 class NoiseFloor:
-    """Noise of the data, None when it cannot be estimated, and how it was obtained."""
+    """Noise of the data, None when it cannot be estimated, and how it was obtained.
+
+    ``interval``: from the scatter of neighbouring readings to all that no variable explains; None where a
+    structure remains.
+    """
 
     rmse: float | None
     how: str
+    interval: list[float] | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,9 +79,10 @@ class CandidateResult:
 
 @dataclass(frozen=True, slots=True)
 class PathPoint:
-    """The error after each addition; the first is the start model as given."""
+    """The error after each addition; the first is the start model as given, then its own numbers refitted."""
 
     added: str | None
+    refitted: bool
     rmse: float
     holdout_rmse: float
     model: ModelDocument

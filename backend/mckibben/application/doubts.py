@@ -15,24 +15,11 @@ from mckibben.identification.diagnose.entries import (
     read_otherwise,
     statements,
 )
-from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict import Predictor
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.measurement.experiment import Experiment, ExperimentValue
 
 _EXPERIMENT_FIELDS = {"muscle.nominal_length": "rest_length", "load": "load"}
-
-
-@dataclass(frozen=True, slots=True)
-class Doubts:
-    """What the user has decided about doubtful statements.
-
-    Attributes:
-        use: hypotheses that are accepted.
-        keep: hypotheses that are ruled out.
-    """
-
-    use: Sequence[str] = ()
-    keep: Sequence[str] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,31 +57,37 @@ class DoubtfulEntry:
     sentence: str
 
 
-@dataclass(frozen=True)
-class Doubted:
-    """The data of a diagnosis after the decisions of the user.
-
-    Attributes:
-        statements: what may still be wrong.
-        accepted: the accepted entries.
-        predictor: the data, read in the accepted ways; None where nothing is read in another way.
-    """
-
-    statements: Statements
-    accepted: tuple[Entry, ...]
-    predictor: Predictor | None
-
-
-def doubted(question: ModelQuestion, doubts: Doubts, most_rows: int | None) -> Doubted:
-    """The statements of a question that may be wrong, with the decisions of the user applied.
+def deciding(question: ModelQuestion, *, use: Sequence[str] = (), keep: Sequence[str] = ()) -> ModelQuestion:
+    """The question after decisions about statements that may be wrong.
 
     Args:
         question: model and data.
-        doubts: the decisions.
-        most_rows: of the predictor, as in `Specimens.predictor`.
+        use: hypotheses that are accepted: channels are read in the other way, quantities are fitted.
+        keep: hypotheses that are ruled out.
 
     Raises:
-        InputError: there is no such hypothesis for these data, or its data cannot be compared.
+        InputError: there is no such hypothesis for these data, or the changed data cannot be compared.
+    """
+    if not use and not keep:
+        return question
+    doubtful = statements_of(question)
+    doubtful.keeping(keep)
+    left, accepted = doubtful.using(use)
+    specimens = _read_otherwise(question.specimens, left.readings)
+    validation = question.validation
+    if validation is not None:
+        validation = _read_otherwise(validation, left.readings)
+    return replace(
+        question, specimens=specimens, validation=validation, accepted=accepted, kept=frozenset(keep)
+    )
+
+
+def statements_of(question: ModelQuestion, most_rows: int | None = None) -> Statements:
+    """The statements of a question that may be wrong, without those that are settled.
+
+    Args:
+        question: model and data.
+        most_rows: of the predictor, as in `Specimens.predictor`.
     """
 
     def predictor(readings: Sequence[Reading]) -> Predictor:
@@ -102,8 +95,9 @@ def doubted(question: ModelQuestion, doubts: Doubts, most_rows: int | None) -> D
         return specimens.predictor(question.start.muscle, most_rows)[0]
 
     found = statements(question.points.measurement, question.fit_model(), predictor)
-    left, accepted = found.keeping(doubts.keep).using(doubts.use)
-    return Doubted(left, accepted, predictor(left.readings) if left.readings else None)
+    settled = {entry.field for entry in question.accepted}
+    entries = tuple(entry for entry in found.entries if entry.field not in settled)
+    return replace(found, entries=entries, kept=question.kept)
 
 
 def _read_otherwise(specimens: Specimens, readings: Sequence[Reading]) -> Specimens:
@@ -139,7 +133,7 @@ def doubtful_entries(context: Sequence[WrongEntry], titles: Mapping[str, str]) -
     ]
 
 
-def with_accepted(experiment: Experiment, accepted: Sequence[Entry], best: FittedModel) -> Experiment:
+def with_accepted(experiment: Experiment, accepted: Sequence[Entry], model: FitModel) -> Experiment:
     """The experiment with the accepted values, whose origin is a suggestion."""
     changed = dict(experiment)
     for entry in accepted:
@@ -148,7 +142,7 @@ def with_accepted(experiment: Experiment, accepted: Sequence[Entry], best: Fitte
             words = f"read {entry.reading.words}"
             changed[entry.field] = ExperimentValue(words, "", "suggested", where)
         elif entry.free is not None:
-            value = best.fit_model.number(entry.free.name)
+            value = model.number(entry.free.name)
             value += (entry.stated or 0.0) if entry.field == "load" else 0.0
             name = _EXPERIMENT_FIELDS.get(entry.field, entry.field.removeprefix("muscle."))
             changed[name] = ExperimentValue(value, entry.unit, "suggested", where)

@@ -10,8 +10,9 @@ from mckibben.application.experiment import Assumption, SaidMeasurement, SaidMod
 from mckibben.application.specimens import Specimens
 from mckibben.documents.start_model import StartModel, StatedMuscle
 from mckibben.documents.studio import Studio
+from mckibben.identification.diagnose.entries import Entry
 from mckibben.identification.predict import Predictor
-from mckibben.identification.predict.fit_model import FitModel, free_geometry
+from mckibben.identification.predict.fit_model import LOAD, FitModel, free_geometry
 from mckibben.identification.predict.free import Free
 from mckibben.measurement.points import Points
 from mckibben.physics.custom import CUSTOM, TERM
@@ -34,6 +35,9 @@ class ModelQuestion:
         freed: further constants that fits may change, as "effect.parameter".
         noise: standard deviation of the predicted channel, when it is known [SI].
         assumptions: what nobody said and was assumed.
+        accepted: entries that the user has accepted as wrong: channels are read in other ways already,
+            quantities are fitted.
+        kept: hypotheses of wrong entries that the user has ruled out.
         remarks: notes on the experiment for the user.
 
     Raises:
@@ -48,6 +52,8 @@ class ModelQuestion:
     noise: float | None = None
     assumptions: tuple[Assumption, ...] = ()
     remarks: tuple[str, ...] = ()
+    accepted: tuple[Entry, ...] = ()
+    kept: frozenset[str] = frozenset()
 
     def __post_init__(self) -> None:
         for name in self.free:
@@ -94,12 +100,21 @@ class ModelQuestion:
         return FitModel(start.muscle.checked(), effects, start.effects, assumed=frozenset(start.assumed))
 
     def free_geometry(self) -> tuple[Free, ...]:
-        """The freed geometry with its bounds.
+        """The freed geometry with its bounds: within the tolerance, or within what is plausible where an
+        entry is accepted as wrong.
 
         Raises:
             InputError: a name is not a geometry field, or its value is not known.
         """
-        return free_geometry(self.start.muscle, self.free, self.tolerance)
+        wrong = [entry.free for entry in self.accepted if entry.free is not None and entry.free.name != LOAD]
+        names = [name for name in self.free if name not in {free.name for free in wrong}]
+        return (*free_geometry(self.start.muscle, names, self.tolerance), *wrong)
+
+    @property
+    def free_load(self) -> Free | None:
+        """The stated load with its plausible range, where it is accepted as wrong."""
+        loads = (entry.free for entry in self.accepted if entry.free is not None)
+        return next((free for free in loads if free.name == LOAD), None)
 
     def effect_document(self, fit_model: FitModel) -> EffectDocument:
         """The effects of a model in the form of a request, a custom term with its text."""

@@ -22,9 +22,11 @@ from mckibben.cli.options import (
     EffectsFolders,
     Free,
     Ideal,
+    Keep,
     ModelOptions,
     MuscleText,
     PresetsFolder,
+    Use,
     located,
 )
 from mckibben.cli.reading import (
@@ -135,6 +137,8 @@ def compare(
     drive: str = typer.Option("", "--drive", help="A drive document (JSON file): its muscle and effects."),
     fit: bool = typer.Option(False, "--fit", help="Fit the parameters of the effects."),
     free: Free = None,
+    use: Use = None,
+    keep: Keep = None,
     sheet: Sheet = None,
     head: Head = None,
     column: Columns = None,
@@ -170,7 +174,7 @@ def compare(
     run(
         open_studio(presets, effects, data),
         files=files,
-        model=ModelOptions(muscle, ideal, effect or (), drive),
+        model=ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or ()),
         fit=fit,
         free=free or [],
         correction=with_said(correction, said, accuracy),
@@ -196,14 +200,8 @@ def diagnose(
     report: Annotated[
         Path | None, typer.Option("--report", metavar="FILE", help="Also write an HTML report.")
     ] = None,
-    use: Annotated[
-        list[str] | None,
-        typer.Option(metavar="HYPOTHESIS", help="An entry that is wrong as stated: use what fits the data."),
-    ] = None,
-    keep: Annotated[
-        list[str] | None,
-        typer.Option(metavar="HYPOTHESIS", help="An entry that is right as stated: do not ask about it."),
-    ] = None,
+    use: Use = None,
+    keep: Keep = None,
     sheet: Sheet = None,
     head: Head = None,
     column: Columns = None,
@@ -220,7 +218,6 @@ def diagnose(
     data: DataFolder = None,
 ) -> None:
     """Which physical effect a model of measurements is missing, and what the data cannot distinguish."""
-    from mckibben.application.doubts import Doubts
     from mckibben.cli.diagnose import run
     from mckibben.cli.options import open_studio
 
@@ -240,13 +237,12 @@ def diagnose(
     run(
         open_studio(presets, effects, data),
         files=files,
-        model=ModelOptions(muscle, ideal, effect or (), drive),
+        model=ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or ()),
         free=free or [],
         noise=noise,
         correction=with_said(correction, said, accuracy),
         said=said,
         as_json=as_json,
-        doubts=Doubts(use or (), keep or ()),
         report=report,
     )
 

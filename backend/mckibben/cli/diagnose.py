@@ -7,7 +7,6 @@ from pathlib import Path
 
 from mckibben.application.diagnose import prepare
 from mckibben.application.diagnosis_result import DiagnosisResult
-from mckibben.application.doubts import Doubts
 from mckibben.cli.data import measurements_of
 from mckibben.cli.model import model_question
 from mckibben.cli.options import ModelOptions
@@ -38,7 +37,6 @@ def run(
     correction: Correction,
     said: Mapping[str, ExperimentValue],
     as_json: bool,
-    doubts: Doubts,
     report: Path | None = None,
 ) -> None:
     """Print the diagnosis, and write a report if requested.
@@ -48,7 +46,7 @@ def run(
     """
     measurements = measurements_of(files, studio, correction, said)
     question = model_question(studio, measurements, model, free=free, noise=noise, strict=correction.strict)
-    work = prepare(question, studio, doubts)
+    work = prepare(question, studio)
     with progress("trying effects") as watch:
         result = work(watch)
     if report is not None:

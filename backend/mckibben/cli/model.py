@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from mckibben.application.doubts import deciding
 from mckibben.application.experiment import SaidMeasurement, SaidModel
 from mckibben.application.model_question import ModelQuestion, question_of
 from mckibben.cli.drive_file import drive_document
@@ -37,7 +38,13 @@ def model_question(
         if name not in GEOMETRY:
             raise InputError(f"--free {name}: there is no such geometry", hint=did_you_mean(name, GEOMETRY))
     model = said_model(studio, options)
-    return question_of(model, measurements, studio, free=tuple(free), noise=noise, strict=strict)
+    question = question_of(model, measurements, studio, free=tuple(free), noise=noise, strict=strict)
+    try:
+        return deciding(question, use=options.use, keep=options.keep)
+    except InputError as error:
+        if error.field in ("use", "keep"):
+            raise InputError(f"--{error.field}: {error.message}", hint=error.hint) from error
+        raise
 
 
 def said_model(studio: Studio, options: ModelOptions) -> SaidModel:

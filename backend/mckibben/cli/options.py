@@ -39,6 +39,14 @@ Free = Annotated[
     list[str] | None,
     typer.Option("--free", metavar="NAME", help="Geometry to fit as well, e.g. braid_angle; repeatable."),
 ]
+Use = Annotated[
+    list[str] | None,
+    typer.Option("--use", metavar="HYPOTHESIS", help="An entry that is wrong as stated: use what fits."),
+]
+Keep = Annotated[
+    list[str] | None,
+    typer.Option("--keep", metavar="HYPOTHESIS", help="An entry that is right as stated: do not ask."),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
 PresetsFolder = Annotated[
     Path | None, typer.Option("--presets", metavar="DIR", help="Folder of your own presets.")
@@ -64,12 +72,15 @@ class ModelOptions:
         ideal: ``--ideal``: no effects.
         effects: ids of ``--effect``.
         drive: path of ``--drive``, "" without it; its muscle and effects are used where the others name none.
+        use, keep: of ``--use`` and ``--keep``: decisions about entries that may be wrong.
     """
 
     muscle: str
     ideal: bool = False
     effects: Sequence[str] = ()
     drive: str = ""
+    use: Sequence[str] = ()
+    keep: Sequence[str] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -53,7 +53,7 @@ def diagnosis(
         start,
         catalogue=CATALOGUE,
         statements=stated,
-        accepted=accepted,
+        geometry=[entry.free for entry in accepted if entry.free is not None],
     )
 
 

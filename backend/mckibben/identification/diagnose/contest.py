@@ -280,7 +280,7 @@ def _evidence(
     # A way of reading has no number to fit: it need not be better by as much.
     sure = _SURE if entry.free is not None or not simpler else 0.0
     stands = drop > sure and (closer or (reaches and simpler))
-    if not (stands or (as_good and len(effects) <= added and drop > -LEAST_SCORE)):
+    if not (stands or (as_good and simpler and drop > -LEAST_SCORE)):
         return None
     whole = max(root.mean_square - floor**2, 1e-300)
     alone = max(trial.root.mean_square / trial.scale**2 - floor**2, 0.0)

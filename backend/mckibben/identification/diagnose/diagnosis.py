@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mckibben.identification.diagnose.contest import WrongEntry, contest
-from mckibben.identification.diagnose.entries import Entry, Statements
+from mckibben.identification.diagnose.entries import Statements
 from mckibben.identification.diagnose.gauge_zero import GaugeZero, vented
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment
 from mckibben.identification.diagnose.reason import ResidualTraits, traits_of, why
@@ -16,10 +16,12 @@ from mckibben.identification.diagnose.score import effective_rows, score
 from mckibben.identification.diagnose.search import search
 from mckibben.identification.diagnose.twins import Alternative, alternatives, same, same_predictions
 from mckibben.identification.diagnose.verdict import (
+    Interval,
     Status,
     is_force,
     left_structure,
     messages,
+    noise_interval,
     proposals,
     status_of,
 )
@@ -27,7 +29,7 @@ from mckibben.identification.fit.effort import SearchEffort, diagnosis_effort
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import CancelledError, Fitter
 from mckibben.identification.fit.least_squares import FitResult, least_squares_fit
-from mckibben.identification.predict.fit_model import LOAD, FitModel
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.predict.reading_errors import AbsorbedError
@@ -65,10 +67,14 @@ class SingleAddition:
 
 @dataclass(frozen=True)
 class PathStep:
-    """One step of the path: the added effect, and the model fitted with it."""
+    """One step of the path: the added effect, and the model fitted with it.
+
+    ``refitted``: the start model with its own numbers fitted; effects are credited only with what is left.
+    """
 
     added: str | None
     fitted_model: FittedModel
+    refitted: bool = False
 
 
 @dataclass(frozen=True)
@@ -89,6 +95,7 @@ class Diagnosis:
         root: the start model refitted.
         noise: of the scaled residual; None when it cannot be estimated.
         noise_how: how it was obtained.
+        noise_interval: from the scatter of neighbouring readings to all that no variable explains.
         where: the start model's residual over each variable.
         candidates: single additions, the best first.
         path: steps to the best model; each adds the effect that lowers the error most.
@@ -111,6 +118,7 @@ class Diagnosis:
     root: FittedModel
     noise: float | None
     noise_how: str
+    noise_interval: Interval | None
     where: tuple[Profile, ...]
     candidates: tuple[SingleAddition, ...]
     path: tuple[PathStep, ...]
@@ -137,7 +145,7 @@ def diagnose(
     freed: Sequence[str] = (),
     noise: float | None = None,
     statements: Statements | None = None,
-    accepted: Sequence[Entry] = (),
+    load: Free | None = None,
     effort: SearchEffort | None = None,
     watch: Watch | None = None,
     on_candidate: Callable[[SingleAddition], None] = lambda _: None,
@@ -152,7 +160,7 @@ def diagnose(
         freed: further constants of the start model that fits may change, as "effect.parameter".
         noise: standard deviation of the predicted channel [SI], when it is known.
         statements: what is stated about the data and may be wrong; by default nothing is doubted.
-        accepted: statements that the user has accepted as wrong: their quantities are fitted in every model.
+        load: a stated load with its range, where fits may change it.
         effort: limits of the search; by default they depend on the cost of a prediction.
         watch: receives the progress and may cancel.
         on_candidate: receives each candidate as soon as it is fitted.
@@ -168,11 +176,8 @@ def diagnose(
             predictor,
             fit_model,
             catalogue=catalogue,
-            geometry=(
-                *geometry,
-                *(entry.free for entry in accepted if entry.free and entry.free.name != LOAD),
-            ),
-            load=next((entry.free for entry in accepted if entry.free and entry.free.name == LOAD), None),
+            geometry=geometry,
+            load=load,
             freed=frozenset(freed),
             noise=noise,
             statements=statements,
@@ -285,6 +290,7 @@ def _diagnose(
         root=root,
         noise=fitter.noise,
         noise_how=how,
+        noise_interval=noise_interval(best, fitter.noise, remaining),
         where=tuple(where),
         candidates=tuple(ranked),
         path=path,
@@ -344,6 +350,8 @@ def _path(
     steps = [PathStep(None, start)]
     if vent is not None:
         steps.append(PathStep(vent.effect.id, root))
+    elif root.free:
+        steps.append(PathStep(None, root, refitted=True))
     fitted_model, remaining = root, [e for e in best.fit_model.effects if e.id not in set(root.fit_model.ids)]
     while len(remaining) > 1:
         trials = [(effect, fitter.adding(fitted_model, effect)) for effect in remaining]
@@ -352,8 +360,8 @@ def _path(
         remaining.remove(effect)
     if remaining:
         steps.append(PathStep(remaining[0].id, best))
-    elif best.rmse < 0.98 * start.rmse:
-        steps.append(PathStep(None, best))
+    elif best is not root:
+        steps.append(PathStep(None, best))  # further constants were freed
     return tuple(steps)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -23,10 +23,22 @@ from mckibben.identification.residual.structure import ResidualStructure, struct
 from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import assumption
 
-_FAR = 2.0  # error over noise above which an unknown effect remains, however much was explained
+_FAR = 2.0  # error over noise above which a structured rest is an unknown effect, however much was explained
 _STRUCTURED = 0.3  # share of the residual predicted by a regression, above which it is not noise
 _EXPLAINED = 0.98  # explained share of the excess over the noise, above which the rest does not matter
+_BEYOND = 4.0  # error over noise that correlated noise does not reach
+_MOST_ROWS = 2.0  # the same for the median row; below, a few outliers make the error
 _SMALL = 0.03  # error over full scale up to which a model is adequate when the noise is unknown
+
+
+_MEDIAN = 0.6745  # median magnitude of a standard normal deviate
+
+
+class Interval(NamedTuple):
+    """Lower and upper end."""
+
+    low: float
+    high: float
 
 
 #: What a diagnosis ends with; `mckibben.identification.diagnose.words` says what each means.
@@ -78,16 +90,35 @@ def status_of(
     if noise is None and not added:
         return "adequate" if best.rmse <= _SMALL * full_scale else "unknown_effect"
     floor = noise or 0.0
-    if noise is not None and best.rmse > _FAR * floor:
-        return "unknown_effect"
     excess = max(start.mean_square - floor**2, 1e-300)
     explained = 1.0 - max(best.mean_square - floor**2, 0.0) / excess
-    above = best.rmse > AT_FLOOR * floor and rest.share > _STRUCTURED
-    if above and explained < _EXPLAINED:
+    if rest.share > _STRUCTURED and (
+        best.rmse > _FAR * floor or (best.rmse > AT_FLOOR * floor and explained < _EXPLAINED)
+    ):
+        return "unknown_effect"
+    # Without structure the rest is noise unlike that between neighbours: correlated, or with outliers.
+    if best.rmse > _BEYOND * floor and typical(best.residual) > _MOST_ROWS * floor:
         return "unknown_effect"
     if not added:
         return "adequate"
     return "ambiguous" if others else "missing_effects"
+
+
+def typical(residual: np.ndarray) -> float:
+    """Standard deviation of a residual from its median magnitude, which outliers do not change."""
+    return float(np.median(np.abs(residual))) / _MEDIAN
+
+
+def noise_interval(best: FittedModel, noise: float | None, rest: ResidualStructure) -> Interval | None:
+    """From the scatter of neighbouring readings to all that no variable explains.
+
+    The upper end counts correlated noise and outliers as noise, which the lower end does not see. Both are
+    the same for white noise. None where the noise is unknown or a structure remains.
+    """
+    if noise is None or rest.share > _STRUCTURED:
+        return None
+    unexplained = best.rmse * float(np.sqrt(1.0 - rest.share))
+    return Interval(noise, max(noise, unexplained))
 
 
 def is_force(predictor: Predictor) -> bool:

@@ -47,9 +47,15 @@ def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
         result.predictor.unit, (result.predictor.unit, 1.0)
     )
     before, after = scale * result.start.rmse, scale * result.best.rmse
+    refitted = scale * result.root.rmse
     names = _joined([titles.get(name, name) for name in result.added])
     noise = None if result.noise is None else scale * result.noise
-    level = "" if noise is None or scaled else f"{noise:.3g} {unit}"
+    highest = noise if result.noise_interval is None else scale * result.noise_interval.high
+    level = ""
+    if noise is not None and highest is not None and not scaled:
+        level = f"{noise:.3g} {unit}"
+        if highest > AT_FLOOR * noise:
+            level = f"{noise:.3g} {unit} between neighbouring readings, {highest:.3g} {unit} in all"
     rest = _rest(result)
     if not result.added:
         error = f"the error of {after:.3g} {unit}"
@@ -64,13 +70,18 @@ def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
             return f"No catalogued effect lowers {error}. {_UNKNOWN_NOISE}"
         of_noise = f"is of the size of the noise ({level})" if level else "is noise"
         return f"Nothing is missing: {error} {of_noise}."
-    at_floor = noise is not None and after <= AT_FLOOR * noise
+    at_floor = highest is not None and after <= AT_FLOOR * highest
     # A scaled error is a multiple of the noise already.
     floor = (
         "" if not level else f", the noise of the data ({level})" if at_floor else f"; the noise is {level}"
     )
     these = "it" if len(result.added) == 1 else "them"
     text = f"Missing: {names}. With {these} the error falls from {before:.3g} to {after:.3g} {unit}{floor}."
+    if result.root.free and refitted < _REFITTED * before:
+        text = (
+            f"Missing: {names}. The model's own numbers, refitted, lower the error from {before:.3g} to "
+            f"{refitted:.3g} {unit}; with {these} it falls to {after:.3g} {unit}{floor}."
+        )
     if result.status == "unknown_effect":
         return f"{text} No catalogued effect explains the rest: {rest}."
     if noise is not None and not at_floor and result.structure.share >= _WORTH_TELLING:

@@ -12,7 +12,6 @@ from typing import NamedTuple
 from mckibben.application.compare import ComparisonResult, compare
 from mckibben.application.diagnose import prepare as prepare_diagnosis
 from mckibben.application.diagnosis_result import DiagnosisResult
-from mckibben.application.doubts import Doubts
 from mckibben.application.json_text import to_json
 from mckibben.application.measurements import summary_of
 from mckibben.application.model_question import ModelQuestion, with_model
@@ -46,14 +45,12 @@ class ReportOptions(NamedTuple):
         history: label and question of each model before this one.
         unverified: unverified preset figures of the drive: part -> names.
         fit: fit the model before it is compared.
-        doubts: decisions about entries that may be wrong, for the diagnosis.
     """
 
     title: str = ""
     history: Sequence[tuple[str, ModelQuestion]] = ()
     unverified: Mapping[str, Sequence[str]] = {}
     fit: bool = False
-    doubts: Doubts | None = None
 
 
 def prepare(
@@ -64,7 +61,7 @@ def prepare(
     Raises:
         InputError: the measurement does not allow the comparison or diagnosis.
     """
-    diagnosis = prepare_diagnosis(question, studio, options.doubts) if diagnose else None
+    diagnosis = prepare_diagnosis(question, studio) if diagnose else None
 
     def work(watch: Watch) -> str:
         return report_of(question, studio, options, None if diagnosis is None else diagnosis(watch))

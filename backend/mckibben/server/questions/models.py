@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mckibben.application.doubts import deciding
 from mckibben.application.experiment import SaidMeasurement, SaidModel
 from mckibben.application.model_question import ModelQuestion, question_of
 from mckibben.documents.convert import stated_muscle
@@ -33,7 +34,7 @@ def model_question(body: ModelRequest, studio: Studio, store: MeasurementStore) 
     measurements = said_measurements(body, studio, store)
     if all(each.validation for each in measurements):
         raise InputError("no measurement to fit to", field="measurements", hint='give one the use "fit"')
-    return question_of(
+    question = question_of(
         model,
         measurements,
         studio,
@@ -42,6 +43,7 @@ def model_question(body: ModelRequest, studio: Studio, store: MeasurementStore) 
         noise=body.noise,
         strict=body.strict,
     )
+    return deciding(question, use=body.use, keep=body.keep)
 
 
 def said_measurements(body: ModelRequest, studio: Studio, store: MeasurementStore) -> list[SaidMeasurement]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from fastapi import APIRouter, Request, Response
 
 from mckibben.application.diagnose import TIME_LIMIT, prepare
-from mckibben.application.doubts import Doubts
 from mckibben.application.json_text import to_json
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
@@ -25,7 +24,7 @@ async def diagnose_model(
 ) -> Response:
     """The missing effects with reasons, twins, path and verdict; closing the connection ends the search."""
     question = await prepared(request, model_question, body, studio, store)
-    work = await prepared(request, prepare, question, studio, Doubts(body.use, body.keep))
+    work = await prepared(request, prepare, question, studio)
     if wants_events(request):
         return events(work, time_limit=TIME_LIMIT)
     return JsonAnswer(await finished(request, work, to_json, time_limit=TIME_LIMIT))

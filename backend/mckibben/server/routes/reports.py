@@ -6,7 +6,6 @@ from fastapi import APIRouter, Request, Response
 from fastapi.responses import HTMLResponse
 
 from mckibben.application.diagnose import TIME_LIMIT
-from mckibben.application.doubts import Doubts
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.measurement.store import MeasurementStore
@@ -44,4 +43,4 @@ def _options(body: ReportRequest, studio: Studio, store: MeasurementStore) -> Re
         except InputError as error:
             raise error.at(error.field or "effects").inside(f"history.{place}") from error
     unverified = {} if body.drive is None else drive_of(body.drive, studio, measured=True).unverified
-    return ReportOptions(body.title, history, unverified, body.fit, Doubts(body.use, body.keep))
+    return ReportOptions(body.title, history, unverified, body.fit)

@@ -25,6 +25,9 @@ ParameterPath = Annotated[
 FreeGeometry = Literal["nominal_length", "braid_diameter", "braid_angle", "wall_thickness", "inside_diameter"]
 
 
+Hypothesis = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_]+$", max_length=64)]
+
+
 class UsedMeasurement(Strict):
     """A measurement and its use."""
 
@@ -71,6 +74,16 @@ class ModelRequest(Strict):
         examples=["length 1 mm, force 0.5 %, pressure 20 mbar"],
     )
     strict: bool = Field(False, description="Refuse instead of assuming what nobody said.")
+
+    use: list[Hypothesis] = Field(
+        default=[],
+        max_length=8,
+        description="Entries of a diagnosis's 'context' that are wrong as stated: the channel is read in the "
+        "other way, a quantity is fitted in diagnoses and fits.",
+    )
+    keep: list[Hypothesis] = Field(
+        default=[], max_length=32, description="Entries of 'context' that are right as stated."
+    )
 
     def chosen(self) -> list[UsedMeasurement]:
         """All measurements, from either field."""

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Any, Literal
 
-from pydantic import Field, StringConstraints
+from pydantic import Field
 
 from mckibben.documents.strict import Series, Strict
 from mckibben.server.schemas.comparisons import (
@@ -18,18 +18,9 @@ from mckibben.server.schemas.comparisons import (
 from mckibben.server.schemas.curves import MuscleGeometry
 from mckibben.server.schemas.experiments import Absorbed, ExperimentValue, Specimen
 
-Hypothesis = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_]+$", max_length=64)]
-
 
 class DiagnosisRequest(ModelRequest):
     """The start model and the measurements to explain."""
-
-    use: list[Hypothesis] = Field(
-        default=[], max_length=8, description="Entries of 'context' that are wrong as stated: use what fits."
-    )
-    keep: list[Hypothesis] = Field(
-        default=[], max_length=32, description="Entries of 'context' that are right as stated."
-    )
 
 
 class DoubtfulEntry(Strict):
@@ -63,6 +54,10 @@ class NoiseFloor(Strict):
 
     rmse: float | None
     how: str
+    interval: list[float] | None = Field(
+        description="From the scatter of neighbouring readings to all that no variable explains; null where "
+        "a structure remains."
+    )
 
 
 class ModelJson(Strict):
@@ -93,9 +88,10 @@ class Candidate(Strict):
 
 
 class PathStep(Strict):
-    """The error after adding an effect; the first step is the start model as given."""
+    """The error after adding an effect; first the start model as given, then its own numbers refitted."""
 
     added: str | None
+    refitted: bool = Field(description="The start model with its own numbers fitted, before any effect.")
     rmse: float
     holdout_rmse: float
     model: ModelJson

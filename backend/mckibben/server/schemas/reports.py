@@ -9,7 +9,6 @@ from pydantic import Field
 from mckibben.documents.muscle import EffectsInput, MuscleInput
 from mckibben.documents.strict import Strict
 from mckibben.server.schemas.comparisons import ComparisonRequest, ParameterPath
-from mckibben.server.schemas.diagnoses import Hypothesis
 
 
 class HistoryStep(Strict):
@@ -27,8 +26,6 @@ class ReportRequest(ComparisonRequest):
     history: list[HistoryStep] = Field(default=[], max_length=32, description="Oldest first.")
     title: str = Field("", max_length=200, description="Empty = names of the measurements.")
     diagnose: bool = Field(True, description="Include a diagnosis; takes some seconds.")
-    use: list[Hypothesis] = Field(default=[], max_length=8, description="As in a diagnosis.")
-    keep: list[Hypothesis] = Field(default=[], max_length=32, description="As in a diagnosis.")
 
 
 ReportAnswer: dict[int | str, dict[str, Any]] = {
