@@ -108,7 +108,7 @@ def test_better_sensors_tell_more_of_the_clamps(studio: Studio) -> None:
 
 
 def test_without_the_accuracy_the_clamps_are_blamed_on_something_else(studio: Studio) -> None:
-    """What the allowance is for: with exact clamps claimed, the same data lack an effect, or an unknown one."""
+    """What the allowance is for: if the clamps are said to be exact, the same data lack an effect."""
     errors = np.array([1.2e-3, -0.8e-3, 1.5e-3, -1.5e-3, 0.9e-3, -1.1e-3])
     said = stated_accuracy("length 0 mm, force 0 %, pressure 0 bar", "accuracy")
     result = diagnosed(studio, asked(studio, [plateaus(errors)], said=said))
