@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from mckibben.application.assumptions import Assumption, assumptions_of, refuse_assumptions
 from mckibben.application.experiment_drive import drive_values, own_drive
 from mckibben.application.specimens import Specimen, Specimens, specimens_of
 from mckibben.documents.drive import DriveDocument
@@ -24,7 +25,6 @@ from mckibben.measurement.experiment import (
     Experiment,
     ExperimentValue,
     file_experiment,
-    needed,
 )
 from mckibben.measurement.measurement import Measurement, StatedValue
 from mckibben.measurement.points import Points
@@ -79,37 +79,6 @@ class SaidMeasurement:
     said: Experiment = field(default_factory=dict)
     validation: bool = False
     field: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Assumption:
-    """A value that a test of this kind needs, that nobody said, and that was assumed.
-
-    Attributes:
-        field: of the experiment.
-        words: what is assumed, "a rest length of 300 mm, the preset's".
-        option: what says otherwise on the command line.
-        files: names of the measurements; empty for all.
-    """
-
-    field: str
-    words: str
-    option: str
-    files: tuple[str, ...] = ()
-
-    @property
-    def sentence(self) -> str:
-        """For the verdict."""
-        return f"Assuming {self.words}{self._files}."
-
-    @property
-    def message(self) -> str:
-        """For the beginning of an answer."""
-        return f"assuming {self.words}{self._files}: {self.option} says otherwise"
-
-    @property
-    def _files(self) -> str:
-        return f" for {', '.join(self.files)}" if self.files else ""
 
 
 @dataclass(frozen=True)
@@ -189,9 +158,10 @@ def resolved(
         _add_accuracy(one)
         for name, value in drive_values(one.measurement, one.values, model.drive, start).items():
             one.values.setdefault(name, value)
-    assumptions = _assumptions(ones)
-    if strict and assumptions:
-        _refuse(ones)
+    assumptions = assumptions_of([(one.measurement, one.values) for one in ones])
+    if strict:
+        for one in ones:
+            refuse_assumptions(one.measurement, one.values, one.at)
     specimens = [_specimen(one, model, start, studio) for one in ones]
     used = [each for each, one in zip(specimens, ones, strict=True) if not one.said.validation]
     judged = [each for each, one in zip(specimens, ones, strict=True) if one.said.validation]
@@ -268,71 +238,6 @@ def _add_accuracy(one: _One) -> None:
     for channel, accuracy in default_accuracy(one.measurement).items():
         value = ExperimentValue(accuracy.value, accuracy.unit, "assumed", "usual for readings at rest")
         one.values.setdefault(f"{ACCURACY}{channel}", value)
-
-
-def _assumptions(ones: Sequence[_One]) -> tuple[Assumption, ...]:
-    found: dict[tuple[str, str], list[str]] = {}
-    for one in ones:
-        for name, words in _assumed_words(one):
-            found.setdefault((name, words), []).append(one.measurement.name)
-    result = []
-    for (name, words), files in found.items():
-        option = "--accuracy" if name.startswith(ACCURACY) else FIELDS[name].option.split(" ")[0]
-        if option == "--experiment":
-            option = f'--experiment "{name}=..."'
-        result.append(Assumption(name, words, option, () if len(files) == len(ones) else tuple(files)))
-    return tuple(result)
-
-
-def _assumed_words(one: _One) -> list[tuple[str, str]]:
-    """(field, words) of what a test of this kind needs and nobody said."""
-    columns, values = one.measurement.columns, one.values
-    words = []
-    for name in needed(one.measurement.kind, columns):
-        value = values.get(name)
-        if value is None:
-            if name == "load" and one.measurement.kind == "isotonic":
-                words.append((name, "nothing about the load, which nobody states and which is fitted"))
-        elif value.origin == "assumed":
-            words.append((name, _in_words(name, value)))
-    accuracies = [
-        f"{_of_accuracy(value)} of {channel}"
-        for channel in CHANNELS
-        if (value := values.get(f"{ACCURACY}{channel}")) is not None and value.origin == "assumed"
-    ]
-    if accuracies:
-        words.append((f"{ACCURACY}length", f"readings accurate to {' and '.join(accuracies)}"))
-    return words
-
-
-def _in_words(name: str, value: ExperimentValue) -> str:
-    if name == "rest_length":
-        whose = ", the preset's" if value.where.startswith("the preset") else ""
-        return f"a rest length of {_shown(float(value.value))}{whose}"
-    if name == "supply":
-        return f"a supply pressure of {float(value.value) / 1e5:.4g} bar"
-    if name == "load":
-        return "no load"
-    return f"{FIELDS[name].title.lower()} {value.value}"
-
-
-def _of_accuracy(value: ExperimentValue) -> str:
-    if value.unit == "1":
-        return f"{100.0 * float(value.value):.3g} %"
-    scale, unit = {"m": (1e3, "mm"), "Pa": (1e-2, "mbar")}.get(value.unit, (1.0, value.unit))
-    return f"{scale * float(value.value):.3g} {unit}"
-
-
-def _refuse(ones: Sequence[_One]) -> None:
-    """Refuse the first thing that would be assumed."""
-    for one in ones:
-        for name, words in _assumed_words(one):
-            declared = FIELDS[name]
-            raise InputError(
-                f"{one.measurement.name}: {declared.title.lower()} is not stated (without --strict: {words})",
-                field=one.at("accuracy" if name.startswith(ACCURACY) else name),
-                hint=declared.option,
-            )
 
 
 def _specimen(one: _One, model: SaidModel, start: StartModel, studio: Studio) -> Specimen:
