@@ -204,6 +204,12 @@ export interface components {
       freed?: string[];
       /** Standard deviation of the predicted channel in SI, when it is known. */
       noise?: number | null;
+      /** For every measurement that does not say it in its own 'experiment'. */
+      experiment?: components["schemas"]["ExperimentInput"] | null;
+      /** Standard deviation of each channel of all measurements (% of the largest value), or sensors: 'length steel rule'. */
+      accuracy?: string | null;
+      /** Refuse instead of assuming what nobody said. */
+      strict?: boolean;
       /** Fit the effects' parameters to the data. */
       fit?: boolean;
     };
@@ -528,6 +534,12 @@ export interface components {
       freed?: string[];
       /** Standard deviation of the predicted channel in SI, when it is known. */
       noise?: number | null;
+      /** For every measurement that does not say it in its own 'experiment'. */
+      experiment?: components["schemas"]["ExperimentInput"] | null;
+      /** Standard deviation of each channel of all measurements (% of the largest value), or sensors: 'length steel rule'. */
+      accuracy?: string | null;
+      /** Refuse instead of assuming what nobody said. */
+      strict?: boolean;
     };
     /** A drive document to start from; its content is checked when it is used. */
     DriveAnswer: {
@@ -759,6 +771,69 @@ export interface components {
       protocol: string;
       /** Expected difference, in standard deviations of one reading. */
       separation: number;
+    };
+    /** What the user says about the experiment behind one measurement; it takes precedence over the file. */
+    ExperimentInput: {
+      /** Id of the preset of this specimen. Default: the file's, else that of the request. */
+      muscle?: string | {
+        value: string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Length of this specimen without air and load. Default: the file's, else the length of the request's muscle; the preset's default is assumed and the answer says so. [m] */
+      rest_length?: number | string | {
+        value: number | string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** A mass or a force. Default: the file's, else the drive's. [kg or N] */
+      load?: string | {
+        value: string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Supply pressure, gauge. Default: file, drive. [Pa] */
+      supply?: number | string | {
+        value: number | string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Id of a valve preset. Default: the drive's. */
+      valve?: string | {
+        value: string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Id of a tube preset, "4 mm x 1 m" or "none". Default: the drive's. */
+      tube?: string | {
+        value: string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Contractions between which the load can move. Default: the drive's. */
+      stops?: string | {
+        value: string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Angle between the motion of the load and the horizontal. Default: drive, 90 deg. [rad] */
+      inclination?: number | string | {
+        value: number | string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Which end of the muscle is fixed. It is recorded; no figure depends on it. */
+      fixed_end?: "upper" | "lower" | "both" | {
+        value: "upper" | "lower" | "both";
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Reading of the force sensor without force; it is subtracted. [N] */
+      force_zero?: number | string | {
+        value: number | string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Reading of the pressure sensor at atmospheric pressure; it is subtracted. [Pa] */
+      pressure_zero?: number | string | {
+        value: number | string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
+      /** Standard deviation of each channel, as 'length 1 mm, force 0.5 %, pressure 20 mbar' (% of the largest value), or a sensor: 'length steel rule'. Default: that of the request. */
+      accuracy?: string | {
+        value: string;
+        origin?: "you" | "suggested" | "preset";
+      } | null;
     };
     /** A simulated design that fulfils the task; coarse figures, for a plot of the alternatives. */
     ExploredDesign: {
@@ -1675,6 +1750,12 @@ export interface components {
       freed?: string[];
       /** Standard deviation of the predicted channel in SI, when it is known. */
       noise?: number | null;
+      /** For every measurement that does not say it in its own 'experiment'. */
+      experiment?: components["schemas"]["ExperimentInput"] | null;
+      /** Standard deviation of each channel of all measurements (% of the largest value), or sensors: 'length steel rule'. */
+      accuracy?: string | null;
+      /** Refuse instead of assuming what nobody said. */
+      strict?: boolean;
       /** Fit the effects' parameters to the data. */
       fit?: boolean;
       /** Oldest first. */
@@ -2146,6 +2227,8 @@ export interface components {
       id: string;
       /** Used for the fit, or only for validation. */
       use?: "fit" | "validation";
+      /** What the user says about its experiment; takes precedence over the file. */
+      experiment?: components["schemas"]["ExperimentInput"] | null;
     };
     /** The error of the model on measurements not used for the fit. */
     ValidationAnswer: {

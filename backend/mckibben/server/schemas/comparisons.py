@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, StringConstraints
 
 from mckibben.documents.drive import DriveDocument
+from mckibben.documents.experiment import ExperimentInput
 from mckibben.documents.muscle import EffectsInput, MuscleInput
 from mckibben.documents.strict import Series, Strict, si_field
 from mckibben.server.schemas.common import Flag
@@ -28,6 +29,9 @@ class UsedMeasurement(Strict):
 
     id: MeasurementId
     use: Literal["fit", "validation"] = Field("fit", description="Used for the fit, or only for validation.")
+    experiment: ExperimentInput | None = Field(
+        None, description="What the user says about its experiment; takes precedence over the file."
+    )
 
 
 class ModelRequest(Strict):
@@ -54,6 +58,18 @@ class ModelRequest(Strict):
         allow_inf_nan=False,
         description="Standard deviation of the predicted channel in SI, when it is known.",
     )
+    experiment: ExperimentInput | None = Field(
+        None, description="For every measurement that does not say it in its own 'experiment'."
+    )
+    accuracy: str | None = Field(
+        None,
+        min_length=1,
+        max_length=200,
+        description="Standard deviation of each channel of all measurements (% of the largest value), or "
+        "sensors: 'length steel rule'.",
+        examples=["length 1 mm, force 0.5 %, pressure 20 mbar"],
+    )
+    strict: bool = Field(False, description="Refuse instead of assuming what nobody said.")
 
     def chosen(self) -> list[UsedMeasurement]:
         """All measurements, from either field."""
