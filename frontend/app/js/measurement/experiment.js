@@ -1,0 +1,282 @@
+// @ts-check
+// The experiment behind a file: what it was made with, who says so, and what nobody has said yet.
+import { h, icon } from "../dom.js";
+import { units } from "../state.js";
+import { muscles } from "../store.js";
+import { quantityOf, scaleOf } from "../format.js";
+import { contradicted, isOpen, saidText, textOf, valueText } from "./fields.js";
+import { valueOf } from "./columns.js";
+
+/** @typedef {import("./types.js").Field} Field */
+/** @typedef {import("./types.js").Said} Said */
+/** @typedef {import("./model.js").Model} Model */
+
+/** What a field says of its value. @param {Field} f @param {Said | undefined} said @param {boolean} accepted */
+function originChip(f, said, accepted) {
+  if (said !== undefined) {
+    const taken = typeof said !== "string";
+    return h("span", { class: "origin you" }, taken ? "suggested, taken over" : "you");
+  }
+  if (f.origin === null) {
+    return h("span", { class: "origin none" }, f.required ? "nobody said it" : "not said");
+  }
+  if (f.origin === "file") return h("span", { class: "origin file" }, `file: ${f.where || "its text"}`);
+  if (f.origin === "preset") return h("span", { class: "origin" }, f.where || "preset");
+  if (f.origin === "assumed") {
+    return h("span", { class: "origin assumed" }, accepted ? "assumed, check it later" : "assumed");
+  }
+  return h("span", { class: "origin" }, f.origin);
+}
+
+/** A field for all files (`file` null) or for one. @param {Model} m @param {Field} f */
+function fieldRow(m, f) {
+  const said = m.common.value[f.field], accepted = m.accepted.value.has(f.field);
+  const open = m.asks && isOpen(f, said, accepted) &&
+    (m.files.length === 1 || m.missing.value.some((one) => one.field === f.field));
+  const id = `experiment-${f.field}`, system = units.value;
+  const value = said !== undefined
+    ? saidText(f, said, system)
+    : f.value === null || (open && f.origin === "assumed")
+    ? ""
+    : valueText(f, f.value, system);
+  const error = m.wrong.value[f.field] ?? "";
+  const file = contradicted(f, said, system);
+  const kept = m.kept?.said[f.field];
+  /** @param {string} text @param {string} key @param {() => void} act */
+  const offer = (text, key, act) =>
+    h("button", { type: "button", class: "link", "data-key": `${key} ${f.field}`, onclick: act }, text);
+  return h(
+    "div",
+    {
+      class: `question${open ? " open" : ""}${error || file ? " wrong" : ""}`,
+      "data-field": `experiment.${f.field}`,
+    },
+    h(
+      "label",
+      { for: id, title: f.why },
+      f.title,
+      f.required ? h("span", { class: "must", title: "This kind of test needs it" }, " *") : null,
+    ),
+    h(
+      "span",
+      { class: "given" },
+      entry(m, f, id, value, Boolean(error), open),
+      originChip(f, said, accepted),
+    ),
+    error ? h("p", { class: "error", id: `${id}-m` }, error) : null,
+    file
+      ? h(
+        "p",
+        { class: "error" },
+        `The file says ${file}${f.where ? ` (${f.where})` : ""}. `,
+        offer(`Back to ${file}`, "back", () => m.say(f, "")),
+      )
+      : null,
+    open ? h("p", { class: "hint" }, f.question) : null,
+    open && f.proposed !== null
+      ? offer(
+        `${valueText(f, f.proposed, system)} is suggested by the data: take it`,
+        "suggested",
+        () => m.say(f, valueText(f, /** @type {number | string} */ (f.proposed), system), null, "suggested"),
+      )
+      : null,
+    open && kept !== undefined
+      ? offer(
+        `${saidText(f, kept, system)}, as for ${m.kept?.name}`,
+        "kept",
+        () => m.say(f, textOf(kept)),
+      )
+      : null,
+    open && f.value !== null
+      ? offer(
+        `I don’t know: assume ${valueText(f, f.value, system)}, check it later`,
+        "assume",
+        () => m.accept(f.field),
+      )
+      : null,
+  );
+}
+
+/** @param {Model} m @param {Field} f @param {string} id @param {string} value @param {boolean} wrong
+ * @param {boolean} open */
+function entry(m, f, id, value, wrong, open) {
+  const change = (/** @type {Event} */ e) => m.say(f, valueOf(e));
+  const common = {
+    id,
+    "data-key": `field ${f.field}`,
+    "aria-required": f.required ? "true" : null,
+    "aria-invalid": wrong || open ? "true" : null,
+    "aria-describedby": wrong ? `${id}-m` : null,
+    onchange: change,
+  };
+  if (f.choices.length && (f.closed || f.field === "muscle")) {
+    const list = value && !f.choices.includes(value) ? [value, ...f.choices] : f.choices;
+    const titles = new Map(muscles.value.map((one) => [one.id, one.title]));
+    return h(
+      "select",
+      common,
+      h("option", { value: "", selected: !value }, value ? "not said" : "choose…"),
+      ...list.map((one) => h("option", { value: one, selected: one === value }, titles.get(one) ?? one)),
+    );
+  }
+  const quantity = f.unit ? quantityOf(f.unit) : null;
+  const unit = quantity && quantity !== "number" ? scaleOf(quantity, units.value).unit : "";
+  return h("input", {
+    ...common,
+    type: "text",
+    autocomplete: "off",
+    spellcheck: "false",
+    value,
+    placeholder: f.example,
+    title: unit ? `A number in ${unit}, or a number with a unit` : "",
+    list: f.choices.length ? `${id}-list` : null,
+  });
+}
+
+/** @param {Model} m */
+export function experimentFields(m) {
+  const all = m.fields.value;
+  if (!all.length) return h("p", { class: "muted" }, "Nothing more is needed for this kind of test.");
+  const isFirst = (/** @type {Field} */ f) => f.required || f.value !== null || f.proposed !== null;
+  const more = all.filter((f) => !isFirst(f));
+  return [
+    ...all.filter(isFirst).map((f) => fieldRow(m, f)),
+    more.length
+      ? h(
+        "details",
+        { open: more.some((f) => m.common.value[f.field] !== undefined) },
+        h("summary", { "data-key": "more fields" }, `More about the experiment (${more.length})`),
+        ...more.map((f) => fieldRow(m, f)),
+      )
+      : null,
+    all.some((f) => f.required)
+      ? h("p", { class: "hint" }, h("span", { class: "must" }, "* "), "This kind of test needs it.")
+      : null,
+  ];
+}
+
+/** The kind of the test, detected or chosen. @param {Model} m */
+export function kindField(m) {
+  const p = m.preview.value, chosen = m.mapping.value.kind;
+  const auto = p.kind && (p.kind_detected || !chosen) ? `${p.kind}` : "as the file says";
+  return h(
+    "div",
+    { class: "question" },
+    h("label", { for: "import-kind" }, "Kind of test"),
+    h(
+      "span",
+      { class: "given" },
+      h(
+        "select",
+        {
+          id: "import-kind",
+          "data-key": "kind",
+          onchange: (/** @type {Event} */ e) =>
+            m.change(({ kind: _, ...mapping }) => valueOf(e) ? { ...mapping, kind: valueOf(e) } : mapping),
+        },
+        h("option", { value: "", selected: !chosen }, auto),
+        ...p.kind_choices.filter((kind) => chosen || kind !== p.kind)
+          .map((kind) => h("option", { value: kind, selected: kind === chosen }, kind)),
+      ),
+      h(
+        "span",
+        { class: "origin", title: p.kind_reason },
+        chosen ? "you" : p.kind_detected ? "detected" : p.kind ? "file" : "not known yet",
+      ),
+    ),
+  );
+}
+
+/** Values that differ from file to file. @param {Model} m */
+export function severalFiles(m) {
+  if (m.files.length < 2) return null;
+  const system = units.value;
+  const rest = m.fields.value.find((f) => f.field === "rest_length");
+  return h(
+    "div",
+    { class: "scroll several", tabindex: 0, role: "region", "aria-label": "Files" },
+    h(
+      "table",
+      { class: "data" },
+      h(
+        "thead",
+        null,
+        h(
+          "tr",
+          null,
+          h("th", { scope: "col", class: "text" }, "File"),
+          h("th", { scope: "col" }, "Rows"),
+          rest ? h("th", { scope: "col", class: "text" }, rest.title) : null,
+        ),
+      ),
+      h(
+        "tbody",
+        null,
+        ...m.files.map((file, i) => {
+          const problem = m.problemOf(i), p = m.outcomes.value[i].preview;
+          return h(
+            "tr",
+            { class: problem ? "bad" : "", "data-file": file.name },
+            h(
+              "th",
+              { scope: "row", class: "text" },
+              h("button", {
+                type: "button",
+                class: "link",
+                "aria-pressed": String(m.at.value === i),
+                "data-key": `file ${i}`,
+                title: problem || `Show ${file.name}`,
+                onclick: () => (m.at.value = i),
+              }, file.name),
+              problem ? h("span", { class: "unseen" }, `: ${problem}`) : null,
+            ),
+            h("td", null, problem ? icon("warn") : p.measurement?.usable_rows ?? p.valid_rows),
+            rest ? h("td", { class: "text" }, ownEntry(m, i, system)) : null,
+          );
+        }),
+      ),
+    ),
+  );
+}
+
+/** @param {Model} m @param {number} i @param {import("../format.js").System} system */
+function ownEntry(m, i, system) {
+  const f = m.fieldsOf(i).find((one) => one.field === "rest_length");
+  if (!f) return "";
+  const said = m.saidOf(i, f.field), error = m.wrong.value[`${f.field} ${i}`];
+  const accepted = m.accepted.value.has(f.field), open = m.asks && isOpen(f, said, accepted);
+  const assumed = f.origin === "assumed" && said === undefined;
+  return h(
+    "span",
+    { class: "given" },
+    h("input", {
+      type: "text",
+      class: "own",
+      "data-key": `own ${i}`,
+      "aria-label": `${f.title} of ${m.files[i].name}`,
+      "aria-invalid": error || open ? "true" : null,
+      title: error ?? "",
+      placeholder: assumed && f.value !== null ? valueText(f, f.value, system) : f.example,
+      value: said !== undefined
+        ? saidText(f, said, system)
+        : f.value === null || assumed
+        ? ""
+        : valueText(f, f.value, system),
+      onchange: (/** @type {Event} */ e) => m.say(f, valueOf(e), i),
+    }),
+    h(
+      "small",
+      { class: open ? "needed" : "" },
+      error ??
+        (m.own.value[i][f.field] !== undefined
+          ? "you"
+          : said !== undefined
+          ? "as above"
+          : f.origin === "file"
+          ? f.where || "file"
+          : accepted
+          ? "assumed"
+          : f.origin ?? "?"),
+    ),
+  );
+}
