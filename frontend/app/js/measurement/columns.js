@@ -77,6 +77,19 @@ export function rangeOf(p, column) {
   return `${text(column.minimum)} … ${text(column.maximum)}${s ? ` ${s.unit}` : ""}`;
 }
 
+const FIRST = 4;
+
+/** The first values of a column as they are written. @param {Preview} p @param {Column} column */
+function firstCells(p, column) {
+  const { raw } = p, { place } = column, i = p.columns.indexOf(column);
+  const cells = raw && place !== null
+    ? raw.rows.filter(({ row }) => row > Math.max(raw.head ?? 0, raw.units ?? 0)).map((one) =>
+      one.cells[place]
+    )
+    : p.sample.map((row) => row[i]);
+  return cells.slice(0, FIRST).filter(Boolean);
+}
+
 /** Columns one below the other: on a phone, and those that stand in no column of the file.
  * @param {Model} m @param {Column[]} list */
 export function columnList(m, list) {
@@ -85,8 +98,7 @@ export function columnList(m, list) {
     "ol",
     { class: "plain column-list" },
     ...list.map((column) => {
-      const i = p.columns.indexOf(column);
-      const first = p.sample.slice(0, 4).map((row) => row[i] ?? "").filter((cell) => cell !== "");
+      const first = firstCells(p, column);
       return h(
         "li",
         { "data-column": column.header },
