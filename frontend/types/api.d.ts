@@ -1695,6 +1695,8 @@ export interface components {
       units: number | null;
       /** 'head' of a mapping may name another row. */
       head_moves: boolean;
+      /** Cells, from 0, that hold the same columns again beside the first ones. */
+      also: number[];
     };
     /** Sensor readings. */
     Readings: {

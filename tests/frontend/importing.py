@@ -70,8 +70,6 @@ def panel(page: Page) -> Locator:
 
 def preview_of(page: Page, payload: FilePayload) -> dict[str, Any]:
     """The preview of a file as the server answers it."""
-    answer = page.request.post(
-        f"/api/measurements/preview?name={payload['name']}", data=payload["buffer"]
-    )
+    answer = page.request.post(f"/api/measurements/preview?name={payload['name']}", data=payload["buffer"])
     assert answer.ok, answer.text()
     return json.loads(answer.body())

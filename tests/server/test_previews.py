@@ -36,6 +36,7 @@ def test_the_rows_stand_as_in_the_file_with_head_and_units(client: TestClient) -
     lines = PREAMBLE + READINGS
     assert all(cells == lines[number - 1].split(";") for number, cells in shown.items())
     assert list(shown) == list(range(1, 61))
+    assert raw["also"] == []
     heads = {column["header"]: shown[4][column["place"]] for column in body["columns"]}
     assert heads == {name: name for name in ("Nr.", "Druck", "Hub", "Kraft")}
 
@@ -114,3 +115,14 @@ def test_only_a_channel_with_a_unit_has_an_origin_of_it(client: TestClient) -> N
     columns = {c["header"]: c for c in preview(client, text(lines), "a.csv")["columns"]}
     assert columns["F"]["unit_origin"] == "proposed"
     assert columns["cycle"]["unit_origin"] is None
+
+
+def test_columns_that_come_again_beside_the_first_ones_are_marked(client: TestClient) -> None:
+    lines = [
+        "s [mm];F 2 bar [N];s [mm];F 4 bar [N]",
+        *[f"{n};{400 - 4 * n};{n};{800 - 4 * n}" for n in range(40)],
+    ]
+    body = preview(client, text(lines), "a.csv")
+    assert [column["place"] for column in body["columns"][:2]] == [0, 1]
+    assert body["raw"]["also"] == [2, 3]
+    assert body["rows"] == 80

@@ -140,12 +140,16 @@ class RawRow:
 
 @dataclass(frozen=True, slots=True)
 class RawTable:
-    """First rows of a file, rows of names and units; ``head_moves``: a correction may name another head."""
+    """First rows of a file, rows of names and units; ``head_moves``: a correction may name another head.
+
+    ``also``: cells that hold the same columns again, beside the first ones.
+    """
 
     rows: list[RawRow]
     head: int | None
     units: int | None
     head_moves: bool
+    also: list[int]
 
 
 @dataclass(frozen=True, slots=True)
@@ -340,4 +344,4 @@ def _raw(preview: Preview) -> RawTable | None:
     if raw is None:
         return None
     rows = [RawRow(number, list(cells)) for number, cells in raw.rows]
-    return RawTable(rows, preview.head_row, raw.units_row, raw.head_moves)
+    return RawTable(rows, preview.head_row, raw.units_row, raw.head_moves, list(raw.also))

@@ -24,12 +24,14 @@ class RawRows:
         places: the cell of a row that each header of the table has; None = it stands in no column.
         units_row: row of the units, where they stand apart from the names.
         head_moves: whether the user may say which row is the head.
+        also: cells that hold the same columns again, beside the first ones.
     """
 
     rows: Rows
     places: tuple[int | None, ...]
     units_row: int | None = None
     head_moves: bool = True
+    also: tuple[int, ...] = ()
 
 
 def shown_rows(rows: Iterable[tuple[int, Iterable[object]]], head: int | None) -> Rows:

@@ -94,7 +94,10 @@ def _raw(table: Table, shown: Iterable[tuple[int, Iterable[object]]], width: int
     fixed = rewritten or not table.parts or isinstance(table.parts[0], MapPart)
     places: list[int | None] = [] if fixed else list(table.parts[0].columns)
     places += [None] * (width - len(places))
-    return RawRows(shown_rows(shown, table.head_row), tuple(places), table.units_row, not fixed)
+    beside = [] if fixed else [part for part in table.parts[1:] if part.grid is table.parts[0].grid]
+    also = {column for part in beside for column in part.columns} - set(places)
+    rows = shown_rows(shown, table.head_row)
+    return RawRows(rows, tuple(places), table.units_row, not fixed, tuple(sorted(also)))
 
 
 def _has(table: Table, use: str) -> bool:

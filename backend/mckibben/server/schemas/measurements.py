@@ -172,6 +172,10 @@ class RawTable(Strict):
     head: int | None = Field(description="The row of the column names.", examples=[6])
     units: int | None = Field(description="The row of the units, where they stand apart.", examples=[7])
     head_moves: bool = Field(description="'head' of a mapping may name another row.")
+    also: list[int] = Field(
+        description="Cells, from 0, that hold the same columns again beside the first ones.",
+        examples=[[3, 4]],
+    )
 
 
 class PreviewAnswer(Strict):

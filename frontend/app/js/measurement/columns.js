@@ -62,9 +62,9 @@ export function stateOf(column) {
     return h("span", { class: "state proposed" }, icon("warn"), `${column.unit} is proposed`);
   }
   if (column.unit_origin === "you") return h("span", { class: "state" }, "unit from you");
-  const where = column.unit_where ? `unit from ${column.unit_where}` : "unit from the head";
+  const where = column.unit_where ? `unit from ${column.unit_where}` : "unit from the file";
   return column.unit_origin === null
-    ? h("span", { class: "state" }, "no unit")
+    ? h("span", { class: "state" }, "without a unit")
     : h("span", { class: "state good" }, icon("check"), where);
 }
 
@@ -72,7 +72,10 @@ export function stateOf(column) {
 export function rangeOf(p, column) {
   if (column.minimum === null || column.maximum === null) return "";
   const quantity = quantityOf(channelOf(p, column.channel)?.si_unit ?? "");
-  const s = quantity && quantity !== "number" ? scaleOf(quantity, units.value) : null;
+  const share = column.channel === "contraction" ? "ratio" : null;
+  const s = quantity && quantity !== "number"
+    ? scaleOf(quantity, units.value)
+    : share && scaleOf(share, units.value);
   const text = (/** @type {number} */ si) => brief(s ? toShown(si, s) : si);
   return `${text(column.minimum)} … ${text(column.maximum)}${s ? ` ${s.unit}` : ""}`;
 }

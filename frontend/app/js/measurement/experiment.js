@@ -2,7 +2,7 @@
 // The experiment behind a file: what it was made with, who says so, and what nobody has said yet.
 import { h, icon } from "../dom.js";
 import { units } from "../state.js";
-import { muscles } from "../store.js";
+import { muscles, presets } from "../store.js";
 import { quantityOf, scaleOf } from "../format.js";
 import { contradicted, isOpen, saidText, textOf, valueText } from "./fields.js";
 import { valueOf } from "./columns.js";
@@ -60,7 +60,7 @@ function fieldRow(m, f) {
     h(
       "span",
       { class: "given" },
-      entry(m, f, id, value, Boolean(error), open),
+      entry(m, f, id, value, Boolean(error)),
       originChip(f, said, accepted),
     ),
     error ? h("p", { class: "error", id: `${id}-m` }, error) : null,
@@ -97,21 +97,25 @@ function fieldRow(m, f) {
   );
 }
 
-/** @param {Model} m @param {Field} f @param {string} id @param {string} value @param {boolean} wrong
- * @param {boolean} open */
-function entry(m, f, id, value, wrong, open) {
+/** Fields whose values are presets. @type {Record<string, () => import("../types.js").Preset[]>} */
+const PRESETS = { muscle: () => muscles.value, valve: () => presets.value.valves ?? [] };
+
+/** @param {Model} m @param {Field} f @param {string} id @param {string} value @param {boolean} wrong */
+function entry(m, f, id, value, wrong) {
   const change = (/** @type {Event} */ e) => m.say(f, valueOf(e));
   const common = {
     id,
     "data-key": `field ${f.field}`,
     "aria-required": f.required ? "true" : null,
-    "aria-invalid": wrong || open ? "true" : null,
+    "aria-invalid": wrong ? "true" : null,
     "aria-describedby": wrong ? `${id}-m` : null,
     onchange: change,
   };
-  if (f.choices.length && (f.closed || f.field === "muscle")) {
-    const list = value && !f.choices.includes(value) ? [value, ...f.choices] : f.choices;
-    const titles = new Map(muscles.value.map((one) => [one.id, one.title]));
+  const known = PRESETS[f.field]?.() ?? [];
+  if (f.closed || known.length) {
+    const choices = f.choices.length ? f.choices : known.map((one) => one.id);
+    const list = value && !choices.includes(value) ? [value, ...choices] : choices;
+    const titles = new Map(known.map((one) => [one.id, one.title]));
     return h(
       "select",
       common,
@@ -121,7 +125,7 @@ function entry(m, f, id, value, wrong, open) {
   }
   const quantity = f.unit ? quantityOf(f.unit) : null;
   const unit = quantity && quantity !== "number" ? scaleOf(quantity, units.value).unit : "";
-  return h("input", {
+  const input = h("input", {
     ...common,
     type: "text",
     autocomplete: "off",
@@ -131,6 +135,9 @@ function entry(m, f, id, value, wrong, open) {
     title: unit ? `A number in ${unit}, or a number with a unit` : "",
     list: f.choices.length ? `${id}-list` : null,
   });
+  if (!f.choices.length) return input;
+  const proposals = f.choices.map((one) => h("option", { value: one }));
+  return h("span", { class: "listed" }, input, h("datalist", { id: `${id}-list` }, ...proposals));
 }
 
 /** @param {Model} m */
@@ -158,7 +165,7 @@ export function experimentFields(m) {
 /** The kind of the test, detected or chosen. @param {Model} m */
 export function kindField(m) {
   const p = m.preview.value, chosen = m.mapping.value.kind;
-  const auto = p.kind && (p.kind_detected || !chosen) ? `${p.kind}` : "as the file says";
+  const auto = chosen ? "as detected" : p.kind ?? "to be detected";
   return h(
     "div",
     { class: "question" },
@@ -181,7 +188,7 @@ export function kindField(m) {
       h(
         "span",
         { class: "origin", title: p.kind_reason },
-        chosen ? "you" : p.kind_detected ? "detected" : p.kind ? "file" : "not known yet",
+        chosen ? "you" : p.kind_detected ? "detected" : p.kind ? "file" : "questions first",
       ),
     ),
   );
@@ -251,10 +258,10 @@ function ownEntry(m, i, system) {
     { class: "given" },
     h("input", {
       type: "text",
-      class: "own",
+      class: open ? "own needed" : "own",
       "data-key": `own ${i}`,
       "aria-label": `${f.title} of ${m.files[i].name}`,
-      "aria-invalid": error || open ? "true" : null,
+      "aria-invalid": error ? "true" : null,
       title: error ?? "",
       placeholder: assumed && f.value !== null ? valueText(f, f.value, system) : f.example,
       value: said !== undefined

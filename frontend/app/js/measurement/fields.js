@@ -13,7 +13,7 @@ export const textOf = (said) => typeof said === "string" ? said : said.value;
 /** A value of a field in the shown unit. @param {Field} f @param {number | string} value @param {System} system */
 export function valueText(f, value, system) {
   if (typeof value === "string") return value;
-  const quantity = quantityOf(f.unit);
+  const quantity = f.unit === "1" ? "ratio" : quantityOf(f.unit);
   if (!quantity) return `${number(value, 6)} ${f.unit}`.trim();
   const s = scaleOf(quantity, system);
   const text = number(toShown(value, s), s.digits);
@@ -37,6 +37,7 @@ export function readSaid(f, text, system) {
     if (f.closed && !f.choices.includes(tidy)) return { error: `Choose ${f.choices.join(", ")}.` };
     return { said: tidy };
   }
+  if (f.units.includes("%") && tidy.endsWith("%")) return { said: tidy };
   /** @type {{error: string} | null} */
   let wrong = null;
   for (const unit of unitsOf(f)) {

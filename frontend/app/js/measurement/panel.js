@@ -146,9 +146,9 @@ function experimentPart(m) {
       );
     },
     h("h3", null, h("span", { class: "step-number" }, 2), "The experiment"),
+    () => severalFiles(m),
     () => kindField(m),
     () => experimentFields(m),
-    () => severalFiles(m),
   );
 }
 

@@ -1,6 +1,6 @@
 // @ts-check
 // The small picture of a file: force over stroke, or what else it holds, drawn from a few hundred readings.
-import { niceStep, number, quantityOf, scaleOf, toShown } from "../format.js";
+import { capitalized, niceStep, number, quantityOf, scaleOf, toShown } from "../format.js";
 import { palette, pressureColour } from "../plots/theme.js";
 
 /** @typedef {import("./types.js").Preview} Preview */
@@ -135,9 +135,12 @@ export function picture(p, system) {
   return svg;
 }
 
+/** @param {string} channel */
+const nameOf = (channel) => NAMES[channel] ?? channel;
+
 /** @param {{x: string, ys: string[]}} axes */
 export const titleOf = ({ x, ys }) =>
-  `${ys.map((y) => NAMES[y] ?? y).join(" and ")} over ${(NAMES[x] ?? x).toLowerCase()}`;
+  capitalized(`${ys.map(nameOf).join(" and ")} over ${nameOf(x)}`.toLowerCase());
 
 /** Whether the readings behave as a muscle does: pulled harder it is longer, with more air it pulls harder.
  * @param {Preview} p @returns {{good: boolean, text: string} | null} null: the readings do not show it */

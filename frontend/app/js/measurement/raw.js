@@ -28,7 +28,7 @@ export function rawTable(m) {
   return [
     rowsTable(m, placed),
     apart.length
-      ? [h("p", { class: "muted" }, "From titles or names, not from a column:"), columnList(m, apart)]
+      ? [h("p", { class: "muted" }, "From titles and blocks of the file:"), columnList(m, apart)]
       : null,
   ].flat();
 }
@@ -43,9 +43,9 @@ const region = (...parts) =>
     "data-key": "rows",
   }, ...parts);
 
-/** @param {Model} m @param {Column | undefined} column */
-function headCell(m, column) {
-  if (!column) return h("td", null);
+/** @param {Model} m @param {Column | undefined} column @param {boolean} [again] */
+function headCell(m, column, again = false) {
+  if (!column) return h("td", null, again ? h("span", { class: "state" }, "read like the first") : null);
   return h(
     "th",
     { scope: "col", "data-column": column.header },
@@ -92,7 +92,7 @@ function rowsTable(m, placed) {
   const places = Array.from({ length: width }, (_, i) => i);
   const columns = new Map(placed.map((column) => [column.place, column]));
   /** @param {number} place */
-  const used = (place) => !placed.length || columns.get(place)?.channel != null;
+  const used = (place) => !placed.length || columns.get(place)?.channel != null || raw.also.includes(place);
   const table = h(
     "table",
     { class: "raw" },
@@ -105,7 +105,7 @@ function rowsTable(m, placed) {
           "tr",
           null,
           h("td", { class: "row lead" }, raw.head_moves ? "Drag the handle to the row of the names" : ""),
-          ...places.map((place) => headCell(m, columns.get(place))),
+          ...places.map((place) => headCell(m, columns.get(place), raw.also.includes(place))),
         ),
       )
       : null,

@@ -47,6 +47,7 @@ export function conditionsOf(experiment) {
     ["load_mass", si("load", "kg")],
     ["load_force", si("load", "N")],
     ["supply_pressure", si("supply", "Pa")],
+    ["valve", text("valve")],
   ];
   return Object.fromEntries(all.flatMap(([key, value]) => value == null ? [] : [[key, value]]));
 }
