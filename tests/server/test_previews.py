@@ -119,7 +119,7 @@ def test_only_a_channel_with_a_unit_has_an_origin_of_it(client: TestClient) -> N
 
 def test_columns_that_come_again_beside_the_first_ones_are_marked(client: TestClient) -> None:
     lines = [
-        "s [mm];F 2 bar [N];s [mm];F 4 bar [N]",
+        "s 2 bar [mm];F 2 bar [N];s 4 bar [mm];F 4 bar [N]",
         *[f"{n};{400 - 4 * n};{n};{800 - 4 * n}" for n in range(40)],
     ]
     body = preview(client, text(lines), "a.csv")

@@ -47,7 +47,7 @@ export function openImport(start) {
       ),
     ]);
     const title = many ? `How ${files.length} files are read` : `How ${files[0].name} is read`;
-    const dialog = openDialog({ title, wide: true }, body);
+    const dialog = openDialog({ title, wide: true, outside: false }, body);
     dialog.classList.add("import");
     dialog.append(foot);
     const forget = apart(() => keepFocus(dialog, model));
@@ -119,7 +119,7 @@ const tablePart = (m) =>
     () => keptNote(m),
     () => fileChoice(m),
     () => tableTabs(m),
-    h("div", { "aria-live": "polite" }, () => problemNote(m), () => questionList(m)),
+    h("div", { class: "asks", "aria-live": "polite" }, () => problemNote(m), () => questionList(m)),
     () => rawTable(m),
     () => rowCounts(m),
     h("div", { class: "countings" }, () => countingRows(m)),

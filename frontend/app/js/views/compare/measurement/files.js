@@ -101,6 +101,20 @@ async function send({ file, mapping, experiment, kept }) {
   }
 }
 
+const SAME_LENGTH = 1e-3;
+
+/** The muscle without a rest length, where the specimens of the files have different ones: each has its own.
+ * @param {Compare["muscle"]} muscle @param {import("../../../types.js").Chosen[]} list */
+function withOneLength(muscle, list) {
+  const lengths = list.flatMap(({ id, experiment }) => {
+    const conditions = { ...infos.peek().get(id)?.conditions, ...conditionsOf(experiment ?? {}) };
+    return typeof conditions.nominal_length === "number" ? [conditions.nominal_length] : [];
+  });
+  if (!lengths.length || Math.max(...lengths) < Math.min(...lengths) * (1 + SAME_LENGTH)) return muscle;
+  const { nominal_length: _, ...values } = muscle.values;
+  return { ...muscle, values };
+}
+
 /** @param {Compare} c @param {Kept} kept @param {string | null} instead the id of the file it replaces
  * @returns {Compare} */
 function withFile(c, { info, experiment }, instead) {
@@ -116,7 +130,7 @@ function withFile(c, { info, experiment }, instead) {
   // A file of the user replaces an example.
   const kept = c.files.filter((f) => SHA256.test(f.id) && f.id !== info.id);
   const files = [...kept, added].slice(0, MOST_FILES);
-  if (kept.length) return { ...c, files };
+  if (kept.length) return { ...c, files, muscle: withOneLength(c.muscle, files) };
   const drive = needsDrive(info) ? driveFor(doc.peek().transient.drive, conditions) : null;
   return { ...withStartModel(c), files, muscle, drive, mystery: null, guided: false };
 }
