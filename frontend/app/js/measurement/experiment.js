@@ -55,7 +55,7 @@ function fieldRow(m, f) {
       "label",
       { for: id, title: f.why },
       f.title,
-      f.required ? h("span", { class: "must", title: "This kind of test needs it" }, " *") : null,
+      f.required ? h("span", { class: "must", "aria-hidden": "true" }, " *") : null,
     ),
     h(
       "span",
