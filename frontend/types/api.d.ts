@@ -13,6 +13,9 @@ export interface paths {
   "/api/effects": {
     get: operations["list_effects"];
   };
+  "/api/experiments": {
+    post: operations["describe_experiments"];
+  };
   "/api/health": {
     get: operations["read_health"];
   };
@@ -59,6 +62,21 @@ export interface paths {
 
 export interface components {
   schemas: {
+    /** What the accuracy of the measurement took up instead of the model: an error of a clamp or a sensor. */
+    Absorbed: {
+      channel: string;
+      /** What it belongs to. */
+      of: string;
+      /** Estimated error of the reading, SI. */
+      value: number;
+      /** Its standard error, SI. */
+      stderr: number;
+      /** Stated or assumed standard deviation, SI. */
+      accuracy: number;
+      unit: string;
+      /** What it changes of the predicted channel, SI. */
+      rms: number;
+    };
     /** The start model as given. */
     Baseline: {
       rmse: number;
@@ -187,6 +205,16 @@ export interface components {
       /** Effects and values in the form of a request. */
       model: { [key: string]: { [key: string]: { [key: string]: number | string } } };
       flags: components["schemas"]["Flag"][];
+      /** RMSE of what the accuracy of the readings does not explain; a diagnosis counts with it. */
+      rmse_beyond_accuracy: number | null;
+      /** Values of the experiment in which all measurements agree, each with its origin. */
+      experiment: { [key: string]: components["schemas"]["ExperimentValue"] };
+      /** What nobody said and was assumed; the messages begin with it too. */
+      assumptions: string[];
+      /** Each measurement, with its own experiment. */
+      specimens: components["schemas"]["Specimen"][];
+      /** Errors of readings within the accuracy, which a fit allows for. */
+      absorbed: components["schemas"]["Absorbed"][];
     };
     /** A model, the measurements to compare it with, and whether to fit it. */
     ComparisonRequest: {
@@ -517,6 +545,14 @@ export interface components {
       /** Effects of the catalogue that were not tried, with the reason. */
       not_tried: components["schemas"]["NotTried"][];
       messages: string[];
+      /** Values of the experiment in which all measurements agree, each with its origin. */
+      experiment: { [key: string]: components["schemas"]["ExperimentValue"] };
+      /** What nobody said and was assumed; the messages begin with it too. */
+      assumptions: string[];
+      /** Each measurement, with its own experiment. */
+      specimens: components["schemas"]["Specimen"][];
+      /** Errors of readings within the accuracy, which a fit allows for. */
+      absorbed: components["schemas"]["Absorbed"][];
     };
     /** The start model and the measurements to explain. */
     DiagnosisRequest: {
@@ -772,6 +808,52 @@ export interface components {
       /** Expected difference, in standard deviations of one reading. */
       separation: number;
     };
+    /** What is said about the experiment of each measurement, and what is open. */
+    ExperimentAnswer: {
+      measurements: components["schemas"]["StatedExperiment"][];
+      /** What a diagnosis would assume, in the words with which it begins. */
+      assumptions: string[];
+      /** A conflict, or a missing value without which the diagnosis is refused. */
+      problem: components["schemas"]["ErrorDetail"] | null;
+    };
+    /** A field of the experiment, for a form. */
+    ExperimentField: {
+      /** Name: the key of 'experiment' in a request. 'accuracy_length' and the like are parts of its 'accuracy'. */
+      field: string;
+      /** In words. */
+      title: string;
+      /** In SI, or a text; null = nobody said it. */
+      value: number | string | null;
+      /** SI unit; "" of a text. */
+      unit: string;
+      /** Units for a form. */
+      units: string[];
+      /** Who says it; null with value. */
+      origin: "file" | "you" | "preset" | "suggested" | "assumed" | null;
+      /** Place in the file, or the preset. */
+      where: string;
+      /** This kind of test needs it. */
+      required: boolean;
+      /** Required, and neither the file nor the user says it: ask before the first diagnosis. With origin 'assumed' a diagnosis goes on with the value; with value null it does not. */
+      unanswered: boolean;
+      /** The question of the field. */
+      question: string;
+      /** What it is needed for. */
+      why: string;
+      /** A value that the data suggest, SI; never used unasked. */
+      proposed: number | string | null;
+      /** Smallest allowed value, SI. */
+      least: number | null;
+      /** Largest allowed value, SI. */
+      most: number | null;
+      /** Allowed texts, or proposals of texts; empty = any. */
+      choices: string[];
+      /** Only the choices are allowed. */
+      closed: boolean;
+      example: string;
+      /** What says it on the command line. */
+      option: string;
+    };
     /** What the user says about the experiment behind one measurement; it takes precedence over the file. */
     ExperimentInput: {
       /** Id of the preset of this specimen. Default: the file's, else that of the request. */
@@ -834,6 +916,17 @@ export interface components {
         value: string;
         origin?: "you" | "suggested" | "preset";
       } | null;
+    };
+    /** One value of the experiment, and who says it. */
+    ExperimentValue: {
+      /** In SI, or a text. */
+      value: number | string;
+      /** SI unit; "" of a text, "1" of a share. */
+      unit: string;
+      /** The file, the user (you), a preset that was chosen, a proposal that the user took over (suggested), or nobody (assumed). */
+      origin: "file" | "you" | "preset" | "suggested" | "assumed";
+      /** Line or cell of the file, option or field, or the preset. */
+      where: string;
     };
     /** A simulated design that fulfils the task; coarse figures, for a plot of the alternatives. */
     ExploredDesign: {
@@ -1551,6 +1644,8 @@ export interface components {
       raw: components["schemas"]["RawTable"] | null;
       /** Channel -> SI values of evenly chosen rows, for a picture, also while questions are open */
       points: { [key: string]: (number | null)[] };
+      /** Every field of the experiment that matters for this kind of test; those 'unanswered' are asked before the first diagnosis. */
+      experiment: components["schemas"]["ExperimentField"][];
     };
     /** One column of the file, used or not. */
     PreviewColumn: {
@@ -2006,6 +2101,17 @@ export interface components {
       /** S read in the source, S2 second-hand, C computed, D derived here, M general knowledge and E estimate (both unverified), user. */
       grade: string;
     };
+    /** One measurement of several. */
+    Specimen: {
+      /** Name of the file or preset. */
+      file: string;
+      rows_used: number;
+      /** Error of the model on it; of the best model in a diagnosis. */
+      rmse: number | null;
+      /** The same with whole groups left out of the fit. */
+      holdout_rmse: number | null;
+      experiment: { [key: string]: components["schemas"]["ExperimentValue"] };
+    };
     /** Where the load is at t = 0. */
     StartInput: {
       /** Position of the load, positive = muscle shorter; released there at t = 0. Default: where it rests at the start pressure; on the lower end stop where it would rest anywhere. [m] */
@@ -2029,6 +2135,15 @@ export interface components {
       origin: string;
       /** Line or cell of the file; empty for the user's own. */
       where: string;
+    };
+    /** The experiment of one measurement of a request. */
+    StatedExperiment: {
+      /** Id as in the request. */
+      id: string;
+      /** Name of the file or preset. */
+      name: string;
+      kind: string;
+      experiment: components["schemas"]["ExperimentField"][];
     };
     /** End stops as contraction ratios; below 0 the muscle may be stretched. */
     StopsInput: {
@@ -2356,6 +2471,20 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
+  /** The experiment of each measurement of a diagnosis, before it is asked for. */
+  describe_experiments: {
+    requestBody: { content: { "application/json": components["schemas"]["DiagnosisRequest"] } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["ExperimentAnswer"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
   /** The missing effects with reasons, twins, path and verdict; closing the connection ends the search. */
   diagnose_model: {
     requestBody: { content: { "application/json": components["schemas"]["DiagnosisRequest"] } };
@@ -2399,10 +2528,10 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
-  /** How a file would be read: columns, units, rows, kind, conditions. Nothing is stored. */
+  /** How a file would be read: columns, units, rows, kind, experiment. Nothing is stored. */
   preview_measurement: {
     parameters: {
-      query: { name: string; mapping?: string | null };
+      query: { name: string; mapping?: string | null; muscle?: string | null };
     };
     requestBody: { content: { "application/csv": Blob | ArrayBuffer | string; "application/octet-stream": Blob | ArrayBuffer | string; "application/vnd.ms-excel": Blob | ArrayBuffer | string; "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet": Blob | ArrayBuffer | string; "application/x-matlab-data": Blob | ArrayBuffer | string; "text/csv": Blob | ArrayBuffer | string; "text/plain": Blob | ArrayBuffer | string; "text/tab-separated-values": Blob | ArrayBuffer | string } };
     responses: {

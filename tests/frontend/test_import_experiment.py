@@ -16,30 +16,76 @@ from tests.frontend.importing import panel, plain
 from tests.frontend.views import open_compare
 
 NOTHING: dict[str, Any] = {
-    "value": None, "unit": "", "units": [], "origin": None, "where": "", "required": False, "unanswered": False,
-    "question": "What is it?", "why": "it matters", "proposed": None, "least": None, "most": None, "choices": [],
-    "closed": False, "example": "", "option": "",
-}  # fmt: skip
+    "value": None,
+    "unit": "",
+    "units": [],
+    "origin": None,
+    "where": "",
+    "required": False,
+    "unanswered": False,
+    "question": "What is it?",
+    "why": "it matters",
+    "proposed": None,
+    "least": None,
+    "most": None,
+    "choices": [],
+    "closed": False,
+    "example": "",
+    "option": "",
+}
 MUSCLE = {
-    **NOTHING, "field": "muscle", "title": "Muscle", "value": "DMSP-20", "origin": "file", "where": "line 2",
+    **NOTHING,
+    "field": "muscle",
+    "title": "Muscle",
+    "value": "DMSP-20",
+    "origin": "file",
+    "where": "line 2",
     "required": True,
-}  # fmt: skip
+}
 LENGTH = {
-    **NOTHING, "field": "rest_length", "title": "Rest length", "unit": "m", "units": ["mm", "m"], "value": 0.3,
-    "origin": "assumed", "where": "the preset DMSP-20", "required": True, "unanswered": True, "least": 1e-3,
-    "most": 50.0, "proposed": 0.2512, "example": "300 mm", "question": "How long is the muscle?",
-}  # fmt: skip
+    **NOTHING,
+    "field": "rest_length",
+    "title": "Rest length",
+    "unit": "m",
+    "units": ["mm", "m"],
+    "value": 0.3,
+    "origin": "assumed",
+    "where": "the preset DMSP-20",
+    "required": True,
+    "unanswered": True,
+    "least": 1e-3,
+    "most": 50.0,
+    "proposed": 0.2512,
+    "example": "300 mm",
+    "question": "How long is the muscle?",
+}
 LOAD = {
-    **NOTHING, "field": "load", "title": "Load", "unit": "kg", "units": ["kg", "N"], "required": True,
-    "unanswered": True, "example": "6 kg",
-}  # fmt: skip
+    **NOTHING,
+    "field": "load",
+    "title": "Load",
+    "unit": "kg",
+    "units": ["kg", "N"],
+    "required": True,
+    "unanswered": True,
+    "example": "6 kg",
+}
 FIXED = {
-    **NOTHING, "field": "fixed_end", "title": "Fixed end", "choices": ["upper", "lower", "both"], "closed": True,
-}  # fmt: skip
+    **NOTHING,
+    "field": "fixed_end",
+    "title": "Fixed end",
+    "choices": ["upper", "lower", "both"],
+    "closed": True,
+}
 ACCURACY = {
-    **NOTHING, "field": "accuracy_length", "title": "Accuracy of the length", "unit": "m", "units": ["mm", "%"],
-    "value": 1e-3, "origin": "assumed", "example": "1 mm",
-}  # fmt: skip
+    **NOTHING,
+    "field": "accuracy_length",
+    "title": "Accuracy of the length",
+    "unit": "m",
+    "units": ["mm", "%"],
+    "value": 1e-3,
+    "origin": "assumed",
+    "example": "1 mm",
+}
 
 
 def stand_in(page: Page, *fields: dict[str, Any]) -> list[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,8 +13,15 @@ from mckibben.application.compared_series import (
     ComparedSeries,
     series_of,
 )
+from mckibben.application.experiment_result import (
+    SpecimenResult,
+    absorbed_message,
+    common_experiment,
+    specimen_results,
+)
 from mckibben.application.model_question import EffectDocument, ModelQuestion
 from mckibben.application.muscle_summary import GeometrySummary, Notice, geometry_of, start_notices
+from mckibben.application.specimens import Specimens
 from mckibben.identification.fit.comparison import (
     ChannelMisfit,
     Comparison,
@@ -23,7 +30,8 @@ from mckibben.identification.fit.comparison import (
     compared,
     correlations_of,
 )
-from mckibben.identification.predict import predictor_of
+from mckibben.identification.predict.reading_errors import AbsorbedError
+from mckibben.identification.predict.specimens import own_muscle
 from mckibben.identification.residual.profiles import (
     Profile,
     ResidualLoop,
@@ -35,9 +43,8 @@ from mckibben.identification.residual.profiles import (
     variables_of,
     whiteness,
 )
-from mckibben.measurement.points import Points
+from mckibben.measurement.experiment import Experiment
 
-_OTHER_LENGTH = 0.05  # relative difference above which sample and muscle have different lengths
 _TELLING = 0.05  # share of the error from which a variable is mentioned
 
 Array = NDArray[np.float64]
@@ -83,6 +90,11 @@ class ComparisonResult:
         validation: the error for other data.
         model: effects and values in the form of a request.
         messages, flags: notes on the data; on the muscle.
+        rmse_beyond_accuracy: rmse of what the accuracy of the readings does not explain.
+        experiment: values of the experiment in which all measurements agree.
+        assumptions: what nobody said and was assumed; they also begin the messages.
+        specimens: each measurement.
+        absorbed: errors of readings within the accuracy.
     """
 
     kind: str
@@ -112,6 +124,11 @@ class ComparisonResult:
     model: ModelDocument
     messages: list[str]
     flags: list[Notice]
+    rmse_beyond_accuracy: float
+    experiment: Experiment
+    assumptions: list[str]
+    specimens: list[SpecimenResult]
+    absorbed: list[AbsorbedError]
 
 
 def compare(question: ModelQuestion, *, fit: bool = False) -> ComparisonResult:
@@ -136,7 +153,11 @@ def compare(question: ModelQuestion, *, fit: bool = False) -> ComparisonResult:
     )
     predictor, left_out = comparison.predictor, sum(points.left_out.values())
     series, thinned = series_of(comparison, "fit")
-    messages = [*comparison.messages, *_length_messages(question)]
+    messages = [
+        *question.opening,
+        *comparison.messages,
+        *absorbed_message(comparison.absorbed, predictor.unit),
+    ]
     validation = None
     if question.validation is not None:
         validation, thin = _validation(question, question.validation, comparison)
@@ -144,7 +165,7 @@ def compare(question: ModelQuestion, *, fit: bool = False) -> ComparisonResult:
     if thinned:
         messages.append(f"curves show at most {MAX_POINTS_PER_SERIES} points each; the figures use all rows")
     residual = comparison.residual / predictor.scale
-    variables = variables_of(predictor, comparison.fit_model.muscle.nominal_length)
+    variables = variables_of(predictor, comparison.fit_model)
     where = profiles(residual, variables, predictor.folds[0])
     white = whiteness(residual, predictor.sweeps)
     return ComparisonResult(
@@ -175,6 +196,11 @@ def compare(question: ModelQuestion, *, fit: bool = False) -> ComparisonResult:
         model=ModelDocument(question.effect_document(comparison.fit_model)),
         messages=messages,
         flags=start_notices(start),
+        rmse_beyond_accuracy=comparison.rmse_beyond_accuracy,
+        experiment=common_experiment(question),
+        assumptions=[assumption.message for assumption in question.assumptions],
+        specimens=specimen_results(question, predictor, residual),
+        absorbed=list(comparison.absorbed),
     )
 
 
@@ -201,19 +227,15 @@ def _sentences(where: list[Profile], white: Whiteness, unit: str) -> list[str]:
     return words
 
 
-def _validation(question: ModelQuestion, points: Points, fitted: Comparison) -> tuple[ValidationResult, bool]:
+def _validation(
+    question: ModelQuestion, specimens: Specimens, fitted: Comparison
+) -> tuple[ValidationResult, bool]:
     """The error of the fitted model for validation data, and whether the curves were thinned."""
-    predictor = predictor_of(points.measurement, fitted.fit_model.muscle, question.drive)
-    validation = compared(predictor, fitted.fit_model, rows=points.measurement.rows, noise=question.noise)
+    muscle = fitted.fit_model.muscle
+    own = own_muscle(muscle, reference=specimens.reference, own=specimens.each[0].muscle)
+    predictor = specimens.predictor(muscle if specimens.several else own)[0]
+    model = fitted.fit_model if specimens.several else replace(fitted.fit_model, muscle=own)
+    rows = specimens.points.measurement.rows
+    validation = compared(predictor, model, rows=rows, noise=question.noise)
     series, thinned = series_of(validation, "validation")
     return ValidationResult(validation.rmse, validation.nrmse_percent, predictor.rows_used, series), thinned
-
-
-def _length_messages(question: ModelQuestion) -> list[str]:
-    sample, muscle = question.points.nominal_length, question.start.muscle.nominal_length
-    if sample is None or abs(muscle / sample - 1.0) <= _OTHER_LENGTH:
-        return []
-    return [
-        f"the measured sample is {sample * 1e3:.4g} mm long, the muscle {muscle * 1e3:.4g} mm: "
-        "the measurement may belong to another muscle"
-    ]

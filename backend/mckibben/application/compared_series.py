@@ -49,9 +49,10 @@ class ComparedSeries:
 
 def series_of(comparison: Comparison, use: str) -> tuple[list[ComparedSeries], bool]:
     """One curve per channel and group of rows, thinned for the screen; and whether any was thinned."""
-    predictor, rest = comparison.predictor, comparison.fit_model.muscle.nominal_length
+    predictor = comparison.predictor
     inputs = predictor.inputs
     count = len(predictor.measured)
+    rest = np.broadcast_to(predictor.rest_length(comparison.fit_model), (count,))
     unknown = np.full(count, np.nan)
     length = inputs.get("length", unknown)
     if predictor.predicted == "length":
@@ -81,7 +82,7 @@ def series_of(comparison: Comparison, use: str) -> tuple[list[ComparedSeries], b
                     use=use,
                     pressure=level,
                     time=inputs["time"][rows] if "time" in inputs else None,
-                    contraction=1.0 - length[rows] / rest,
+                    contraction=1.0 - length[rows] / rest[rows],
                     length=length[rows],
                     x_pressure=pressure[rows],
                     velocity=inputs.get("velocity", unknown)[rows],

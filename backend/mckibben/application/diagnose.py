@@ -20,6 +20,7 @@ from mckibben.application.diagnosis_result import (
     TermProposal,
     Verdict,
 )
+from mckibben.application.experiment_result import absorbed_message, common_experiment, specimen_results
 from mckibben.application.model_question import ModelQuestion
 from mckibben.application.muscle_summary import geometry_of
 from mckibben.documents.studio import Studio
@@ -40,10 +41,9 @@ from mckibben.identification.fit.comparison import (
 )
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import CancelledError
-from mckibben.identification.predict import Predictor, predictor_of
+from mckibben.identification.predict import Predictor
 from mckibben.identification.residual.profiles import variables_of
 from mckibben.identification.residual.structure import SYMBOLS
-from mckibben.measurement.reduction import reduced
 from mckibben.physics.custom import CUSTOM, TERM
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
@@ -119,16 +119,15 @@ def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], Diagno
 
 def _data(question: ModelQuestion) -> _Data:
     """The data of a question; long measurements are reduced."""
-    measurement, notes = question.points.measurement, []
-    excluded = dict(question.points.left_out)
-    if measurement.kind != "transient" and measurement.rows > _MOST_ROWS:
-        less = reduced(measurement, _MOST_ROWS)
-        predictor = predictor_of(less.measurement, question.start.muscle, question.drive)
-        excluded |= measurement.exclusions
-        notes.append(less.message)
+    most = None if question.points.measurement.kind == "transient" else _MOST_ROWS
+    total = sum(specimen.points.measurement.rows for specimen in question.specimens.each)
+    excluded, notes = dict(question.points.left_out), []
+    if most is not None and total > most:
+        predictor, notes, reduced_away = question.specimens.predictor(question.start.muscle, most)
+        excluded |= reduced_away
     else:
         predictor = question.predictor
-    rows = measurement.rows + sum(question.points.left_out.values())
+    rows = total + sum(question.points.left_out.values())
     excluded |= predictor.excluded
     if averaged := rows - predictor.rows_used - sum(excluded.values()):
         excluded["averaged into the others"] = averaged
@@ -177,7 +176,17 @@ def _result(
         ),
         freed=sorted(best.freed),
         not_tried=list(diagnosis.not_tried),
-        messages=[*question.points.measurement.messages, *data.notes, *diagnosis.messages],
+        messages=[
+            *question.opening,
+            *question.points.measurement.messages,
+            *data.notes,
+            *diagnosis.messages,
+            *absorbed_message(diagnosis.absorbed, predictor.unit),
+        ],
+        experiment=common_experiment(question),
+        assumptions=[assumption.message for assumption in question.assumptions],
+        specimens=specimen_results(question, predictor, best.residual, best),
+        absorbed=list(diagnosis.absorbed),
     )
 
 
@@ -201,7 +210,9 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
             ExperimentProposal([p.first, p.second], p.declared, p.protocol, p.separation)
             for p in diagnosis.proposals
         ],
-        sentence=sentence_of(diagnosis, titles),
+        sentence=" ".join(
+            [*(assumption.sentence for assumption in question.assumptions), sentence_of(diagnosis, titles)]
+        ),
     )
 
 
@@ -262,7 +273,7 @@ def _term(question: ModelQuestion, diagnosis: Diagnosis) -> TermProposal | None:
     formula, coefficients = term.formula, dict(term.coefficients)
     if CUSTOM in effects:  # a model has only one custom term: the new one is added to it
         formula, coefficients = _joined(effects[CUSTOM], formula, coefficients)
-    variables = variables_of(diagnosis.predictor, diagnosis.best.fit_model.muscle.nominal_length)
+    variables = variables_of(diagnosis.predictor, diagnosis.best.fit_model)
     name = next(
         (n for n, _ in diagnosis.structure.variables if n in SYMBOLS.values()),
         next(n for n in SYMBOLS.values() if n in variables),

@@ -9,12 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.application.compare import ModelDocument
+from mckibben.application.experiment_result import SpecimenResult
 from mckibben.application.model_question import EffectDocument
 from mckibben.application.muscle_summary import GeometrySummary
 from mckibben.identification.diagnose.diagnosis import NotTried
 from mckibben.identification.diagnose.verdict import Status
 from mckibben.identification.fit.comparison import ChannelMisfit, Correlation, ParameterTable, ParameterValue
+from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.identification.residual.profiles import Profile
+from mckibben.measurement.experiment import Experiment
 
 Array = NDArray[np.float64]
 
@@ -158,6 +161,10 @@ class DiagnosisResult:
         parameters, correlations, geometry, model, freed: of the best model.
         not_tried: effects that were not candidates, with the reason.
         messages: notes for the user.
+        experiment: values of the experiment in which all measurements agree.
+        assumptions: what nobody said and was assumed; they also begin messages and verdict.
+        specimens: each measurement, with the error of the best model on it.
+        absorbed: errors of readings within the accuracy.
     """
 
     rows: int
@@ -180,3 +187,7 @@ class DiagnosisResult:
     freed: list[str]
     not_tried: list[NotTried]
     messages: list[str]
+    experiment: Experiment
+    assumptions: list[str]
+    specimens: list[SpecimenResult]
+    absorbed: list[AbsorbedError]

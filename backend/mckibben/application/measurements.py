@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, fields
 
 from numpy.typing import NDArray
 
+from mckibben.application.form_field import FormField
 from mckibben.measurement.measurement import CHANNEL_UNITS, KINDS, Measurement, StatedValue
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.preview import MissingCondition, Preview, PreviewColumn, missing_conditions
@@ -195,6 +196,7 @@ class PreviewResult:
         only_bad_rows: whether the file can be read without the bad rows.
         channel_choices, kind_choices: options for corrections by the user.
         questions, unread, stated: as in a summary, also for a file that cannot be read yet.
+        experiment: fields of the experiment that matter for this kind of test, with values or questions.
         table_choices: names of the sheets, groups or structs that could be meant, where that is open.
         tables: sheets, groups or structs that the user may pick, and whether each is read.
         raw: the first rows as they stand in the file, or None.
@@ -226,6 +228,7 @@ class PreviewResult:
     tables: list[TableOption]
     raw: RawTable | None
     points: dict[str, NDArray]
+    experiment: list[FormField]
 
 
 def summary_of(measurement: Measurement) -> MeasurementSummary:
@@ -302,8 +305,8 @@ def details_of(measurement: Measurement) -> MeasurementDetails:
     return MeasurementDetails(**summary_fields, columns=dict(measurement.columns) | row_columns)
 
 
-def preview_of(preview: Preview) -> PreviewResult:
-    """Preview of a file."""
+def preview_of(preview: Preview, experiment: list[FormField]) -> PreviewResult:
+    """Preview of a file, with its experiment as a form."""
     measurement, problem = preview.measurement, preview.problem
     return PreviewResult(
         name=preview.name,
@@ -336,6 +339,7 @@ def preview_of(preview: Preview) -> PreviewResult:
         tables=[TableOption(name, is_read) for name, is_read in preview.tables],
         raw=_raw(preview),
         points=dict(preview.points),
+        experiment=experiment,
     )
 
 

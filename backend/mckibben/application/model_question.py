@@ -6,9 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from mckibben.application.experiment import Assumption, SaidMeasurement, SaidModel, resolved
+from mckibben.application.specimens import Specimens
 from mckibben.documents.start_model import StartModel, StatedMuscle
 from mckibben.documents.studio import Studio
-from mckibben.identification.predict import Predictor, predictor_of
+from mckibben.identification.predict import Predictor
 from mckibben.identification.predict.fit_model import FitModel, free_geometry
 from mckibben.identification.predict.free import Free
 from mckibben.measurement.points import Points
@@ -25,25 +27,27 @@ class ModelQuestion:
     """A start model and the measurements that it is compared with.
 
     Attributes:
-        start: muscle and effects.
-        points: data for fits.
-        drive: of transient measurements.
+        start: muscle and effects; its length is that of the first measurement.
+        specimens: data for fits, each measurement with its experiment.
         validation: data that models are not fitted to.
         free: geometry fields that fits may change as well, within their tolerance.
         freed: further constants that fits may change, as "effect.parameter".
         noise: standard deviation of the predicted channel, when it is known [SI].
+        assumptions: what nobody said and was assumed.
+        remarks: notes on the experiment for the user.
 
     Raises:
         InputError: a geometry field to be fitted is not stated.
     """
 
     start: StartModel
-    points: Points
-    drive: Drive | None = None
-    validation: Points | None = None
+    specimens: Specimens
+    validation: Specimens | None = None
     free: Sequence[str] = ()
     freed: Sequence[str] = ()
     noise: float | None = None
+    assumptions: tuple[Assumption, ...] = ()
+    remarks: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         for name in self.free:
@@ -54,6 +58,16 @@ class ModelQuestion:
                     hint=f"state {name}, or remove it from 'free'",
                 )
 
+    @property
+    def points(self) -> Points:
+        """All measurements for fits as one."""
+        return self.specimens.points
+
+    @property
+    def drive(self) -> Drive | None:
+        """Drive of the first measurement, if it is transient."""
+        return self.specimens.each[0].drive
+
     @cached_property
     def predictor(self) -> Predictor:
         """The data to fit to, read once for comparison, diagnosis and report.
@@ -61,7 +75,12 @@ class ModelQuestion:
         Raises:
             InputError: the measurement does not allow it.
         """
-        return predictor_of(self.points.measurement, self.start.muscle, self.drive)
+        return self.specimens.predictor(self.start.muscle)[0]
+
+    @property
+    def opening(self) -> list[str]:
+        """How every answer begins: what was assumed, and remarks on the experiment."""
+        return [*(assumption.message for assumption in self.assumptions), *self.remarks]
 
     @property
     def tolerance(self) -> Mapping[str, float]:
@@ -96,7 +115,7 @@ class ModelQuestion:
         """
         mine, theirs = self.start.muscle, other.start.muscle
         if (
-            self.points is other.points
+            self.specimens is other.specimens
             and mine[:3] == theirs[:3]
             and (self.drive is None) == (other.drive is None)
         ):
@@ -105,21 +124,30 @@ class ModelQuestion:
 
 
 def question_of(
-    start: StartModel,
+    model: SaidModel,
+    measurements: Sequence[SaidMeasurement],
     studio: Studio,
-    points: Points,
     *,
-    drive: Drive | None = None,
-    validation: Points | None = None,
     free: Sequence[str] = (),
     freed: Sequence[str] = (),
     noise: float | None = None,
+    strict: bool = False,
 ) -> ModelQuestion:
     """A checked question.
 
+    Args:
+        model: muscle, effects and drive, as they were stated.
+        measurements: the data, with what was stated about each.
+        studio: presets and effects.
+        free, freed, noise: see `ModelQuestion`.
+        strict: refuse instead of assuming.
+
     Raises:
-        InputError: a value out of bounds, an impossible geometry, or an unknown constant.
+        InputError: a value out of bounds, an impossible geometry, an unknown constant, two statements that
+            contradict each other, or a value that nobody stated and that cannot be assumed.
     """
+    found = resolved(model, measurements, studio, strict=strict)
+    start = found.start
     studio.static_model(start)
     known = {f"{effect.id}.{p.name}" for effect in start.catalogue.values() for p in effect.parameters}
     for place, name in enumerate(freed):
@@ -128,7 +156,9 @@ def question_of(
             raise InputError(
                 f"there is no constant '{name}'", field=f"freed.{place}", hint=did_you_mean(name, similar)
             )
-    return ModelQuestion(start, points, drive, validation, free, freed, noise)
+    return ModelQuestion(
+        start, found.specimens, found.validation, free, freed, noise, found.assumptions, found.remarks
+    )
 
 
 def with_model(
@@ -145,6 +175,6 @@ def with_model(
         InputError: a geometry, effect or value that cannot be used.
     """
     start = replace(studio.start_model(muscle, effects), preset=question.start.preset)
-    drive = None if question.drive is None else replace(question.drive, model=studio.static_model(start))
-    other = replace(question, start=start, drive=drive, free=(), freed=freed)
+    studio.static_model(start)
+    other = replace(question, start=start, free=(), freed=freed)
     return other.with_data_of(question)

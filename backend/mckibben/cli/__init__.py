@@ -28,7 +28,9 @@ from mckibben.cli.options import (
     located,
 )
 from mckibben.cli.reading import (
+    Accuracy,
     Columns,
+    Experiment,
     Head,
     Ignored,
     Load,
@@ -37,6 +39,7 @@ from mckibben.cli.reading import (
     Strict,
     Supply,
     correction_of,
+    said_of,
 )
 from mckibben.physics.errors import InputError
 
@@ -138,6 +141,8 @@ def compare(
     rest_length: RestLength = None,
     load: Load = None,
     supply: Supply = None,
+    accuracy: Accuracy = None,
+    experiment: Experiment = None,
     strict: Strict = False,
     as_json: AsJson = False,
     presets: PresetsFolder = None,
@@ -163,6 +168,9 @@ def compare(
             load=load,
             supply=supply,
             strict=strict,
+        ),
+        said=said_of(
+            rest_length=rest_length, load=load, supply=supply, accuracy=accuracy, experiment=experiment
         ),
         as_json=as_json,
     )
@@ -192,6 +200,8 @@ def diagnose(
     rest_length: RestLength = None,
     load: Load = None,
     supply: Supply = None,
+    accuracy: Accuracy = None,
+    experiment: Experiment = None,
     strict: Strict = False,
     as_json: AsJson = False,
     presets: PresetsFolder = None,
@@ -217,6 +227,9 @@ def diagnose(
             load=load,
             supply=supply,
             strict=strict,
+        ),
+        said=said_of(
+            rest_length=rest_length, load=load, supply=supply, accuracy=accuracy, experiment=experiment
         ),
         as_json=as_json,
         report=report,

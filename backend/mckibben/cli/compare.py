@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from mckibben.application.compare import ComparisonResult, compare
-from mckibben.cli.data import points_of
-from mckibben.cli.options import ModelOptions, model_question
+from mckibben.cli.data import measurements_of
+from mckibben.cli.model import model_question
+from mckibben.cli.options import ModelOptions
 from mckibben.cli.output import (
     error_unit,
     figure,
@@ -17,6 +18,7 @@ from mckibben.cli.output import (
     write_table,
 )
 from mckibben.documents.studio import Studio
+from mckibben.measurement.experiment import ExperimentValue
 from mckibben.measurement.read import Correction
 
 
@@ -28,6 +30,7 @@ def run(
     fit: bool,
     free: Sequence[str],
     correction: Correction,
+    said: Mapping[str, ExperimentValue],
     as_json: bool,
 ) -> None:
     """Print the comparison.
@@ -35,8 +38,8 @@ def run(
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
-    points = points_of(files, studio, correction)
-    question = model_question(studio, points, model, free=free)
+    measurements = measurements_of(files, studio, correction, said)
+    question = model_question(studio, measurements, model, free=free, strict=correction.strict)
     result = compare(question, fit=fit)
     if as_json:
         write_json(result)

@@ -1,29 +1,163 @@
-"""Measurements named on the command line."""
+"""Measurements named on the command line, each with what is said about its experiment."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
+from mckibben.application.experiment import SaidMeasurement
+from mckibben.documents.experiment import ExperimentInput, stated_experiment
 from mckibben.documents.studio import Studio
+from mckibben.measurement.experiment import FIELDS, ExperimentValue
 from mckibben.measurement.measurement import Measurement
-from mckibben.measurement.points import Points, find_preset, joined
-from mckibben.measurement.read import Correction, read_measurement
+from mckibben.measurement.points import Points, find_preset
+from mckibben.measurement.read import Correction, read_measurement, spoken_correction
 from mckibben.physics.errors import InputError, did_you_mean
 
 _MAX_BYTES = 200_000_000
+_READING = ("sheet", "head", "column", "ignore")  # of an entry: how its file is read
+_LIST_EXAMPLE = '[{"file": "a.csv", "rest_length": "250 mm", "load": "3 kg"}]'
 
 
-def points_of(files: Sequence[str], studio: Studio, correction: Correction | None = None) -> Points:
-    """Files, or presets where there is no such file, as one measurement.
+def measurements_of(
+    files: Sequence[str],
+    studio: Studio,
+    correction: Correction | None = None,
+    said: Mapping[str, ExperimentValue] | None = None,
+) -> list[SaidMeasurement]:
+    """Files, presets where there is no such file, and lists of files in JSON.
 
-    The correction says how the files are to be read; it is for files, not for presets.
+    Args:
+        files: names.
+        studio: for presets.
+        correction: how the files are to be read; it is for files, not for presets.
+        said: about the experiment of all of them.
 
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
-    correction = correction or Correction()
-    return joined([_read(name, studio, correction) for name in files])
+    found = []
+    for name in files:
+        for entry in _entries(name):
+            reading = correction or Correction()
+            own = dict(said or {})
+            if len(entry) > 1:
+                reading = _read_as(entry, name, reading)
+                own |= _said_in(entry, name)
+            found.append(SaidMeasurement(_read(str(entry["file"]), studio, reading), own))
+    return found
+
+
+def _entries(name: str) -> list[dict[str, Any]]:
+    """The files of a list in JSON with what it says about each; a single file otherwise.
+
+    Raises:
+        InputError: the list cannot be used.
+    """
+    from mckibben.presets.reading import BadDocumentError, read_file
+
+    if not name.lower().endswith(".json") or not _exists(name):
+        return [{"file": name}]
+    try:
+        document = read_file(Path(name), follow_links=True)
+    except BadDocumentError as bad:
+        raise InputError(f"{name}: {bad.findings[0].message}", hint=bad.findings[0].hint) from bad
+    if not isinstance(document, list) or not document:
+        raise InputError(f"{name}: is no list of measurements", hint=_LIST_EXAMPLE)
+    entries = []
+    known = ("file", *_READING, *ExperimentInput.model_fields)
+    for place, entry in enumerate(document):
+        if not isinstance(entry, dict) or not isinstance(entry.get("file"), str):
+            raise InputError(f"{name}: entry {place + 1} names no file", hint=_LIST_EXAMPLE)
+        for key in entry:
+            if key not in known:
+                raise InputError(
+                    f"{name}: entry {place + 1}: {key} is not known", hint=did_you_mean(str(key), known)
+                )
+        beside = Path(name).parent / entry["file"]
+        entries.append({**entry, "file": str(beside) if beside.exists() else entry["file"]})
+    return entries
+
+
+def _read_as(entry: Mapping[str, Any], source: str, correction: Correction) -> Correction:
+    """How the file of an entry is to be read: as the options say, with the entry's own words over them."""
+    words = {name: entry[name] for name in _READING if name in entry}
+    load = entry.get("load")
+    if isinstance(load, Mapping):
+        load = load.get("value")
+    if not words and load is None:
+        return correction
+    many = {"column", "ignore"} & words.keys()
+    for name in many:
+        if not isinstance(words[name], list):
+            words[name] = [words[name]]
+    spoken = spoken_correction(
+        sheet=words.get("sheet"),
+        head=words.get("head"),
+        columns=words.get("column", ()),
+        ignore=words.get("ignore", ()),
+        load=load,  # decides the kind of a recording
+        prefix=f"{source}: ",
+    )
+    return Correction(
+        columns={**correction.columns, **spoken.columns},
+        kind=correction.kind,
+        conditions={**correction.conditions, **spoken.conditions},
+        skip_bad_rows=correction.skip_bad_rows,
+        sheet=spoken.sheet or correction.sheet,
+        head=spoken.head or correction.head,
+        strict=correction.strict,
+    )
+
+
+def _said_in(entry: Mapping[str, Any], source: str) -> dict[str, ExperimentValue]:
+    given = {key: value for key, value in entry.items() if key not in ("file", *_READING)}
+    return said_values(given, source)
+
+
+def said_values(given: Mapping[str, Any], source: str) -> dict[str, ExperimentValue]:
+    """The values of an experiment from JSON or options.
+
+    Args:
+        given: field -> value.
+        source: a file, or "--" for options, for messages and as the place of the values.
+
+    Raises:
+        InputError: a value that cannot be used, naming field or option.
+    """
+    from pydantic import ValidationError
+
+    from mckibben.documents.problems import first_problem
+
+    try:
+        read = ExperimentInput.model_validate(dict(given))
+    except ValidationError as error:
+        problem = first_problem(error.errors(), ExperimentInput, dict(given), "the experiment")
+        name = str(problem.field or "").partition(".")[0]
+        place = option_of(name) if source == "--" else f"{source}: {name}"
+        raise InputError(f"{place}: {problem.message}", hint=problem.hint) from error
+    except InputError as error:
+        raise InputError(f"{source}: {error.message}", hint=error.hint) from error
+    try:
+        found = stated_experiment(read, source)
+    except InputError as error:
+        place = "--accuracy" if source == "--" else f"{source}: accuracy"
+        raise InputError(f"{place}: {error.message}", hint=error.hint) from error
+    if source != "--":
+        return found
+    return {
+        name: ExperimentValue(value.value, value.unit, value.origin, option_of(name))
+        for name, value in found.items()
+    }
+
+
+def option_of(name: str) -> str:
+    """The option that says a field of the experiment."""
+    if name not in FIELDS:
+        return "--accuracy" if name == "accuracy" else f"--experiment {name}"
+    option = FIELDS[name].option.partition(" ")[0]
+    return f"--experiment {name}" if option == "--experiment" else option
 
 
 def _read(name: str, studio: Studio, correction: Correction) -> Points:
@@ -31,14 +165,13 @@ def _read(name: str, studio: Studio, correction: Correction) -> Points:
     if not _exists(name):
         preset = find_preset(name, studio.library)
         if preset is not None:
-            if correction != Correction():
+            if correction.columns or correction.sheet or correction.head:
                 raise InputError(
                     f"{name}: a preset states how it is read", hint="leave --column, --sheet and the like out"
                 )
             return preset
     measurement = read_file(name, correction)
-    rest = measurement.conditions.get("nominal_length")
-    return Points(measurement, nominal_length=rest if isinstance(rest, float) else None)
+    return Points(measurement)
 
 
 def _exists(name: str) -> bool:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from mckibben.application.diagnose import prepare
 from mckibben.application.diagnosis_result import DiagnosisResult
-from mckibben.cli.data import points_of
-from mckibben.cli.options import ModelOptions, model_question
+from mckibben.cli.data import measurements_of
+from mckibben.cli.model import model_question
+from mckibben.cli.options import ModelOptions
 from mckibben.cli.output import (
     error_unit,
     figure,
@@ -20,6 +21,7 @@ from mckibben.cli.output import (
     write_table,
 )
 from mckibben.documents.studio import Studio
+from mckibben.measurement.experiment import ExperimentValue
 from mckibben.measurement.read import Correction
 
 _SHOWN = 8  # most candidates listed
@@ -33,6 +35,7 @@ def run(
     free: Sequence[str],
     noise: float | None,
     correction: Correction,
+    said: Mapping[str, ExperimentValue],
     as_json: bool,
     report: Path | None = None,
 ) -> None:
@@ -41,8 +44,8 @@ def run(
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
-    points = points_of(files, studio, correction)
-    question = model_question(studio, points, model, free=free, noise=noise)
+    measurements = measurements_of(files, studio, correction, said)
+    question = model_question(studio, measurements, model, free=free, noise=noise, strict=correction.strict)
     work = prepare(question, studio)
     with progress("trying effects") as watch:
         result = work(watch)

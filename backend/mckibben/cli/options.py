@@ -11,14 +11,12 @@ from typing import TYPE_CHECKING, Annotated, cast
 
 import typer
 
+from mckibben.cli.drive_file import drive_document
 from mckibben.physics.errors import InputError, did_you_mean
 
 if TYPE_CHECKING:
-    from mckibben.application.model_question import ModelQuestion
     from mckibben.documents.start_model import StartModel
     from mckibben.documents.studio import Studio
-    from mckibben.measurement.points import Points
-    from mckibben.simulation.drive.parts import Drive
 
 MuscleText = Annotated[
     str,
@@ -131,7 +129,7 @@ def start_model(
             raise InputError(
                 f"--effect {effect}: there is no such effect", hint=did_you_mean(effect, studio.catalogue)
             )
-    document = _drive_document(options.drive) if options.drive else {}
+    document = drive_document(options.drive) if options.drive else {}
     chosen: Effects | None = {} if options.ideal else {effect: {} for effect in options.effects} or None
     if chosen is None and "effects" in document:
         chosen = cast(Effects, document["effects"])
@@ -141,7 +139,7 @@ def start_model(
     name, separator, length = muscle.partition(":")
     if not name:
         raise InputError("--muscle is missing", hint="e.g. --muscle DMSP-20:300mm")
-    if _is_file(muscle, studio):
+    if is_file(muscle, studio):
         return _start_of_file(studio, Path(muscle), chosen, rest_length)
     document: dict[str, object] = {"preset": name}
     if separator:
@@ -156,75 +154,7 @@ def _with_length(document: object, rest_length: float | None) -> object:
     return {**document, "nominal_length": rest_length}
 
 
-def model_question(
-    studio: Studio,
-    points: Points,
-    options: ModelOptions,
-    *,
-    free: Sequence[str],
-    noise: float | None = None,
-) -> ModelQuestion:
-    """The question of ``compare`` and ``diagnose``, from their options and measurements.
-
-    For transient measurements, a drive document with a valve supplies the drive.
-
-    Raises:
-        InputError: names the file or option, what is wrong and what would be right.
-    """
-    from mckibben.application.model_question import question_of
-    from mckibben.physics.muscle import GEOMETRY
-
-    for name in free:
-        if name not in GEOMETRY:
-            raise InputError(f"--free {name}: there is no such geometry", hint=did_you_mean(name, GEOMETRY))
-    measurement = points.measurement
-    named = str(measurement.conditions.get("muscle", ""))
-    start = start_model(studio, options, named=named, rest_length=points.nominal_length)
-    drive = None
-    if options.drive and measurement.kind == "transient":
-        drive = _drive_of(studio, options.drive, start)
-    return question_of(start, studio, points, drive=drive, free=tuple(free), noise=noise)
-
-
-def _drive_of(studio: Studio, path: str, start: StartModel) -> Drive | None:
-    """The drive of a document that has a valve, with the muscle and effects of the start model."""
-    from dataclasses import replace
-
-    from mckibben.documents.drive_files import read_document
-    from mckibben.documents.drive_reading import drive_of
-
-    document = _drive_document(path)
-    if "valve" not in document:
-        return None
-    try:
-        checked = read_document({**document, "effects": {}}, path)
-        stated_drive = drive_of(checked, studio, measured=True).drive
-    except InputError as error:
-        raise _at(path, error.field, error.message, error.hint) from error
-    return replace(stated_drive, model=studio.static_model(start))
-
-
-def _drive_document(path: str) -> dict[str, object]:
-    """The parts of a drive document; a document of a model alone has only ``effects`` (and ``muscle``)."""
-    from mckibben.documents.drive import DriveDocument
-    from mckibben.presets.reading import BadDocumentError, read_file
-
-    try:
-        document = read_file(Path(path), follow_links=True)
-    except BadDocumentError as bad:
-        raise InputError(f"{path}: {bad.findings[0].message}", hint=bad.findings[0].hint) from bad
-    if not isinstance(document, dict):
-        raise InputError(f"{path}: a drive document is an object", hint='{"muscle": {...}, "effects": {...}}')
-    known = {field.alias or name for name, field in DriveDocument.model_fields.items()}
-    for key in document:
-        if key not in known:
-            raise InputError(f"{path}: {key} is not a known field", hint=did_you_mean(key, known))
-    if not isinstance(document.get("effects", {}), dict):
-        raise InputError(f"{path}: effects must be an object", hint='{"<effect id>": {}}')
-    return document
-
-
-def _is_file(muscle: str, studio: Studio) -> bool:
+def is_file(muscle: str, studio: Studio) -> bool:
     """Whether it names a JSON file; a preset id with a slash, or a file named like a preset, does not."""
     if muscle.lower().endswith(".json"):
         return True
@@ -255,7 +185,7 @@ def _start_of_file(
     try:
         return _usable(studio, start_model(StatedMuscle(), effects, preset=facts, catalogue=studio.catalogue))
     except InputError as error:
-        raise _at(str(path), error.field, error.message, error.hint) from error
+        raise at_file(str(path), error.field, error.message, error.hint) from error
 
 
 def _usable(studio: Studio, start: StartModel) -> StartModel:
@@ -276,12 +206,15 @@ def _start_of_input(studio: Studio, document: object, effects: Effects | None, s
         return _usable(studio, studio.start_model(muscle, effects))
     except ValidationError as error:
         problem = first_problem(error.errors(), MuscleInput, document, "the muscle")
-        raise _at(source, problem.field, problem.message, problem.hint) from error
+        raise at_file(source, problem.field, problem.message, problem.hint) from error
     except InputError as error:
-        raise _at(source, (error.field or "").removeprefix("muscle."), error.message, error.hint) from error
+        raise at_file(
+            source, (error.field or "").removeprefix("muscle."), error.message, error.hint
+        ) from error
 
 
-def _at(source: str, field: str | None, message: str, hint: str | None) -> InputError:
+def at_file(source: str, field: str | None, message: str, hint: str | None) -> InputError:
+    """The error with the name of the file in front."""
     return InputError(f"{source}: {located(field, message).removesuffix('.')}", hint=hint)
 
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from mckibben.physics.errors import InputError, did_you_mean
+
 if TYPE_CHECKING:
+    from mckibben.measurement.experiment import ExperimentValue
     from mckibben.measurement.read import Correction
 
 Sheet = Annotated[
@@ -34,6 +37,20 @@ RestLength = Annotated[
 ]
 Load = Annotated[str | None, typer.Option("--load", help='Mass or force on the muscle, e.g. "6 kg".')]
 Supply = Annotated[str | None, typer.Option("--supply", help='Supply pressure, gauge, e.g. "6 bar".')]
+Accuracy = Annotated[
+    str | None,
+    typer.Option(
+        "--accuracy", help='Standard deviation by channel, e.g. "length 1 mm, force 0.5 %", or a sensor.'
+    ),
+]
+Experiment = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--experiment",
+        metavar="FIELD=VALUE",
+        help='More about the test, e.g. "force_zero=2.5 N" or "inclination=45 deg"; repeatable.',
+    ),
+]
 Strict = Annotated[
     bool, typer.Option("--strict", help="Refuse a file instead of assuming what it does not say.")
 ]
@@ -67,3 +84,37 @@ def correction_of(
         supply=supply,
         strict=strict,
     )
+
+
+def said_of(
+    *,
+    rest_length: str | None,
+    load: str | None,
+    supply: str | None,
+    accuracy: str | None,
+    experiment: Sequence[str] | None,
+) -> Mapping[str, ExperimentValue]:
+    """What these options say about the experiment of all measurements.
+
+    Raises:
+        InputError: names the option, what is wrong and what would be right.
+    """
+    from mckibben.cli.data import said_values
+    from mckibben.documents.experiment import ExperimentInput
+
+    given: dict[str, str] = {}
+    for text in experiment or ():
+        name, separator, value = (part.strip() for part in text.partition("="))
+        if not separator or not value:
+            raise InputError(
+                f"--experiment {text!r}: is not 'field=value'", hint='e.g. --experiment "force_zero=2.5 N"'
+            )
+        if name not in ExperimentInput.model_fields:
+            raise InputError(
+                f"--experiment {text!r}: there is no field '{name}'",
+                hint=did_you_mean(name, ExperimentInput.model_fields),
+            )
+        given[name] = value
+    options = {"rest_length": rest_length, "load": load, "supply": supply, "accuracy": accuracy}
+    given |= {name: value for name, value in options.items() if value is not None}
+    return said_values(given, "--")

@@ -18,6 +18,7 @@ from pydantic_core import CoreSchema, core_schema
 
 from mckibben.documents.quantity import QuantityField
 from mckibben.documents.strict import Strict
+from mckibben.measurement.experiment import FIELDS, ExperimentValue, accuracy_values
 from mckibben.physics.errors import InputError, did_you_mean
 
 SaidOrigin = Literal["you", "suggested", "preset"]
@@ -206,3 +207,39 @@ class ExperimentInput(Strict):
         description="Standard deviation of each channel, as 'length 1 mm, force 0.5 %, pressure 20 mbar' "
         "(% of the largest value), or a sensor: 'length steel rule'. Default: that of the request.",
     )
+
+
+def stated_experiment(given: ExperimentInput | None, field: str = "experiment") -> dict[str, ExperimentValue]:
+    """The values of an input, by the fields of an experiment.
+
+    Args:
+        given: the input.
+        field: its path in the request, for errors and as the place of the values.
+
+    Raises:
+        InputError: an accuracy that cannot be read.
+    """
+    if given is None:
+        return {}
+    found: dict[str, ExperimentValue] = {}
+    for name in FIELDS:
+        said: Said | None = getattr(given, name, None)
+        if said is not None:
+            found[name] = ExperimentValue(said.value, said.unit, said.origin, f"{field}.{name}")
+    if given.accuracy is not None:
+        found |= stated_accuracy(str(given.accuracy.value), f"{field}.accuracy", given.accuracy.origin)
+    return found
+
+
+def stated_accuracy(text: str | None, field: str, origin: SaidOrigin = "you") -> dict[str, ExperimentValue]:
+    """The fields of an accuracy in words; none without a text.
+
+    Raises:
+        InputError: a channel, quantity or sensor that is not known.
+    """
+    if text is None:
+        return {}
+    try:
+        return accuracy_values(text, origin, field)
+    except InputError as error:
+        raise error.at(field) from error

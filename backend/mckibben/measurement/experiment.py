@@ -18,12 +18,18 @@ Fields of an experiment, as the command line, requests and answers name them:
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
+from math import pi
 from types import MappingProxyType
 from typing import Literal
 
-#: Who says a value: the file, the user, a preset that was chosen, a proposal that the user took over, or nobody.
+from mckibben.measurement.accuracy import CHANNELS as ACCURACIES
+from mckibben.measurement.accuracy import SENSORS, read_accuracy
+from mckibben.measurement.kind import STROKES
+from mckibben.measurement.measurement import StatedValue
+
+#: Who says a value: the file, the user, a preset that was chosen, a proposal that the user took over, nobody.
 Origin = Literal["file", "you", "preset", "suggested", "assumed"]
 ORIGINS: tuple[Origin, ...] = ("file", "you", "preset", "suggested", "assumed")
 
@@ -36,7 +42,7 @@ class ExperimentValue:
         value: SI number or text.
         unit: SI unit, "" of a text.
         origin: who says it.
-        where: line or cell of the file, option or field of the request, preset; empty where there is no place.
+        where: line or cell of the file, option or field of the request, preset; "" where there is no place.
     """
 
     value: float | str
@@ -48,4 +54,207 @@ class ExperimentValue:
 #: Field -> value; fields that nobody stated and that have no sensible value are missing.
 Experiment = Mapping[str, ExperimentValue]
 
-NOTHING_STATED: Experiment = MappingProxyType({})
+
+@dataclass(frozen=True, slots=True)
+class ExperimentField:
+    """Declaration of a field, for forms and messages.
+
+    Attributes:
+        name: key in requests and answers.
+        title: in words.
+        unit: SI unit, "" of a text; of a load, that of a mass.
+        units: units that a form offers.
+        question: asked where nobody says it.
+        why: what it is needed for.
+        example: a value.
+        least, most: allowed SI values.
+        choices, closed: texts to choose from, and whether others are refused.
+    """
+
+    name: str
+    title: str
+    unit: str
+    units: tuple[str, ...]
+    question: str
+    why: str
+    example: str
+    least: float | None = None
+    most: float | None = None
+    choices: tuple[str, ...] = ()
+    closed: bool = False
+
+    @property
+    def option(self) -> str:
+        """What says it on the command line."""
+        own = {"muscle": "--muscle", "rest_length": "--rest-length", "load": "--load", "supply": "--supply"}
+        if self.name in own:
+            return f'{own[self.name]} "{self.example}"'
+        if self.name.startswith(ACCURACY):
+            return f'--accuracy "{self.name.removeprefix(ACCURACY)} {self.example}"'
+        return f'--experiment "{self.name}={self.example}"'
+
+
+#: Begin of the fields for the accuracy of a channel.
+ACCURACY = "accuracy_"
+
+
+def _accuracy(channel: str) -> ExperimentField:
+    unit, units, example = {
+        "length": ("m", ("mm", "%"), "1 mm"),
+        "force": ("N", ("N", "%"), "0.5 %"),
+        "pressure": ("Pa", ("mbar", "bar", "%"), "20 mbar"),
+        "diameter": ("m", ("mm", "%"), "0.1 mm"),
+    }[channel]
+    return ExperimentField(
+        f"{ACCURACY}{channel}",
+        f"Accuracy of the {channel}",
+        unit,
+        units,
+        f"How accurate is the {channel} (standard deviation, or % of the largest value)?",
+        "an error within it is no missing effect",
+        example,
+        0.0,
+        None,
+        tuple(name for name, sensor in SENSORS.items() if sensor.channel == channel),
+    )
+
+
+FIELDS: Mapping[str, ExperimentField] = MappingProxyType(
+    {
+        field.name: field
+        for field in (
+            ExperimentField(
+                "muscle", "Muscle", "", (), "Which muscle is it?",
+                "its geometry decides force and stroke", "DMSP-20",
+            ),
+            ExperimentField(
+                "rest_length", "Rest length", "m", ("mm", "m", "cm", "in"),
+                "How long is the muscle without air and load, between its fittings?",
+                "contraction is counted from it", "300 mm", 1e-3, 50.0,
+            ),
+            ExperimentField(
+                "load", "Load", "kg", ("kg", "N"), "Which mass or force does the muscle carry?",
+                "the load decides how far the muscle shortens", "6 kg", 0.0, 1e5,
+            ),
+            ExperimentField(
+                "supply", "Supply pressure", "Pa", ("bar", "kPa", "MPa", "psi"),
+                "Which pressure feeds the valve?", "the valve fills the muscle from it", "6 bar", 1.0, 1e8,
+            ),
+            ExperimentField(
+                "valve", "Valve", "", (), "Which valve fills and vents the muscle?",
+                "its flow decides how fast the pressure follows the command", "MPYE-5-1/8-HF",
+            ),
+            ExperimentField(
+                "tube", "Tube", "", (), "Which tube is between valve and muscle?",
+                "it delays and slows the flow", "4 mm x 1 m", None, None, ("none",),
+            ),
+            ExperimentField(
+                "stops", "End stops", "", (), "Between which contractions can the load move?",
+                "a load rests on its stops", "0 % to 25 %",
+            ),
+            ExperimentField(
+                "inclination", "Inclination", "rad", ("deg",),
+                "At which angle to the horizontal does the load move?", "only its weight along it counts",
+                "90 deg", -pi / 2.0, pi / 2.0,
+            ),
+            ExperimentField(
+                "fixed_end", "Fixed end", "", (), "Which end of the muscle is fixed?",
+                "it is recorded; no figure depends on it", "upper", None, None, ("upper", "lower", "both"),
+                True,
+            ),
+            ExperimentField(
+                "force_zero", "Zero of the force sensor", "N", ("N", "kN"),
+                "What does the force sensor show without force?", "it is subtracted", "2.5 N", -1e6, 1e6,
+            ),
+            ExperimentField(
+                "pressure_zero", "Zero of the pressure sensor", "Pa", ("mbar", "bar", "kPa"),
+                "What does the pressure sensor show at atmospheric pressure?", "it is subtracted",
+                "20 mbar", -1e7, 1e7,
+            ),
+            *(_accuracy(channel) for channel in ACCURACIES),
+        )
+    }
+)  # fmt: skip
+
+#: Condition of a file -> field of the experiment.
+_OF_CONDITIONS = {
+    "nominal_length": "rest_length", "load_mass": "load", "load_force": "load", "supply_pressure": "supply",
+    "muscle": "muscle", "valve": "valve", "tube": "tube", "stops": "stops", "inclination": "inclination",
+    "fixed_end": "fixed_end", "force_zero": "force_zero", "pressure_zero": "pressure_zero",
+}  # fmt: skip
+
+
+def needed(kind: str | None, channels: Collection[str]) -> tuple[str, ...]:
+    """Fields without which a test of this kind cannot be compared, or only on an assumption.
+
+    Args:
+        kind: of the measurement; None while it is not known.
+        channels: that were measured.
+    """
+    fields = ["muscle", "rest_length"]
+    commanded = kind == "transient" and "command" in channels
+    if kind == "transient" or (kind == "isotonic" and "force" not in channels):
+        fields.append("load")
+    return (*fields, *(("supply", "valve") if commanded else ()))
+
+
+def mattering(kind: str | None, channels: Collection[str]) -> tuple[str, ...]:
+    """All fields that matter for a test of this kind, those that it needs among them."""
+    also = {
+        "load": kind in ("transient", "isotonic") and not (kind == "isotonic" and "force" in channels),
+        "supply": "command" in channels,
+        "valve": "command" in channels,
+        "tube": "command" in channels,
+        "stops": kind == "transient",
+        "inclination": kind in ("transient", "isotonic"),
+        "force_zero": "force" in channels,
+        "pressure_zero": "pressure" in channels,
+        **{f"{ACCURACY}{channel}": _measured(channel, channels) for channel in ACCURACIES},
+    }
+    return tuple(name for name in FIELDS if also.get(name, True))
+
+
+def _measured(channel: str, channels: Collection[str]) -> bool:
+    return channel in channels or (channel == "length" and any(name in channels for name in STROKES))
+
+
+#: Field of a force that acts in addition to the mass in "load".
+LOAD_FORCE = "load_force"
+
+
+def file_experiment(stated: Iterable[StatedValue]) -> dict[str, ExperimentValue]:
+    """What the conditions of a measurement say about its experiment.
+
+    A force beside a mass is `LOAD_FORCE`; an accuracy is one field per channel.
+    """
+    found: dict[str, ExperimentValue] = {}
+    for condition in stated:
+        origin: Origin = "you" if condition.origin == "you" else "file"
+        if condition.key == "accuracy":
+            found |= accuracy_values(str(condition.value), origin, condition.where)
+            continue
+        name = _OF_CONDITIONS.get(condition.key)
+        if name is None:
+            continue
+        unit = "N" if condition.key == "load_force" else FIELDS[name].unit
+        value = ExperimentValue(condition.value, unit, origin, condition.where)
+        if name == "load" and "load" in found:  # a mass and a force
+            mass, force = sorted((found["load"], value), key=lambda each: each.unit != "kg")
+            found |= {"load": mass, LOAD_FORCE: force}
+        else:
+            found[name] = value
+    return found
+
+
+def accuracy_values(text: str, origin: Origin, where: str) -> dict[str, ExperimentValue]:
+    """The fields of an accuracy in words.
+
+    Raises:
+        InputError: a channel, quantity or sensor that is not known.
+    """
+    return {
+        f"{ACCURACY}{channel}": ExperimentValue(
+            accuracy.value, accuracy.unit, origin, where or accuracy.sensor
+        )
+        for channel, accuracy in read_accuracy(text).items()
+    }

@@ -15,7 +15,6 @@ from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.presets import CurvePreset, MeasurementPreset, MysteryPreset, Preset, PresetLibrary
 
 _SHA256_LENGTH = 64
-_SAME_LENGTH = 1e-3  # relative; rest lengths that differ by less are the same sample's
 _KINDS = ("measurements", "curves", "mysteries")
 
 
@@ -117,10 +116,10 @@ def _preset_hash(preset: Preset) -> str:
 
 
 def joined(all_points: Sequence[Points]) -> Points:
-    """Several measurements of one muscle as one; each keeps its groups.
+    """Several measurements as one; each keeps its groups. Conditions that differ are left out.
 
     Raises:
-        InputError: they are of different kinds or loads, or share no channels.
+        InputError: they are of different kinds, or share no channels.
     """
     if len(all_points) == 1:
         return all_points[0]
@@ -131,21 +130,6 @@ def joined(all_points: Sequence[Points]) -> Points:
             raise InputError(
                 f"{part.name} is of kind {part.kind}, {first.name} of kind {first.kind}",
                 field="kind",
-                hint="compare them one after the other",
-            )
-        for condition in ("load_force", "load_mass"):
-            if part.conditions.get(condition) != first.conditions.get(condition):
-                raise InputError(
-                    f"{part.name} and {first.name} have different {condition}",
-                    field=condition,
-                    hint="give the load as a column, or compare them one after the other",
-                )
-        rest, other = first.conditions.get("nominal_length"), part.conditions.get("nominal_length")
-        if isinstance(rest, float) and isinstance(other, float) and abs(rest - other) > _SAME_LENGTH * rest:
-            raise InputError(
-                f"{part.name} and {first.name} have different rest lengths, {other * 1e3:.4g} mm and "
-                f"{rest * 1e3:.4g} mm",
-                field="nominal_length",
                 hint="compare them one after the other",
             )
     shared = [name for name in first.columns if all(name in part.columns for part in parts)]
@@ -161,7 +145,11 @@ def joined(all_points: Sequence[Points]) -> Points:
         name=", ".join(part.name for part in parts),
         id=hashlib.sha256("".join(part.id for part in parts).encode()).hexdigest(),
         kind=first.kind,
-        conditions=first.conditions,
+        conditions={
+            key: value
+            for key, value in first.conditions.items()
+            if all(part.conditions.get(key) == value for part in parts)
+        },
         marked_slack=np.concatenate([part.slack for part in parts]),
         excluded_rows=_excluded(parts),
         starts=_starts(parts),

@@ -28,7 +28,8 @@ from mckibben.identification.fit.least_squares import FitResult, least_squares_f
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
-from mckibben.identification.residual.noise import noise_of
+from mckibben.identification.predict.reading_errors import AbsorbedError
+from mckibben.identification.residual.noise import absorbed_by, allowing_for_errors, noise_of
 from mckibben.identification.residual.profiles import Profile, profiles, variables_of
 from mckibben.identification.residual.structure import ResidualStructure, Term, proposed_term
 from mckibben.physics.effect import Effect
@@ -99,6 +100,7 @@ class Diagnosis:
         proposals: experiments that would separate the alternatives.
         messages: notes for the user.
         not_tried: effects of the catalogue that were not candidates, with the reason.
+        absorbed: reading errors within the stated accuracy that explain a part of the residual.
     """
 
     predictor: Predictor
@@ -119,6 +121,7 @@ class Diagnosis:
     proposals: tuple[SeparatingExperiment, ...]
     messages: tuple[str, ...] = ()
     not_tried: tuple[NotTried, ...] = ()
+    absorbed: tuple[AbsorbedError, ...] = ()
 
 
 def diagnose(
@@ -184,7 +187,7 @@ def _diagnose(
     candidates = tuple(effect for effect in absent if not reasons[effect])
     not_tried = [NotTried(effect.id, why) for effect, why in reasons.items() if why]
     progress = _Progress(watch)
-    predictor = predictor.prepared(fit_model, candidates)
+    predictor = allowing_for_errors(predictor.prepared(fit_model, candidates), fit_model)
     fitter = Fitter(
         predictor=predictor,
         geometry=tuple(geometry),
@@ -196,7 +199,7 @@ def _diagnose(
         estimate=lambda fitted_model: noise_of(predictor, fitted_model.residual, noise)[0],
     )
     start = FittedModel(
-        fit_model, (), frozenset(), predictor.residual(fit_model) / predictor.scale,
+        fit_model, (), frozenset(), predictor.weighted(predictor.residual(fit_model)),
         np.empty((len(predictor.measured), 0)), predictor.folds,
     )  # fmt: skip
     readings = predictor.inputs.get("pressure")
@@ -214,7 +217,7 @@ def _diagnose(
         fitter.known.clear()
         root = fitter.fit(first, freed)
     fitter.noise, how = noise_of(predictor, root.residual, noise)
-    variables = variables_of(predictor, fit_model.muscle.nominal_length)
+    variables = variables_of(predictor, fit_model)
     before = traits_of(root.residual, variables)
     where = profiles(start.residual, variables, predictor.folds[0])
     fitted = {effect.id for effect in fitter.promising(root, candidates)[: effort.tried]}
@@ -276,12 +279,13 @@ def _diagnose(
         proposals=tuple(proposals(best, exchangeable, catalogue, level, predictor)),
         messages=(*([] if gauge_zero is None else [gauge_zero.message]), *messages(fitter, first, best, fit)),
         not_tried=tuple(not_tried),
+        absorbed=absorbed_by(predictor, best.fit_model),
     )
 
 
 def _why_not(effect: Effect, predictor: Predictor) -> str:
     """Why an effect is not a candidate; empty for a candidate."""
-    if effect.among_lengths:
+    if effect.among_lengths and not predictor.several_lengths:
         return "it shows only among muscles of several lengths, and these are the data of one"
     return predictor.why_hidden(effect)
 

@@ -14,7 +14,8 @@ from mckibben.identification.fit.misfit import Misfit
 from mckibben.identification.predict import Predictor
 from mckibben.identification.predict.fit_model import FitModel, free_numbers
 from mckibben.identification.predict.free import Free
-from mckibben.identification.residual.noise import noise_of
+from mckibben.identification.predict.reading_errors import AbsorbedError
+from mckibben.identification.residual.noise import absorbed_by, allowing_for_errors, noise_of
 from mckibben.physics.custom import CUSTOM, TERM
 from mckibben.physics.errors import InputError
 
@@ -36,6 +37,7 @@ class Comparison:
         rows: number of rows of the measurement.
         excluded: reason -> number of excluded rows.
         messages: notes for the user.
+        absorbed: reading errors within the stated accuracy that explain a part of the residual.
     """
 
     predictor: Predictor
@@ -49,6 +51,7 @@ class Comparison:
     rows: int
     excluded: Mapping[str, int]
     messages: tuple[str, ...] = field(default_factory=tuple)
+    absorbed: tuple[AbsorbedError, ...] = ()
 
     @property
     def residual(self) -> np.ndarray:
@@ -64,6 +67,11 @@ class Comparison:
     def nrmse_percent(self) -> float:
         """rmse in percent of the largest measured magnitude."""
         return 100.0 * self.rmse / self.full_scale if self.full_scale > 0.0 else float("nan")
+
+    @property
+    def rmse_beyond_accuracy(self) -> float:
+        """rmse of what the accuracy of the readings does not explain."""
+        return float(np.sqrt(np.mean(self.predictor.weighted(self.residual) ** 2)))
 
     @property
     def residual_mean(self) -> float:
@@ -195,6 +203,7 @@ def compared(
         InputError: the model has no finite value at some row.
     """
     check_finite(predictor, fit_model)
+    predictor = allowing_for_errors(predictor, fit_model)
     messages = list(predictor.messages)
     choice = free_numbers(fit_model, geometry, freed, load=predictor.unknown_load) if fit else ()
     if geometry and not fit:
@@ -227,6 +236,7 @@ def compared(
         rows=rows,
         excluded=predictor.excluded,
         messages=tuple(messages) + (result.messages if result else ()),
+        absorbed=absorbed_by(predictor, fit_model),
     )
 
 
@@ -256,8 +266,8 @@ def holdout_rmse(predictor: Predictor, fit_model: FitModel, choice: Sequence[Fre
         return None
     predicted, jacobian = predictor.linearised(fit_model, choice)
     ended = tuple(replace(p, start=fit_model.number(p.name)) for p in choice)
-    misfit = (predictor.measured - predicted) / predictor.scale
+    misfit = predictor.weighted(predictor.measured - predicted)
     fitted_model = FittedModel(
-        fit_model, ended, frozenset(), misfit, jacobian / predictor.scale[:, None], predictor.folds
+        fit_model, ended, frozenset(), misfit, predictor.weighted(jacobian), predictor.folds
     )
     return fitted_model.holdout_rmse

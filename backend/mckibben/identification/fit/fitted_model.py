@@ -28,8 +28,9 @@ class FittedModel:
         fit_model: the model with the fitted values.
         free: the free parameters; their starts are the fitted values.
         freed: names of further constants that were freed.
-        residual: measured minus predicted over the scale, shape (values,).
-        jacobian: derivatives of the prediction over the scale, shape (values, free).
+        residual: measured minus predicted, weighted (over the scale, with allowance for reading errors),
+            shape (values,).
+        jacobian: derivatives of the prediction, weighted likewise, shape (values, free).
         folds: folds of the hold-out error, see `mckibben.identification.predict.predictor.Predictor`.
     """
 
@@ -165,7 +166,7 @@ def refitted(
 ) -> FittedModel:
     """Fit the free parameters jointly from their starts; the default effort is that of a search."""
     if not free:
-        residual = predictor.residual(fit_model) / predictor.scale
+        residual = predictor.weighted(predictor.residual(fit_model))
         empty = np.empty((len(residual), 0))
         return FittedModel(fit_model, (), frozenset(freed), residual, empty, predictor.folds)
     misfit = Misfit(predictor, fit_model, free)
@@ -173,7 +174,7 @@ def refitted(
     numbers = np.array(result.numbers)
     ended = misfit.fit_model(numbers)
     # Fits use the unclipped force, which may be negative; the residual uses the force of a slack muscle.
-    residual = predictor.residual(ended) / predictor.scale
+    residual = predictor.weighted(predictor.residual(ended))
     same = np.isclose(residual, -misfit.value(numbers), rtol=1e-9)
     jacobian = np.where(same[:, None], misfit.derivatives(numbers), 0.0)
     at_solution = tuple(replace(p, start=float(x)) for p, x in zip(free, numbers, strict=True))

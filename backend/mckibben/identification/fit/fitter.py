@@ -175,7 +175,7 @@ class Fitter:
         inside = {p.name: float(np.clip(linear[p.name], p.lower, p.upper)) for p in free if p.name in linear}
         fit_model = fitted_model.fit_model.adding(effect, effect.off)
         fit_model = fit_model.with_numbers(list(inside), list(inside.values()))
-        trial_residual = (self.predictor.measured - self.predictor.trial(fit_model)) / self.predictor.scale
+        trial_residual = self._trial_residual(fit_model)
         if float(np.mean(trial_residual**2)) > fitted_model.mean_square:
             fit_model, trial_residual = (
                 fitted_model.fit_model.adding(effect, effect.off),
@@ -195,13 +195,15 @@ class Fitter:
         return self._columns(fitted_model, effect, self.acting(fitted_model, effect))
 
     def _columns(self, fitted_model: FittedModel, effect: Effect, off: dict[str, float]) -> np.ndarray:
-        before = self.predictor.measured - fitted_model.residual * self.predictor.scale
-        columns = [np.empty((len(before), 0))]
+        columns = [np.empty((len(fitted_model.residual), 0))]
         for name in off:
             single = effect.off | {name: _between(effect, off)[name]}
-            trial = self.predictor.trial(fitted_model.fit_model.adding(effect, single))
-            columns.append(((trial - before) / self.predictor.scale)[:, None])
+            trial = self._trial_residual(fitted_model.fit_model.adding(effect, single))
+            columns.append((fitted_model.residual - trial)[:, None])
         return np.hstack(columns)
+
+    def _trial_residual(self, fit_model: FitModel) -> np.ndarray:
+        return self.predictor.weighted(self.predictor.measured - self.predictor.trial(fit_model))
 
     def _blind(self, fitted_model: FittedModel, names: set[str]) -> set[str]:
         """The constants that do not change the prediction."""

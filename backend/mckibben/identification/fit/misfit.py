@@ -16,7 +16,7 @@ _LOST = 1e3  # misfit of a row whose prediction is not finite, over the largest 
 
 
 class Misfit:
-    """Predicted minus measured over the scale; the last evaluation is kept for value and derivatives.
+    """Predicted minus measured, weighted; the last evaluation is kept for value and derivatives.
 
     The force is not clipped: where the model is slack although the muscle pulls, a clipped force has no
     gradient. A row without a finite value gets a large misfit and no gradient.
@@ -52,9 +52,10 @@ class Misfit:
                 else:
                     predicted, slopes = predictor.linearised(fit_model, self._free)
                     slopes = np.where(np.isfinite(predicted)[:, None], slopes, 0.0)
-                    self._slopes = self._finite(slopes / predictor.scale[:, None])
-                misfit = (predicted - predictor.measured) / predictor.scale
-            self._at, self._misfit = key, np.where(np.isfinite(misfit), misfit, self._lost)
+                    self._slopes = self._weighted(slopes)
+                misfit = predicted - predictor.measured
+            lost = self._lost * predictor.scale
+            self._at, self._misfit = key, predictor.weighted(np.where(np.isfinite(misfit), misfit, lost))
         return self._misfit
 
     def derivatives(self, numbers: np.ndarray) -> np.ndarray:
@@ -62,11 +63,12 @@ class Misfit:
         self.value(numbers)
         if self._slopes is None:
             slopes = self._predictor.differences(self.fit_model(numbers), self._free, self._predicted)
-            self._slopes = self._finite(slopes / self._predictor.scale[:, None])
+            self._slopes = self._weighted(slopes)
         return self._slopes
 
-    def _finite(self, slopes: np.ndarray) -> np.ndarray:
-        return np.where(np.all(np.isfinite(slopes), axis=1, keepdims=True), slopes, 0.0)
+    def _weighted(self, slopes: np.ndarray) -> np.ndarray:
+        finite = np.all(np.isfinite(slopes), axis=1, keepdims=True)
+        return self._predictor.weighted(np.where(finite, slopes, 0.0))
 
     def fit(self, effort: FitEffort) -> FitResult:
         """Least squares over the free parameters, see `least_squares_fit`."""

@@ -11,10 +11,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
+import numpy as np
+
 from mckibben.identification.predict.comparable_rows import comparable_rows
 from mckibben.identification.predict.moving import TransientPredictor
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.identification.predict.quasistatic import QuasistaticPredictor
+from mckibben.identification.predict.reading_errors import ReadingError
 from mckibben.measurement.measurement import Measurement
 from mckibben.physics import ideal
 from mckibben.physics.errors import InputError
@@ -23,19 +28,29 @@ from mckibben.simulation.command.shapes import Step
 from mckibben.simulation.drive.parts import Drive, Load, Valve
 from mckibben.simulation.statics.model import StaticModel
 
-__all__ = ["PredictedChannel", "Predictor", "QuasistaticPredictor", "TransientPredictor", "predictor_of"]
+__all__ = [
+    "PredictedChannel", "Predictor", "QuasistaticPredictor", "TransientPredictor", "driven_by_pressure",
+    "predictor_of",
+]  # fmt: skip
 
 _PRESSURE = 6e5  # Pa; required by the drive, but unused because the pressure is measured
 _ANY_VALVE = Valve(1e-8, 1e-8)  # the pressure is measured, so no air flows through it
 
 
-def predictor_of(measurement: Measurement, muscle: Muscle, drive: Drive | None = None) -> Predictor:
+def predictor_of(
+    measurement: Measurement,
+    muscle: Muscle,
+    drive: Drive | None = None,
+    accuracy: Mapping[str, float] | None = None,
+) -> Predictor:
     """The predictor for a measurement.
 
     Args:
         measurement: of any kind.
         muscle: for the nominal length and the thread length of the braid.
         drive: of a transient measurement; not needed if the load is stated and there is no command channel.
+        accuracy: channel -> standard deviation [SI] of what its readings may be wrong by all the time. Each
+            clamped length of an isometric measurement has its own error. Transients do not use it.
 
     Raises:
         InputError: a channel, a condition or the drive is missing.
@@ -44,16 +59,38 @@ def predictor_of(measurement: Measurement, muscle: Muscle, drive: Drive | None =
         task = comparable_rows(measurement, muscle)
         pressure = max(float(task.state["pressure"].max()), 1.0)
         blocked = ideal.force(braid=muscle.braid, pressure=pressure, length=muscle.nominal_length)
-        return QuasistaticPredictor(task, largest_load=float(blocked))
-    return TransientPredictor(measurement, drive or _bare_drive(measurement, muscle))
+        predictor = QuasistaticPredictor(task, largest_load=float(blocked))
+        _set_accuracy(predictor, dict(accuracy or {}))
+        return predictor
+    return TransientPredictor(measurement, drive or driven_by_pressure(measurement, muscle))
 
 
-def _bare_drive(measurement: Measurement, muscle: Muscle) -> Drive:
+def _set_accuracy(predictor: QuasistaticPredictor, accuracy: dict[str, float]) -> None:
+    """Clamped lengths as reading errors; all other accuracies are common to all rows."""
+    length = accuracy.pop("length", 0.0) if predictor.kind == "isometric" else 0.0
+    if length > 0.0:
+        at = predictor.inputs["length"]
+        clamped = [predictor.groups == label for label in np.unique(predictor.groups)]
+        predictor.reading_errors = tuple(
+            ReadingError("length", f"clamped at {1e3 * float(np.mean(at[rows])):.4g} mm", length, "m", rows)
+            for rows in clamped
+        )
+    seen = {channel.name for channel in predictor.channels} | set(predictor.inputs)
+    predictor.accuracy = {name: sigma for name, sigma in accuracy.items() if name in seen and sigma > 0.0}
+
+
+def driven_by_pressure(measurement: Measurement, muscle: Muscle) -> Drive:
+    """The drive of a transient measurement whose pressure is given: its load alone matters.
+
+    Raises:
+        InputError: it has a command channel, or its load is not stated.
+    """
     if "command" in measurement.columns:
         raise InputError(
             f"{measurement.name}: a transient with a command channel needs the drive's valve and load",
             field="drive",
-            hint="give a drive document (--drive DRIVE.json)",
+            hint="give a drive document (--drive DRIVE.json), or --load and "
+            '--experiment "valve=MPYE-5-1/8-HF"',
         )
     conditions = measurement.conditions
     if not {"load_mass", "load_force"} & set(conditions):
@@ -62,7 +99,7 @@ def _bare_drive(measurement: Measurement, muscle: Muscle) -> Drive:
         raise InputError(
             f"{measurement.name}: the load of a transient measurement is not given",
             field="load_mass",
-            hint=f"add a line '# load_mass: 6 kg' before the header, or give a drive document{also}",
+            hint=f"--load '6 kg', or a line '# load_mass: 6 kg' before the header, or a drive document{also}",
         )
     return Drive(
         model=StaticModel(muscle),

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Self
 
 import numpy as np
 
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.reading_errors import ReadingError, ReadingWeights, reading_weights
 from mckibben.physics.effect import Effect
 
 
@@ -54,6 +58,10 @@ class Predictor(ABC):
         excluded: reason -> number of excluded rows.
         messages: the assumptions.
         unknown_load: bounds of the load when it is fitted.
+        reading_errors: possible errors of readings within their accuracy.
+        accuracy: channel -> standard deviation of what its sensor may be wrong by all the time [SI].
+        weights: how fits allow for reading errors; None before `allowing`, and without any.
+        accuracy_floor: error of the scaled residual due to `accuracy`; known after `allowing`.
     """
 
     kind: str
@@ -71,6 +79,10 @@ class Predictor(ABC):
     simulated: bool = False
     step: float = 5e-3
     unknown_load: Free | None = None
+    reading_errors: tuple[ReadingError, ...] = ()
+    accuracy: Mapping[str, float] = MappingProxyType({})
+    weights: ReadingWeights | None = None
+    accuracy_floor: float = 0.0
 
     @abstractmethod
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
@@ -91,6 +103,15 @@ class Predictor(ABC):
     @abstractmethod
     def prepared(self, fit_model: FitModel, candidates: Sequence[Effect]) -> Predictor:
         """This predictor, prepared for a search over the start model with any of the candidates."""
+
+    @property
+    def several_lengths(self) -> bool:
+        """Whether the data are of muscles of different rest lengths."""
+        return False
+
+    def rest_length(self, fit_model: FitModel) -> np.ndarray | float:
+        """Rest length of the muscle [m]; of each value where there are several muscles."""
+        return float(fit_model.muscle.nominal_length)
 
     def lost(self, fit_model: FitModel) -> tuple[int, int]:
         """Number of rows without a finite prediction, and of all rows."""
@@ -125,6 +146,58 @@ class Predictor(ABC):
     def residual(self, fit_model: FitModel) -> np.ndarray:
         """Measured minus predicted."""
         return self.measured - self.predict(fit_model)
+
+    def weighted(self, values: np.ndarray) -> np.ndarray:
+        """Residuals or derivatives as fits see them: over the scale, with allowance for reading errors.
+
+        Args:
+            values: shape (values,) or (values, columns), SI.
+        """
+        scaled = values / (self.scale if values.ndim == 1 else self.scale[:, None])
+        return scaled if self.weights is None else self.weights(scaled)
+
+    def input_slope(self, fit_model: FitModel, channel: str) -> np.ndarray:
+        """Derivative of the prediction by the readings of an input channel; 0 if it is none."""
+        del fit_model, channel
+        return np.zeros(len(self.measured))
+
+    def error_columns(self, fit_model: FitModel) -> np.ndarray:
+        """Change of the scaled residual by each possible reading error, shape (values, errors)."""
+        slopes = {
+            name: self._reading_slope(fit_model, name)
+            for name in {error.channel for error in self.reading_errors}
+        }
+        columns = np.zeros((len(self.measured), len(self.reading_errors)))
+        for number, error in enumerate(self.reading_errors):
+            columns[:, number] = np.where(error.rows, slopes[error.channel], 0.0) / self.scale
+        return columns
+
+    def _reading_slope(self, fit_model: FitModel, channel: str) -> np.ndarray:
+        """Change of the residual by an error of a channel, shape (values,)."""
+        own = [each for each in self.channels if each.name == channel]
+        return np.ones(len(self.measured)) if own else -self.input_slope(fit_model, channel)
+
+    def allowing(self, fit_model: FitModel, noise: float) -> Self:
+        """This predictor, whose fits allow for reading errors and know what the accuracy permits.
+
+        Args:
+            fit_model: the model whose derivatives count.
+            noise: of the scaled residual.
+        """
+        if not self.reading_errors and not self.accuracy:
+            return self
+        ready = copy(self)
+        squares = [
+            np.mean((sigma * self._reading_slope(fit_model, name) / self.scale) ** 2)
+            for name, sigma in self.accuracy.items()
+        ]
+        ready.accuracy_floor = float(np.sqrt(np.sum(squares)))
+        if self.reading_errors:
+            columns = self.error_columns(fit_model)
+            ready.weights = reading_weights(
+                self.reading_errors, columns, noise=noise, floor=ready.accuracy_floor
+            )
+        return ready
 
     def rmse(self, residual: np.ndarray) -> float:
         """Root mean square of the residual over its scale."""

@@ -22,6 +22,7 @@ from mckibben.simulation.statics.model import clip_slack
 
 _LEAST = 0.01  # quantile that serves as the smallest force: a single row may be an outlier
 _NEAR_ZERO = 0.05  # largest force of a slack muscle, share of the range of the force
+_INPUT_STEP = 2e-4  # step of a difference by an input, share of its largest value
 _SLACK_BAND = 0.02  # scatter of the readings of a slack muscle, share of the range of the force
 
 
@@ -105,6 +106,21 @@ class QuasistaticPredictor(Predictor):
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
         """Force, length or diameter of each row; the length is limited by the lock of the braid."""
         return self._everywhere(fit_model, clipped=clipped)[self._counted]
+
+    def input_slope(self, fit_model: FitModel, channel: str) -> np.ndarray:
+        """Central difference over all rows at once; a slack muscle has none."""
+        values = self.task.state.get(channel)
+        if values is None:
+            return super().input_slope(fit_model, channel)
+        step = _INPUT_STEP * float(np.max(np.abs(values)))
+        ends = []
+        for sign in (-1.0, 1.0):
+            other = copy(self)
+            other.task = replace(self.task, state={**self.task.state, channel: values + sign * step})
+            other._evaluation = Evaluation(other.task)
+            ends.append(other.predict(fit_model))
+        slope = (ends[1] - ends[0]) / (2.0 * step) if step > 0.0 else np.zeros(len(self.measured))
+        return np.where(np.isfinite(slope), slope, 0.0)
 
     def lost(self, fit_model: FitModel) -> tuple[int, int]:
         """Number of rows without a finite prediction, scored or not, and of all rows."""

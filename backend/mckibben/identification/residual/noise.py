@@ -6,11 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mckibben.identification.predict.reading_errors import AbsorbedError, absorbed_errors
 from mckibben.measurement.noise import CHI2_MEDIAN, SHORTEST_SWEEP, noise_floor
 
 if TYPE_CHECKING:
     from scipy.spatial import KDTree
 
+    from mckibben.identification.predict.fit_model import FitModel
     from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 
 _PLACE = ("pressure", "length", "load", "direction")  # coordinates of a scattered point
@@ -19,6 +21,8 @@ _NEIGHBOURS, _WIDE = 8, 16  # numbers of neighbours of the estimate and of its c
 _SAME = 1.25  # largest ratio of the estimates from 16 and from 8 neighbours
 _MOST_POINTS = 4000  # more are thinned
 _ROUNDING = 1e-9  # of full scale; smaller values are rounding errors
+_BY_ACCURACY = "the accuracy of the sensors and the scatter of the readings"
+_UNKNOWN = 1e-3  # of full scale; noise that weighs reading errors where it cannot be estimated
 
 
 def neighbour_noise(values: np.ndarray, coordinates: np.ndarray) -> float | None:
@@ -76,6 +80,8 @@ def noise_of(predictor: Predictor, residual: np.ndarray, stated: float | None) -
     if stated is not None:
         return stated, "given"
     value, how = channel_noise(predictor, residual, first)
+    if predictor.accuracy_floor > 0.0:
+        return float(np.hypot(value or 0.0, predictor.accuracy_floor)), _BY_ACCURACY
     if value is None:
         return None, "the sweeps are too short for an estimate"
     return max(value, _ROUNDING * first.full_scale), how
@@ -96,3 +102,31 @@ def channel_noise(
         if noise:
             return noise, "repeats and near neighbours"
     return noise_floor(values, sweeps), "third differences of the residual within sweeps"
+
+
+def allowing_for_errors(predictor: Predictor, fit_model: FitModel) -> Predictor:
+    """The predictor, whose fits allow for reading errors within the accuracy, weighed by the noise.
+
+    The noise is estimated from the residual of the given model, whose smooth part does not count.
+    """
+    if not predictor.reading_errors and not predictor.accuracy:
+        return predictor
+    return predictor.allowing(fit_model, _scatter(predictor, fit_model))
+
+
+def absorbed_by(predictor: Predictor, fit_model: FitModel) -> tuple[AbsorbedError, ...]:
+    """The reading errors that a fit of this model has taken up, with their standard errors."""
+    if not predictor.reading_errors:
+        return ()
+    residual = predictor.residual(fit_model) / predictor.scale
+    columns = predictor.error_columns(fit_model)
+    noise, floor = _scatter(predictor, fit_model), predictor.accuracy_floor
+    return tuple(absorbed_errors(predictor.reading_errors, columns, residual, noise=noise, floor=floor))
+
+
+def _scatter(predictor: Predictor, fit_model: FitModel) -> float:
+    """Scatter of the scaled residual of a model from reading to reading."""
+    residual = predictor.residual(fit_model) / predictor.scale
+    first = predictor.channels[0]
+    value = channel_noise(predictor, residual, first)[0] if len(predictor.channels) == 1 else 1.0
+    return max(value or _UNKNOWN * first.full_scale, _ROUNDING * first.full_scale)

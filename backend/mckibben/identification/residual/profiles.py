@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.predictor import Predictor
 
 _BINS = 10
@@ -51,12 +52,12 @@ class Profile:
 
 
 def variables_of(
-    predictor: Predictor, nominal_length: float, groups: np.ndarray | None = None
+    predictor: Predictor, fit_model: FitModel, groups: np.ndarray | None = None
 ) -> dict[str, np.ndarray]:
     """Variables that the residual may depend on, name of `SHOWN` -> values; constant ones are left out."""
     variables = dict(predictor.inputs)
     if "length" in variables:
-        variables["contraction"] = 1.0 - variables.pop("length") / nominal_length
+        variables["contraction"] = 1.0 - variables.pop("length") / predictor.rest_length(fit_model)
     if groups is not None:
         variables["group"] = groups.astype(float)
     return {

@@ -16,9 +16,13 @@ ATMOSPHERE = 101_325.0  # Pa, subtracted from an absolute pressure
 #: Conditions that are physical values -> SI unit; the others stay text.
 CONDITION_UNITS = {
     "load_mass": "kg", "load_force": "N", "supply_pressure": "Pa", "nominal_length": "m", "temperature": "K",
+    "inclination": "rad", "force_zero": "N", "pressure_zero": "Pa",
 }  # fmt: skip
 #: Conditions with a meaning that are text.
-TEXT_CONDITIONS = ("muscle", "sample", "pressure")
+TEXT_CONDITIONS = (
+    "muscle", "sample", "pressure", "accuracy", "valve", "tube", "stops", "fixed_end",
+)  # fmt: skip
+_SIGNED = ("inclination", "force_zero", "pressure_zero")  # conditions that may be negative
 _MAX_TEXT = 200
 _LINE = re.compile(r"#+\s*([A-Za-z][A-Za-z_ -]{0,30}?)\s*:\s*(.*)")
 _PLAIN = re.compile(r"[+-]?[0-9.]+(?:[eE][+-]?[0-9]+)?")
@@ -92,6 +96,6 @@ def condition_value(
     if not math.isfinite(number):
         raise InputError(f"{where}: '{value}' is not finite", field=field, hint="a finite value")
     number -= ATMOSPHERE if absolute else 0.0
-    if number < 0.0:
+    if number < 0.0 and key not in _SIGNED:
         raise InputError(f"{where}: '{value}' is negative", field=field, hint="a value of 0 or more")
     return number

@@ -80,7 +80,7 @@ def report_of(
     comparison = compare(question, fit=options.fit)
     parts = [*_sources(question.points, "fit")]
     if question.validation is not None:
-        parts += _sources(question.validation, "validation")
+        parts += _sources(question.validation.points, "validation")
     names = [source.name for source in parts if source.use == "fit"]
     preset = question.start.preset
     known = {} if preset is None else dict(quantities(studio.library.muscle(preset.id)))

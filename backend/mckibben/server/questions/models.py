@@ -2,63 +2,127 @@
 
 from __future__ import annotations
 
+from mckibben.application.experiment import SaidMeasurement, SaidModel
 from mckibben.application.model_question import ModelQuestion, question_of
 from mckibben.documents.convert import stated_muscle
+from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.experiment import stated_accuracy, stated_experiment
+from mckibben.documents.muscle import MuscleInput
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
-from mckibben.measurement.points import Points, find_points, joined
+from mckibben.measurement.experiment import ExperimentValue
+from mckibben.measurement.points import find_points
 from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError, fields_inside
 from mckibben.server.schemas.comparisons import ModelRequest
-from mckibben.simulation.drive.parts import Drive
 
 
 def model_question(body: ModelRequest, studio: Studio, store: MeasurementStore) -> ModelQuestion:
     """The question of a request.
 
     Raises:
-        InputError: an unknown preset, effect, parameter or measurement, or no model or data.
+        InputError: an unknown preset, effect, parameter or measurement, no model or data, statements that
+            contradict each other, or a value that nobody stated and that cannot be assumed.
     """
-    start, drive = _model(body, studio)
-    used: dict[str, list[Points]] = {"fit": [], "validation": []}
-    studio.static_model(start)  # errors of the model are reported before those of the data
-    for place, item in enumerate(body.chosen()):
-        field = "measurement" if body.measurement is not None else f"measurements.{place}.id"
-        try:
-            used[item.use].append(find_points(item.id, library=studio.library, store=store))
-        except InputError as error:
-            raise error.at(field) from error
-    if not used["fit"]:
+    model = said_model(body, studio)
+    named = _named(body)
+    # Errors of the model are reported before those of the data.
+    if named is not None and (named.preset or named.nominal_length):
+        studio.static_model(model.start("", None))
+    measurements = said_measurements(body, studio, store)
+    if all(each.validation for each in measurements):
         raise InputError("no measurement to fit to", field="measurements", hint='give one the use "fit"')
     return question_of(
-        start,
+        model,
+        measurements,
         studio,
-        joined(used["fit"]),
-        drive=drive,
-        validation=joined(used["validation"]) if used["validation"] else None,
         free=body.free,
         freed=body.freed,
         noise=body.noise,
+        strict=body.strict,
     )
 
 
-def _model(body: ModelRequest, studio: Studio) -> tuple[StartModel, Drive | None]:
-    """The start model and the drive; muscle and effects of the request replace those of the drive."""
-    if body.drive is None:
-        if body.muscle is None:
-            raise InputError(
-                "a muscle or a drive is needed", field="muscle", hint='e.g. {"preset": "DMSP-20"}'
-            )
-        return studio.start_model(stated_muscle(body.muscle), body.effects), None
-    overrides = {"muscle": body.muscle, "effects": body.effects}
-    document = body.drive.model_copy(
-        update={name: value for name, value in overrides.items() if value is not None}
+def said_measurements(body: ModelRequest, studio: Studio, store: MeasurementStore) -> list[SaidMeasurement]:
+    """The measurements of a request with what it says about each.
+
+    Raises:
+        InputError: an unknown measurement, or a value that cannot be used.
+    """
+    shared = stated_experiment(body.experiment) | stated_accuracy(body.accuracy, "accuracy")
+    found = []
+    for place, item in enumerate(body.chosen()):
+        single = body.measurement is not None and place == 0
+        number = place - (body.measurement is not None)
+        field = "measurement" if single else f"measurements.{number}.id"
+        inside = "" if single else f"measurements.{number}"
+        try:
+            points = find_points(item.id, library=studio.library, store=store)
+        except InputError as error:
+            raise error.at(field) from error
+        own = stated_experiment(item.experiment, f"{inside}.experiment".removeprefix("."))
+        found.append(SaidMeasurement(points, shared | own, item.use == "validation", inside or "."))
+    return found
+
+
+def said_model(body: ModelRequest, studio: Studio) -> SaidModel:
+    """Muscle, effects and drive of a request; muscle and effects replace those of the drive.
+
+    The length of a muscle is not said where it is the default of its preset: a form sends it unasked.
+    """
+    muscle = _named(body)
+    document = None
+    if body.drive is not None:
+        overrides = {"muscle": body.muscle, "effects": body.effects}
+        document = body.drive.model_copy(
+            update={name: value for name, value in overrides.items() if value is not None}
+        )
+    where = "muscle" if body.muscle is not None else "drive.muscle"
+
+    def start(named: str, length: float | None) -> StartModel:
+        if document is not None:
+            return _start_of_drive(document, studio)
+        chosen = muscle
+        if chosen is None:
+            if not named:
+                raise InputError(
+                    "a muscle or a drive is needed", field="muscle", hint='e.g. {"preset": "DMSP-20"}'
+                )
+            chosen = MuscleInput.model_validate({"preset": named.partition(":")[0]})
+        if chosen.nominal_length is None and chosen.preset is None:
+            chosen = chosen.model_copy(update={"nominal_length": length})
+        return studio.start_model(stated_muscle(chosen), body.effects)
+
+    return SaidModel(
+        start,
+        length=None if muscle is None else _said_length(muscle, where, studio),
+        muscle=None
+        if muscle is None or muscle.preset is None
+        else ExperimentValue(muscle.preset, "", "you", f"{where}.preset"),
+        drive=document,
     )
+
+
+def _named(body: ModelRequest) -> MuscleInput | None:
+    return body.muscle or (None if body.drive is None else body.drive.muscle)
+
+
+def _said_length(muscle: MuscleInput, where: str, studio: Studio) -> ExperimentValue | None:
+    length = muscle.nominal_length
+    if length is None:
+        return None
+    if muscle.preset is not None:
+        default = float(studio.facts(muscle.preset).muscle.nominal_length)
+        if abs(length - default) < 1e-9:
+            return None
+    return ExperimentValue(length, "m", "you", f"{where}.nominal_length")
+
+
+def _start_of_drive(document: DriveDocument, studio: Studio) -> StartModel:
     try:
         with fields_inside("drive"):
-            annotated = drive_of(document, studio, measured=True)
+            return drive_of(document, studio, measured=True).start
     except InputError as error:
         field = (error.field or "").removeprefix("drive.")
-        raise (error.at(field) if field.startswith(tuple(overrides)) else error) from error
-    return annotated.start, annotated.drive
+        raise (error.at(field) if field.startswith(("muscle", "effects")) else error) from error

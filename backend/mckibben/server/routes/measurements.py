@@ -8,12 +8,13 @@ from fastapi import APIRouter, Path, Query, Request
 from fastapi.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 
+from mckibben.application.experiment_form import preview_form
 from mckibben.application.measurements import details_of, preview_of, summary_of
 from mckibben.measurement.read import Correction, preview, read_correction
 from mckibben.measurement.read.correction import MAX_LENGTH
 from mckibben.measurement.store import MAX_NAME, clean_name
 from mckibben.server.answer import JsonAnswer, StrictRoute
-from mckibben.server.context import StoreDep
+from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.measurements import MeasurementAnswer, MeasurementDetail, PreviewAnswer
 
@@ -60,6 +61,16 @@ _Mapping = Annotated[
 ]
 
 
+_Muscle = Annotated[
+    str | None,
+    Query(
+        pattern=r"^[A-Za-z0-9][A-Za-z0-9./-]{0,63}$",
+        description="Id of the muscle preset that the user has chosen, for the questions of 'experiment'.",
+        examples=["DMSP-20"],
+    ),
+]
+
+
 @router.put(
     "",
     response_model=MeasurementAnswer,
@@ -83,12 +94,17 @@ async def upload_measurement(
     responses=errors(400, 413, 415, 422),
     openapi_extra=_BODY,
 )
-async def preview_measurement(request: Request, name: _Name, mapping: _Mapping = None) -> JsonAnswer:
-    """How a file would be read: columns, units, rows, kind, conditions. Nothing is stored."""
+async def preview_measurement(
+    request: Request, name: _Name, studio: StudioDep, mapping: _Mapping = None, muscle: _Muscle = None
+) -> JsonAnswer:
+    """How a file would be read: columns, units, rows, kind, experiment. Nothing is stored."""
     content, correction = await _file(request, mapping)
-    return await run_in_threadpool(
-        lambda: JsonAnswer(preview_of(preview(content, clean_name(name), correction)))
-    )
+
+    def read() -> JsonAnswer:
+        found = preview(content, clean_name(name), correction)
+        return JsonAnswer(preview_of(found, preview_form(found, studio, muscle)))
+
+    return await run_in_threadpool(read)
 
 
 async def _file(request: Request, mapping: str | None) -> tuple[bytes, Correction]:

@@ -12,6 +12,7 @@ from mckibben.documents.muscle import EffectsInput, MuscleInput
 from mckibben.documents.strict import Series, Strict, si_field
 from mckibben.server.schemas.common import Flag
 from mckibben.server.schemas.curves import MuscleGeometry
+from mckibben.server.schemas.experiments import Absorbed, ExperimentValue, Specimen
 
 MeasurementId = Annotated[
     str,
@@ -73,8 +74,9 @@ class ModelRequest(Strict):
 
     def chosen(self) -> list[UsedMeasurement]:
         """All measurements, from either field."""
-        single = [] if self.measurement is None else [UsedMeasurement(id=self.measurement, use="fit")]
-        return [*single, *self.measurements]
+        if self.measurement is None:
+            return self.measurements
+        return [UsedMeasurement(id=self.measurement, use="fit", experiment=None), *self.measurements]
 
 
 class ComparisonRequest(ModelRequest):
@@ -216,3 +218,16 @@ class ComparisonAnswer(Strict):
     series: list[ComparisonSeries]
     model: dict[str, EffectsJson] = Field(description="Effects and values in the form of a request.")
     flags: list[Flag]
+    rmse_beyond_accuracy: float | None = Field(
+        description="RMSE of what the accuracy of the readings does not explain; a diagnosis counts with it."
+    )
+    experiment: dict[str, ExperimentValue] = Field(
+        description="Values of the experiment in which all measurements agree, each with its origin."
+    )
+    assumptions: list[str] = Field(
+        description="What nobody said and was assumed; the messages begin with it too."
+    )
+    specimens: list[Specimen] = Field(description="Each measurement, with its own experiment.")
+    absorbed: list[Absorbed] = Field(
+        description="Errors of readings within the accuracy, which a fit allows for."
+    )

@@ -16,6 +16,7 @@ from mckibben.server.schemas.comparisons import (
     ResidualProfile,
 )
 from mckibben.server.schemas.curves import MuscleGeometry
+from mckibben.server.schemas.experiments import Absorbed, ExperimentValue, Specimen
 
 
 class DiagnosisRequest(ModelRequest):
@@ -149,6 +150,16 @@ class DiagnosisAnswer(Strict):
         description="Effects of the catalogue that were not tried, with the reason."
     )
     messages: list[str]
+    experiment: dict[str, ExperimentValue] = Field(
+        description="Values of the experiment in which all measurements agree, each with its origin."
+    )
+    assumptions: list[str] = Field(
+        description="What nobody said and was assumed; the messages begin with it too."
+    )
+    specimens: list[Specimen] = Field(description="Each measurement, with its own experiment.")
+    absorbed: list[Absorbed] = Field(
+        description="Errors of readings within the accuracy, which a fit allows for."
+    )
 
 
 DiagnosisEvents: dict[int | str, dict[str, Any]] = {

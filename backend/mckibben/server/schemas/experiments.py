@@ -1,8 +1,8 @@
 """The experiment behind a measurement, in previews, requests and answers.
 
-1. *Before a file is stored.* ``POST /api/measurements/preview?name=...&muscle=DMSP-20`` answers ``experiment``:
-   every field that matters for this kind of test, see `ExperimentField`. ``muscle`` is the id of the preset
-   that the user has chosen (may be left out).
+1. *Before a file is stored.* ``POST /api/measurements/preview?name=...&muscle=DMSP-20`` answers
+   ``experiment``: every field that matters for this kind of test, see `ExperimentField`. ``muscle`` is the
+   id of the preset that the user has chosen (may be left out).
 2. *For stored measurements and presets.* ``POST /api/experiments`` takes the body of a diagnosis
    (``DiagnosisRequest``) and answers the same per measurement, with what the request says included: call it
    again after each change of muscle, drive or value. ``problem`` holds a conflict, or a missing value.
@@ -15,9 +15,9 @@
    - ``strict: true``: refuse instead of assuming.
 
    A value is a text with unit (or an SI number), or ``{"value": "250 mm", "origin": "suggested"}`` for a
-   proposal that the user took over. ``muscle.nominal_length`` of the request counts as said by the user unless
-   it is the default of the preset; then a file with another rest length is a conflict (422, ``field``
-   "measurements.0.experiment.rest_length"), which ``experiment.rest_length`` decides.
+   proposal that the user took over. ``muscle.nominal_length`` of the request counts as said by the user,
+   unless it is the default of the preset. A file with another rest length (by more than 2 %) is then a
+   conflict (422, ``field`` "measurements.0.experiment.rest_length") that ``experiment.rest_length`` decides.
 4. *Answers* hold ``experiment`` (fields in which all measurements agree), ``assumptions`` (sentences; they
    also begin ``messages`` and the sentence of the verdict), ``specimens`` (one per measurement, with its own
    ``experiment``) and ``absorbed`` (what the stated accuracy took up).
@@ -65,7 +65,7 @@ class ExperimentField(Strict):
     where: str = Field(description="Place in the file, or the preset.", examples=["line 4"])
     required: bool = Field(description="This kind of test needs it.")
     unanswered: bool = Field(
-        description="Required, and neither the file nor the user says it: ask for it before the first diagnosis. "
+        description="Required, and neither the file nor the user says it: ask before the first diagnosis. "
         "With origin 'assumed' a diagnosis goes on with the value; with value null it does not."
     )
     question: str = Field(description="The question of the field.", examples=["How long is the muscle?"])

@@ -6,6 +6,7 @@ from pydantic import Field
 
 from mckibben.documents.strict import Strict
 from mckibben.server.schemas.common import ErrorDetail
+from mckibben.server.schemas.experiments import ExperimentField
 
 
 class Channel(Strict):
@@ -221,4 +222,8 @@ class PreviewAnswer(Strict):
     )
     points: dict[str, list[float | None]] = Field(
         description="Channel -> SI values of evenly chosen rows, for a picture, also while questions are open"
+    )
+    experiment: list[ExperimentField] = Field(
+        description="Every field of the experiment that matters for this kind of test; those 'unanswered' "
+        "are asked before the first diagnosis."
     )

@@ -2,14 +2,10 @@
 // Names of what an import works with.
 
 /** @typedef {import("../types.js").S} S */
-/** @typedef {S["PreviewAnswer"] & {experiment?: Field[]}} Preview */
+/** @typedef {S["PreviewAnswer"]} Preview */
 /** @typedef {S["PreviewColumn"]} Column */
 /** @typedef {S["OpenQuestion"]} OpenQuestion */
-/** A field of the experiment. @typedef {{field: string, title: string, value: number | string | null,
- *   unit: string, units: string[], origin: "file" | "you" | "preset" | "suggested" | "assumed" | null,
- *   where: string, required: boolean, unanswered: boolean, question: string, why: string,
- *   proposed: number | string | null, least: number | null, most: number | null, choices: string[],
- *   closed: boolean, example: string, option: string}} Field */
+/** @typedef {S["ExperimentField"]} Field */
 /** @typedef {import("../server/measurements.js").Mapping} Mapping */
 /** @typedef {import("../server/measurements.js").Choice} Choice */
 /** What the user says of a field of the experiment, as requests take it. @typedef {import("../types.js").Said} Said */

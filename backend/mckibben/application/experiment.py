@@ -1,0 +1,392 @@
+"""The experiment behind each measurement of a question: what is said, what contradicts, what is assumed.
+
+Every door states the same: a model (`SaidModel`) and measurements (`SaidMeasurement`). A value is taken from
+the first of: the user's word for this measurement, the file, muscle or drive of the request, an assumption.
+The rest length is the exception: a file and a muscle of which both state one must agree.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from mckibben.application.experiment_drive import drive_values, own_drive
+from mckibben.application.specimens import Specimen, Specimens, specimens_of
+from mckibben.documents.drive import DriveDocument
+from mckibben.documents.start_model import StartModel
+from mckibben.documents.studio import Studio
+from mckibben.measurement.accuracy import CHANNELS, ChannelAccuracy, default_accuracy, sigma_of
+from mckibben.measurement.corrected import corrected
+from mckibben.measurement.experiment import (
+    ACCURACY,
+    FIELDS,
+    LOAD_FORCE,
+    Experiment,
+    ExperimentValue,
+    file_experiment,
+    needed,
+)
+from mckibben.measurement.measurement import Measurement, StatedValue
+from mckibben.measurement.points import Points
+from mckibben.physics.errors import InputError
+from mckibben.physics.muscle import Muscle
+
+_SAME_LENGTH = 1e-3  # relative; rest lengths that differ by less are the same
+_ONE_MUSCLE = 0.02  # relative; a fit may change a rest length by as much, so this is no contradiction
+#: Zero errors of the sensors where several specimens are mounted one after the other.
+_REMOUNTED = {
+    "length": ChannelAccuracy(0.5e-3, "m"),
+    "force": ChannelAccuracy(0.002, "1"),
+    "pressure": ChannelAccuracy(1e3, "Pa"),
+}
+
+
+@dataclass(frozen=True)
+class SaidModel:
+    """Muscle, effects and drive as they were stated.
+
+    Attributes:
+        start: the start model; takes the rest length of the measurement, used where nothing else gives one.
+        length: rest length of the muscle, if it was said; the default length of a preset is not.
+        muscle: name of the muscle, if it was said.
+        drive: the drive document.
+        where: name of the drive document in origins and errors.
+    """
+
+    start: Callable[[str, float | None], StartModel]
+    length: ExperimentValue | None = None
+    muscle: ExperimentValue | None = None
+    drive: DriveDocument | None = None
+    where: str = "drive"
+
+
+@dataclass(frozen=True)
+class SaidMeasurement:
+    """A measurement and what the user says about its experiment.
+
+    Attributes:
+        points: the data.
+        said: by the user; takes precedence over the file.
+        validation: whether models are only judged by it.
+        field: its path in the request, "." of the request itself, "" on the command line.
+    """
+
+    points: Points
+    said: Experiment = field(default_factory=dict)
+    validation: bool = False
+    field: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Assumption:
+    """A value that a test of this kind needs, that nobody said, and that was assumed.
+
+    Attributes:
+        field: of the experiment.
+        words: what is assumed, "a rest length of 300 mm, the preset's".
+        option: what says otherwise on the command line.
+        files: names of the measurements; empty for all.
+    """
+
+    field: str
+    words: str
+    option: str
+    files: tuple[str, ...] = ()
+
+    @property
+    def sentence(self) -> str:
+        """For the verdict."""
+        return f"Assuming {self.words}{self._files}."
+
+    @property
+    def message(self) -> str:
+        """For the beginning of an answer."""
+        return f"assuming {self.words}{self._files}: {self.option} says otherwise"
+
+    @property
+    def _files(self) -> str:
+        return f" for {', '.join(self.files)}" if self.files else ""
+
+
+@dataclass(frozen=True)
+class Resolved:
+    """The question behind what was stated.
+
+    Attributes:
+        start: the start model, with the rest length of the first measurement.
+        specimens, validation: the measurements with their experiments.
+        assumptions: what was assumed.
+        remarks: further notes for the user.
+    """
+
+    start: StartModel
+    specimens: Specimens
+    validation: Specimens | None
+    assumptions: tuple[Assumption, ...]
+    remarks: tuple[str, ...]
+
+
+@dataclass
+class _One:
+    """One measurement while its experiment is put together."""
+
+    said: SaidMeasurement
+    values: dict[str, ExperimentValue]
+    remarks: list[str] = field(default_factory=list)
+
+    @property
+    def measurement(self) -> Measurement:
+        return self.said.points.measurement
+
+    def at(self, name: str) -> str | None:
+        """Path of a field in the request."""
+        if not self.said.field:
+            return None
+        return f"{self.said.field}.experiment.{name}".removeprefix("..")
+
+
+def stated_in(points: Points) -> dict[str, ExperimentValue]:
+    """What a measurement states about its experiment; the conditions of a preset are the preset's."""
+    measurement = points.measurement
+    if measurement.stated or not measurement.conditions:
+        found = file_experiment(measurement.stated)
+    else:
+        conditions = [StatedValue(key, value, "file", "") for key, value in measurement.conditions.items()]
+        found = file_experiment(conditions)
+    if points.source:
+        found = {
+            name: replace(value, origin="preset", where=measurement.name) for name, value in found.items()
+        }
+    if points.nominal_length is not None and "rest_length" not in found:
+        found["rest_length"] = ExperimentValue(points.nominal_length, "m", "preset", measurement.name)
+    return found
+
+
+def resolved(
+    model: SaidModel, measurements: Sequence[SaidMeasurement], studio: Studio, *, strict: bool = False
+) -> Resolved:
+    """The experiment of every measurement, and the start model.
+
+    Raises:
+        InputError: two statements that contradict each other, a value that nobody stated and that cannot be
+            assumed, or with ``strict`` any that would be.
+    """
+    ones = [_One(each, stated_in(each.points) | dict(each.said)) for each in measurements]
+    first = next(one for one in ones if not one.said.validation)
+    named = str(first.values["muscle"].value) if "muscle" in first.values else ""
+    start = model.start(named, _number(first.values.get("rest_length")))
+    for one in ones:
+        one.values["rest_length"] = _rest_length(one, model, start)
+        _name_muscle(one, model, start)
+    length = float(first.values["rest_length"].value)
+    if abs(float(start.muscle.nominal_length) - length) > 1e-12 * length:
+        start = replace(start, muscle=start.muscle._replace(nominal_length=length))
+    for one in ones:
+        _add_accuracy(one)
+        for name, value in drive_values(one.measurement, one.values, model.drive, start).items():
+            one.values.setdefault(name, value)
+    assumptions = _assumptions(ones)
+    if strict and assumptions:
+        _refuse(ones)
+    specimens = [_specimen(one, model, start, studio) for one in ones]
+    used = [each for each, one in zip(specimens, ones, strict=True) if not one.said.validation]
+    judged = [each for each, one in zip(specimens, ones, strict=True) if one.said.validation]
+    several = specimens_of(_with_zeros(used, ones), start.muscle)
+    remarks = tuple(dict.fromkeys(remark for one in ones for remark in one.remarks))
+    return Resolved(
+        start, several, specimens_of(judged, start.muscle) if judged else None, assumptions, remarks
+    )
+
+
+def _number(value: ExperimentValue | None) -> float | None:
+    return None if value is None else float(value.value)
+
+
+def _shown(value: float) -> str:
+    return f"{1e3 * value:.4g} mm"
+
+
+def _rest_length(one: _One, model: SaidModel, start: StartModel) -> ExperimentValue:
+    """The rest length of a measurement.
+
+    Raises:
+        InputError: file and muscle state different ones, and the user decides for neither.
+    """
+    own, name = one.values.get("rest_length"), one.measurement.name
+    said = model.length
+    if own is not None and own.origin in ("you", "suggested"):
+        return own
+    if own is None:
+        if said is not None:
+            return said
+        preset = start.preset
+        where = "" if preset is None else f"the preset {preset.id}"
+        return ExperimentValue(float(start.muscle.nominal_length), "m", "assumed", where)
+    if said is None:
+        return own
+    mine, theirs = float(said.value), float(own.value)
+    apart = abs(mine - theirs) / theirs
+    if apart <= _SAME_LENGTH:
+        return own
+    at = f" ({own.where})" if own.where and own.where != name else ""
+    both = f"{name} says a rest length of {_shown(theirs)}{at}, {said.where} says {_shown(mine)}"
+    if own.origin == "file" and apart > _ONE_MUSCLE:
+        raise InputError(
+            both,
+            field=one.at("rest_length"),
+            hint=f'decide with --rest-length "{_shown(theirs)}" or --rest-length "{_shown(mine)}"',
+        )
+    one.remarks.append(f"{both}: the latter is taken; --rest-length decides")
+    return said
+
+
+def _name_muscle(one: _One, model: SaidModel, start: StartModel) -> None:
+    """The muscle of a measurement: the user's word for it, that of the request, else the file's."""
+    own = one.values.get("muscle")
+    if model.muscle is None or (own is not None and own.origin in ("you", "suggested")):
+        if own is None and start.preset is not None:
+            one.values["muscle"] = ExperimentValue(start.preset.id, "", "you", "")
+        return
+    if own is not None and start.preset is not None:
+        other = str(own.value).partition(":")[0].upper()
+        if other.startswith(("DMSP-", "MAS-")) and other != start.preset.id.upper():
+            one.remarks.append(
+                f"{one.measurement.name} names the muscle {own.value}, {model.muscle.where} "
+                f"{start.preset.id}: the latter is taken"
+            )
+    one.values["muscle"] = model.muscle
+
+
+def _add_accuracy(one: _One) -> None:
+    """The accuracies that are assumed where nobody says any."""
+    for channel, accuracy in default_accuracy(one.measurement).items():
+        value = ExperimentValue(accuracy.value, accuracy.unit, "assumed", "usual for readings at rest")
+        one.values.setdefault(f"{ACCURACY}{channel}", value)
+
+
+def _assumptions(ones: Sequence[_One]) -> tuple[Assumption, ...]:
+    found: dict[tuple[str, str], list[str]] = {}
+    for one in ones:
+        for name, words in _assumed_words(one):
+            found.setdefault((name, words), []).append(one.measurement.name)
+    result = []
+    for (name, words), files in found.items():
+        option = "--accuracy" if name.startswith(ACCURACY) else FIELDS[name].option.split(" ")[0]
+        if option == "--experiment":
+            option = f'--experiment "{name}=..."'
+        result.append(Assumption(name, words, option, () if len(files) == len(ones) else tuple(files)))
+    return tuple(result)
+
+
+def _assumed_words(one: _One) -> list[tuple[str, str]]:
+    """(field, words) of what a test of this kind needs and nobody said."""
+    columns, values = one.measurement.columns, one.values
+    words = []
+    for name in needed(one.measurement.kind, columns):
+        value = values.get(name)
+        if value is None:
+            if name == "load" and one.measurement.kind == "isotonic":
+                words.append((name, "nothing about the load, which nobody states and which is fitted"))
+        elif value.origin == "assumed":
+            words.append((name, _in_words(name, value)))
+    accuracies = [
+        f"{channel} {_of_accuracy(value)}"
+        for channel in CHANNELS
+        if (value := values.get(f"{ACCURACY}{channel}")) is not None and value.origin == "assumed"
+    ]
+    if accuracies:
+        words.append((f"{ACCURACY}length", f"an accuracy of {', '.join(accuracies)}"))
+    return words
+
+
+def _in_words(name: str, value: ExperimentValue) -> str:
+    if name == "rest_length":
+        whose = ", the preset's" if value.where.startswith("the preset") else ""
+        return f"a rest length of {_shown(float(value.value))}{whose}"
+    if name == "supply":
+        return f"a supply pressure of {float(value.value) / 1e5:.4g} bar"
+    if name == "load":
+        return "no load"
+    return f"{FIELDS[name].title.lower()} {value.value}"
+
+
+def _of_accuracy(value: ExperimentValue) -> str:
+    if value.unit == "1":
+        return f"{100.0 * float(value.value):.3g} %"
+    scale, unit = {"m": (1e3, "mm"), "Pa": (1e-2, "mbar")}.get(value.unit, (1.0, value.unit))
+    return f"{scale * float(value.value):.3g} {unit}"
+
+
+def _refuse(ones: Sequence[_One]) -> None:
+    """Refuse the first thing that would be assumed."""
+    for one in ones:
+        for name, words in _assumed_words(one):
+            declared = FIELDS[name]
+            raise InputError(
+                f"{one.measurement.name}: {declared.title.lower()} is not stated (without --strict: {words})",
+                field=one.at("accuracy" if name.startswith(ACCURACY) else name),
+                hint=declared.option,
+            )
+
+
+def _specimen(one: _One, model: SaidModel, start: StartModel, studio: Studio) -> Specimen:
+    points, values = one.said.points, one.values
+    measurement = corrected(points.measurement, values)
+    muscle = _own_geometry(one, start, studio)
+    length = float(values["rest_length"].value)
+    accuracy = {
+        channel: sigma_of(ChannelAccuracy(float(value.value), value.unit), channel, measurement, length)
+        for channel in CHANNELS
+        if (value := values.get(f"{ACCURACY}{channel}")) is not None
+    }
+    drive = own_drive(measurement, values, model.drive, replace(start, muscle=muscle), studio, model.where)
+    ordered = {name: values[name] for name in (*FIELDS, LOAD_FORCE) if name in values}
+    return Specimen(
+        replace(points, measurement=measurement, nominal_length=length), muscle, drive, ordered, accuracy
+    )
+
+
+def _own_geometry(one: _One, start: StartModel, studio: Studio) -> Muscle:
+    """The muscle of a measurement: that of the model, or another preset that the user or the file names."""
+    length = float(one.values["rest_length"].value)
+    named = one.values.get("muscle")
+    if named is not None and start.preset is not None:
+        preset = str(named.value).partition(":")[0]
+        if preset.upper() != start.preset.id.upper():
+            try:
+                muscle = studio.facts(preset).muscle
+            except InputError as error:
+                if named.origin == "file":
+                    return start.muscle._replace(nominal_length=length)
+                raise error.at(one.at("muscle") or error.field) from error
+            return muscle._replace(nominal_length=length)
+    return start.muscle._replace(nominal_length=length)
+
+
+def _with_zeros(specimens: Sequence[Specimen], ones: Sequence[_One]) -> list[Specimen]:
+    """Specimens of different geometry with a zero error of their own for every sensor."""
+    first = specimens[0].muscle
+    remounted = any(
+        abs(a - b) > _SAME_LENGTH * max(abs(a), abs(b))
+        for each in specimens[1:]
+        for a, b in zip(each.muscle, first, strict=True)
+    )
+    del ones
+    result = []
+    for each in specimens:
+        measurement = each.points.measurement
+        usual = {
+            channel: sigma_of(accuracy, channel, measurement, float(each.muscle.nominal_length))
+            for channel, accuracy in (_REMOUNTED if remounted else {}).items()
+        }
+        stated: Mapping[str, float] = each.accuracy if len(specimens) > 1 else {}
+        zeros = {**usual, **stated}
+        shown = {
+            f"{ACCURACY}{channel}": ExperimentValue(
+                accuracy.value, accuracy.unit, "assumed", "zero error of each specimen"
+            )
+            for channel, accuracy in (_REMOUNTED if remounted else {}).items()
+            if channel not in each.accuracy and channel in usual and usual[channel] > 0.0
+        }
+        result.append(replace(each, zeros=zeros, experiment={**shown, **each.experiment}))
+    return result

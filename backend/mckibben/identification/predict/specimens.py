@@ -1,0 +1,275 @@
+"""Several measurements predicted together: specimens of one or more muscles, each with its own geometry.
+
+A model of several specimens has one set of effects and one reference muscle. The muscle of a specimen keeps
+its ratio to the reference: if a fit changes the braid angle of the reference by 1 %, it changes that of every
+specimen by 1 %.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from copy import copy
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mckibben.identification.predict.fit_model import FitModel
+from mckibben.identification.predict.folds import folds_of
+from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.predictor import PredictedChannel, Predictor
+from mckibben.identification.predict.reading_errors import ReadingError
+from mckibben.physics.effect import Effect
+from mckibben.physics.errors import InputError
+from mckibben.physics.muscle import GEOMETRY, Muscle
+
+
+@dataclass(frozen=True)
+class SpecimenData:
+    """One measurement of several: its name, its predictor and its muscle."""
+
+    name: str
+    predictor: Predictor
+    muscle: Muscle
+
+
+def own_muscle(muscle: Muscle, *, reference: Muscle, own: Muscle) -> Muscle:
+    """The muscle of a specimen, where the reference has become ``muscle``; fields without a value stay so."""
+    return Muscle(
+        *(
+            value if not before else mine * value / before
+            for value, before, mine in zip(muscle, reference, own, strict=True)
+        )
+    )
+
+
+class SpecimensPredictor(Predictor):
+    """Predicts several measurements of the same kind.
+
+    Args:
+        specimens: at least two, with the same predicted channels.
+        reference: the muscle of the model.
+
+    Raises:
+        InputError: the specimens are of different kinds, or different channels were measured.
+    """
+
+    def __init__(self, specimens: Sequence[SpecimenData], *, reference: Muscle) -> None:
+        self._specimens, self._reference = tuple(specimens), reference
+        parts = [specimen.predictor for specimen in specimens]
+        first = parts[0]
+        for specimen in specimens[1:]:
+            other = specimen.predictor
+            if other.kind != first.kind or other.predicted != first.predicted:
+                raise InputError(
+                    f"of {specimen.name} {other.predicted} is predicted ({other.kind}), of "
+                    f"{specimens[0].name} {first.predicted} ({first.kind})",
+                    field="kind",
+                    hint="compare them one after the other",
+                )
+        self.kind, self.simulated, self.step = first.kind, first.simulated, first.step
+        # The values are ordered by channel, then by specimen.
+        sizes = [len(part.measured) for part in parts]
+        begins = np.cumsum([0, *sizes[:-1]])
+        order, channels, begin = [], [], 0
+        for number, channel in enumerate(first.channels):
+            rows = [
+                np.arange(size)[part.channels[number].rows] for part, size in zip(parts, sizes, strict=True)
+            ]
+            order += [inside + start for inside, start in zip(rows, begins, strict=True)]
+            same = [part.channels[number] for part in parts]
+            count = sum(map(len, rows))
+            weights = [len(inside) for inside in rows]
+            noise = float(np.sqrt(np.average([each.noise**2 for each in same], weights=weights)))
+            scale = max(each.full_scale for each in same)
+            channels.append(
+                PredictedChannel(channel.name, channel.unit, slice(begin, begin + count), noise, scale)
+            )
+            begin += count
+        self._order = np.concatenate(order)
+        self._back = np.empty(len(self._order), dtype=np.intp)
+        self._back[self._order] = np.arange(len(self._order))
+        self.channels = tuple(channels)
+        self.measured = self._stacked([part.measured for part in parts])
+        self.scale = self._stacked([part.scale for part in parts])
+        self.specimen = self._stacked([np.full(size, number) for number, size in enumerate(sizes)])
+        self.groups, self.records = (
+            self._stacked(_numbered([getattr(part, name) for part in parts]))
+            for name in ("groups", "records")
+        )
+        self.folds = self._folds(parts)
+        self.sweeps = [
+            self._back[sweep + start]
+            for part, start in zip(parts, begins, strict=True)
+            for sweep in part.sweeps
+        ]
+        shared = [name for name in first.inputs if all(name in part.inputs for part in parts)]
+        self.inputs = {name: self._stacked([part.inputs[name] for part in parts]) for name in shared}
+        self.rows_used = sum(part.rows_used for part in parts)
+        self.excluded = _summed([part.excluded for part in parts])
+        self.messages = tuple(
+            f"{each.name}: {message}" for each in specimens for message in each.predictor.messages
+        )
+        unknown = [part.unknown_load for part in parts if part.unknown_load is not None]
+        if unknown:
+            largest = max(each.upper for each in unknown)
+            self.unknown_load = replace(unknown[0], upper=largest, start=0.05 * largest)
+        self.reading_errors = tuple(
+            replace(
+                error,
+                of=f"{each.name}: {error.of}" if error.of else each.name,
+                rows=self._alone(n, error.rows),
+            )
+            for n, each in enumerate(specimens)
+            for error in each.predictor.reading_errors
+        )
+        names = {name for part in parts for name in part.accuracy}
+        self.accuracy = {
+            name: float(np.sqrt(np.mean([part.accuracy.get(name, 0.0) ** 2 for part in parts])))
+            for name in names
+        }
+
+    @property
+    def several_lengths(self) -> bool:
+        """Whether the muscles have different rest lengths."""
+        rest = [float(each.muscle.nominal_length) for each in self._specimens]
+        return max(rest) > 1.01 * min(rest)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Name of each specimen."""
+        return tuple(each.name for each in self._specimens)
+
+    def _folds(self, parts: Sequence[Predictor]) -> tuple[np.ndarray, ...]:
+        """Folds by groups of all specimens; other ways where all specimens have them."""
+        ways = [folds_of(self.groups)] if self.kind != "transient" else []
+        first = 0 if self.kind == "transient" else 1
+        for way in range(first, min(len(part.folds) for part in parts)):
+            labels = [part.folds[way] for part in parts]
+            ways.append(self._stacked(_numbered(labels) if self.kind == "transient" else labels))
+        return tuple(ways)
+
+    def _stacked(self, parts: Sequence[np.ndarray]) -> np.ndarray:
+        return np.concatenate(parts)[self._order]
+
+    def _alone(self, number: int, rows: np.ndarray) -> np.ndarray:
+        """A mask of the values of one specimen as one of all values."""
+        return self._stacked(
+            [
+                rows if place == number else np.zeros(len(each.predictor.measured), bool)
+                for place, each in enumerate(self._specimens)
+            ]
+        )
+
+    def _own(self, fit_model: FitModel, specimen: SpecimenData) -> FitModel:
+        muscle = own_muscle(fit_model.muscle, reference=self._reference, own=specimen.muscle)
+        return replace(fit_model, muscle=muscle)
+
+    def _each(self, evaluate: Callable[[Predictor, FitModel], np.ndarray], fit_model: FitModel) -> np.ndarray:
+        return self._stacked(
+            [evaluate(each.predictor, self._own(fit_model, each)) for each in self._specimens]
+        )
+
+    def rest_length(self, fit_model: FitModel) -> np.ndarray:
+        """Rest length of the muscle of each value [m], shape (values,)."""
+        return self._each(
+            lambda part, own: np.full(len(part.measured), float(own.muscle.nominal_length)), fit_model
+        )
+
+    def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
+        """The prediction of every specimen with its own muscle."""
+        return self._each(lambda part, own: part.predict(own, clipped=clipped), fit_model)
+
+    def trial(self, fit_model: FitModel) -> np.ndarray:
+        """The trial of every specimen."""
+        return self._each(lambda part, own: part.trial(own), fit_model)
+
+    def linearised(self, fit_model: FitModel, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
+        """Predictions and derivatives; a geometry field acts in its ratio to the reference."""
+        values, slopes = [], []
+        for each in self._specimens:
+            own = self._own(fit_model, each)
+            scaled = [_scaled(parameter, fit_model, own) for parameter in free]
+            predicted, gradient = each.predictor.linearised(own, scaled)
+            values.append(predicted)
+            slopes.append(gradient * np.array([_ratio(p.name, fit_model, own) for p in free]))
+        return self._stacked(values), np.concatenate(slopes)[self._order]
+
+    def why_hidden(self, effect: Effect) -> str:
+        """An effect shows if it shows in one of the measurements."""
+        reasons = [each.predictor.why_hidden(effect) for each in self._specimens]
+        return "" if not all(reasons) else reasons[0]
+
+    def prepared(self, fit_model: FitModel, candidates: Sequence[Effect]) -> SpecimensPredictor:
+        """Every specimen prepared."""
+        ready = copy(self)
+        ready._specimens = tuple(
+            replace(each, predictor=each.predictor.prepared(self._own(fit_model, each), candidates))
+            for each in self._specimens
+        )
+        return ready
+
+    def input_slope(self, fit_model: FitModel, channel: str) -> np.ndarray:
+        """That of every specimen."""
+        return self._each(lambda part, own: part.input_slope(own, channel), fit_model)
+
+    def lost(self, fit_model: FitModel) -> tuple[int, int]:
+        """Sums over the specimens."""
+        pairs = [each.predictor.lost(self._own(fit_model, each)) for each in self._specimens]
+        return sum(lost for lost, _ in pairs), sum(rows for _, rows in pairs)
+
+
+def zero_errors(specimen: SpecimenData, accuracy: dict[str, float]) -> SpecimenData:
+    """The specimen with a possible zero error of each of its sensors, within the accuracy.
+
+    Args:
+        specimen: one of several.
+        accuracy: channel -> standard deviation [SI].
+    """
+    predictor = copy(specimen.predictor)
+    rows = np.ones(len(predictor.measured), bool)
+    taken = {error.channel for error in predictor.reading_errors}
+    units = {"length": "m", "force": "N", "pressure": "Pa", "diameter": "m"}
+    seen = {channel.name for channel in predictor.channels} | set(predictor.inputs)
+    predictor.reading_errors = (
+        *predictor.reading_errors,
+        *(
+            ReadingError(channel, "", sigma, units[channel], rows)
+            for channel, sigma in accuracy.items()
+            if sigma > 0.0 and channel not in taken and channel in seen
+        ),
+    )
+    return replace(specimen, predictor=predictor)
+
+
+def _ratio(name: str, fit_model: FitModel, own: FitModel) -> float:
+    if name not in GEOMETRY:
+        return 1.0
+    value = fit_model.number(name)
+    return own.number(name) / value if value else 1.0
+
+
+def _scaled(parameter: Free, fit_model: FitModel, own: FitModel) -> Free:
+    ratio = _ratio(parameter.name, fit_model, own)
+    if ratio == 1.0:
+        return parameter
+    return replace(
+        parameter, start=parameter.start * ratio, lower=parameter.lower * ratio, upper=parameter.upper * ratio
+    )
+
+
+def _numbered(labels: Sequence[np.ndarray]) -> list[np.ndarray]:
+    """Labels that differ from specimen to specimen."""
+    offset, result = 0, []
+    for values in labels:
+        numbers = np.unique(values, return_inverse=True)[1]
+        result.append(numbers + offset)
+        offset += int(numbers.max()) + 1
+    return result
+
+
+def _summed(counts: Sequence[Mapping[str, int]]) -> dict[str, int]:
+    total: dict[str, int] = {}
+    for part in counts:
+        for reason, number in part.items():
+            total[reason] = total.get(reason, 0) + number
+    return total
