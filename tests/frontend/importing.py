@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -36,19 +37,21 @@ def table(head: list[str], rows: list[list[float]]) -> str:
 def laboratory(name: str, *, scale: float = 1.0, rest: str = "") -> FilePayload:
     """A file with a preamble, names and units apart, a column in mm that nobody knows."""
     rows = [[p / 1e5, 1e3 * s, f, 1e3 * s + 80.0] for p, s, f in readings(scale)]
-    preamble = ["Protokoll;Nr. 7", *([f"L0;{rest}"] if rest else []), ""]
+    preamble = ["Protokoll;Nr. 7", *(["Probe;DMSP-20", f"L0;{rest}"] if rest else []), ""]
     head = [*preamble, "Druck;Hub;Kraft;Traverse", "bar;mm;N;mm"]
     return file(name, table(head, rows))
 
 
-def bare(name: str) -> FilePayload:
-    """A file with names and without any unit."""
-    return file(name, table(["p;x;F"], [[p / 1e3, 1e3 * s, f] for p, s, f in readings()]))
+def bare(name: str, *said: str) -> FilePayload:
+    """A file with names and without any unit; ``said``: conditions such as ``muscle: DMSP-20``."""
+    head = [*(f"# {one}" for one in said), "p;x;F"]
+    return file(name, table(head, [[p / 1e3, 1e3 * s, f] for p, s, f in readings()]))
 
 
-def plain(name: str, *, rest: str = "250 mm") -> FilePayload:
-    """A file in which everything is said."""
-    head = [f"# nominal_length: {rest}", "# muscle: DMSP-20", "pressure [bar(g)];stroke [mm];force [N]"]
+def plain(name: str, *, rest: str = "250 mm", muscle: str = "DMSP-20") -> FilePayload:
+    """A file in which everything is said; ``muscle`` may be left out."""
+    said = [f"# nominal_length: {rest}", *([f"# muscle: {muscle}"] if muscle else [])]
+    head = [*said, "pressure [bar(g)];stroke [mm];force [N]"]
     return file(name, table(head, [[p / 1e5, 1e3 * s, f] for p, s, f in readings()]))
 
 
@@ -66,6 +69,26 @@ def panel(page: Page) -> Locator:
     found = page.locator("dialog.import")
     expect(found).to_be_visible()
     return found
+
+
+def accept_button(page: Page) -> Locator:
+    """The button that takes the files."""
+    return panel(page).get_by_role("button", name=re.compile("^Use th"))
+
+
+def answer_everything(page: Page) -> int:
+    """Answer what is open of the experiment; how many actions that took."""
+    for actions in range(8):
+        expect(page.locator(".import .state-now")).not_to_contain_text("Reading")
+        if accept_button(page).is_enabled():
+            return actions
+        row = page.locator("dialog.import .question.open").first
+        if row.locator("select").count():
+            row.locator("select").select_option("DMSP-20")
+        else:
+            row.locator("input").fill("250 mm")
+            page.keyboard.press("Tab")
+    raise AssertionError("the panel asks on and on")
 
 
 def preview_of(page: Page, payload: FilePayload) -> dict[str, Any]:

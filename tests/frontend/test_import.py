@@ -10,16 +10,22 @@ from playwright.sync_api import FilePayload, Locator, Page, expect
 
 from tests.frontend.comparing import choose, drop, error, use
 from tests.frontend.guard import PageGuard
-from tests.frontend.importing import CORPUS, bare, laboratory, panel, plain, preview_of, trace
+from tests.frontend.importing import (
+    CORPUS,
+    accept_button,
+    answer_everything,
+    bare,
+    laboratory,
+    panel,
+    plain,
+    preview_of,
+    trace,
+)
 from tests.frontend.views import REFUSED, open_compare, run
 
 needs_corpus = pytest.mark.skipif(
     not CORPUS.is_dir(), reason="the files of the laboratories are not beside this checkout"
 )
-
-
-def accept_button(page: Page) -> Locator:
-    return panel(page).get_by_role("button", name=re.compile("^Use th"))
 
 
 def handle(page: Page) -> Locator:
@@ -49,14 +55,9 @@ def test_from_a_dropped_file_to_the_first_comparison(page: Page) -> None:
     dialog = panel(page)
     expect(dialog.locator(".is-head")).to_contain_text("Zeit")
     expect(dialog.locator(".is-units")).to_contain_text("mbar")
-    # Whatever is required is answered where the panel puts the focus.
-    while not accept_button(page).is_enabled():
-        focused = page.locator(":focus")
-        expect(focused).to_have_attribute("aria-required", "true")
-        offer = dialog.locator(".question.open").first.get_by_role("button").last
-        offer.click()
-        actions += 1
-        assert actions < 5
+    expect(dialog.locator("[data-field='experiment.muscle'] .origin.file")).to_have_text("file: line 2")
+    expect(dialog.locator("[data-field='experiment.rest_length'] input")).to_have_value("250 mm")
+    actions += answer_everything(page)
     accept_button(page).click()
     actions += 1
     assert actions <= 5
@@ -77,7 +78,7 @@ def values_to_see(preview: dict[str, Any]) -> list[tuple[str, str]]:
             found.append((f"[data-column='{column['header']}']", f"{column['unit']} is proposed"))
         if column["channel"] == "pressure" and column["absolute"] is None:
             found.append((".countings", "gauge is assumed"))
-    for one in preview.get("experiment") or []:
+    for one in preview["experiment"]:
         row = f"[data-field='experiment.{one['field']}']"
         if one["origin"] in ("assumed", "proposed", "suggested"):
             found.append((row, "assumed" if one["origin"] == "assumed" else one["origin"]))
@@ -109,8 +110,7 @@ def test_whatever_nobody_said_is_visible_for_every_file_of_the_corpus(page: Page
                 ask = dialog.locator(f".ask[data-about='{question['about']}']")
                 expect(ask.get_by_role("button").first, path.name).to_be_visible()
         assert accept_button(page).is_enabled() == (
-            preview["measurement"] is not None
-            and not any(one["unanswered"] for one in preview.get("experiment") or [])
+            preview["measurement"] is not None and not any(one["unanswered"] for one in preview["experiment"])
         ), path.name
         page.keyboard.press("Escape")
         expect(dialog).to_be_hidden()
@@ -235,15 +235,6 @@ def test_a_mapping_is_remembered_for_the_next_file_of_its_kind(page: Page) -> No
     expect(panel(page).locator(".kept")).to_have_count(0)
 
 
-def answer_everything(page: Page) -> None:
-    """Take over what is assumed in the experiment, where anything is asked."""
-    for _ in range(6):
-        expect(page.locator(".import .state-now")).not_to_contain_text("Reading")
-        if accept_button(page).is_enabled():
-            return
-        page.locator("dialog.import .question.open").first.get_by_role("button").last.click()
-
-
 def test_ten_files_of_a_kind_are_one_question(page: Page) -> None:
     no_diagnosis(page)
     choose(page, *[laboratory(f"run{n}.csv", scale=1 + n / 100, rest="250 mm") for n in range(10)])
@@ -297,24 +288,33 @@ def test_a_sheet_is_picked(page: Page) -> None:
 
 def test_everything_by_key(page: Page) -> None:
     no_diagnosis(page)
-    choose(page, bare("e.csv"))
+    choose(page, bare("e.csv", "muscle: DMSP-20"))
     expect(panel(page).locator(".ask[data-about='unit of pressure'] button").first).to_be_focused()
     with read_anew(page):
         page.keyboard.press("Enter")
     expect(panel(page).locator(".ask[data-about='unit of displacement'] button").first).to_be_focused()
     with read_anew(page):
         page.keyboard.press("Enter")
-    for _ in range(8):
-        if accept_button(page).is_enabled():
-            break
-        expect(page.locator(".question.open :focus")).to_have_count(1)
-        page.keyboard.press("Tab")
-        while "assume" not in page.locator(":focus").inner_text():
-            page.keyboard.press("Tab")
-        page.keyboard.press("Enter")
+    expect(panel(page).get_by_label("Rest length")).to_be_focused()
+    page.keyboard.type("250")
+    page.keyboard.press("Enter")
     expect(accept_button(page)).to_be_focused()
     page.keyboard.press("Enter")
     expect(page.locator(".file")).to_have_count(1)
+    expect(page.locator("[data-field='compare.nominal_length'] input")).to_have_value("250")
+
+
+def test_a_muscle_is_chosen_by_key(page: Page) -> None:
+    no_diagnosis(page)
+    choose(page, plain("e.csv", muscle=""))
+    select = panel(page).get_by_role("combobox", name="Muscle", exact=True)
+    expect(select).to_be_focused()
+    for wanted in ("DMSP-5", "DMSP-10", "DMSP-20"):
+        with read_anew(page):
+            page.keyboard.press("ArrowDown")
+        expect(select).to_have_value(wanted)
+        expect(select).to_be_focused()
+    expect(accept_button(page)).to_be_enabled()
 
 
 def test_bad_rows_are_left_out_only_when_the_user_says_so(page: Page) -> None:

@@ -1,6 +1,6 @@
 """The second step of an import: the experiment, its origins, what is required, what contradicts the file.
 
-The fields come from a stand-in for the server, so that every origin occurs; `test_import.py` has the real ones.
+The fields come from a stand-in for the server, so that every origin occurs; `test_import` has the real ones.
 """
 
 from __future__ import annotations

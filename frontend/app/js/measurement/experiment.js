@@ -17,6 +17,9 @@ function originChip(f, said, accepted) {
     const taken = typeof said !== "string";
     return h("span", { class: "origin you" }, taken ? "suggested, taken over" : "you");
   }
+  if (f.origin === null && accepted) {
+    return h("span", { class: "origin assumed" }, "geometry in the view");
+  }
   if (f.origin === null) {
     return h("span", { class: "origin none" }, f.required ? "nobody said it" : "not said");
   }
@@ -87,7 +90,14 @@ function fieldRow(m, f) {
         () => m.say(f, textOf(kept)),
       )
       : null,
-    open && f.value !== null
+    open && f.field === "muscle"
+      ? offer(
+        "Another muscle: I set its geometry later",
+        "assume",
+        () => m.accept(f.field),
+      )
+      : null,
+    open && f.value !== null && f.field !== "muscle"
       ? offer(
         `I don’t know: assume ${valueText(f, f.value, system)}, check it later`,
         "assume",

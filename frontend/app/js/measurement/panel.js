@@ -77,19 +77,27 @@ function keepFocus(dialog, model) {
   dialog.addEventListener("focusin", (e) => {
     last = e.target instanceof HTMLElement ? e.target.dataset.key ?? "" : "";
   });
+  dialog.addEventListener("keydown", (e) => {
+    const isField = e.target instanceof HTMLInputElement && e.target.type === "text";
+    if (e.key === "Enter" && isField && !e.isComposing) setTimeout(() => moveOn(dialog));
+  });
   return effect(() => {
     [model.preview, model.mapping, model.common, model.own, model.accepted, model.wrong, model.at, units]
       .forEach((one) => one.value);
     queueMicrotask(() => {
       if (!last || dialog.contains(document.activeElement) && document.activeElement !== dialog) return;
       const same = dialog.querySelector(`[data-key="${CSS.escape(last)}"]`);
-      // What was answered is gone: the next question, or the button.
-      const next = same ??
-        dialog.querySelector(".ask:not(.may-wait) button, .question.open :is(input, select)") ??
-        dialog.querySelector(".foot .primary:not(:disabled)") ?? dialog.querySelector(".dialog-body");
-      if (next instanceof HTMLElement) next.focus({ preventScroll: true });
+      if (same instanceof HTMLElement) same.focus({ preventScroll: true });
+      else moveOn(dialog); // what was answered is gone
     });
   });
+}
+
+/** To the next question, or to the button. @param {HTMLElement} dialog */
+function moveOn(dialog) {
+  const next = dialog.querySelector(".ask:not(.may-wait) button, .question.open :is(input, select)") ??
+    dialog.querySelector(".foot .primary:not(:disabled)") ?? dialog.querySelector(".dialog-body");
+  if (next instanceof HTMLElement) next.focus();
 }
 
 /** What is still open, in a sentence. @param {Model} m */
