@@ -55,7 +55,7 @@ def test_from_a_dropped_file_to_the_first_comparison(page: Page) -> None:
     dialog = panel(page)
     expect(dialog.locator(".is-head")).to_contain_text("Zeit")
     expect(dialog.locator(".is-units")).to_contain_text("mbar")
-    expect(dialog.locator("[data-field='experiment.muscle'] .origin.file")).to_have_text("file: line 2")
+    expect(dialog.locator("[data-field='experiment.muscle'] .origin.from-file")).to_have_text("file: line 2")
     expect(dialog.locator("[data-field='experiment.rest_length'] input")).to_have_value("250 mm")
     actions += answer_everything(page)
     accept_button(page).click()
@@ -89,6 +89,30 @@ def values_to_see(preview: dict[str, Any]) -> list[tuple[str, str]]:
     found += [(".unread", one["column"]) for one in preview["unread"]]
     found += [(".unread", one["why"]) for one in preview["unread"]]
     return found
+
+
+@needs_corpus
+def test_a_run_of_a_valve_asks_for_its_valve(page: Page) -> None:
+    """A recording that says muscle, length, load and supply, but not the valve."""
+    no_diagnosis(page)
+    content = (CORPUS / "rec1_003.mat").read_bytes()
+    choose(page, {"name": "rec.mat", "mimeType": "application/octet-stream", "buffer": content})
+    dialog = panel(page)
+    expect(dialog.locator(".state-now")).to_have_text("missing: valve")
+    expect(dialog.locator("[data-field='experiment.load'] input")).to_have_value("8 kg")
+    expect(dialog.locator("[data-field='experiment.supply'] input")).to_have_value("6 bar")
+    expect(dialog.locator(".thumbnail")).to_have_attribute(
+        "aria-label", "Stroke and pressure over time of the file"
+    )
+    dialog.get_by_role("combobox", name="Valve", exact=True).select_option("MHE2")
+    with page.expect_request("**/api/comparisons") as asked:
+        use(page)
+    body = asked.value.post_data_json
+    assert isinstance(body, dict)
+    assert body["measurements"][0]["experiment"] == {"valve": "MHE2"}
+    assert body["drive"]["valve"] == {"preset": "MHE2"}
+    assert (body["drive"]["load"]["mass"], body["drive"]["supply"]["pressure"]) == (8.0, 6e5)
+    expect(page.get_by_role("region", name="Rig").get_by_label("Valve")).to_have_value("MHE2")
 
 
 @needs_corpus

@@ -112,11 +112,18 @@ def accept(page: Page) -> Locator:
     return panel(page).get_by_role("button", name=re.compile("^Use th"))
 
 
-def compared(page: Page) -> dict[str, Any]:
+def compared(page: Page) -> list[dict[str, Any]]:
     """Accept the files; the measurements of the comparison that follows."""
+    return request_after(page)["measurements"]
+
+
+def request_after(page: Page) -> dict[str, Any]:
+    """Accept the files; the comparison that follows."""
     with page.expect_request("**/api/comparisons") as asked:
         use(page)
-    return asked.value.post_data_json["measurements"]
+    body = asked.value.post_data_json
+    assert isinstance(body, dict)
+    return body
 
 
 def test_each_value_shows_who_says_it(page: Page) -> None:
@@ -203,9 +210,28 @@ def test_a_chosen_muscle_is_asked_with(page: Page) -> None:
         row(page, "muscle").get_by_label("Muscle").select_option("DMSP-10")
     expect(accept(page)).to_be_enabled()
     assert muscles == ["", "DMSP-10"]
-    (measurement,) = compared(page)
-    assert measurement["experiment"]["muscle"] == "DMSP-10"
+    # It is the muscle of the view, where it can be changed.
+    body = request_after(page)
+    assert body["muscle"]["preset"] == "DMSP-10"
+    assert "experiment" not in body["measurements"][0]
     expect(page.locator("#compare-preset")).to_have_value("DMSP-10")
+
+
+def test_the_length_in_the_view_and_that_of_the_import_are_one(page: Page) -> None:
+    stand_in(page, MUSCLE, LENGTH)
+    choose(page, plain("a.csv"))
+    row(page, "rest_length").get_by_label("Rest length").fill("260")
+    page.keyboard.press("Tab")
+    compared(page)
+    field = page.locator("[data-field='compare.nominal_length'] input")
+    expect(field).to_have_value("260")
+    field.fill("270")
+    with page.expect_request("**/api/comparisons") as asked:
+        field.press("Enter")
+    body = asked.value.post_data_json
+    assert body["measurements"][0]["experiment"]["rest_length"] == "0.27 m"
+    page.get_by_role("button", name="Import…").click()
+    expect(row(page, "rest_length").get_by_label("Rest length")).to_have_value("270 mm")
 
 
 def test_each_of_several_files_has_its_rest_length(page: Page) -> None:

@@ -457,7 +457,9 @@ def test_a_measured_trace_lies_over_the_run(page: Page, page_guard: PageGuard, t
     expect(page.locator("#run-position .point")).to_have_count(0)
     trace.write_text("nothing,here\nat,all\n")
     page.locator("#measured-file").set_input_files(trace)
-    expect(card.get_by_role("alert")).not_to_be_empty()
+    expect(page.locator("dialog.import").get_by_role("alert")).to_contain_text("at")
+    page.keyboard.press("Escape")
+    expect(page.locator("#run-position .point")).to_have_count(0)
 
 
 PLOTTED = """

@@ -11,30 +11,38 @@ import { valueOf } from "./columns.js";
 /** @typedef {import("./types.js").Said} Said */
 /** @typedef {import("./model.js").Model} Model */
 
-/** What a field says of its value. @param {Field} f @param {Said | undefined} said @param {boolean} accepted */
-function originChip(f, said, accepted) {
+/** Who says a value. @param {Model} m @param {Field} f @param {Said | undefined} said */
+function originChip(m, f, said) {
+  const way = m.ways.value[f.field];
   if (said !== undefined) {
     const taken = typeof said !== "string";
     return h("span", { class: "origin you" }, taken ? "suggested, taken over" : "you");
   }
-  if (f.origin === null && accepted) {
-    return h("span", { class: "origin assumed" }, "geometry in the view");
-  }
+  if (way === "later") return h("span", { class: "origin assumed" }, "set in the view");
   if (f.origin === null) {
     return h("span", { class: "origin none" }, f.required ? "nobody said it" : "not said");
   }
-  if (f.origin === "file") return h("span", { class: "origin file" }, `file: ${f.where || "its text"}`);
+  if (f.origin === "file") {
+    return h("span", { class: "origin from-file" }, `file: ${placeOf(m, f) || "its text"}`);
+  }
   if (f.origin === "preset") return h("span", { class: "origin" }, f.where || "preset");
   if (f.origin === "assumed") {
-    return h("span", { class: "origin assumed" }, accepted ? "assumed, check it later" : "assumed");
+    return h("span", { class: "origin assumed" }, way ? "assumed, check it later" : "assumed");
   }
   return h("span", { class: "origin" }, f.origin);
 }
 
-/** A field for all files (`file` null) or for one. @param {Model} m @param {Field} f */
+/** Where the file says a value, without the name of the file. @param {Model} m @param {Field} f */
+const placeOf = (m, f) =>
+  m.files.reduce(
+    (where, { name }) => where.startsWith(`${name}, `) ? where.slice(name.length + 2) : where,
+    f.where,
+  );
+
+/** A field for all files. @param {Model} m @param {Field} f */
 function fieldRow(m, f) {
-  const said = m.common.value[f.field], accepted = m.accepted.value.has(f.field);
-  const open = m.asks && isOpen(f, said, accepted) &&
+  const said = m.common.value[f.field];
+  const open = m.asks && isOpen(f, said, m.ways.value[f.field]) &&
     (m.files.length === 1 || m.missing.value.some((one) => one.field === f.field));
   const id = `experiment-${f.field}`, system = units.value;
   const value = said !== undefined
@@ -64,14 +72,14 @@ function fieldRow(m, f) {
       "span",
       { class: "given" },
       entry(m, f, id, value, Boolean(error)),
-      originChip(f, said, accepted),
+      originChip(m, f, said),
     ),
     error ? h("p", { class: "error", id: `${id}-m` }, error) : null,
     file
       ? h(
         "p",
         { class: "error" },
-        `The file says ${file}${f.where ? ` (${f.where})` : ""}. `,
+        `The file says ${file}${f.where ? ` (${placeOf(m, f)})` : ""}. `,
         offer(`Back to ${file}`, "back", () => m.say(f, "")),
       )
       : null,
@@ -93,15 +101,15 @@ function fieldRow(m, f) {
     open && f.field === "muscle"
       ? offer(
         "Another muscle: I set its geometry later",
-        "assume",
-        () => m.accept(f.field),
+        "later",
+        () => m.goOn([f.field], "later"),
       )
       : null,
     open && f.value !== null && f.field !== "muscle"
       ? offer(
         `I don’t know: assume ${valueText(f, f.value, system)}, check it later`,
         "assume",
-        () => m.accept(f.field),
+        () => m.goOn([f.field], "assumed"),
       )
       : null,
   );
@@ -156,8 +164,17 @@ export function experimentFields(m) {
   if (!all.length) return h("p", { class: "muted" }, "Nothing more is needed for this kind of test.");
   const isFirst = (/** @type {Field} */ f) => f.required || f.value !== null || f.proposed !== null;
   const more = all.filter((f) => !isFirst(f));
+  const open = [...new Set(m.missing.value.map((one) => one.field))];
   return [
     ...all.filter(isFirst).map((f) => fieldRow(m, f)),
+    // A run of a valve is simulated with the rig of the view, which takes a drive document.
+    open.length && m.preview.value.points.command
+      ? h(
+        "button",
+        { type: "button", class: "link", "data-key": "drive document", onclick: () => m.goOn(open, "later") },
+        "A drive document says all this: I open it in the view",
+      )
+      : null,
     more.length
       ? h(
         "details",
@@ -261,7 +278,7 @@ function ownEntry(m, i, system) {
   const f = m.fieldsOf(i).find((one) => one.field === "rest_length");
   if (!f) return "";
   const said = m.saidOf(i, f.field), error = m.wrong.value[`${f.field} ${i}`];
-  const accepted = m.accepted.value.has(f.field), open = m.asks && isOpen(f, said, accepted);
+  const way = m.ways.value[f.field], open = m.asks && isOpen(f, said, way);
   const assumed = f.origin === "assumed" && said === undefined;
   return h(
     "span",
@@ -290,8 +307,8 @@ function ownEntry(m, i, system) {
           : said !== undefined
           ? "as above"
           : f.origin === "file"
-          ? f.where || "file"
-          : accepted
+          ? placeOf(m, f) || "file"
+          : way
           ? "assumed"
           : f.origin ?? "?"),
     ),

@@ -20,10 +20,12 @@ export function valueText(f, value, system) {
   return s.unit ? `${text} ${s.unit}` : text;
 }
 
-/** Whether nobody has answered what this kind of test needs; `accepted`: the user goes on with what is assumed, or
- * with a muscle that has no preset. @param {Field} f @param {Said | undefined} said @param {boolean} accepted */
-export const isOpen = (f, said, accepted) =>
-  f.unanswered && said === undefined && !(accepted && (f.value !== null || f.field === "muscle"));
+/** How a field goes on without an answer: with what is assumed, or with what the view says later.
+ * @typedef {"assumed" | "later"} Way */
+/** Whether nobody has answered what this kind of test needs.
+ * @param {Field} f @param {Said | undefined} said @param {Way | undefined} [way] */
+export const isOpen = (f, said, way) =>
+  f.unanswered && said === undefined && way !== "later" && !(way === "assumed" && f.value !== null);
 
 /** Units of a field that measure something else than its own, as the newtons of a load in kg.
  * @param {Field} f */

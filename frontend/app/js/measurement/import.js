@@ -60,7 +60,7 @@ async function look(file, mapping, o) {
 /** Whether nothing of a preview is open, proposed or assumed. @param {Preview} p @param {boolean} asks */
 const isSettled = (p, asks) =>
   p.measurement !== null && !p.problem && !p.questions.some((q) => q.stops) &&
-  !(asks && (p.experiment ?? []).some((f) => isOpen(f, undefined, false) || f.origin === "assumed"));
+  !(asks && (p.experiment ?? []).some((f) => isOpen(f, undefined) || f.origin === "assumed"));
 
 /** @param {Seen[]} seen files of one kind @param {string} signature @param {Options} o
  * @returns {Promise<Imported[]>} */

@@ -50,8 +50,8 @@ export function importModel({ files, previews, mapping: first, experiments, kept
   const own = signal(
     /** @type {Experiment[]} */ (files.map((_, i) => files.length > 1 ? experiments[i] ?? {} : {})),
   );
-  /** Fields for which the user goes on with what is assumed. */
-  const accepted = signal(/** @type {Set<string>} */ (new Set()));
+  /** Fields with which the user goes on without an answer. */
+  const ways = signal(/** @type {Record<string, import("./fields.js").Way>} */ ({}));
   /** What was typed and cannot be used, by field. */
   const wrong = signal(/** @type {Record<string, string>} */ ({}));
   const usesKept = signal(kept !== null);
@@ -101,7 +101,7 @@ export function importModel({ files, previews, mapping: first, experiments, kept
   const missing = computed(() =>
     !asks ? [] : files.flatMap((file, i) =>
       fieldsOf(i)
-        .filter((f) => isOpen(f, saidOf(i, f.field), accepted.value.has(f.field)))
+        .filter((f) => isOpen(f, saidOf(i, f.field), ways.value[f.field]))
         .map((f) => ({ field: f.field, title: f.title, file: file.name, i }))
     )
   );
@@ -144,7 +144,7 @@ export function importModel({ files, previews, mapping: first, experiments, kept
     usesKept,
     common,
     own,
-    accepted,
+    ways,
     wrong,
     outcomes,
     preview,
@@ -160,8 +160,11 @@ export function importModel({ files, previews, mapping: first, experiments, kept
     /** @param {(mapping: Mapping) => Mapping} patch */
     change: (patch) => (mapping.value = patch(mapping.peek())),
     say,
-    /** Goes on with what is assumed for a field. @param {string} field */
-    accept: (field) => (accepted.value = new Set(accepted.peek()).add(field)),
+    /** Goes on without an answer. @param {string[]} names @param {import("./fields.js").Way} way */
+    goOn: (
+      names,
+      way,
+    ) => (ways.value = { ...ways.peek(), ...Object.fromEntries(names.map((name) => [name, way])) }),
     /** Reads the files without the mapping of the file before, which is forgotten. */
     undoKept: () => {
       forget(signature);

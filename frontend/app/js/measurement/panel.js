@@ -82,7 +82,7 @@ function keepFocus(dialog, model) {
     if (e.key === "Enter" && isField && !e.isComposing) setTimeout(() => moveOn(dialog));
   });
   return effect(() => {
-    [model.preview, model.mapping, model.common, model.own, model.accepted, model.wrong, model.at, units]
+    [model.preview, model.mapping, model.common, model.own, model.ways, model.wrong, model.at, units]
       .forEach((one) => one.value);
     queueMicrotask(() => {
       if (!last || dialog.contains(document.activeElement) && document.activeElement !== dialog) return;

@@ -118,10 +118,18 @@ function withOneLength(muscle, list) {
 /** @param {Compare} c @param {Kept} kept @param {string | null} instead the id of the file it replaces
  * @returns {Compare} */
 function withFile(c, { info, experiment }, instead) {
-  const said = Object.keys(experiment).length ? { experiment } : {};
-  const added = { id: info.id, name: info.name, use: /** @type {Use} */ ("fit"), ...said };
   const conditions = { ...info.conditions, ...conditionsOf(experiment) };
   const muscle = muscleOf(muscles.peek(), conditions) ?? withRestLength(c.muscle, conditions);
+  const others = c.files.filter((f) => SHA256.test(f.id) && f.id !== info.id && f.id !== instead);
+  // The muscle of the view is that of the file, and can be changed there; another one is the file's own.
+  const { muscle: own, ...rest } = experiment;
+  const said = others.length && own !== c.muscle.preset ? experiment : rest;
+  const added = {
+    id: info.id,
+    name: info.name,
+    use: /** @type {Use} */ ("fit"),
+    ...(Object.keys(said).length ? { experiment: said } : {}),
+  };
   if (instead) {
     const list = c.files.map((f) => f.id === instead ? { ...added, use: f.use } : f);
     const files = list.filter((f, i) => list.findIndex((g) => g.id === f.id) === i);

@@ -50,13 +50,29 @@ function isChanged(key) {
   return set !== undefined && ofPreset !== undefined && Math.abs(set - siOf(ofPreset)) > 1e-9;
 }
 
+/** The files with another rest length, where the user said the same one for all of them; specimens with lengths of
+ * their own keep them. @param {import("../../../types.js").Chosen[]} files @param {number | null} si */
+function withRestLengthOf(files, si) {
+  const said = files.flatMap(({ experiment }) => {
+    const one = experiment?.rest_length;
+    return one === undefined ? [] : [typeof one === "string" ? one : one.value];
+  });
+  if (new Set(said).size !== 1) return files;
+  return files.map((file) => {
+    const { rest_length: before, ...experiment } = file.experiment ?? {};
+    if (before === undefined) return file;
+    return { ...file, experiment: si === null ? experiment : { ...experiment, rest_length: `${si} m` } };
+  });
+}
+
 /** @param {string} key @param {number | null} si null: that of the preset @param {boolean} [done] */
 function put(key, si, done = true) {
-  const { muscle } = compare.peek();
+  const { muscle, files } = compare.peek();
   const values = { ...muscle.values };
   if (si === null) delete values[key];
   else values[key] = si;
-  preview(patchCompare({ muscle: { ...muscle, values } }));
+  const said = key === "nominal_length" ? { files: withRestLengthOf(files, si) } : {};
+  preview(patchCompare({ muscle: { ...muscle, values }, ...said }));
   if (done) commit(GEOMETRY[key].label.toLowerCase());
 }
 
