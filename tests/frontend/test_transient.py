@@ -457,7 +457,7 @@ def test_a_measured_trace_lies_over_the_run(page: Page, page_guard: PageGuard, t
     expect(page.locator("#run-position .point")).to_have_count(0)
     trace.write_text("nothing,here\nat,all\n")
     page.locator("#measured-file").set_input_files(trace)
-    expect(page.locator("dialog.import").get_by_role("alert")).to_contain_text("at")
+    expect(page.locator("dialog.import").get_by_role("alert")).to_contain_text("no known channel")
     page.keyboard.press("Escape")
     expect(page.locator("#run-position .point")).to_have_count(0)
 

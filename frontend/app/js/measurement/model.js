@@ -36,6 +36,10 @@ export async function eachOf(list, act) {
   return results;
 }
 
+/** What would be right, unless in the words of the command line. @param {string | null} hint */
+const inView = (hint) =>
+  hint?.includes("--") ? "say below what the columns are, or which row names them" : hint;
+
 /** @typedef {{files: File[], previews: Preview[], mapping: Mapping, experiments: Experiment[],
  *   kept: import("./memory.js").Kept | null, signature: string, asks: boolean}} Start */
 
@@ -108,7 +112,8 @@ export function importModel({ files, previews, mapping: first, experiments, kept
   /** Why a file cannot be read as it is; "" = it can. @param {number} i */
   const problemOf = (i) => {
     const { preview: p, wrong: refused } = outcomes.value[i];
-    return refused || (p.problem ? [p.problem.message, p.problem.hint].filter(Boolean).join(": ") : "");
+    return refused ||
+      (p.problem ? [p.problem.message, inView(p.problem.hint)].filter(Boolean).join(": ") : "");
   };
   const isReading = () => reading.stage.value === "asking";
   const ready = computed(() =>

@@ -224,6 +224,9 @@ function problemNote(m) {
   return h("p", { class: "flag bad", role: "alert" }, icon("warn"), h("span", null, `${problem}.`));
 }
 
+/** What a remark says at its end to users of the command line. */
+const OPTION = / \(--[^()]*\)$/;
+
 /** @param {Model} m */
 function remarks(m) {
   const { messages } = m.preview.value;
@@ -232,6 +235,6 @@ function remarks(m) {
     "details",
     null,
     h("summary", { "data-key": "remarks" }, `Remarks on the reading (${messages.length})`),
-    h("ul", { class: "plain muted" }, ...messages.map((text) => h("li", null, text))),
+    h("ul", { class: "plain muted" }, ...messages.map((text) => h("li", null, text.replace(OPTION, "")))),
   );
 }
