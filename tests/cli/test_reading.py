@@ -54,16 +54,19 @@ def test_the_rest_length_of_the_file_is_the_muscles(run: Run, command: str) -> N
         assert muscle["nominal_length"] == pytest.approx(0.3)
         code, out, _ = run(command, file.name, *MUSCLE, "--json", "--rest-length", "310 mm")
         assert json.loads(out)["geometry"]["nominal_length"] == pytest.approx(0.31)
-        code, out, _ = run(command, file.name, "--muscle", "DMSP-20:290mm", "--ideal", "--json")
-        assert json.loads(out)["geometry"]["nominal_length"] == pytest.approx(0.29)
 
 
-def test_files_of_different_rest_lengths_are_not_joined(run: Run) -> None:
+def test_files_of_different_rest_lengths_are_specimens(run: Run) -> None:
     for name, file in (("a.csv", italian()), ("b.xlsx", stacked_workbook())):
         put(name, file.data)
-    code, _, err = run("compare", "a.csv", "b.xlsx", *MUSCLE)
-    assert code == 2
-    assert "250 mm and 300 mm" in err
+    code, out, err = run("compare", "a.csv", "b.xlsx", *MUSCLE, "--json")
+    assert code == 0, err
+    answer = json.loads(out)
+    lengths = {each["file"]: each["experiment"]["rest_length"] for each in answer["specimens"]}
+    assert lengths["a.csv"]["value"] == pytest.approx(0.3)
+    assert lengths["b.xlsx"]["value"] == pytest.approx(0.25)
+    assert {each["origin"] for each in lengths.values()} == {"file"}
+    assert "rest_length" not in answer["experiment"]  # they do not agree
 
 
 def test_convert_writes_what_it_prints(run: Run) -> None:

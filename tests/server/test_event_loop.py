@@ -18,7 +18,7 @@ from fastapi import FastAPI, Request
 from fastapi.testclient import TestClient
 from starlette.requests import ClientDisconnect
 
-from mckibben.application import diagnose, model_question
+from mckibben.application import diagnose, specimens
 from mckibben.documents.studio import Studio
 from mckibben.measurement import store
 from mckibben.measurement.store import MeasurementStore
@@ -98,7 +98,7 @@ HEAVY = [
     (MeasurementStore, "get"), (MeasurementStore, "put"), (PresetLibrary, "_refresh"),
     (Studio, "start_model"), (Studio, "static_model"), (Studio, "slow_model"),
     (store, "read_measurement"),
-    (measurements, "preview"), (model_question, "predictor_of"), (FastAPI, "openapi"),
+    (measurements, "preview"), (specimens, "predictor_of"), (FastAPI, "openapi"),
 ]  # fmt: skip
 
 
@@ -232,7 +232,7 @@ def test_what_was_read_for_somebody_who_has_gone_is_not_diagnosed(
         return read(*args)
 
     monkeypatch.setattr(store, "read_measurement", read_until_gone)
-    monkeypatch.setattr(model_question, "predictor_of", lambda *_: started.append("prepared"))
+    monkeypatch.setattr(specimens, "predictor_of", lambda *_: started.append("prepared"))
     monkeypatch.setattr(diagnose, "search_effects", lambda *_, **__: started.append("diagnosed"))
     for accepted in (b"application/json", b"text/event-stream"):
         gone.clear()

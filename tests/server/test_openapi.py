@@ -26,6 +26,7 @@ PATHS = {
     "/api/measurements/{measurement_id}": {"get"},
     "/api/comparisons": {"post"},
     "/api/diagnoses": {"post"},
+    "/api/experiments": {"post"},
     "/api/reports": {"post"},
     "/api/mysteries": {"get"},
     "/api/mysteries/{mystery_id}/reveal": {"post"},

@@ -21,7 +21,7 @@ def mapping_of(file: OpenFile) -> str:
     said: dict[str, object] = {}
     for name, value in zip(file.options[::2], file.options[1::2], strict=True):
         key = words.get(name, name[2:])
-        said[key] = [value] if key in ("column", "ignore") else value
+        said[key] = [value] if key in ("column", "ignore", "experiment") else value
     return json.dumps(said)
 
 

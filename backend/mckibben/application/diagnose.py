@@ -171,7 +171,11 @@ def _result(
         correlations=correlations_of(diagnosis.fit),
         geometry=geometry_of(start, muscle),
         model=DiagnosedModel(
-            muscle={name: float(value) for name, value in muscle._asdict().items() if value},
+            muscle={
+                name: float(value)
+                for name, value in muscle._asdict().items()
+                if value and (name != "nominal_length" or question.specimens.one_length)
+            },
             effects=question.effect_document(best.fit_model),
         ),
         freed=sorted(best.freed),

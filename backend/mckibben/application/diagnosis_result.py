@@ -141,7 +141,10 @@ class Verdict:
 
 @dataclass(frozen=True, slots=True)
 class DiagnosedModel:
-    """The best model of a diagnosis, in the form of a request."""
+    """The best model of a diagnosis, in the form of a request.
+
+    A model of muscles of several lengths has none: it is that of each measurement.
+    """
 
     muscle: dict[str, float]
     effects: EffectDocument

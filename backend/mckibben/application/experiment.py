@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from mckibben.application.assumptions import Assumption, assumptions_of, refuse_assumptions
 from mckibben.application.experiment_drive import drive_values, own_drive
 from mckibben.application.specimens import Specimen, Specimens, specimens_of
 from mckibben.documents.drive import DriveDocument
@@ -24,7 +25,6 @@ from mckibben.measurement.experiment import (
     Experiment,
     ExperimentValue,
     file_experiment,
-    needed,
 )
 from mckibben.measurement.measurement import Measurement, StatedValue
 from mckibben.measurement.points import Points
@@ -33,6 +33,10 @@ from mckibben.physics.muscle import Muscle
 
 _SAME_LENGTH = 1e-3  # relative; rest lengths that differ by less are the same
 _ONE_MUSCLE = 0.02  # relative; a fit may change a rest length by as much, so this is no contradiction
+#: Question of a file -> field that answers it, whoever says it.
+_ANSWERS = {
+    "rest length": "rest_length", "load": "load", "supply": "supply", "zero of force": "force_zero",
+}  # fmt: skip
 #: Zero errors of the sensors where several specimens are mounted one after the other.
 _REMOUNTED = {
     "length": ChannelAccuracy(0.5e-3, "m"),
@@ -75,37 +79,6 @@ class SaidMeasurement:
     said: Experiment = field(default_factory=dict)
     validation: bool = False
     field: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Assumption:
-    """A value that a test of this kind needs, that nobody said, and that was assumed.
-
-    Attributes:
-        field: of the experiment.
-        words: what is assumed, "a rest length of 300 mm, the preset's".
-        option: what says otherwise on the command line.
-        files: names of the measurements; empty for all.
-    """
-
-    field: str
-    words: str
-    option: str
-    files: tuple[str, ...] = ()
-
-    @property
-    def sentence(self) -> str:
-        """For the verdict."""
-        return f"Assuming {self.words}{self._files}."
-
-    @property
-    def message(self) -> str:
-        """For the beginning of an answer."""
-        return f"assuming {self.words}{self._files}: {self.option} says otherwise"
-
-    @property
-    def _files(self) -> str:
-        return f" for {', '.join(self.files)}" if self.files else ""
 
 
 @dataclass(frozen=True)
@@ -185,13 +158,14 @@ def resolved(
         _add_accuracy(one)
         for name, value in drive_values(one.measurement, one.values, model.drive, start).items():
             one.values.setdefault(name, value)
-    assumptions = _assumptions(ones)
-    if strict and assumptions:
-        _refuse(ones)
+    assumptions = assumptions_of([(one.measurement, one.values) for one in ones])
+    if strict:
+        for one in ones:
+            refuse_assumptions(one.measurement, one.values, one.at)
     specimens = [_specimen(one, model, start, studio) for one in ones]
     used = [each for each, one in zip(specimens, ones, strict=True) if not one.said.validation]
     judged = [each for each, one in zip(specimens, ones, strict=True) if one.said.validation]
-    several = specimens_of(_with_zeros(used, ones), start.muscle)
+    several = specimens_of(_with_zeros(used), start.muscle)
     remarks = tuple(dict.fromkeys(remark for one in ones for remark in one.remarks))
     return Resolved(
         start, several, specimens_of(judged, start.muscle) if judged else None, assumptions, remarks
@@ -228,7 +202,8 @@ def _rest_length(one: _One, model: SaidModel, start: StartModel) -> ExperimentVa
     apart = abs(mine - theirs) / theirs
     if apart <= _SAME_LENGTH:
         return own
-    at = f" ({own.where})" if own.where and own.where != name else ""
+    place = own.where.removeprefix(name).removeprefix(", ")
+    at = f" ({place})" if place else ""
     both = f"{name} says a rest length of {_shown(theirs)}{at}, {said.where} says {_shown(mine)}"
     if own.origin == "file" and apart > _ONE_MUSCLE:
         raise InputError(
@@ -244,8 +219,9 @@ def _name_muscle(one: _One, model: SaidModel, start: StartModel) -> None:
     """The muscle of a measurement: the user's word for it, that of the request, else the file's."""
     own = one.values.get("muscle")
     if model.muscle is None or (own is not None and own.origin in ("you", "suggested")):
-        if own is None and start.preset is not None:
-            one.values["muscle"] = ExperimentValue(start.preset.id, "", "you", "")
+        if own is None:
+            name = "by its geometry" if start.preset is None else start.preset.id
+            one.values["muscle"] = ExperimentValue(name, "", "you", "")
         return
     if own is not None and start.preset is not None:
         other = str(own.value).partition(":")[0].upper()
@@ -264,74 +240,17 @@ def _add_accuracy(one: _One) -> None:
         one.values.setdefault(f"{ACCURACY}{channel}", value)
 
 
-def _assumptions(ones: Sequence[_One]) -> tuple[Assumption, ...]:
-    found: dict[tuple[str, str], list[str]] = {}
-    for one in ones:
-        for name, words in _assumed_words(one):
-            found.setdefault((name, words), []).append(one.measurement.name)
-    result = []
-    for (name, words), files in found.items():
-        option = "--accuracy" if name.startswith(ACCURACY) else FIELDS[name].option.split(" ")[0]
-        if option == "--experiment":
-            option = f'--experiment "{name}=..."'
-        result.append(Assumption(name, words, option, () if len(files) == len(ones) else tuple(files)))
-    return tuple(result)
-
-
-def _assumed_words(one: _One) -> list[tuple[str, str]]:
-    """(field, words) of what a test of this kind needs and nobody said."""
-    columns, values = one.measurement.columns, one.values
-    words = []
-    for name in needed(one.measurement.kind, columns):
-        value = values.get(name)
-        if value is None:
-            if name == "load" and one.measurement.kind == "isotonic":
-                words.append((name, "nothing about the load, which nobody states and which is fitted"))
-        elif value.origin == "assumed":
-            words.append((name, _in_words(name, value)))
-    accuracies = [
-        f"{channel} {_of_accuracy(value)}"
-        for channel in CHANNELS
-        if (value := values.get(f"{ACCURACY}{channel}")) is not None and value.origin == "assumed"
-    ]
-    if accuracies:
-        words.append((f"{ACCURACY}length", f"an accuracy of {', '.join(accuracies)}"))
-    return words
-
-
-def _in_words(name: str, value: ExperimentValue) -> str:
-    if name == "rest_length":
-        whose = ", the preset's" if value.where.startswith("the preset") else ""
-        return f"a rest length of {_shown(float(value.value))}{whose}"
-    if name == "supply":
-        return f"a supply pressure of {float(value.value) / 1e5:.4g} bar"
-    if name == "load":
-        return "no load"
-    return f"{FIELDS[name].title.lower()} {value.value}"
-
-
-def _of_accuracy(value: ExperimentValue) -> str:
-    if value.unit == "1":
-        return f"{100.0 * float(value.value):.3g} %"
-    scale, unit = {"m": (1e3, "mm"), "Pa": (1e-2, "mbar")}.get(value.unit, (1.0, value.unit))
-    return f"{scale * float(value.value):.3g} {unit}"
-
-
-def _refuse(ones: Sequence[_One]) -> None:
-    """Refuse the first thing that would be assumed."""
-    for one in ones:
-        for name, words in _assumed_words(one):
-            declared = FIELDS[name]
-            raise InputError(
-                f"{one.measurement.name}: {declared.title.lower()} is not stated (without --strict: {words})",
-                field=one.at("accuracy" if name.startswith(ACCURACY) else name),
-                hint=declared.option,
-            )
-
-
 def _specimen(one: _One, model: SaidModel, start: StartModel, studio: Studio) -> Specimen:
     points, values = one.said.points, one.values
     measurement = corrected(points.measurement, values)
+    answered = {
+        f"{question.text} ({question.option})"
+        for question in measurement.questions
+        if _ANSWERS.get(question.about) in values
+    }
+    if answered:
+        kept = tuple(message for message in measurement.messages if message not in answered)
+        measurement = replace(measurement, messages=kept)
     muscle = _own_geometry(one, start, studio)
     length = float(values["rest_length"].value)
     accuracy = {
@@ -363,7 +282,7 @@ def _own_geometry(one: _One, start: StartModel, studio: Studio) -> Muscle:
     return start.muscle._replace(nominal_length=length)
 
 
-def _with_zeros(specimens: Sequence[Specimen], ones: Sequence[_One]) -> list[Specimen]:
+def _with_zeros(specimens: Sequence[Specimen]) -> list[Specimen]:
     """Specimens of different geometry with a zero error of their own for every sensor."""
     first = specimens[0].muscle
     remounted = any(
@@ -371,7 +290,6 @@ def _with_zeros(specimens: Sequence[Specimen], ones: Sequence[_One]) -> list[Spe
         for each in specimens[1:]
         for a, b in zip(each.muscle, first, strict=True)
     )
-    del ones
     result = []
     for each in specimens:
         measurement = each.points.measurement

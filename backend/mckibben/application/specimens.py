@@ -67,6 +67,12 @@ class Specimens:
     points: Points
 
     @property
+    def one_length(self) -> bool:
+        """Whether all muscles have the same rest length."""
+        lengths = [float(each.muscle.nominal_length) for each in self.each]
+        return max(lengths) - min(lengths) <= _SAME * max(lengths)
+
+    @property
     def several(self) -> bool:
         """Whether they differ in geometry, load or drive, or have errors of their own."""
         first = self.each[0]

@@ -40,6 +40,7 @@ from mckibben.cli.reading import (
     Supply,
     correction_of,
     said_of,
+    with_said,
 )
 from mckibben.physics.errors import InputError
 
@@ -153,25 +154,27 @@ def compare(
     from mckibben.cli.compare import run
     from mckibben.cli.options import open_studio
 
+    correction = correction_of(
+        sheet=sheet,
+        head=head,
+        columns=column,
+        ignored=ignore,
+        rest_length=rest_length,
+        load=load,
+        supply=supply,
+        strict=strict,
+    )
+    said = said_of(
+        rest_length=rest_length, load=load, supply=supply, accuracy=accuracy, experiment=experiment
+    )
     run(
         open_studio(presets, effects, data),
         files=files,
         model=ModelOptions(muscle, ideal, effect or (), drive),
         fit=fit,
         free=free or [],
-        correction=correction_of(
-            sheet=sheet,
-            head=head,
-            columns=column,
-            ignored=ignore,
-            rest_length=rest_length,
-            load=load,
-            supply=supply,
-            strict=strict,
-        ),
-        said=said_of(
-            rest_length=rest_length, load=load, supply=supply, accuracy=accuracy, experiment=experiment
-        ),
+        correction=with_said(correction, said, accuracy),
+        said=said,
         as_json=as_json,
     )
 
@@ -212,25 +215,27 @@ def diagnose(
     from mckibben.cli.diagnose import run
     from mckibben.cli.options import open_studio
 
+    correction = correction_of(
+        sheet=sheet,
+        head=head,
+        columns=column,
+        ignored=ignore,
+        rest_length=rest_length,
+        load=load,
+        supply=supply,
+        strict=strict,
+    )
+    said = said_of(
+        rest_length=rest_length, load=load, supply=supply, accuracy=accuracy, experiment=experiment
+    )
     run(
         open_studio(presets, effects, data),
         files=files,
         model=ModelOptions(muscle, ideal, effect or (), drive),
         free=free or [],
         noise=noise,
-        correction=correction_of(
-            sheet=sheet,
-            head=head,
-            columns=column,
-            ignored=ignore,
-            rest_length=rest_length,
-            load=load,
-            supply=supply,
-            strict=strict,
-        ),
-        said=said_of(
-            rest_length=rest_length, load=load, supply=supply, accuracy=accuracy, experiment=experiment
-        ),
+        correction=with_said(correction, said, accuracy),
+        said=said,
         as_json=as_json,
         report=report,
     )
@@ -250,23 +255,29 @@ def convert(
     rest_length: RestLength = None,
     load: Load = None,
     supply: Supply = None,
+    accuracy: Accuracy = None,
+    experiment: Experiment = None,
     strict: Strict = False,
 ) -> None:
     """A measurement file as the canonical CSV, with its conditions and where they stand."""
     from mckibben.cli.convert import run
 
+    correction = correction_of(
+        sheet=sheet,
+        head=head,
+        columns=column,
+        ignored=ignore,
+        rest_length=rest_length,
+        load=load,
+        supply=supply,
+        strict=strict,
+    )
+    said = said_of(
+        rest_length=rest_length, load=load, supply=supply, accuracy=accuracy, experiment=experiment
+    )
     run(
         file=file,
-        correction=correction_of(
-            sheet=sheet,
-            head=head,
-            columns=column,
-            ignored=ignore,
-            rest_length=rest_length,
-            load=load,
-            supply=supply,
-            strict=strict,
-        ),
+        correction=with_said(correction, said, accuracy),
         out=out,
     )
 

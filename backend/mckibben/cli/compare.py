@@ -13,6 +13,7 @@ from mckibben.cli.output import (
     figure,
     remark,
     rows_of,
+    write_experiment,
     write_json,
     write_parameters,
     write_table,
@@ -45,12 +46,18 @@ def run(
         write_json(result)
         return
     _write_tables(result)
-    for message in (*result.messages, *(notice.message for notice in result.flags)):
+    for message in (
+        *result.messages[len(result.assumptions) :],
+        *(notice.message for notice in result.flags),
+    ):
         remark(message)
 
 
 def _write_tables(result: ComparisonResult) -> None:
     unit, scale = error_unit(result.unit)
+    for assumption in result.assumptions:
+        remark(assumption)
+    write_experiment(result.specimens)
 
     def shown(value: float | None) -> str:
         return figure(None if value is None else value * scale, unit=f" {unit}")

@@ -144,10 +144,10 @@ def said_values(given: Mapping[str, Any], source: str) -> dict[str, ExperimentVa
     except InputError as error:
         place = "--accuracy" if source == "--" else f"{source}: accuracy"
         raise InputError(f"{place}: {error.message}", hint=error.hint) from error
-    if source != "--":
-        return found
     return {
-        name: ExperimentValue(value.value, value.unit, value.origin, option_of(name))
+        name: ExperimentValue(
+            value.value, value.unit, value.origin, option_of(name) if source == "--" else source
+        )
         for name, value in found.items()
     }
 

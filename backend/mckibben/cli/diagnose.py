@@ -16,6 +16,7 @@ from mckibben.cli.output import (
     progress,
     remark,
     rows_of,
+    write_experiment,
     write_json,
     write_parameters,
     write_table,
@@ -61,6 +62,9 @@ def run(
 
 def _write(result: DiagnosisResult) -> None:
     unit, scale = error_unit(result.unit)
+    for assumption in result.assumptions:
+        remark(assumption)
+    write_experiment(result.specimens)
 
     def shown(value: float | None) -> str:
         return figure(None if value is None else value * scale, unit=f" {unit}")
@@ -91,7 +95,7 @@ def _write(result: DiagnosisResult) -> None:
         remark(f"to distinguish {first} from {second}: {experiment.declared or experiment.protocol}")
     if result.verdict.proposed_term is not None:
         remark(f"proposed term: {result.verdict.proposed_term.formula}")
-    for message in result.messages:
+    for message in result.messages[len(result.assumptions) :]:
         remark(message)
     reasons: dict[str, list[str]] = {}
     for item in result.not_tried:

@@ -69,7 +69,7 @@ def _said_length(studio: Studio, options: ModelOptions) -> ExperimentValue | Non
     elif options.drive:
         muscle = drive_document(options.drive).get("muscle")
         length = muscle.get("nominal_length") if isinstance(muscle, dict) else None
-        where = f"--drive {options.drive}"
+        where = "--drive"
     else:
         return None
     if length is None or length == "":

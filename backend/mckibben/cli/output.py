@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import typer
 from rich.box import SIMPLE_HEAD
@@ -15,6 +15,9 @@ from rich.table import Table
 from mckibben.application.json_text import to_json
 from mckibben.identification.fit.comparison import ParameterTable
 from mckibben.simulation.outcome import Watch
+
+if TYPE_CHECKING:
+    from mckibben.application.experiment_result import SpecimenResult
 
 
 def write_json(answer: object) -> None:
@@ -87,6 +90,21 @@ def rows_of(result: CountedRows) -> str:
 def error_unit(unit: str) -> tuple[str, float]:
     """Display unit of an error, and its number per SI unit."""
     return ("mm", 1e3) if unit == "m" else (unit.replace("1", "x noise"), 1.0)
+
+
+def write_experiment(specimens: Iterable[SpecimenResult]) -> None:
+    """Print what each test was made with, and who says it."""
+    from mckibben.measurement.experiment import place_of, shown_value, title_of
+
+    for specimen in specimens:
+        write_table(
+            f"Experiment of {specimen.file}",
+            ["", "value", "who says it"],
+            [
+                [title_of(name), shown_value(name, value), place_of(value)]
+                for name, value in specimen.experiment.items()
+            ],
+        )
 
 
 def write_parameters(parameters: ParameterTable) -> None:

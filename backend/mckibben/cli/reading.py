@@ -118,3 +118,18 @@ def said_of(
     options = {"rest_length": rest_length, "load": load, "supply": supply, "accuracy": accuracy}
     given |= {name: value for name, value in options.items() if value is not None}
     return said_values(given, "--")
+
+
+def with_said(
+    correction: Correction, said: Mapping[str, ExperimentValue], accuracy: str | None
+) -> Correction:
+    """The correction with the same statements as conditions, where they may answer a question of a file."""
+    from dataclasses import replace
+
+    conditions = dict(correction.conditions)
+    for name, value in said.items():
+        if name in ("force_zero", "pressure_zero", "inclination", "valve", "tube", "stops", "fixed_end"):
+            conditions[name] = value.value
+    if accuracy is not None:
+        conditions["accuracy"] = accuracy
+    return replace(correction, conditions=conditions)

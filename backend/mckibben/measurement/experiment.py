@@ -258,3 +258,36 @@ def accuracy_values(text: str, origin: Origin, where: str) -> dict[str, Experime
         )
         for channel, accuracy in read_accuracy(text).items()
     }
+
+
+#: Origin -> in words, for tables.
+ORIGIN_WORDS: Mapping[Origin, str] = MappingProxyType(
+    {
+        "file": "the file", "you": "stated", "preset": "preset", "suggested": "suggestion taken over",
+        "assumed": "assumed",
+    }
+)  # fmt: skip
+_SHOWN = {"m": (1e3, "mm"), "rad": (180.0 / pi, "deg")}
+
+
+def shown_value(name: str, value: ExperimentValue) -> str:
+    """A value for people: ``300 mm``, ``6 bar``, ``0.5 % of the largest value``."""
+    if isinstance(value.value, str):
+        return value.value
+    if value.unit == "1":
+        return f"{100.0 * value.value:.3g} % of the largest value"
+    scale, unit = _SHOWN.get(value.unit, (1.0, value.unit))
+    if value.unit == "Pa":
+        scale, unit = (1e-5, "bar") if name == "supply" else (1e-2, "mbar")
+    return f"{scale * value.value:.4g} {unit}"
+
+
+def title_of(name: str) -> str:
+    """A field in words."""
+    return "Further force" if name == LOAD_FORCE else FIELDS[name].title
+
+
+def place_of(value: ExperimentValue) -> str:
+    """Who says a value and where: ``the file (line 4)``."""
+    words = ORIGIN_WORDS[value.origin]
+    return f"{words} ({value.where})" if value.where else words

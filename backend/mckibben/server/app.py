@@ -49,6 +49,7 @@ _TAGS = [
     {"name": "simulations", "description": "Transient simulation of drives."},
     {"name": "sizings", "description": "Sizing: from a task to ranked drives."},
     {"name": "measurements", "description": "Measurement files."},
+    {"name": "experiments", "description": "What a measurement was made with, and what is to be asked."},
     {"name": "comparisons", "description": "A model compared with measurements."},
     {"name": "diagnoses", "description": "Which physical effect a model is missing."},
     {"name": "reports", "description": "Comparison and diagnosis as an HTML report."},

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from mckibben.identification.predict import predictor_of
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.residual.profiles import (
     SHOWN,
     heat_map,
@@ -191,11 +192,11 @@ def test_only_closed_ways_are_loops():
 
 def test_variables_are_what_changes_and_has_a_name():
     predictor = predictor_of(force_map(), MUSCLE)
-    found = variables_of(predictor, 0.3)
+    found = variables_of(predictor, FitModel(MUSCLE))
     assert set(found) == {"pressure", "contraction"}
     assert found["contraction"] == pytest.approx(1.0 - predictor.inputs["length"] / 0.3)
-    moved = variables_of(predictor_of(cycles(), MUSCLE), 0.3)
+    moved = variables_of(predictor_of(cycles(), MUSCLE), FitModel(MUSCLE))
     assert {"pressure", "contraction", "velocity", "direction", "time"} <= set(moved) <= set(SHOWN)
     odd = Plain(np.zeros(5), np.empty((5, 0)), [np.zeros(5)], {"colour": np.arange(5.0), "time": np.ones(5)})
-    assert variables_of(odd, 0.3) == {}
-    assert set(variables_of(odd, 0.3, np.array([0, 0, 1, 1, 2]))) == {"group"}
+    assert variables_of(odd, FitModel(MUSCLE)) == {}
+    assert set(variables_of(odd, FitModel(MUSCLE), np.array([0, 0, 1, 1, 2]))) == {"group"}

@@ -247,7 +247,8 @@ def untared() -> OpenFile:
     data = text(
         ["time_s", "pressure_bar", "stroke_mm", "force_N"], r.time, r.pressure / 1e5, stroke * 1e3, resting
     )
-    return OpenFile("o.csv", data, ("zero of force", "rest length"), False, (), ("force", resting))
+    answer = ("--experiment", "force_zero=60 N", "--rest-length", "250 mm")
+    return OpenFile("o.csv", data, ("zero of force", "rest length"), False, answer, ("force", resting))
 
 
 WRITERS: tuple[Callable[[], OpenFile], ...] = (

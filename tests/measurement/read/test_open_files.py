@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -20,13 +21,16 @@ def spoken(options: tuple[str, ...]) -> Correction:
     said: dict[str, list[str]] = {}
     for name, value in zip(options[::2], options[1::2], strict=True):
         said.setdefault(name, []).append(value)
-    return spoken_correction(
+    zeros = [text.partition("=") for text in said.get("--experiment", [])]
+    answer = spoken_correction(
         columns=said.get("--column", []),
         ignore=said.get("--ignore", []),
         rest_length=next(iter(said.get("--rest-length", [])), None),
         load=next(iter(said.get("--load", [])), None),
         sheet=next(iter(said.get("--sheet", [])), None),
     )
+    stated = {key: float(value.removesuffix(" N")) for key, _, value in zeros}
+    return replace(answer, conditions={**answer.conditions, **stated})
 
 
 @pytest.mark.parametrize("write", WRITERS, ids=lambda write: write.__name__)

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
+from mckibben.measurement.accuracy import read_accuracy
 from mckibben.measurement.read.marks import split_mark
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import is_unit, si
@@ -23,6 +24,7 @@ TEXT_CONDITIONS = (
     "muscle", "sample", "pressure", "accuracy", "valve", "tube", "stops", "fixed_end",
 )  # fmt: skip
 _SIGNED = ("inclination", "force_zero", "pressure_zero")  # conditions that may be negative
+_INCLINATIONS = {"vertical": "90 deg", "hanging": "90 deg", "horizontal": "0 deg"}
 _MAX_TEXT = 200
 _LINE = re.compile(r"#+\s*([A-Za-z][A-Za-z_ -]{0,30}?)\s*:\s*(.*)")
 _PLAIN = re.compile(r"[+-]?[0-9.]+(?:[eE][+-]?[0-9]+)?")
@@ -78,6 +80,13 @@ def condition_value(
     Raises:
         InputError: a physical value that is no number, of another dimension, or negative.
     """
+    if key == "accuracy":
+        try:
+            read_accuracy(str(value))
+        except InputError as error:
+            raise InputError(f"{where}: {error.message}", field=field, hint=error.hint) from error
+    if key == "inclination" and isinstance(value, str):
+        value = _INCLINATIONS.get(value.strip().lower(), value)
     if key not in CONDITION_UNITS:
         return str(value).strip()[:_MAX_TEXT]
     unit = CONDITION_UNITS[key]

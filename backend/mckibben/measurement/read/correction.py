@@ -3,8 +3,9 @@
 As JSON: ``{"columns": {"<header>": {"channel": "pressure", "unit": "bar"} | null}, "kind": "isobaric",
 "conditions": {"load_mass": "6 kg"}, "bad_rows": "skip"}``, and in the words of the command line
 ``{"sheet": "300 mm", "head": 3, "column": ["force=-Kraft [kN]"], "ignore": ["Traverse"], "rest_length":
-"300 mm", "load": "6 kg", "supply": "6 bar"}``; every part may be left out. A column is named by its header
-(with or without its unit), or by its place ("column 3") where it has none of its own.
+"300 mm", "load": "6 kg", "supply": "6 bar", "accuracy": "length 1 mm", "experiment": ["force_zero=2 N"]}``;
+every part may be left out. A column is named by its header (with or without its unit), or by its place
+("column 3") where it has none of its own.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ USES = (*CHANNEL_UNITS, SLACK, SAMPLE)
 MAX_LENGTH = 20_000  # characters of the JSON
 _PARTS = (
     "columns", "kind", "conditions", "bad_rows", "sheet", "head", "column", "ignore", "rest_length", "load",
-    "supply", "strict",
+    "supply", "strict", "accuracy", "experiment",
 )  # fmt: skip
 _CHOICE_KEYS = ("channel", "unit", "absolute", "sign")
 _COLUMN = re.compile(r"\s*([a-z_]+)\s*=\s*([+-]?)\s*(.*?)\s*")
@@ -133,6 +134,13 @@ def read_correction(text: str) -> Correction:
     }
     kind = _one_of(given.get("kind"), KINDS, ".kind")
     bad_rows = _one_of(given.get("bad_rows"), ("refuse", "skip"), ".bad_rows")
+    for text in _texts(given.get("experiment"), ".experiment"):
+        key, _, value = (part.strip() for part in text.partition("="))
+        if not value or key not in (*CONDITION_UNITS, *TEXT_CONDITIONS):
+            raise _refused(".experiment", f"{text[:80]!r}: is not 'field=value'", 'e.g. "force_zero=2.5 N"')
+        conditions[key] = _condition(key, value)
+    if (accuracy := _typed(given.get("accuracy"), str, ".accuracy")) is not None:
+        conditions["accuracy"] = _condition("accuracy", accuracy)
     spoken = spoken_correction(
         sheet=_typed(given.get("sheet"), str, ".sheet"),
         head=_typed(given.get("head"), int, ".head"),

@@ -158,16 +158,16 @@ def _tare(evidence: Evidence) -> list[Question]:
     if np.count_nonzero(rows) < ENOUGH:
         return []
     offset = float(np.median(force[rows]))
-    if abs(offset) < 0.02 * float(np.max(np.abs(force))):
+    if "force_zero" in evidence.conditions or abs(offset) < 0.02 * float(np.max(np.abs(force))):
         return []
     return [
         Question(
             "zero of force",
             f"{evidence.noun} '{column.header}' shows {offset:.3g} N at rest, without pressure and stroke; "
             "it is not subtracted, was the sensor not set to zero",
-            column_option("force", bare_name(column)),
+            f'--experiment "force_zero={offset:.3g} N"',
             column.header,
-            None,
+            f"{offset:.3g} N",
             (),
             stops=False,
         )

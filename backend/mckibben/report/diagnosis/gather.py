@@ -12,12 +12,15 @@ from typing import NamedTuple
 from mckibben.application.compare import ComparisonResult, compare
 from mckibben.application.diagnose import prepare as prepare_diagnosis
 from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.application.experiment_result import common_experiment
 from mckibben.application.json_text import to_json
 from mckibben.application.measurements import summary_of
 from mckibben.application.model_question import ModelQuestion, with_model
 from mckibben.documents.start_model import PresetFacts, StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.identification.predict.fit_model import LOAD
+from mckibben.measurement.corrected import FROM_DRIVE
+from mckibben.measurement.experiment import ACCURACY, FIELDS, LOAD_FORCE, Experiment, shown_value
 from mckibben.measurement.points import Points
 from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import GEOMETRY
@@ -202,7 +205,8 @@ def _proposed(question: ModelQuestion, studio: Studio, diagnosis: DiagnosisResul
     if not diagnosis.verdict.effects:
         return None
     model = diagnosis.model
-    muscle = replace(StatedMuscle(), **model.muscle)
+    length = float(question.start.muscle.nominal_length)
+    muscle = replace(StatedMuscle(), **{"nominal_length": length, **model.muscle})
     other = with_model(question, studio, muscle, model.effects, freed=tuple(diagnosis.freed))
     # A load missing in the measurement is not stored in the model, so it is fitted again.
     fit_load = LOAD in diagnosis.parameters.get("geometry", {})
@@ -214,13 +218,17 @@ def _command(
 ) -> Command:
     geometry = comparison.geometry
     model = {
-        "muscle": {name: getattr(geometry, name) for name in GEOMETRY if getattr(geometry, name)},
+        "muscle": {
+            name: getattr(geometry, name)
+            for name in GEOMETRY
+            if getattr(geometry, name) and (name != "nominal_length" or question.specimens.one_length)
+        },
         "effects": comparison.model.effects,
     }
     files = [_typed(name) for name in names]
     free = [f"--free {name}" for name in question.free]
     noise = [] if question.noise is None else [f"--noise {question.noise!r}"]
-    shared = [*files, f"--drive {_MODEL_FILE}"]
+    shared = [*files, f"--drive {_MODEL_FILE}", *_stated_options(common_experiment(question))]
     lines = [" ".join(["mckibben compare", *shared])]
     if diagnosed:
         lines.append(" ".join(["mckibben diagnose", *shared, *free, *noise, "--report report.html"]))
@@ -235,6 +243,26 @@ def _command(
     if question.validation is not None:
         notes.append("The validation data are not part of the command.")
     return Command(lines, {_MODEL_FILE: json.dumps(json.loads(to_json(model)), indent=2)}, notes)
+
+
+def _stated_options(experiment: Experiment) -> Iterator[str]:
+    """The options that state what the user said of all measurements."""
+    accuracies = []
+    for name, value in experiment.items():
+        if value.origin not in ("you", "suggested") or name in ("muscle", LOAD_FORCE):
+            continue
+        if value.where == FROM_DRIVE:
+            continue
+        shown = shown_value(name, value)
+        option = FIELDS[name].option.partition(" ")[0]
+        if name.startswith(ACCURACY):
+            accuracies.append(f"{name.removeprefix(ACCURACY)} {shown.partition(' of ')[0]}")
+        elif option == "--experiment":
+            yield f"--experiment {shlex.quote(f'{name}={shown}')}"
+        else:
+            yield f"{option} {shlex.quote(shown)}"
+    if accuracies:
+        yield f"--accuracy {shlex.quote(', '.join(accuracies))}"
 
 
 def _typed(name: str) -> str:

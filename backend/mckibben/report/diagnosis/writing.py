@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from mckibben.report.command import command_section
 from mckibben.report.diagnosis.errors import error_scale, error_table, where_it_fails
+from mckibben.report.diagnosis.experiment import experiment_section
 from mckibben.report.diagnosis.inputs import assumptions_section, data_section, muscle_section
 from mckibben.report.diagnosis.material import DiagnosisMaterial
 from mckibben.report.diagnosis.model import correlations, model_cards
@@ -31,6 +32,7 @@ def _sections(material: DiagnosisMaterial) -> Iterator[Section]:
     answer, diagnosis, proposed = material.comparison, material.diagnosis, material.proposed
     yield Section("Verdict" if diagnosis else "Result", verdict_section(material))
     yield Section("Data", data_section(material))
+    yield Section("Experiment", experiment_section(material))
     yield Section("Muscle", muscle_section(material))
     cards = model_cards(answer.parameters, material, figures=material.figures, terms=answer.model.effects)
     yield Section("Model", html(cards, correlations(answer, material)))

@@ -1,0 +1,62 @@
+"""The experiment: what the test was made with, who says each value, and what the accuracy took up."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from mckibben.application.experiment_result import SpecimenResult
+from mckibben.identification.predict.reading_errors import AbsorbedError
+from mckibben.measurement.experiment import place_of, shown_value, title_of
+from mckibben.report.diagnosis.errors import error_scale
+from mckibben.report.diagnosis.material import DiagnosisMaterial
+from mckibben.report.document import Head, bullets, heading, paragraph, table
+from mckibben.report.figures import figure, scale_of, with_error
+from mckibben.report.html import Child, Html, html
+
+
+def experiment_section(material: DiagnosisMaterial) -> Html:
+    """Every value with its origin, per measurement; assumptions first."""
+    answer = material.diagnosis or material.comparison
+    parts: list[Child] = []
+    if answer.assumptions:
+        parts.append(bullets(f"{text[0].upper()}{text[1:]}." for text in answer.assumptions))
+    for specimen in answer.specimens:
+        parts.append(_specimen(specimen, material, named=len(answer.specimens) > 1))
+    if answer.absorbed:
+        parts += [heading("Errors of reading within the accuracy"), _absorbed(answer.absorbed, material)]
+    return html(parts)
+
+
+def _specimen(specimen: SpecimenResult, material: DiagnosisMaterial, *, named: bool) -> Html:
+    rows = [
+        [title_of(name), shown_value(name, value), place_of(value)]
+        for name, value in specimen.experiment.items()
+    ]
+    parts: list[Child] = [heading(specimen.file)] if named else []
+    if named and specimen.rmse is not None:
+        scale = error_scale(material.comparison)
+        parts.append(paragraph("RMS error on it: ", figure(specimen.rmse, scale, 3), "."))
+    parts.append(table([Head("Experiment"), Head("Value", number=True), Head("Who says it")], rows))
+    return html(parts)
+
+
+def _absorbed(errors: Sequence[AbsorbedError], material: DiagnosisMaterial) -> Html:
+    scale = error_scale(material.comparison)
+    rows = [
+        [
+            f"{error.channel}{f', {error.of}' if error.of else ''}",
+            with_error(error.value, error.stderr, scale_of(error.unit)),
+            figure(error.accuracy, scale_of(error.unit), 2),
+            figure(error.rms, scale, 2),
+        ]
+        for error in errors
+    ]
+    columns = [
+        Head("Reading"), Head("Error", number=True), Head("Accuracy", number=True),
+        Head("Changes the prediction by", number=True),
+    ]  # fmt: skip
+    return table(
+        columns,
+        rows,
+        caption="The fit allows for these errors, with the accuracy as their standard deviation.",
+    )
