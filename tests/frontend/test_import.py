@@ -406,3 +406,42 @@ def test_a_transient_trace_is_imported_the_same_way(page: Page) -> None:
     page.locator("#measured-file").set_input_files([trace("u.csv")])
     expect(card).to_contain_text("u.csv")
     expect(page.locator("dialog.import")).to_have_count(0)
+
+
+def test_specimens_of_different_lengths_keep_their_own(case: Page) -> None:
+    choose(case, plain("short.csv", rest="250 mm"), plain("long.csv", rest="300 mm"))
+    files = panel(case).locator(".several tbody tr")
+    for name, length in (("short.csv", "250 mm"), ("long.csv", "300 mm")):
+        expect(files.filter(has_text=name).locator("input")).to_have_value(length)
+    answer_everything(case)
+    with case.expect_response("**/api/comparisons") as answer:
+        use(case)
+    assert answer.value.ok, answer.value.text()
+    lengths = [one["experiment"]["rest_length"] for one in answer.value.json()["specimens"]]
+    assert [(one["value"], one["origin"]) for one in lengths] == [(0.25, "file"), (0.3, "file")]
+    expect(case.locator("#error-now")).to_be_visible(timeout=20_000)
+
+
+def test_a_length_that_contradicts_the_file_is_decided_in_the_view(case: Page, page_guard: PageGuard) -> None:
+    page_guard.allow(REFUSED)
+    choose(case, plain("a.csv"))
+    use(case)
+    expect(case.locator("#error-now")).to_be_visible(timeout=20_000)
+    length = case.locator("[data-field='compare.nominal_length'] input")
+    expect(length).to_have_value("250")
+    length.fill("320")
+    with case.expect_response("**/api/comparisons") as answer:
+        length.press("Enter")
+    assert answer.value.status == 422
+    conflict = case.locator(".conflict")
+    expect(conflict).to_contain_text("a.csv says a rest length of 250 mm, the field says 320 mm")
+    with case.expect_response("**/api/comparisons") as answer:
+        conflict.get_by_role("button", name="320 mm is right").click()
+    (specimen,) = answer.value.json()["specimens"]
+    said = specimen["experiment"]["rest_length"]
+    assert (said["value"], said["origin"]) == (0.32, "you")
+    expect(conflict).to_have_count(0)
+    length.fill("250")  # and back, as the file says
+    with case.expect_response("**/api/comparisons") as answer:
+        length.press("Enter")
+    assert answer.value.json()["specimens"][0]["experiment"]["rest_length"]["value"] == 0.25

@@ -156,7 +156,15 @@ function lengthConflict() {
     h(
       "div",
       null,
-      h("p", null, error.words),
+      h(
+        "p",
+        null,
+        typeof stated === "number" && own !== null
+          ? `${file.name} says a rest length of ${text(stated)}, the field says ${
+            text(own)
+          }. Which one is right?`
+          : error.words,
+      ),
       typeof stated === "number"
         ? h(
           "button",
