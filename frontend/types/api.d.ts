@@ -1678,6 +1678,12 @@ export interface components {
       stated: components["schemas"]["StatedCondition"][];
       /** Sheets, groups or structs that could be meant; 'sheet' of a mapping picks one. */
       table_choices: string[];
+      /** All sheets, groups or structs that 'sheet' of a mapping picks; empty where none are. */
+      tables: components["schemas"]["TableOption"][];
+      /** The first rows as they stand in the file; null where the format has no rows. */
+      raw: components["schemas"]["RawTable"] | null;
+      /** Channel -> SI values of evenly chosen rows, for a picture, also while questions are open */
+      points: { [key: string]: (number | null)[] };
       /** Every field of the experiment that matters for this kind of test; those 'unanswered' are asked before the first diagnosis. */
       experiment: components["schemas"]["ExperimentField"][];
     };
@@ -1707,6 +1713,8 @@ export interface components {
       sign: number;
       /** Why nothing is read from the column; null = it is used. */
       unread: string | null;
+      /** Its cell in the rows of 'raw', from 0; null = it stands in none. */
+      place: number | null;
     };
     /** A drive that fulfils the task. Figures are per muscle unless stated otherwise. */
     ProposalAnswer: {
@@ -1805,6 +1813,25 @@ export interface components {
       source: string;
       grade: "S" | "S2" | "C" | "D" | "M" | "E" | "user";
       note?: string | null;
+    };
+    /** A row of a file. */
+    RawRow: {
+      /** Its number in the file, from 1. */
+      row: number;
+      /** Its cells as written. */
+      cells: string[];
+    };
+    /** The first rows of a file as they stand in it; where the head is far down, rows between are left out. */
+    RawTable: {
+      rows: components["schemas"]["RawRow"][];
+      /** The row of the column names. */
+      head: number | null;
+      /** The row of the units, where they stand apart. */
+      units: number | null;
+      /** 'head' of a mapping may name another row. */
+      head_moves: boolean;
+      /** Cells, from 0, that hold the same columns again beside the first ones. */
+      also: number[];
     };
     /** Sensor readings. */
     Readings: {
@@ -2189,6 +2216,12 @@ export interface components {
     SupplyInput: {
       /** Gauge pressure before the valve. [Pa] */
       pressure?: number | string;
+    };
+    /** A sheet, group or struct of a file. */
+    TableOption: {
+      name: string;
+      /** It is read now, alone or with others of the same columns. */
+      is_read: boolean;
     };
     /** A sizing task to start from; its content is checked when it is used. */
     TaskAnswer: {

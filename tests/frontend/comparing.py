@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import csv
 import io
 import math
@@ -12,7 +13,7 @@ from collections.abc import Callable
 from playwright.sync_api import FilePayload, Page, expect
 
 from tests.frontend.diagnoses import remember
-from tests.frontend.views import marked, open_compare
+from tests.frontend.views import marked, open_compare, run
 
 NOISE = 2.0  # N
 # A muscle of the catalogue as its preset gives it, DMSP-20 at 300 mm.
@@ -70,6 +71,28 @@ def choose(page: Page, *files: FilePayload) -> None:
     page.locator("#measurement-files").set_input_files(list(files))
 
 
+DROP = """
+const transfer = new DataTransfer();
+for (const { name, text } of argument) {
+  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  transfer.items.add(new File([bytes], name, { type: "text/csv" }));
+}
+document.body.dispatchEvent(
+  new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+"""
+
+
+def drop(page: Page, *files: FilePayload) -> None:
+    """Drop files anywhere on the page."""
+    contents = [{"name": f["name"], "text": base64.b64encode(f["buffer"]).decode()} for f in files]
+    run(page, DROP, contents)
+
+
+def use(page: Page) -> None:
+    """Accept how the files are read."""
+    page.locator("dialog.import").get_by_role("button", name=re.compile("^Use th(is file|ese)")).click()
+
+
 def diagnosed(page: Page, within: float = 60_000) -> None:
     """Wait (at most so many ms) until the numbers belong to the model and the diagnosis is complete."""
     expect(page.locator(".error-card")).not_to_have_class(re.compile("stale"), timeout=20_000)
@@ -81,6 +104,7 @@ def opened(page: Page, *files: FilePayload) -> None:
     remember(page)
     open_compare(page)
     choose(page, *files)
+    use(page)
     expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
     diagnosed(page)
 

@@ -19,6 +19,7 @@ from playwright.sync_api import Browser, BrowserContext, Page
 
 from tests.frontend.browser import ARGUMENTS, NoBrowserError, find_or_get
 from tests.frontend.guard import PageGuard
+from tests.frontend.views import open_compare
 from tests.running_server import RunningServer
 
 _RESTING = '<title>resting</title><link rel="icon" href="data:,">'  # else the browser asks for /favicon.ico
@@ -110,3 +111,35 @@ def new_context(
         return context
 
     return create
+
+
+@pytest.fixture(scope="module")
+def import_page(browser: Browser, browser_context_args: dict[str, Any], base_url: str) -> Iterator[Page]:
+    """A page for the tests of the import of one module, which need not load it again for each of them."""
+    context = browser.new_context(**browser_context_args)
+    page = context.new_page()
+    open_compare(page)
+    yield page
+    context.close()
+
+
+@pytest.fixture
+def case(import_page: Page, page_guard: PageGuard) -> Iterator[Page]:
+    """The empty Compare & diagnose view of that page; no diagnosis comes, the tests end before it."""
+    page_guard.watch(import_page.context)
+    import_page.route("**/api/diagnoses", lambda route: None)
+    yield import_page
+    import_page.evaluate(EMPTY)
+    import_page.unroute_all()
+    import_page.set_viewport_size({"width": 1280, "height": 720})
+    page_guard.leave(import_page.context)
+
+
+EMPTY = """
+async () => {
+  for (const dialog of document.querySelectorAll("dialog")) dialog.close();
+  localStorage.clear();
+  const { edit, readDoc } = await import("/js/state.js");
+  edit((d) => readDoc({ ...d, view: "compare", compare: undefined }), "empty");
+}
+"""

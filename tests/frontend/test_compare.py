@@ -21,10 +21,12 @@ from tests.frontend.comparing import (
     changed,
     choose,
     diagnosed,
+    drop,
     error,
     file,
     measured,
     opened,
+    use,
 )
 from tests.frontend.diagnoses import remember
 from tests.frontend.guard import PageGuard
@@ -46,10 +48,9 @@ def test_from_the_empty_page_to_the_noise_in_five_clicks(page: Page, sweeps: Fil
         page.get_by_role("button", name=name).first.click()
         clicks += 1
 
-    click("Compare & diagnose")
-    with page.expect_file_chooser() as dialog:
-        click("Choose a measurement file")
-    dialog.value.set_files([sweeps])
+    drop(page, sweeps)  # counts as a click
+    clicks += 1
+    click("Use this file")
     expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
     diagnosed(page)
     start = error(page)
@@ -204,64 +205,6 @@ def test_a_second_file_checks_the_first(page: Page, sweeps: FilePayload) -> None
     expect(page.locator("#validation-error")).to_be_hidden(timeout=20_000)
 
 
-def test_a_wrong_column_is_corrected_before_the_file_is_taken(page: Page) -> None:
-    open_compare(page)
-    rows = "\n".join(f"3,{300 - i},{700 - 9 * i},{20 + i % 3}" if i != 7 else "3,293,x,21" for i in range(30))
-    choose(page, file("bench.csv", f"p [bar],L [mm],ch3,extra\n{rows}\n"))
-    dialog = page.get_by_role("dialog", name="How bench.csv is read")
-    use = dialog.get_by_role("button", name="Use these columns")
-    expect(dialog.get_by_role("status")).to_contain_text("30 rows")
-    expect(dialog.get_by_label("Load mass")).to_be_visible()  # it reads as a test without forces
-    dialog.get_by_label("Channel of ch3").select_option("force")
-    expect(dialog.get_by_label("Load mass")).to_be_hidden()
-    expect(dialog.get_by_role("alert")).to_contain_text("'x' is not a number")
-    expect(use).to_be_disabled()
-    dialog.get_by_label("Leave out 1 row").check()
-    expect(dialog.get_by_role("status")).to_contain_text("29 can be used, 1 skipped")
-    dialog.get_by_label("Unit of L [mm]").select_option("cm")
-    expect(dialog.locator(".range")).to_contain_text("3.00 m")
-    dialog.get_by_label("Unit of L [mm]").select_option("mm")
-    expect(dialog.locator(".range")).to_contain_text("0.300 m")
-    use.click()
-    expect(page.locator(".file")).to_contain_text("29 of 29 rows; left out: 1 not a number")
-    expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
-    page.get_by_role("button", name="Mapping…").click()
-    expect(dialog.get_by_label("Channel of ch3")).to_have_value("force")
-    page.keyboard.press("Escape")
-    expect(page.locator(".file")).to_have_count(1)
-
-
-def test_many_columns_stand_below_each_other_on_a_phone(page: Page) -> None:
-    page.set_viewport_size({"width": 390, "height": 844})
-    open_compare(page)
-    names = ["t", "p [bar]", "L [mm]", "force [N]", *(f"channel {number}" for number in range(9))]
-    rows = "\n".join(f"{i},3,{300 - i},{700 - 9 * i}" + ",7" * 9 for i in range(30))
-    choose(page, file("wide.csv", f"{','.join(names)}\n{rows}\n"))
-    dialog = page.get_by_role("dialog", name="How wide.csv is read")
-    region = dialog.get_by_role("region", name="Columns of the file")
-    size = "(box) => [box.scrollWidth - box.clientWidth, box.scrollHeight - box.clientHeight]"
-    expect(region.get_by_role("listitem")).to_have_count(len(names))
-    assert region.evaluate(size) == [0, 0]  # nothing hides within it
-    expect(dialog.get_by_role("button", name="Use these columns")).to_be_in_viewport()
-    expect(region.get_by_role("listitem").nth(2)).to_contain_text("300 · 299 · 298")
-    last = region.get_by_label("Channel of channel 8")
-    last.scroll_into_view_if_needed()
-    expect(last).to_be_in_viewport()
-    last.select_option("temperature")
-    expect(region.get_by_label("Unit of channel 8")).to_be_visible()
-    # Side by side where there is room; what is wider scrolls, by key too, and a shadow tells.
-    page.set_viewport_size({"width": 1024, "height": 800})
-    expect(region.get_by_role("columnheader")).to_have_count(len(names))
-    expect(region.get_by_label("Channel of channel 8")).to_have_value("temperature")
-    sideways, below = region.evaluate(size)
-    assert sideways > 100
-    assert below == 0
-    assert region.evaluate("(box) => getComputedStyle(box).backgroundImage").count("linear-gradient") == 4
-    region.focus()
-    page.keyboard.press("ArrowRight")
-    page.wait_for_function("(box) => box.scrollLeft > 0", arg=region.element_handle())
-
-
 def test_a_file_that_is_no_measurement_says_so(page: Page, page_guard: PageGuard) -> None:
     page_guard.allow(REFUSED)
     open_compare(page)
@@ -274,16 +217,8 @@ def test_a_file_that_is_no_measurement_says_so(page: Page, page_guard: PageGuard
 def test_dropped_anywhere(page: Page, sweeps: FilePayload) -> None:
     page.goto("/")
     expect(page.locator("#preset option", has_text="DMSP-20")).to_be_attached()
-    run(
-        page,
-        """
-        const transfer = new DataTransfer();
-        transfer.items.add(new File([argument], "dropped.csv", { type: "text/csv" }));
-        document.body.dispatchEvent(
-          new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
-        """,
-        sweeps["buffer"].decode(),
-    )
+    drop(page, {**sweeps, "name": "dropped.csv"})
+    use(page)
     expect(page.locator(".file")).to_contain_text("dropped.csv")
     expect(page.locator("#compare-preset")).to_have_value("DMSP-20")
     expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
@@ -344,6 +279,7 @@ def test_a_diagnosis_can_be_cancelled_and_asked_for_again(page: Page, sweeps: Fi
     open_compare(page)
     page.route("**/api/diagnoses", lambda route: None)  # never answered
     choose(page, sweeps)
+    use(page)
     page.get_by_role("button", name="Cancel").click(timeout=20_000)
     expect(page.locator(".verdict-card")).to_contain_text("cancelled")
     page.unroute("**/api/diagnoses")

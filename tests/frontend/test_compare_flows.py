@@ -21,6 +21,7 @@ from tests.frontend.comparing import (
     file,
     measured,
     opened,
+    use,
 )
 from tests.frontend.guard import PageGuard
 from tests.frontend.views import REFUSED, open_compare, open_compared, redo, run
@@ -54,11 +55,9 @@ def test_a_run_of_a_drive_shows_what_its_valve_does(page: Page) -> None:
     open_compare(page)
     page.route("**/api/diagnoses", lambda route: None)  # with the rig of the Transient view, which is another
     choose(page, file("steps.csv", text))
-    dialog = page.get_by_role("dialog", name="How steps.csv is read")
+    page.get_by_role("button", name="A drive document says all this").click()
+    use(page)
     card = page.locator(".file")
-    expect(dialog.or_(card).first).to_be_visible()
-    if dialog.is_visible():
-        dialog.get_by_role("button", name="Use these columns").click()
     expect(card).to_contain_text("transient")
     page.get_by_role("button", name="Drive document…").click()
     rig = {name: part for name, part in made.drive.items() if name != "command"}  # it was recorded

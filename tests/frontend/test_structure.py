@@ -24,7 +24,7 @@ LAYERS: tuple[tuple[str, ...], ...] = (
     ("server/",),
     ("dom.js", "ui/"),
     ("plots/",),
-    ("muscle/", "drive/"),
+    ("muscle/", "drive/", "measurement/"),
     ("views/",),
     ("link.js", "design-tab.js", "shell.js", "main.js"),
 )

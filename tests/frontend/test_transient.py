@@ -21,6 +21,7 @@ from playwright.sync_api import Page, Route, expect
 
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import Reference, si
+from tests.frontend.comparing import use
 from tests.frontend.guard import PageGuard
 from tests.frontend.views import REFUSED, SIZES, enter, field, link_of, marked, run
 
@@ -448,6 +449,7 @@ def test_a_measured_trace_lies_over_the_run(page: Page, page_guard: PageGuard, t
     rows = "\n".join(f"{0.01 * k:.2f},{min(5, 0.1 * k):.3f},{min(40, 0.5 * k):.2f}" for k in range(150))
     trace.write_text(f"time [s],pressure [bar],displacement [mm]\n{rows}\n")
     page.locator("#measured-file").set_input_files(trace)
+    use(page)
     card = page.get_by_role("region", name="Measured trace")
     expect(card).to_contain_text("pressure, displacement")
     expect(page.locator("#run-position .point")).to_have_count(150)
@@ -455,7 +457,9 @@ def test_a_measured_trace_lies_over_the_run(page: Page, page_guard: PageGuard, t
     expect(page.locator("#run-position .point")).to_have_count(0)
     trace.write_text("nothing,here\nat,all\n")
     page.locator("#measured-file").set_input_files(trace)
-    expect(card.get_by_role("alert")).not_to_be_empty()
+    expect(page.locator("dialog.import").get_by_role("alert")).to_contain_text("no known channel")
+    page.keyboard.press("Escape")
+    expect(page.locator("#run-position .point")).to_have_count(0)
 
 
 PLOTTED = """

@@ -124,6 +124,36 @@ class MeasurementDetails(MeasurementSummary):
 
 
 @dataclass(frozen=True, slots=True)
+class TableOption:
+    """A sheet, group or struct that ``sheet`` of a correction picks, and whether it is among those read."""
+
+    name: str
+    is_read: bool
+
+
+@dataclass(frozen=True, slots=True)
+class RawRow:
+    """A row of a file as it stands in it: its number from 1, its cells."""
+
+    row: int
+    cells: list[str]
+
+
+@dataclass(frozen=True, slots=True)
+class RawTable:
+    """First rows of a file, rows of names and units; ``head_moves``: a correction may name another head.
+
+    ``also``: cells that hold the same columns again, beside the first ones.
+    """
+
+    rows: list[RawRow]
+    head: int | None
+    units: int | None
+    head_moves: bool
+    also: list[int]
+
+
+@dataclass(frozen=True, slots=True)
 class SkippedSummary:
     """Rows that could not be read: reason, number, the first one."""
 
@@ -168,6 +198,9 @@ class PreviewResult:
         questions, unread, stated: as in a summary, also for a file that cannot be read yet.
         experiment: fields of the experiment that matter for this kind of test, with values or questions.
         table_choices: names of the sheets, groups or structs that could be meant, where that is open.
+        tables: sheets, groups or structs that the user may pick, and whether each is read.
+        raw: the first rows as they stand in the file, or None.
+        points: channel -> values in SI at evenly chosen rows, for a picture.
     """
 
     name: str
@@ -192,6 +225,9 @@ class PreviewResult:
     unread: list[UnreadColumn]
     stated: list[StatedCondition]
     table_choices: list[str]
+    tables: list[TableOption]
+    raw: RawTable | None
+    points: dict[str, NDArray]
     experiment: list[FormField]
 
 
@@ -300,5 +336,16 @@ def preview_of(preview: Preview, experiment: list[FormField]) -> PreviewResult:
         unread=_unread(preview.unread),
         stated=_stated(preview.stated),
         table_choices=list(preview.choices),
+        tables=[TableOption(name, is_read) for name, is_read in preview.tables],
+        raw=_raw(preview),
+        points=dict(preview.points),
         experiment=experiment,
     )
+
+
+def _raw(preview: Preview) -> RawTable | None:
+    raw = preview.raw
+    if raw is None:
+        return None
+    rows = [RawRow(number, list(cells)) for number, cells in raw.rows]
+    return RawTable(rows, preview.head_row, raw.units_row, raw.head_moves, list(raw.also))

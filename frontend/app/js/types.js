@@ -39,7 +39,10 @@
 /** Effect -> parameter -> SI value, or the text of a formula.
  * @typedef {Record<string, Record<string, number | string>>} Effects */
 /** @typedef {"fit" | "validation" | "off"} Use */
-/** A measurement file or preset. @typedef {{id: string, name: string, use: Use}} Chosen */
+/** What the user says of a field of the experiment: a value, or a proposal that was taken over.
+ * @typedef {string | {value: string, origin: "suggested"}} Said */
+/** @typedef {Record<string, Said>} Experiment */
+/** A measurement file or preset. @typedef {{id: string, name: string, use: Use, experiment?: Experiment}} Chosen */
 /** Errors of fitted values: effect -> parameter -> standard error, and whether the fit stopped at a bound.
  * @typedef {Record<string, Record<string, {stderr: number | null, at_bound: boolean}>>} Fit */
 /** A model and its error; `values`: of the geometry; `label`: the change that led to this model.

@@ -85,7 +85,7 @@ class Table:
         names: heads of the columns as in the file.
         units: units that stand apart from the heads.
         unit_where: where they stand, for people.
-        head_row: 1-based row of the names; None without a head.
+        head_row, units_row: 1-based rows of the names and of the units; None where there is none.
         parts: where the values are.
         unread: columns, with the reason, that are left out of the parts.
         rest: texts that belong to no table, and where they stand.
@@ -98,6 +98,7 @@ class Table:
     unit_where: str
     head_row: int | None
     parts: list[Part]
+    units_row: int | None = None
     unread: list[tuple[str, str]] = field(default_factory=list)
     rest: list[tuple[str, str]] = field(default_factory=list)
     messages: list[str] = field(default_factory=list)
@@ -125,6 +126,7 @@ def tables_of_run(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[
     table = Table(
         place=grid.place, title=grid.title, names=[], units=[], unit_where=where,
         head_row=None if head.row is None else grid.line(head.row), parts=[],
+        units_row=None if head.units_at is None else grid.line(head.units_at),
     )  # fmt: skip
     first = groups[0]
     order = [*shared, *first]

@@ -7,15 +7,17 @@ the header.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.read.assemble import assemble
 from mckibben.measurement.read.cells import CellTable
 from mckibben.measurement.read.conditions import Note, note_of_line
 from mckibben.measurement.read.correction import Correction
+from mckibben.measurement.read.grid import split_line
 from mckibben.measurement.read.header import HEADER_EXAMPLE, plainly_known
 from mckibben.measurement.read.lines import located_text
+from mckibben.measurement.read.raw import RawRows, shown_rows
 from mckibben.measurement.read.recognise import held_pressure
 from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
 from mckibben.measurement.read.stated import in_known_words, statements
@@ -108,8 +110,20 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
         notes=_with_name(in_known_words(notes), name),
         messages=messages + below,
         header_row=row,
+        raw=RawRows(shown_rows(_lines_of(text, separator), row), tuple(range(len(headers)))),
     )
     return source, sure
+
+
+def _lines_of(text: str, separator: str) -> Iterator[tuple[int, list[str]]]:
+    """Number and cells of the lines, one after the other."""
+    position, number = 0, 0
+    while position < len(text):
+        end = text.find("\n", position)
+        end = len(text) if end < 0 else end
+        number += 1
+        yield number, split_line(text[position:end][:_LONGEST_LINE], separator)
+        position = end + 1
 
 
 def _with_name(notes: list[Note], name: str) -> list[Note]:

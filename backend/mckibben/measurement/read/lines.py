@@ -37,7 +37,7 @@ def located_text(text: str, name: str, correction: Correction, messages: Sequenc
         InputError: the head or sheet of the user is not there; too many rows or columns.
     """
     check_rows(text.count("\n") + 1, name)
-    lines = text.split("\n")
+    lines = original = text.split("\n")
     if max(map(len, lines)) > _LONGEST_LINE:
         return None
     notes = [
@@ -71,7 +71,14 @@ def located_text(text: str, name: str, correction: Correction, messages: Sequenc
     found = in_known_words(notes)
     known = {note.key for note in found}
     found += [note for note in statements(table.rest, name) if note.key not in known]
-    return source_of(table, format="csv", notes=found, messages=[*said, *chosen.messages])
+    shown = (
+        (number, [line] if keyed or number in stated else grid.cells(number - 1))
+        for number, line in enumerate(original, start=1)
+    )
+    return source_of(
+        table, format="csv", notes=found, messages=[*said, *chosen.messages], shown=shown,
+        rewritten=keyed is not None,
+    )  # fmt: skip
 
 
 def _sampled(lines: Sequence[str]) -> list[str]:

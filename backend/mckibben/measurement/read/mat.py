@@ -17,6 +17,7 @@ from mckibben.measurement.read.stated import in_known_words, statements
 from mckibben.physics.errors import InputError, did_you_mean
 
 _NOUN = "variable"
+_LOOSE = "variables"  # the table of those in no struct
 TABLE_HINT = "save a table with: s = table2struct(T, 'ToScalar', true); save('test.mat', '-struct', 's')"
 
 
@@ -48,7 +49,7 @@ def choose(values: dict[str, Any], name: str, correction: Correction | None = No
     usable = [table for table in tables if table.columns and table.problem is None]
     problem = next((table.problem for table in tables if table.problem is not None), None)
     if wanted is not None:
-        usable = [table for table in usable if table.title == wanted]
+        usable = [table for table in usable if (table.title or _LOOSE) == wanted]
         if not usable:
             titles = [table.title for table in tables if table.title]
             raise InputError(
@@ -93,8 +94,10 @@ def choose(values: dict[str, Any], name: str, correction: Correction | None = No
     others = [table for table in usable if table is not best]
     heads = [f"{table.title}.{head}".lstrip(".") for table in others for head in table.columns]
     source = replace(source, unread=tuple((head, "it stands in another struct") for head in heads))
+    named = [table for table in tables if table.columns and table.problem is None]
+    source = replace(source, tables=tuple((t.title or _LOOSE, t is best) for t in named))
     if rivals and wanted is None:
-        choices = tuple((t.title or "variables", ", ".join(t.columns)[:80]) for t in (best, *rivals))
+        choices = tuple((t.title or _LOOSE, ", ".join(t.columns)[:80]) for t in (best, *rivals))
         source = replace(source, choices=choices)
     return source
 

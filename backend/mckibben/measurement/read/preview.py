@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mckibben.measurement.measurement import CHANNEL_UNITS, Measurement, StatedValue
 from mckibben.measurement.question import Question
@@ -21,10 +22,13 @@ from mckibben.measurement.read.assemble import (
 from mckibben.measurement.read.cells import Skip
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.formats import open_source
-from mckibben.measurement.read.header import HeaderColumn, Meaning
+from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning
 from mckibben.measurement.read.questions import refusal
+from mckibben.measurement.read.raw import RawRows
 from mckibben.measurement.read.source import RawTable
 from mckibben.physics.errors import InputError
+
+_POINTS = 400  # most values of a channel in the picture of a preview
 
 
 @dataclass(frozen=True)
@@ -33,7 +37,8 @@ class PreviewColumn:
 
     ``unit_origin``: who says the unit, ``file``, ``you`` or ``proposed`` from the range of the numbers, None
     without a channel; ``unit_where``: where the file says it, apart from the header; ``sign`` -1: the file
-    counts it the other way; ``unread``: why nothing is read from it.
+    counts it the other way; ``unread``: why nothing is read from it; ``place``: its cell in the rows of the
+    file, None where it stands in none.
     """
 
     header: str
@@ -48,6 +53,7 @@ class PreviewColumn:
     unit_where: str | None = None
     sign: int = 1
     unread: str | None = None
+    place: int | None = None
 
 
 @dataclass(frozen=True)
@@ -81,6 +87,10 @@ class Preview:
         unread: all columns that nothing is read from, and why.
         stated: the conditions with their origin.
         choices: tables that could be meant, by the name that picks them.
+        tables: all tables of the file that a name picks, and whether each is read.
+        raw: the first rows as they stand in the file; None where the format has none.
+        head_row: row of the names; None where the format has none.
+        points: channel -> SI values at evenly chosen rows, for a picture, also while questions are open.
     """
 
     name: str
@@ -100,6 +110,10 @@ class Preview:
     unread: tuple[tuple[str, str], ...] = ()
     stated: tuple[StatedValue, ...] = ()
     choices: tuple[str, ...] = ()
+    tables: tuple[tuple[str, bool], ...] = ()
+    raw: RawRows | None = None
+    head_row: int | None = None
+    points: Mapping[str, NDArray[np.float64]] = field(default_factory=dict)
 
 
 def preview(data: bytes, name: str, correction: Correction | None = None) -> Preview:
@@ -167,7 +181,20 @@ def preview(data: bytes, name: str, correction: Correction | None = None) -> Pre
         unread=unread_columns(source, meaning, ()) if read is None else read.measurement.unread,
         stated=stated_values(source, conditions, correction) if read is None else read.measurement.stated,
         choices=tuple(title for title, _ in source.choices),
+        tables=source.tables,
+        raw=source.raw,
+        head_row=source.header_row,
+        points={} if read is None else _points(read.measurement),
     )
+
+
+def _points(measurement: Measurement) -> dict[str, NDArray[np.float64]]:
+    step = -(-measurement.rows // _POINTS)
+    return {
+        name: np.asarray(values, dtype=np.float64)[:: max(step, 1)]
+        for name, values in measurement.columns.items()
+        if name in CHANNEL_UNITS
+    }
 
 
 def missing_conditions(
@@ -199,6 +226,7 @@ def _columns(source: RawTable, meaning: Meaning, read: Read | None) -> tuple[Pre
     used = {column.place: column for column in (read.columns if read else ())}
     ranges = {} if read is None else {c.name: c for c in read.measurement.channels}
     result = []
+    places = () if source.raw is None else source.raw.places
     unread = dict(read.measurement.unread if read else unread_columns(source, meaning, ()))
     for index, header in enumerate(source.headers):
         apart = source.units[index] if index < len(source.units) else None
@@ -222,10 +250,18 @@ def _columns(source: RawTable, meaning: Meaning, read: Read | None) -> tuple[Pre
                 minimum=span.minimum if span else None,
                 maximum=span.maximum if span else None,
                 why=problem.message if problem else None,
-                unit_origin=None if column is None else column.unit_origin if column.unit else "proposed",
+                unit_origin=_unit_origin(column),
                 unit_where=source.unit_where if column is not None and apart and source.unit_where else None,
                 sign=column.sign if column else 1,
                 unread=None if column is not None else unread.get(header.strip() or f"column {index + 1}"),
+                place=places[index] if index < len(places) else None,
             )
         )
     return tuple(result)
+
+
+def _unit_origin(column: HeaderColumn | None) -> str | None:
+    """Who says the unit of a column; None where it has none, as a text."""
+    if column is None or column.use not in CHANNEL_UNITS or column.use in TEXT_COLUMNS:
+        return None
+    return column.unit_origin if column.unit else "proposed"

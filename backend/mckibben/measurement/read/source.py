@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from mckibben.measurement.read.cells import MAX_WORDS, CellTable, Labels, added, check_words, no_rows
 from mckibben.measurement.read.conditions import Note
 from mckibben.measurement.read.limits import check_rows
+from mckibben.measurement.read.raw import RawRows
 from mckibben.physics.errors import InputError
 
 SAMPLE_ROWS = 8
@@ -39,6 +40,8 @@ class RawTable:
         rest: texts of the file that belong to no table, and where they stand.
         unread: columns of the file that are not among ``headers``, and why.
         choices: other tables of the file that could be meant: (option that picks it, what it is).
+        raw: the first rows as they stand in the file; None where the format has no rows.
+        tables: the tables that the user may pick by name, and whether each is read.
     """
 
     place: str
@@ -56,6 +59,8 @@ class RawTable:
     rest: tuple[tuple[str, str], ...] = ()
     unread: tuple[tuple[str, str], ...] = ()
     choices: tuple[tuple[str, str], ...] = ()
+    raw: RawRows | None = None
+    tables: tuple[tuple[str, bool], ...] = ()
 
 
 def array_source(

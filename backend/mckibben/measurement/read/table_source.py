@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
 
 from mckibben.measurement.measurement import CHANNEL_UNITS
@@ -11,6 +11,7 @@ from mckibben.measurement.read.cells import Cell, CellTable, Problems, no_rows, 
 from mckibben.measurement.read.conditions import Note
 from mckibben.measurement.read.grid import BLANKS, TextGrid
 from mckibben.measurement.read.header import map_headers
+from mckibben.measurement.read.raw import RawRows, shown_rows
 from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
 from mckibben.measurement.read.table import FAST_FROM, read_table
 from mckibben.measurement.read.tables import told_channels
@@ -21,8 +22,18 @@ PART = "group"  # head of the column that numbers the parts
 _STYLE_ROWS = 2000  # rows from which the way of writing numbers is told
 
 
-def source_of(table: Table, *, format: str, notes: Sequence[Note], messages: Sequence[str]) -> RawTable:
-    """The source of a table; parts get a number each, and the pressure that their titles say."""
+def source_of(
+    table: Table, *, format: str, notes: Sequence[Note], messages: Sequence[str],
+    shown: Iterable[tuple[int, Iterable[object]]] = (), rewritten: bool = False,
+) -> RawTable:  # fmt: skip
+    """The source of a table; parts get a number each, and the pressure that their titles say.
+
+    Args:
+        table: the table.
+        format, notes, messages: of the source.
+        shown: the rows of the file as the user knows them.
+        rewritten: the cells of the table are not those of the rows that are shown.
+    """
     names, units = list(table.names), list(table.units)
     told = told_channels(table)
     several = len(table.parts) > 1
@@ -74,7 +85,19 @@ def source_of(table: Table, *, format: str, notes: Sequence[Note], messages: Seq
         messages=said, header_row=table.head_row, noun="column", units=tuple(units),
         unit_where=table.unit_where, rest=tuple(table.rest), unread=tuple(table.unread),
         clocks=frozenset(i for part in table.parts for i, c in enumerate(part.columns) if c in part.clocks),
+        raw=_raw(table, shown, len(names), rewritten),
     )  # fmt: skip
+
+
+def _raw(table: Table, shown: Iterable[tuple[int, Iterable[object]]], width: int, rewritten: bool) -> RawRows:
+    """The rows of the file with the places of the columns of the first part."""
+    fixed = rewritten or not table.parts or isinstance(table.parts[0], MapPart)
+    places: list[int | None] = [] if fixed else list(table.parts[0].columns)
+    places += [None] * (width - len(places))
+    beside = [] if fixed else [part for part in table.parts[1:] if part.grid is table.parts[0].grid]
+    also = {column for part in beside for column in part.columns} - set(places)
+    rows = shown_rows(shown, table.head_row)
+    return RawRows(rows, tuple(places), table.units_row, not fixed, tuple(sorted(also)))
 
 
 def _has(table: Table, use: str) -> bool:

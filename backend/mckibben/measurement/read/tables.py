@@ -245,7 +245,7 @@ def _together(tables: Sequence[Table]) -> Table:
     first = tables[0]
     return Table(
         place=first.place.partition(", ")[0], title="", names=first.names, units=first.units,
-        unit_where=first.unit_where, head_row=first.head_row,
+        unit_where=first.unit_where, head_row=first.head_row, units_row=first.units_row,
         parts=[part for table in tables for part in table.parts],
         rest=[text for table in tables for text in table.rest],
         messages=[message for table in tables for message in table.messages],

@@ -100,7 +100,12 @@ def open_tdms(data: bytes, name: str, correction: Correction | None = None) -> R
     others_unread = tuple(
         (f"{title}/{head}", "it stands in another group") for title in others for head in groups[title][0]
     )
-    source = replace(source, unread=others_unread)
+    read = {table.title for table in alike}
+    source = replace(
+        source,
+        unread=others_unread,
+        tables=tuple((title, title in read) for title, (values, _) in groups.items() if values),
+    )
     if rivals and wanted is None:
         choices = tuple((table.title, ", ".join(table.columns)[:80]) for table in (alike[0], *rivals))
         source = replace(source, choices=choices)

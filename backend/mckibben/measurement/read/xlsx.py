@@ -86,8 +86,13 @@ def open_xlsx(data: bytes, name: str, correction: Correction | None = None) -> R
     known = {note.key for note in found_notes}
     found_notes += [note for note in statements(table.rest, name) if note.key not in known]
     table.unread = [*table.unread, *chosen.unread]
-    source = source_of(table, format="xlsx", notes=found_notes, messages=chosen.messages)
-    return replace(source, choices=chosen.choices)
+    read = {part.grid.title for part in table.parts}
+    first = table.parts[0].grid.title if table.parts else table.title
+    source = source_of(
+        table, format="xlsx", notes=found_notes, messages=chosen.messages, shown=dict(sheets).get(first, [])
+    )
+    titles = dict.fromkeys(found.title for found in tables)
+    return replace(source, choices=chosen.choices, tables=tuple((title, title in read) for title in titles))
 
 
 def _refused_or_empty(sheets: Sequence[tuple[str, Rows]], name: str, wanted: str | None) -> RawTable:

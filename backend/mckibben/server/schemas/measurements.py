@@ -131,6 +131,7 @@ class PreviewColumn(Strict):
     )
     sign: int = Field(description="-1: the file counts it the other way.")
     unread: str | None = Field(description="Why nothing is read from the column; null = it is used.")
+    place: int | None = Field(description="Its cell in the rows of 'raw', from 0; null = it stands in none.")
 
 
 class SkippedRows(Strict):
@@ -147,6 +148,35 @@ class ChannelChoice(Strict):
     name: str = Field(examples=["pressure"])
     si_unit: str = Field(examples=["Pa"])
     units: list[str] = Field(description="Usual units; others are accepted too.", examples=[["bar", "kPa"]])
+
+
+class TableOption(Strict):
+    """A sheet, group or struct of a file."""
+
+    name: str = Field(examples=["Messung 1"])
+    is_read: bool = Field(description="It is read now, alone or with others of the same columns.")
+
+
+class RawRow(Strict):
+    """A row of a file."""
+
+    row: int = Field(description="Its number in the file, from 1.", examples=[6])
+    cells: list[str] = Field(
+        description="Its cells as written.", examples=[["Zeit", "Druck", "Weg", "Kraft"]]
+    )
+
+
+class RawTable(Strict):
+    """The first rows of a file as they stand in it; where the head is far down, rows between are left out."""
+
+    rows: list[RawRow]
+    head: int | None = Field(description="The row of the column names.", examples=[6])
+    units: int | None = Field(description="The row of the units, where they stand apart.", examples=[7])
+    head_moves: bool = Field(description="'head' of a mapping may name another row.")
+    also: list[int] = Field(
+        description="Cells, from 0, that hold the same columns again beside the first ones.",
+        examples=[[3, 4]],
+    )
 
 
 class PreviewAnswer(Strict):
@@ -183,6 +213,15 @@ class PreviewAnswer(Strict):
     stated: list[StatedCondition] = Field(description="The conditions with their origin.")
     table_choices: list[str] = Field(
         description="Sheets, groups or structs that could be meant; 'sheet' of a mapping picks one."
+    )
+    tables: list[TableOption] = Field(
+        description="All sheets, groups or structs that 'sheet' of a mapping picks; empty where none are."
+    )
+    raw: RawTable | None = Field(
+        description="The first rows as they stand in the file; null where the format has no rows."
+    )
+    points: dict[str, list[float | None]] = Field(
+        description="Channel -> SI values of evenly chosen rows, for a picture, also while questions are open"
     )
     experiment: list[ExperimentField] = Field(
         description="Every field of the experiment that matters for this kind of test; those 'unanswered' "

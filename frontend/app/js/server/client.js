@@ -10,9 +10,10 @@ export class ApiError extends Error {
     this.hint = hint;
     this.status = status;
   }
-  /** Message and hint as sentences. */
+  /** Message and hint as sentences, without hints that name options of the command line. */
   get words() {
-    return [this.message, this.hint].filter((text) => text != null && text !== "").map(sentence).join(" ");
+    const hint = /(^|\s)--[a-z]/.test(this.hint ?? "") ? null : this.hint;
+    return [this.message, hint].filter((text) => text != null && text !== "").map(sentence).join(" ");
   }
 }
 

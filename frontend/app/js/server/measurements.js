@@ -5,8 +5,10 @@ import { get, sendFile } from "./client.js";
 /** @typedef {import("../types.js").S} S */
 /** @typedef {S["MeasurementAnswer"]} FileInfo */
 /** @typedef {S["PreviewAnswer"]} Preview */
-/** What the user says beyond a file.
- * @typedef {{columns?: Record<string, {channel: string, unit?: string, absolute?: boolean} | null>,
+/** What a column is; `sign` -1: the file counts it the other way.
+ * @typedef {{channel: string, unit?: string, absolute?: boolean, sign?: number}} Choice */
+/** What the user says beyond a file; a column that is null is not used.
+ * @typedef {{columns?: Record<string, Choice | null>, sheet?: string, head?: number,
  *   kind?: string, conditions?: Record<string, string | null>, bad_rows?: "skip"}} Mapping */
 
 const MOST_BYTES = 64e6;
@@ -21,9 +23,12 @@ const query = (file, mapping) => {
 };
 
 /** How a file would be read. @param {File} file @param {Mapping} mapping @param {AbortSignal} [signal]
+ * @param {string} [muscle] id of the muscle that was chosen, whose values the experiment then has
  * @returns {Promise<Preview>} */
-export const previewOf = (file, mapping, signal) =>
-  sendFile("POST", `/api/measurements/preview${query(file, mapping)}`, file, signal);
+export const previewOf = (file, mapping, signal, muscle) => {
+  const chosen = muscle ? `&muscle=${encodeURIComponent(muscle)}` : "";
+  return sendFile("POST", `/api/measurements/preview${query(file, mapping)}${chosen}`, file, signal);
+};
 
 /** Sends a file to be kept. @param {File} file @param {Mapping} [mapping] @returns {Promise<FileInfo>} */
 export const keep = (file, mapping = {}) => sendFile("PUT", `/api/measurements${query(file, mapping)}`, file);

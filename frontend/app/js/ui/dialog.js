@@ -2,9 +2,10 @@
 // Dialogs (modal) and popovers (beside their button); both close with Esc and give the focus back.
 import { append, h, icon } from "../dom.js";
 
-/** @param {{title: string, wide?: boolean}} o @param {import("../dom.js").Child[]} body
+/** `outside`: a click beside the dialog closes it.
+ * @param {{title: string, wide?: boolean, outside?: boolean}} o @param {import("../dom.js").Child[]} body
  * @returns {HTMLDialogElement} */
-export function openDialog({ title, wide = false }, ...body) {
+export function openDialog({ title, wide = false, outside = true }, ...body) {
   const dialog = h(
     "dialog",
     { class: wide ? "wide" : "", "aria-label": title, onclose: () => dialog.remove() },
@@ -21,7 +22,7 @@ export function openDialog({ title, wide = false }, ...body) {
     h("div", { class: "dialog-body", tabindex: -1 }, ...body),
   );
   dialog.addEventListener("click", (event) => {
-    if (event.target === dialog) dialog.close();
+    if (outside && event.target === dialog) dialog.close();
   });
   document.body.append(dialog);
   dialog.showModal();

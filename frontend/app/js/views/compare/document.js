@@ -79,8 +79,11 @@ const isStep = (x) =>
   isObject(x) && isText(x.label) && isEffects(x.effects) && isTexts(x.freed) && isValues(x.values) &&
   isFit(x.fit) && (x.rmse === null || isNumber(x.rmse)) && (x.holdout === null || isNumber(x.holdout));
 /** @param {unknown} x */
+const isSaid = (x) => isText(x) || (isObject(x) && isText(x.value) && x.origin === "suggested");
+/** @param {unknown} x */
 const isChosen = (x) =>
-  isObject(x) && isText(x.id) && isText(x.name) && ["fit", "validation", "off"].includes(x.use);
+  isObject(x) && isText(x.id) && isText(x.name) && ["fit", "validation", "off"].includes(x.use) &&
+  (x.experiment === undefined || (isObject(x.experiment) && Object.values(x.experiment).every(isSaid)));
 /** @param {unknown} x */
 const isBoolean = (x) => typeof x === "boolean";
 

@@ -30,6 +30,7 @@ export function driveFor(drive, conditions) {
     load,
     ...(typeof pressure === "number" ? { supply: { ...rig.supply, pressure } } : {}),
     ...(typeof start === "number" ? { start_pressure: start } : {}),
+    ...(typeof conditions.valve === "string" ? { valve: { preset: conditions.valve } } : {}),
   };
 }
 

@@ -32,6 +32,31 @@ export function muscleOf(muscles, conditions) {
   return { preset: named.preset.id, form: "braid", values: length ? { nominal_length: length } : {} };
 }
 
+/** What the user says of the experiment, as conditions of a file in SI.
+ * @param {import("../../types.js").Experiment} experiment @returns {Record<string, number | string>} */
+export function conditionsOf(experiment) {
+  const text = (/** @type {string} */ key) => {
+    const said = experiment[key];
+    return said === undefined || typeof said === "string" ? said : said.value;
+  };
+  const si = (/** @type {string} */ key, /** @type {string} */ unit) => siNumber(text(key), { unit });
+  /** @type {[string, number | string | null | undefined][]} */
+  const all = [
+    ["muscle", text("muscle")],
+    ["nominal_length", si("rest_length", "m")],
+    ["load_mass", si("load", "kg")],
+    ["load_force", si("load", "N")],
+    ["supply_pressure", si("supply", "Pa")],
+    ["valve", text("valve")],
+  ];
+  return Object.fromEntries(all.flatMap(([key, value]) => value == null ? [] : [[key, value]]));
+}
+
+/** The muscle with the rest length of a specimen, where it is known. @param {Muscle} muscle
+ * @param {Record<string, unknown>} conditions @returns {Muscle} */
+export const withRestLength = (muscle, { nominal_length: length }) =>
+  typeof length === "number" ? { ...muscle, values: { ...muscle.values, nominal_length: length } } : muscle;
+
 /** The muscle of a request, with lengths such as "300 mm", as the document has it.
  * @param {Record<string, any>} input @returns {Muscle} */
 export function muscleFrom({ preset = null, ...rest }) {

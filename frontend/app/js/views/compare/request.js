@@ -8,6 +8,20 @@ import { muscleInput } from "../../muscle/document.js";
 /** The files that are not switched off. @param {Compare} c */
 export const used = (c) => c.files.filter((file) => file.use !== "off");
 
+/** What is said of an experiment, as requests take it: the accuracies of the channels in one text.
+ * @param {import("../../types.js").Experiment} experiment */
+function experimentInput(experiment) {
+  const isAccuracy = (/** @type {string} */ key) => key.startsWith("accuracy_");
+  const said = Object.entries(experiment);
+  const accuracies = said.filter(([key]) => isAccuracy(key)).map(([key, one]) =>
+    `${key.slice("accuracy_".length)} ${typeof one === "string" ? one : one.value}`
+  );
+  return {
+    ...Object.fromEntries(said.filter(([key]) => !isAccuracy(key))),
+    ...(accuracies.length ? { accuracy: accuracies.join(", ") } : {}),
+  };
+}
+
 /** Data and model as every request of this view takes them; the model is the current one or a step of the history.
  * @param {Compare} c @param {Pick<Step, "effects" | "freed" | "values">} [model] */
 export function modelBody(c, model = { effects: c.effects, freed: c.freed, values: c.muscle.values }) {
@@ -15,7 +29,11 @@ export function modelBody(c, model = { effects: c.effects, freed: c.freed, value
   return {
     ...(c.drive ? { drive: { schema: 1, ...c.drive, muscle } } : { muscle }),
     effects: model.effects,
-    measurements: used(c).map(({ id, use }) => ({ id, use })),
+    measurements: used(c).map(({ id, use, experiment }) => ({
+      id,
+      use,
+      ...(experiment ? { experiment: experimentInput(experiment) } : {}),
+    })),
     ...(c.free.length ? { free: c.free } : {}),
     ...(model.freed.length ? { freed: model.freed } : {}),
     ...(c.noise === null ? {} : { noise: c.noise }),

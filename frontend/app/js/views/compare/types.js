@@ -18,9 +18,6 @@
 /** @typedef {{share: number, stage?: string, found?: Candidate | null}} Progress */
 
 /** @typedef {S["MeasurementAnswer"]} FileInfo */
-/** @typedef {S["PreviewAnswer"]} Preview */
-/** @typedef {S["PreviewColumn"]} PreviewColumn */
-/** @typedef {S["MissingCondition"]} Missing */
 /** @typedef {import("../../server/measurements.js").Mapping} Mapping */
 
 /** A measurement with a hidden cause.

@@ -4,7 +4,7 @@ import { h, icon } from "../../dom.js";
 import { computed, signal } from "../../reactive.js";
 import { view } from "../../state.js";
 import { ApiError } from "../../server/client.js";
-import { keep, measurement, missingFile, refusal } from "../../server/measurements.js";
+import { keep, measurement, missingFile } from "../../server/measurements.js";
 import { Question } from "../../server/question.js";
 import { editTransient, transient } from "./model.js";
 
@@ -18,14 +18,21 @@ export const measured = computed(() => columns.error.value ? null : columns.answ
 const refused = signal("");
 const isSending = signal(false);
 
-/** @param {File | undefined} file */
+/** Imports a trace; the experiment need not be answered, because nothing is fitted to it.
+ * @param {File | undefined} file */
 async function send(file) {
   if (!file) return;
-  refused.value = refusal(file) ?? "";
-  if (refused.peek()) return;
-  isSending.value = true;
+  refused.value = "";
+  const { importFiles } = await import("../../measurement/import.js");
   try {
-    const answer = await keep(file);
+    const [read] = await importFiles([file], {
+      asks: false,
+      complain: (name, words) => (refused.value = `${name}: ${words}`),
+      reading: (name) => (isSending.value = Boolean(name)),
+    });
+    if (!read) return;
+    isSending.value = true;
+    const answer = await keep(file, read.mapping);
     editTransient({ measurement: { id: answer.id, name: answer.name } }, `measured trace ${answer.name}`);
   } catch (error) {
     if (!(error instanceof ApiError)) throw error;
@@ -78,7 +85,7 @@ export function measuredCard() {
     type: "file",
     hidden: true,
     id: "measured-file",
-    accept: ".csv,.txt,.tsv,.xlsx,.mat,.tdms,text/csv",
+    accept: ".csv,.txt,.tsv,.dat,.asc,.log,.lvm,.xlsx,.mat,.tdms,text/csv",
     onchange: () => {
       send(input.files?.[0]);
       input.value = "";

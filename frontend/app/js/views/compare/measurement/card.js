@@ -7,10 +7,11 @@ import {
   addFiles,
   complaints,
   hasSource,
+  importOnceMore,
   infos,
+  keptFor,
   openBuiltIn,
   reading,
-  remap,
   removeFile,
   setUse,
 } from "./files.js";
@@ -78,7 +79,7 @@ function fileRow(file, index) {
       h("b", { title: file.name }, file.name),
       () =>
         hasSource(file.id)
-          ? h("button", { type: "button", class: "link", onclick: () => remap(file.id) }, "Mapping…")
+          ? h("button", { type: "button", class: "link", onclick: () => importOnceMore(file.id) }, "Import…")
           : null,
       h("button", {
         type: "button",
@@ -101,6 +102,16 @@ function fileRow(file, index) {
       ),
     ),
     h("p", { class: "muted" }, () => [kindText(file), rowsText(file)].filter(Boolean).join(" · ")),
+    () => {
+      const kept = keptFor(file.id);
+      if (!kept) return null;
+      return h(
+        "p",
+        { class: "muted kept" },
+        `Mapping of ${kept.name} used. `,
+        h("button", { type: "button", class: "link", onclick: () => importOnceMore(file.id, true) }, "Undo"),
+      );
+    },
     h("p", { class: "error" }, () => messageFor(`measurements.${index}`) ?? ""),
     () =>
       messages().length
@@ -132,7 +143,7 @@ export function measurementsCard() {
     multiple: true,
     id: "measurement-files",
     "aria-label": "Measurement files",
-    accept: ".csv,.txt,.tsv,.dat,.xlsx,.mat,.tdms,text/csv",
+    accept: ".csv,.txt,.tsv,.dat,.asc,.log,.lvm,.xlsx,.mat,.tdms,text/csv",
     onchange: () => {
       const list = [...input.files ?? []];
       input.value = "";

@@ -1,19 +1,20 @@
 // @ts-check
-// Measurement files: a preview first; if it leaves questions the user is asked, then the file is sent.
+// The measurement files of the comparison: imported, sent to the server, used or not.
 import { computed, effect, signal } from "../../../reactive.js";
 import { doc, edit, view } from "../../../state.js";
 import { ApiError } from "../../../server/client.js";
 import { muscles, references } from "../../../store.js";
 import { MOST_FILES, withStartModel } from "../document.js";
 import { driveFor, needsDrive, startOf } from "../drive-document.js";
-import { openMapping } from "./mapping.js";
 import { compare, editCompare, files } from "../answers.js";
-import { muscleOf, presetNamed } from "../muscle-values.js";
-import { keep, measurement, missingFile, previewOf, refusal } from "../../../server/measurements.js";
+import { conditionsOf, muscleOf, presetNamed, withRestLength } from "../muscle-values.js";
+import { keep, measurement, missingFile } from "../../../server/measurements.js";
 
 /** @typedef {import("../types.js").FileInfo} FileInfo */
-/** @typedef {import("../types.js").Preview} Preview */
 /** @typedef {import("../types.js").Mapping} Mapping */
+/** @typedef {import("../../../measurement/types.js").Imported} Imported */
+/** A file that the server has, and what the user says of its experiment.
+ * @typedef {{info: FileInfo, experiment: import("../../../types.js").Experiment}} Kept */
 /** @typedef {import("../../../types.js").Compare} Compare */
 /** @typedef {import("../../../types.js").Use} Use */
 /** A message about a file. @typedef {{name: string, words: string}} Complaint */
@@ -25,59 +26,51 @@ export const infos = signal(/** @type {Map<string, FileInfo>} */ (new Map()));
 export const complaints = signal(/** @type {Complaint[]} */ ([]));
 /** The name of the file that is being read. */
 export const reading = signal("");
-/** Files of this session, which can be read again with other columns. @type {Map<string, {file: File, mapping: Mapping}>} */
+/** Files of this session, which can be imported once more.
+ * @type {Map<string, Pick<Imported, "file" | "mapping" | "kept">>} */
 const sources = new Map();
+/** The file whose mapping was used for this one; null: its own answers. @param {string} id */
+export const keptFor = (id) => (infos.value, sources.get(id)?.kept ?? null);
 export const hasSource = (/** @type {string} */ id) => (infos.value, sources.has(id));
 
 /** @param {string} name @param {string} words */
 const complain = (name, words) => (complaints.value = [...complaints.peek(), { name, words }]);
 
-/** Whether the user must be asked: something is missing, or a unit is guessed and may be wrong by any factor.
- * @param {Preview} p */
-const isUnsure = (p) =>
-  p.problem !== null || p.missing.length > 0 ||
-  p.columns.some((column) =>
-    column.channel && !column.unit_given &&
-    (p.channel_choices.find((one) => one.name === column.channel)?.si_unit ?? "1") !== "1"
-  );
+/** @type {import("../../../measurement/import.js").Options} */
+const ASKING = { asks: true, complain, reading: (name) => (reading.value = name) };
 
-/** Adds files one after the other. @param {Iterable<File>} list */
+/** Imports files: they are looked at, asked about and kept. @param {Iterable<File>} list */
 export async function addFiles(list) {
   complaints.value = [];
-  for (const file of list) {
-    const refused = refusal(file);
-    if (refused) {
-      complain(file.name, refused);
-      continue;
-    }
-    reading.value = file.name;
-    try {
-      const preview = await previewOf(file, {});
-      reading.value = "";
-      const mapping = isUnsure(preview) ? await openMapping(file, preview, {}) : {};
-      if (mapping) await send(file, mapping, null);
-    } catch (error) {
-      if (!(error instanceof ApiError)) throw error;
-      complain(file.name, error.words);
-    } finally {
-      reading.value = "";
-    }
+  const { importFiles } = await import("../../../measurement/import.js");
+  const read = await importFiles([...list], ASKING);
+  /** @type {Kept[]} */
+  const kept = [];
+  for (const one of read) {
+    const answer = await send(one);
+    if (answer) kept.push(answer);
   }
+  if (!kept.length) return;
+  const names = kept.map(({ info }) => info.name).join(", ");
+  edit((d) => ({
+    ...d,
+    compare: kept.reduce((c, one) => withFile(c, one, null), d.compare),
+  }), kept.length > 1 ? `${kept.length} measurements` : `measurement ${names}`);
 }
 
-/** Reads a file of this session again, with other columns. @param {string} id */
-export async function remap(id) {
+/** Imports a file of this session again, with its answers. @param {string} id
+ * @param {boolean} [plain] without the mapping of another file */
+export async function importOnceMore(id, plain = false) {
   const source = sources.get(id);
   if (!source) return;
   complaints.value = [];
-  try {
-    const preview = await previewOf(source.file, source.mapping);
-    const mapping = await openMapping(source.file, preview, source.mapping);
-    if (mapping) await send(source.file, mapping, id);
-  } catch (error) {
-    if (!(error instanceof ApiError)) throw error;
-    complain(source.file.name, error.words);
-  }
+  const { forgetKind, importAgain } = await import("../../../measurement/import.js");
+  if (plain && source.kept) forgetKind(source.kept);
+  const said = files.peek().find((f) => f.id === id)?.experiment ?? {};
+  const read = await importAgain(source.file, plain ? {} : source.mapping, said, ASKING);
+  const answer = read && await send(read);
+  if (!answer) return;
+  edit((d) => ({ ...d, compare: withFile(d.compare, answer, id) }), `measurement ${answer.info.name}`);
 }
 
 /** The file with its initial pressure, from the first rows unless the file gives it.
@@ -91,28 +84,62 @@ function withInitialPressure(info, columns) {
 const completed = async (info) =>
   needsDrive(info) ? withInitialPressure(info, (await measurement(info.id)).columns) : info;
 
-/** @param {File} file @param {Mapping} mapping @param {string | null} instead the id of the file it replaces */
-async function send(file, mapping, instead) {
+/** Sends a file; null: the server refused it. @param {Imported} one @returns {Promise<Kept | null>} */
+async function send({ file, mapping, experiment, kept }) {
   reading.value = file.name;
-  const info = await completed(await keep(file, mapping));
-  sources.set(info.id, { file, mapping });
-  infos.value = new Map(infos.peek()).set(info.id, info);
-  edit((d) => ({ ...d, compare: withFile(d.compare, info, instead) }), `measurement ${info.name}`);
+  try {
+    const info = await completed(await keep(file, mapping));
+    sources.set(info.id, { file, mapping, kept });
+    infos.value = new Map(infos.peek()).set(info.id, info);
+    return { info, experiment };
+  } catch (error) {
+    if (!(error instanceof ApiError)) throw error;
+    complain(file.name, error.words);
+    return null;
+  } finally {
+    reading.value = "";
+  }
 }
 
-/** @param {Compare} c @param {FileInfo} info @param {string | null} instead @returns {Compare} */
-function withFile(c, info, instead) {
-  const added = { id: info.id, name: info.name, use: /** @type {Use} */ ("fit") };
+const SAME_LENGTH = 1e-3;
+
+/** The muscle without a rest length, where the specimens of the files have different ones: each has its own.
+ * @param {Compare["muscle"]} muscle @param {import("../../../types.js").Chosen[]} list */
+function withOneLength(muscle, list) {
+  const lengths = list.flatMap(({ id, experiment }) => {
+    const conditions = { ...infos.peek().get(id)?.conditions, ...conditionsOf(experiment ?? {}) };
+    return typeof conditions.nominal_length === "number" ? [conditions.nominal_length] : [];
+  });
+  if (!lengths.length || Math.max(...lengths) < Math.min(...lengths) * (1 + SAME_LENGTH)) return muscle;
+  const { nominal_length: _, ...values } = muscle.values;
+  return { ...muscle, values };
+}
+
+/** @param {Compare} c @param {Kept} kept @param {string | null} instead the id of the file it replaces
+ * @returns {Compare} */
+function withFile(c, { info, experiment }, instead) {
+  const conditions = { ...info.conditions, ...conditionsOf(experiment) };
+  const muscle = muscleOf(muscles.peek(), conditions) ?? withRestLength(c.muscle, conditions);
+  const others = c.files.filter((f) => SHA256.test(f.id) && f.id !== info.id && f.id !== instead);
+  // The muscle of the view is that of the file, and can be changed there; another one is the file's own.
+  const { muscle: own, ...rest } = experiment;
+  const said = others.length && own !== c.muscle.preset ? experiment : rest;
+  const added = {
+    id: info.id,
+    name: info.name,
+    use: /** @type {Use} */ ("fit"),
+    ...(Object.keys(said).length ? { experiment: said } : {}),
+  };
   if (instead) {
     const list = c.files.map((f) => f.id === instead ? { ...added, use: f.use } : f);
-    return { ...c, files: list.filter((f, i) => list.findIndex((g) => g.id === f.id) === i) };
+    const files = list.filter((f, i) => list.findIndex((g) => g.id === f.id) === i);
+    return { ...c, files, ...(files.length === 1 ? { muscle } : {}) };
   }
   // A file of the user replaces an example.
   const kept = c.files.filter((f) => SHA256.test(f.id) && f.id !== info.id);
   const files = [...kept, added].slice(0, MOST_FILES);
-  if (kept.length) return { ...c, files };
-  const muscle = muscleOf(muscles.peek(), info.conditions) ?? c.muscle;
-  const drive = needsDrive(info) ? driveFor(doc.peek().transient.drive, info.conditions) : null;
+  if (kept.length) return { ...c, files, muscle: withOneLength(c.muscle, files) };
+  const drive = needsDrive(info) ? driveFor(doc.peek().transient.drive, conditions) : null;
   return { ...withStartModel(c), files, muscle, drive, mystery: null, guided: false };
 }
 

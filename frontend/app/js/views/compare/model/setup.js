@@ -4,12 +4,23 @@ import { h, icon } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
 import { commit, edit, preview, units } from "../../../state.js";
 import { muscles } from "../../../store.js";
-import { plainScale, quantityOf, scaleOf, siOf } from "../../../format.js";
+import { plainScale, quantityOf, scaleOf, siOf, withUnit } from "../../../format.js";
 import { quantityField } from "../../../ui/field.js";
 import { unverifiedBadge } from "../../../ui/sources.js";
 import { infos, unknownMuscle } from "../measurement/files.js";
 import { PROVIDED, withStartModel } from "../document.js";
-import { answer, chosen, compare, editCompare, messageFor, patchCompare, preset, steps } from "../answers.js";
+import {
+  answer,
+  chosen,
+  compare,
+  editCompare,
+  fault,
+  faultField,
+  messageFor,
+  patchCompare,
+  preset,
+  steps,
+} from "../answers.js";
 
 /** @typedef {import("../../../format.js").Quantity} Quantity */
 
@@ -39,13 +50,29 @@ function isChanged(key) {
   return set !== undefined && ofPreset !== undefined && Math.abs(set - siOf(ofPreset)) > 1e-9;
 }
 
+/** The files with another rest length, where the user said the same one for all of them; specimens with lengths of
+ * their own keep them. @param {import("../../../types.js").Chosen[]} files @param {number | null} si */
+function withRestLengthOf(files, si) {
+  const said = files.flatMap(({ experiment }) => {
+    const one = experiment?.rest_length;
+    return one === undefined ? [] : [typeof one === "string" ? one : one.value];
+  });
+  if (new Set(said).size !== 1) return files;
+  return files.map((file) => {
+    const { rest_length: before, ...experiment } = file.experiment ?? {};
+    if (before === undefined) return file;
+    return { ...file, experiment: si === null ? experiment : { ...experiment, rest_length: `${si} m` } };
+  });
+}
+
 /** @param {string} key @param {number | null} si null: that of the preset @param {boolean} [done] */
 function put(key, si, done = true) {
-  const { muscle } = compare.peek();
+  const { muscle, files } = compare.peek();
   const values = { ...muscle.values };
   if (si === null) delete values[key];
   else values[key] = si;
-  preview(patchCompare({ muscle: { ...muscle, values } }));
+  const said = key === "nominal_length" ? { files: withRestLengthOf(files, si) } : {};
+  preview(patchCompare({ muscle: { ...muscle, values }, ...said }));
   if (done) commit(GEOMETRY[key].label.toLowerCase());
 }
 
@@ -105,6 +132,51 @@ function choose(id) {
       muscle: { preset: null, form: "braid", values: Object.fromEntries(values) },
     },
   }), "own geometry");
+}
+
+/** File and muscle state different rest lengths: the user says which one is right. */
+function lengthConflict() {
+  const path = faultField() ?? "", error = fault.value;
+  if (!error || !path.endsWith("experiment.rest_length")) return null;
+  const file = chosen.value[Number(/measurements\.(\d+)/.exec(path)?.[1] ?? 0)];
+  const stated = file && infos.value.get(file.id)?.conditions.nominal_length;
+  const own = valueOf("nominal_length");
+  const text = (/** @type {number} */ si) => withUnit(si, "length", units.value);
+  /** The user's word for this file. @param {number} length */
+  const say = (length) =>
+    editCompare({
+      files: compare.peek().files.map((f) =>
+        f.id === file?.id ? { ...f, experiment: { ...f.experiment, rest_length: `${length} m` } } : f
+      ),
+    }, "rest length");
+  return h(
+    "div",
+    { class: "flag note conflict", role: "alert" },
+    icon("warn"),
+    h(
+      "div",
+      null,
+      h(
+        "p",
+        null,
+        typeof stated === "number" && own !== null
+          ? `${file.name} says a rest length of ${text(stated)}, the field says ${
+            text(own)
+          }. Which one is right?`
+          : error.words,
+      ),
+      typeof stated === "number"
+        ? h(
+          "button",
+          { type: "button", class: "link", onclick: () => put("nominal_length", stated) },
+          `${text(stated)} is right, as the file says`,
+        )
+        : null,
+      own === null
+        ? null
+        : h("button", { type: "button", class: "link", onclick: () => say(own) }, `${text(own)} is right`),
+    ),
+  );
 }
 
 function presetSelect() {
@@ -205,6 +277,7 @@ export function setupCard() {
         )
         : null,
     field("nominal_length"),
+    lengthConflict,
     h(
       "details",
       null,

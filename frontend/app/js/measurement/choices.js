@@ -1,0 +1,111 @@
+// @ts-check
+// Answers about the columns of a file, as a mapping takes them. Pure functions.
+
+/** @typedef {import("./types.js").Preview} Preview */
+/** @typedef {import("./types.js").Column} Column */
+/** @typedef {import("./types.js").Choice} Choice */
+/** @typedef {import("./types.js").Mapping} Mapping */
+/** @typedef {import("./types.js").OpenQuestion} OpenQuestion */
+
+/** A column as it is read now, to change one thing of it. @param {Column} column @returns {Choice} */
+export const choiceOf = (column) => ({
+  channel: column.channel ?? "",
+  ...(column.unit ? { unit: column.unit } : {}),
+  ...(column.absolute === null ? {} : { absolute: column.absolute }),
+  ...(column.sign < 0 ? { sign: -1 } : {}),
+});
+
+/** @param {Mapping} mapping @param {Record<string, Choice | null>} columns @returns {Mapping} */
+export const withColumns = (mapping, columns) => ({
+  ...mapping,
+  columns: { ...mapping.columns, ...columns },
+});
+
+/** The mapping with the table of another head or sheet, whose columns nobody has changed yet.
+ * @param {Mapping} mapping @param {{head?: number, sheet?: string}} place @returns {Mapping} */
+export function withPlace({ columns: _, head: _head, ...mapping }, place) {
+  return { ...mapping, ...place };
+}
+
+/** A quantity has a unit to choose; groups and words have none.
+ * @param {Preview} p @param {string | null} channel */
+export const channelOf = (p, channel) => p.channel_choices.find((one) => one.name === channel) ?? null;
+
+/** The column of a name with or without its unit. @param {Preview} p @param {string} name */
+function headerOf(p, name) {
+  const bare = (/** @type {string} */ text) => text.replace(/\s*[[(][^\])]*[\])]\s*$/, "");
+  const found = p.columns.find((c) => c.header === name) ?? p.columns.find((c) => bare(c.header) === name);
+  return found?.header ?? name;
+}
+
+/** An answer to a question: its words, and what it says of the columns or the sheet.
+ * @typedef {{label: string, proposed: boolean, ignores: boolean, apply: (mapping: Mapping) => Mapping}} Answer */
+
+/** @param {OpenQuestion} q @param {Preview} p @returns {Answer[]} */
+export function answersOf(q, p) {
+  const column = p.columns.find((one) => one.header === q.column) ?? null;
+  /** @param {string} label @param {Record<string, Choice | null>} columns @returns {Answer} */
+  const answer = (label, columns) => ({
+    label,
+    proposed: label === q.proposed,
+    ignores: Object.values(columns).every((one) => one === null),
+    apply: (mapping) => withColumns(mapping, columns),
+  });
+  if (q.about === "sheet") {
+    return q.choices.map((sheet) => ({
+      ...answer(sheet, {}),
+      ignores: false,
+      apply: (mapping) => withPlace(mapping, { sheet }),
+    }));
+  }
+  if (q.about.startsWith("unit of") && column) {
+    return q.choices.map((unit) => answer(unit, { [column.header]: { ...choiceOf(column), unit } }));
+  }
+  if (q.about.startsWith("second ") && column) {
+    // Both columns are the same quantity: the one that is chosen is used, the others are not.
+    const channel = q.about.slice("second ".length);
+    return q.choices.map((header) =>
+      answer(
+        header,
+        Object.fromEntries(q.choices.map((one) => [one, one === header ? { channel } : null])),
+      )
+    );
+  }
+  const alternatives = q.option.split(/ or (?=--)/).map((option) => spoken(option, p));
+  const said = alternatives.filter((one) => one !== null);
+  const named = q.choices.length === said.length ? q.choices : null;
+  const found = said.map((one, i) => answer(named?.[i] ?? one.label, one.columns));
+  if (column && q.choices.includes("ignore")) {
+    const more = q.choices.filter((one) => one !== "ignore" && !found.some((a) => a.label === one));
+    return [
+      answer("ignore", { [column.header]: null }),
+      ...found.filter((one) => !one.ignores).map((one) => one),
+      ...more.map((channel) => answer(channel, { [column.header]: { channel } })),
+    ];
+  }
+  if (column && q.choices.includes("as it is")) {
+    found.push(answer("as it is", { [column.header]: { ...choiceOf(column), sign: 1 } }));
+  }
+  if (column && q.about === "specimens") {
+    return [{ ...answer("read all as one muscle", { [column.header]: null }), ignores: false }];
+  }
+  return found;
+}
+
+/** What an option of the command line says of the columns: `--column "force=-Kraft [kN]"`, `--ignore "Nr."`.
+ * @param {string} option @param {Preview} p
+ * @returns {{label: string, columns: Record<string, Choice | null>} | null} null: it is about something else */
+function spoken(option, p) {
+  const ignored = /^--ignore "(.*)"$/.exec(option.trim());
+  if (ignored) return { label: "ignore", columns: { [headerOf(p, ignored[1])]: null } };
+  const used = /^--column "(\w+)=(-?)(.*?)(?: \[([^\]]*)\])?"$/.exec(option.trim());
+  if (!used) return null;
+  const [, channel, minus, name, unit] = used, header = headerOf(p, name);
+  const now = p.columns.find((one) => one.header === header);
+  const kept = now?.channel === channel ? choiceOf(now) : { channel };
+  const { sign: _, ...choice } = kept;
+  return {
+    label: minus ? "turned" : channel,
+    columns: { [header]: { ...choice, ...(minus ? { sign: -1 } : {}), ...(unit ? { unit } : {}) } },
+  };
+}

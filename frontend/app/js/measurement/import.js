@@ -1,0 +1,123 @@
+// @ts-check
+// Files to be imported: each is looked at first; files of one kind are asked about together.
+import { ApiError } from "../server/client.js";
+import { previewOf, refusal } from "../server/measurements.js";
+import { isOpen } from "./fields.js";
+import { forget, recall, remember, signatureOf } from "./memory.js";
+import { eachOf } from "./model.js";
+import { openImport } from "./panel.js";
+
+/** @typedef {import("./types.js").Preview} Preview */
+/** @typedef {import("./types.js").Imported} Imported */
+/** @typedef {import("./types.js").Mapping} Mapping */
+/** @typedef {import("./types.js").Experiment} Experiment */
+/** @typedef {import("./memory.js").Kept} Kept */
+/** @typedef {{file: File, preview: Preview}} Seen */
+
+/** `asks`: the experiment has to be answered, because a model is compared with the file. `complain`: takes what is
+ * wrong with a file that cannot be looked at. `reading`: takes the name of the file that is read, "" at the end.
+ * @typedef {{asks: boolean, complain: (name: string, words: string) => void,
+ *   reading: (name: string) => void}} Options */
+
+/** The files as the user wants them read; those of a cancelled panel are left out.
+ * @param {File[]} list @param {Options} o @returns {Promise<Imported[]>} */
+export async function importFiles(list, o) {
+  const good = list.filter((file) => {
+    const refused = refusal(file);
+    if (refused) o.complain(file.name, refused);
+    return !refused;
+  });
+  const looked = await eachOf(good, async (file) => {
+    o.reading(file.name);
+    return await look(file, {}, o);
+  });
+  o.reading("");
+  /** @type {Map<string, Seen[]>} */
+  const kinds = new Map();
+  for (const seen of looked) {
+    if (!seen) continue;
+    const signature = signatureOf(seen.preview);
+    kinds.set(signature, [...kinds.get(signature) ?? [], seen]);
+  }
+  /** @type {Imported[]} */
+  const results = [];
+  for (const [signature, seen] of kinds) results.push(...await askAbout(seen, signature, o));
+  // In the order in which they came.
+  return results.sort((a, b) => good.indexOf(a.file) - good.indexOf(b.file));
+}
+
+/** @param {File} file @param {Mapping} mapping @param {Options} o @returns {Promise<Seen | null>} */
+async function look(file, mapping, o) {
+  try {
+    return { file, preview: await previewOf(file, mapping) };
+  } catch (error) {
+    if (!(error instanceof ApiError)) throw error;
+    o.complain(file.name, error.words);
+    return null;
+  }
+}
+
+/** Whether nothing of a preview is open, proposed or assumed. @param {Preview} p @param {boolean} asks */
+const isSettled = (p, asks) =>
+  p.measurement !== null && !p.problem && !p.questions.some((q) => q.stops) &&
+  !(asks && (p.experiment ?? []).some((f) => isOpen(f, undefined) || f.origin === "assumed"));
+
+/** @param {Seen[]} seen files of one kind @param {string} signature @param {Options} o
+ * @returns {Promise<Imported[]>} */
+async function askAbout(seen, signature, o) {
+  const kept = recall(signature);
+  let previews = seen.map((one) => one.preview), used = kept;
+  if (kept && Object.keys(kept.mapping).length) {
+    try {
+      previews = await eachOf(seen, ({ file }) => previewOf(file, kept.mapping));
+    } catch (error) {
+      if (!(error instanceof ApiError)) throw error;
+      used = null; // the mapping does not fit this file after all
+    }
+  }
+  const mapping = used?.mapping ?? {};
+  if (used && previews.every((p) => isSettled(p, o.asks))) {
+    return seen.map(({ file }) => ({ file, mapping, experiment: {}, kept: used }));
+  }
+  const files = seen.map((one) => one.file);
+  const answer = await openImport({
+    files,
+    previews,
+    mapping,
+    experiments: [],
+    kept: used,
+    signature,
+    asks: o.asks,
+  }); // deno-fmt-ignore
+  return answer ? keepAnswers(answer, signature) : [];
+}
+
+/** @param {Imported[]} answer @param {string} signature */
+function keepAnswers(answer, signature) {
+  const [{ file, mapping, experiment }] = answer;
+  const { conditions: _, ...columns } = mapping;
+  remember({ signature, name: file.name, mapping: columns, said: experiment });
+  return answer;
+}
+
+/** Files of this kind are asked about again. @param {Kept} kept */
+export const forgetKind = (kept) => forget(kept.signature);
+
+/** Reads a file again, with its answers or without the mapping of the file before; null: it stays as it is.
+ * @param {File} file @param {Mapping} mapping @param {Experiment} experiment @param {Options} o
+ * @returns {Promise<Imported | null>} */
+export async function importAgain(file, mapping, experiment, o) {
+  const plain = await look(file, {}, o), now = plain && await look(file, mapping, o);
+  if (!plain || !now) return null;
+  const signature = signatureOf(plain.preview);
+  const answer = await openImport({
+    files: [file],
+    previews: [now.preview],
+    mapping,
+    experiments: [experiment],
+    kept: null,
+    signature,
+    asks: o.asks,
+  }); // deno-fmt-ignore
+  return answer ? keepAnswers(answer, signature)[0] : null;
+}
