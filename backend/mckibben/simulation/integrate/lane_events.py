@@ -23,7 +23,7 @@ from mckibben.simulation.integrate.lane_control import (
     WANTED_NEXT,
 )
 from mckibben.simulation.integrate.lane_type import LANES, load, positive_bits, splat, store, where_positive
-from mckibben.simulation.integrate.switching import call, change_switch, first_event
+from mckibben.simulation.integrate.switching import call, change_switch, first_event, recedes
 
 
 @njit(error_model="numpy")
@@ -161,3 +161,22 @@ def locate(
                 change(int(control[LANDING, lane]), lane, owner[lane], t, whole, model, lanes, kept)
                 control[FRESH, lane] = 1.0
             control[LANDING, lane] = -1.0
+
+
+@njit(inline="always", error_model="numpy")
+def confirm(
+    landing: int, whole: np.ndarray, following: np.ndarray, first_guard: int, together: bool,
+    control: np.ndarray,
+) -> None:  # fmt: skip
+    """Of accepted lanes that end at a change: leave the change out where the guard recedes."""
+    left = landing
+    for lane in range(LANES):
+        if (landing >> lane) & 1:
+            guard = first_guard + int(control[LANDING, lane])
+            if recedes(following[guard, lane], whole[guard, lane]):
+                control[LANDING, lane] = -1.0
+                left &= ~(1 << lane)
+    for lane in range(LANES):
+        # Lanes that step together stay together.
+        if left == 0 if together else ((landing & ~left) >> lane) & 1:
+            control[CUT, lane] = 0.0

@@ -42,7 +42,7 @@ from mckibben.simulation.integrate.lane_control import (
     commit,
     judge,
 )
-from mckibben.simulation.integrate.lane_events import change, locate, settle, suspicious
+from mckibben.simulation.integrate.lane_events import change, confirm, locate, settle, suspicious
 from mckibben.simulation.integrate.lane_rows import (
     OWNER,
     ROW,
@@ -256,6 +256,9 @@ def rodas4_lanes(
                     of_sets,
                 )  # fmt: skip
                 accepted = positive_bits(load(at, ACCEPTED))
+            landing = positive_bits(where_positive(load(at, ACCEPTED), load(at, LANDING) + 1.0, splat(0.0)))
+            if landing:
+                confirm(landing, whole, following, first_guard, together, control)
             due = where_positive(load(at, NEXT_ROW) - load(at, REACHED), splat(0.0), load(at, ACCEPTED))
             crossing = positive_bits(due)
             if crossing:

@@ -23,7 +23,7 @@ import numpy as np
 from numba import njit
 
 from mckibben.simulation.integrate.coefficients import ALPHA, DELTA, DENSE_2, DENSE_3, GAMMA, A, C
-from mckibben.simulation.integrate.switching import call, change_switch, first_event
+from mckibben.simulation.integrate.switching import call, change_switch, first_event, recedes
 
 
 @njit(inline="always", error_model="numpy", fastmath={"contract"})
@@ -190,6 +190,8 @@ def advance(
                 )  # fmt: skip
                 landing, fresh = -1, True
                 continue
+        elif recedes(next_whole[first_guard + landing], whole[first_guard + landing]):
+            landing = -1
         counts[0] += 1
         if row < last_row and grid[row] <= reached:
             for i in range(n):

@@ -132,6 +132,16 @@ def first_event(
     return share, landing
 
 
+@njit(inline="always", error_model="numpy")
+def recedes(end: float, start: float) -> bool:
+    """Whether a guard has moved away from its change in the step that was to end there.
+
+    The dense output of a long step may dip where the motion does not: at the start of a stiff transient,
+    which the short step then resolves. The switch stays, and steps grow again from the short one.
+    """
+    return end > start and end > 0.0
+
+
 @njit(error_model="numpy")
 def change_switch(
     k: int, t: float, rates: np.ndarray, guards: int, moved: tuple[int, int], switching: Any,
