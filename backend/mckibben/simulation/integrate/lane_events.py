@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 
+from mckibben.simulation.integrate.coefficients import DENSE_2, DENSE_3
 from mckibben.simulation.integrate.lane_control import (
     ACCEPTED,
     CUT,
@@ -36,7 +37,7 @@ def change(k: int, lane: int, q: int, t: float, rates: np.ndarray, model: Any, l
         kept: of each set: strokes of stops, events, counts.
     """
     guards, moved, (least, bounce, follows) = model
-    state, packed, own, (start, before, _, guarded, switches) = lanes
+    state, packed, own, (start, before, _, _, guarded, switches) = lanes
     stops, events, counts = kept
     n, kinds = state.shape[0], switches.shape[0]
     first = packed.shape[0] - kinds
@@ -61,20 +62,21 @@ def _event(
 ) -> tuple[float, int]:  # fmt: skip
     """`first_event` of a lane."""
     guards, moved, (least, bounce, follows) = model
-    state, packed, own, (start, end, stages, guarded, switches) = lanes
+    state, packed, own, (start, end, dense, column, guarded, switches) = lanes
     _, trial, u, _, _, _, control = room
     n, kinds = state.shape[0], switches.shape[0]
     first = packed.shape[0] - kinds
     for i in range(n):
         start[i], end[i] = state[i, lane], trial[i, lane]
-        for j in range(6):
-            stages[i, j] = u[n * j + i, lane]
-    column = np.empty(kinds)
+        dense[0, i] = dense[1, i] = 0.0
+        for j in range(5):
+            dense[0, i] += DENSE_2[j] * u[n * j + i, lane]
+            dense[1, i] += DENSE_3[j] * u[n * j + i, lane]
     for i in range(kinds):
         switches[i], column[i] = packed[first + i, lane], ends[first_guard + i, lane]
     return first_event(
         guards, control[INSTANT, lane], control[STEP, lane], column, 0, switches, moved,
-        (least, kept[0][q], bounce, follows), clock, own[lane], guarded, start, end, stages,
+        (least, kept[0][q], bounce, follows), clock, own[lane], guarded, start, end, dense,
     )  # fmt: skip
 
 

@@ -113,7 +113,8 @@ _SIGNATURE = (
     f"{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_TABLE},float64,{_ROWS},float64,float64[::1],"
     f"UniTuple(int64[::1],4),{_TABLE},{_ROWS},{_TABLE},int64[:,::1],int64[::1],int64,boolean,"
     f"Tuple((UniTuple({_ROWS},7),UniTuple({_ROWS},2),{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_TABLE},"
-    f"Tuple((float64[::1],float64[::1],{_ROWS},float64[::1],float64[::1])),Tuple((int64[:,::1],int64[::1])))))"
+    f"Tuple((float64[::1],float64[::1],{_ROWS},float64[::1],float64[::1],float64[::1])),"
+    "Tuple((int64[:,::1],int64[::1])))))"
 )
 
 
@@ -188,8 +189,8 @@ def rodas4_lanes(
     a, b, c, d, e, f, g = room
     room = borrowed(a), borrowed(b), borrowed(c), borrowed(d), borrowed(e), borrowed(f), borrowed(g)
     state, _, _, _, _, _, control = room
-    a, b, c, d, e = of_lane
-    of_lane = borrowed(a), borrowed(b), borrowed(c), borrowed(d), borrowed(e)
+    a, b, c, d, e, f = of_lane
+    of_lane = borrowed(a), borrowed(b), borrowed(c), borrowed(d), borrowed(e), borrowed(f)
     a, b, c = switching_
     switching_ = borrowed(a), borrowed(b), borrowed(c)
     least = switching_[0]

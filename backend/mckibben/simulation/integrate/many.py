@@ -12,6 +12,7 @@ from mckibben.simulation.integrate.background import Background
 from mckibben.simulation.integrate.engine import MAX_STEPS, CompiledDrive, outcome_of
 from mckibben.simulation.integrate.lane_code import aligned
 from mckibben.simulation.integrate.problem import EVENT_WIDTH, FIRST_STEP, MOST_EVENTS, bounce_of
+from mckibben.simulation.integrate.recycled import recycled
 from mckibben.simulation.outcome import Outcome
 
 
@@ -249,7 +250,7 @@ def _run(
     room = (rows + 2 * lanes - 1) // lanes * lanes
     padded = np.full((len(given.grid), rows + 2 * lanes), np.inf)
     padded[:, :rows] = given.grid
-    out = aligned(sets, chosen.count, room, zeros=False)
+    out = recycled(sets, chosen.count, room)
     ends, counts, statuses = np.empty((sets, n)), np.zeros((sets, 4), np.int64), np.zeros(sets, np.int64)
     events = np.empty((sets, MOST_EVENTS, EVENT_WIDTH))
     functions = [step[name].address for name in ("rates", "jacobian", "factorise", "solve")]
@@ -314,7 +315,7 @@ def _arrays(drive: CompiledDrive, entries: int, chosen: _Columns, kernels: LaneK
         aligned(4 * max(len(chosen.kept), 1), lanes),
         np.zeros((lanes, arguments)),
         aligned(lanes, kept, lanes + kernels.window),
-        (np.zeros(n), np.zeros(n), np.zeros((n, 6)), np.zeros(kinds + 1), np.zeros(kinds)),
+        (np.zeros(n), np.zeros(n), np.zeros((2, n)), np.zeros(kinds), np.zeros(kinds + 1), np.zeros(kinds)),
         (np.zeros((kernels.numbers, lanes), np.int64), np.zeros(kernels.entries, np.int64)),
     )
 
