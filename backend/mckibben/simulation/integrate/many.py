@@ -47,6 +47,7 @@ class LaneKernels(NamedTuple):
 
     run: Callable[..., None]
     call_blocks: Callable[[int, np.ndarray, np.ndarray], None]
+    find_roots: Callable[..., None]
     lanes: int
     window: int
     numbers: int
@@ -60,9 +61,9 @@ def _load() -> LaneKernels:
     from mckibben.simulation.integrate.lane_kernel import rodas4_lanes
     from mckibben.simulation.integrate.lane_rows import ENTRIES, NUMBERS, WINDOW
     from mckibben.simulation.integrate.lane_type import LANES
-    from mckibben.simulation.integrate.repeated import call_blocks
+    from mckibben.simulation.integrate.repeated import call_blocks, find_roots
 
-    return LaneKernels(rodas4_lanes, call_blocks, LANES, WINDOW, NUMBERS, ENTRIES, CONTROL_ROWS)
+    return LaneKernels(rodas4_lanes, call_blocks, find_roots, LANES, WINDOW, NUMBERS, ENTRIES, CONTROL_ROWS)
 
 
 lane_kernels = Background(_load, "lane-kernels")
