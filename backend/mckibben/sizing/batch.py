@@ -79,9 +79,7 @@ class Bench:
         done = 0
         with ThreadPoolExecutor(_THREADS) as pool:
             while chunk := list(islice(source, 8 * _THREADS)):
-                ended = self.watch.ended(begin + (share[1] - begin) * done / max(total, 1))
-                if ended is not None:
-                    raise EndedError(ended)
+                self.check_end(begin + (share[1] - begin) * done / max(total, 1))
                 yield from pool.map(function, chunk)
                 done += len(chunk)
 
@@ -115,6 +113,30 @@ class Bench:
             return prepared.figures(prepared.parameters, prepared.inputs, self.task.returns)
         except InputError:  # no rest position at all: the stretched counter muscle is too strong
             return NOTHING
+
+    def check_end(self, share: float) -> None:
+        """Report progress.
+
+        Raises:
+            EndedError: the watch ends the work.
+        """
+        ended = self.watch.ended(share)
+        if ended is not None:
+            raise EndedError(ended)
+
+    def run_cases(self, cases: Sequence[Case]) -> list[Figures]:
+        """Figures of some runs, side by side."""
+        for _ in cases:
+            self.count_run()
+        if lane_kernels.ready() is not None:
+            return figures_of_many(cases, self.task.returns)
+        parts = [cases[begin::_THREADS] for begin in range(_THREADS)]
+        found: list[Figures] = [NOTHING] * len(cases)
+        with ThreadPoolExecutor(_THREADS) as pool:
+            done = pool.map(lambda part: figures_of_many(part, self.task.returns), parts)
+            for begin, figures in enumerate(done):
+                found[begin::_THREADS] = figures
+        return found
 
     def run_ahead(self, designs: Sequence[Design], share: tuple[float, float]) -> None:
         """Simulate designs side by side; `run` then has the result of each at once.

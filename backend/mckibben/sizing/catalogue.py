@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
@@ -197,3 +197,11 @@ class Design:
     def contraction(self) -> float:
         """Contraction ratio at the end of the stroke."""
         return self.group.duty.pull / self.length
+
+
+def alike_designs(designs: Sequence[Design]) -> list[list[int]]:
+    """Numbers of the designs, those with the same muscle and duty together."""
+    found: dict[tuple[int, int], list[int]] = {}
+    for index, design in enumerate(designs):
+        found.setdefault((id(design.group.muscle), id(design.group.duty)), []).append(index)
+    return list(found.values())

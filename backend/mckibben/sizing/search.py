@@ -118,13 +118,12 @@ class _Search:
         sizing.rejected = at_rest_rejections(sheets, self.catalogue, task, set())
         candidates, failed = self._prune(sheets)
         candidates = self._likely(candidates)
-        self._check_end(_PRUNED)
+        bench.check_end(_PRUNED)
         good, slow = self._try(candidates)
         sizing.explored = good
         failed += slow
         chosen = _varied(sorted(good, key=_by_cost), task.max_proposals + _SPARE)
-        steps = bench.each(lambda trial: refined(trial, bench), chosen, (_TRIED, _REFINED), len(chosen))
-        better = list(steps)
+        better = refined(chosen, bench, (_TRIED, _REFINED))
         proposals: list[Proposal] = []
         for item in bench.each(lambda t: propose(t, bench), better, (_REFINED, _MEASURED), len(better)):
             if isinstance(item, Proposal):
@@ -137,11 +136,6 @@ class _Search:
         sizing.rejected.sort(key=lambda rejection: rejection.nearness)
         sizing.proposals = ranked(proposals, task)[: task.max_proposals]
         sizing.proposals = self._with_chances(sizing.proposals)
-
-    def _check_end(self, share: float) -> None:
-        ended = self.bench.watch.ended(share)
-        if ended is not None:
-            raise EndedError(ended)
 
     def _prune(self, sheets: list[Sheet]) -> tuple[list[DesignCandidate], list[Failed]]:
         """Candidates not ruled out by the closed form, and groups without any such design."""

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import inf, log
 
 import numpy as np
 
 from mckibben.sizing.batch import Bench
-from mckibben.sizing.catalogue import Design
+from mckibben.sizing.catalogue import Design, alike_designs
 from mckibben.sizing.prepared import Figures
+from mckibben.sizing.side_by_side import Case
 from mckibben.sizing.spread import weak
 from mckibben.sizing.statics import AMPLE, Rest, at_rest, margins
 from mckibben.sizing.task import Task
@@ -105,19 +107,40 @@ def trial_of(design: Design, bench: Bench, rest: Rest | None = None) -> Trial:
     return judged(design, bench.run(design), bench.task, rest)
 
 
-def hard_trial_of(design: Design, bench: Bench) -> Trial:
-    """Run a design and a weak specimen of it."""
-    poor = bench.prepared(design).run_specimen(*weak(design, bench.task), bench.task.returns)
-    bench.count_run()
-    return replace(trial_of(design, bench), weak=poor)
+def hard_trials_of(designs: Sequence[Design], bench: Bench) -> list[Trial]:
+    """Run designs and a weak specimen of each."""
+    task = bench.task
+    prepared = [bench.prepared(design) for design in designs]
+    usual = [Case(item, item.parameters, item.inputs) for item in prepared]
+    poor = [
+        Case(item, *item.specimen(*deviations))
+        for item, deviations in zip(prepared, weak(designs, task), strict=True)
+    ]
+    figures = bench.run_cases([*usual, *poor])
+    return [
+        replace(judged(design, mine, task, rest), weak=weakest)
+        for design, mine, weakest, rest in zip(
+            designs, figures[: len(designs)], figures[len(designs) :], rests_of(designs, task), strict=True
+        )
+    ]
+
+
+def rests_of(designs: Sequence[Design], task: Task) -> list[Rest]:
+    """The statics of designs, those of the same muscle and duty together."""
+    found: dict[int, Rest] = {}
+    for alike in alike_designs(designs):
+        group = designs[alike[0]].group
+        arrays = [(d.length, d.pressure, float(d.group.parallel)) for d in (designs[i] for i in alike)]
+        rest = at_rest(group.muscle, group.duty, task, *np.array(arrays).T.copy())
+        found |= {index: rest.only(row) for row, index in enumerate(alike)}
+    return [found[index] for index in range(len(designs))]
 
 
 def judged(design: Design, figures: Figures, task: Task, rest: Rest | None = None) -> Trial:
     """A design with the figures of its run and its margins."""
     group = design.group
     if rest is None:
-        single = (np.array([value]) for value in (design.length, design.pressure, float(group.parallel)))
-        rest = at_rest(group.muscle, group.duty, task, *single)
+        (rest,) = rests_of([design], task)
     all_margins = {name: float(margin[0]) for name, margin in margins(rest, group.muscle, task).items()}
     for name, ratio in times_over(figures, task).items():
         all_margins[name] = 1.0 / ratio - 1.0
