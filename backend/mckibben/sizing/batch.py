@@ -27,7 +27,8 @@ from mckibben.sizing.task import Task
 
 _THREADS = 2
 _SIDE_BY_SIDE = 64  # designs a thread runs at a time
-_LEVEL = 1  # optimisation of the machine code: pays off, hundreds of runs share a structure
+# Optimisation of the machine code for runs one by one: pays off for hundreds. In lanes it has its own code.
+_ONE_BY_ONE, _IN_LANES = 1, 0
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -55,7 +56,7 @@ class Bench:
         self.runs = 0
         self._timelines: dict[tuple[object, ...], Timeline] = {}
         self._known: dict[tuple[Group, float, float], Figures] = {}
-        lane_kernels.warm()
+        self._level = _ONE_BY_ONE if lane_kernels.ready() is None else _IN_LANES
 
     def each(
         self,
@@ -90,14 +91,15 @@ class Bench:
     def compile(self, group: Group) -> None:
         """Compile the equations of a group in advance, so that no two threads do it at the same time."""
         compiled_drive(
-            DriveStructure(group.effects, tube=group.tube.tube is not None, pair=group.duty.pair), _LEVEL
+            DriveStructure(group.effects, tube=group.tube.tube is not None, pair=group.duty.pair),
+            self._level,
         )
 
     def prepared(self, design: Design) -> Prepared:
         """A design ready to run."""
         group = design.group
         drive = group.drive(self.task, design.length, design.pressure)
-        compiled = compiled_drive(drive.structure, _LEVEL)
+        compiled = compiled_drive(drive.structure, self._level)
         table = constants_of(drive)
         parameters = np.array([table[name] for name in compiled.model.parameters])
         return Prepared(design, drive, compiled, parameters, self._timeline(group, drive))

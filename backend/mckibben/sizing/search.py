@@ -26,7 +26,7 @@ from mckibben.sizing.rejection import (
 )
 from mckibben.sizing.statics import least_time
 from mckibben.sizing.task import Task
-from mckibben.sizing.trial import Trial, trial_of
+from mckibben.sizing.trial import AtRest, Trial, at_rest_of, trial_of
 
 # Progress after each stage, as a share of the whole work.
 _PRUNED, _TRIED, _REFINED, _MEASURED = 0.1, 0.35, 0.65, 0.7
@@ -99,6 +99,10 @@ class DesignCandidate:
         """The design at a position of the sheet."""
         rest = self.sheet.rest
         return Design(self.group, float(rest.length[index]), float(rest.pressure[index]))
+
+    def at_rest(self, index: int) -> AtRest:
+        """The statics of the design at a position of the sheet."""
+        return at_rest_of(self.sheet.rest, self.sheet.margins, index)
 
 
 class _Search:
@@ -213,7 +217,7 @@ class _Search:
         middle = share[0] + 0.9 * (share[1] - share[0])
         self.bench.run_ahead([candidate.design(index) for candidate, index in jobs], (share[0], middle))
         trials = self.bench.each(
-            lambda job: trial_of(job[0].design(job[1]), self.bench, job[0].sheet.rest.only(job[1])),
+            lambda job: trial_of(job[0].design(job[1]), self.bench, job[0].at_rest(job[1])),
             jobs,
             (middle, share[1]),
             len(jobs),

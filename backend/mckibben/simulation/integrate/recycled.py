@@ -6,6 +6,8 @@ several times as long as the next.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from mckibben.simulation.integrate.lane_code import aligned
@@ -30,7 +32,7 @@ class _Loan:
 
 def recycled(*shape: int) -> np.ndarray:
     """An array of any content at an aligned address; at most 64 MB are kept for further calls."""
-    size = int(np.prod(shape))
+    size = math.prod(shape)
     if not _LEAST <= 8 * size <= _MOST:
         return aligned(*shape, zeros=False)
     for memory in sorted(_free.copy().values(), key=len):
