@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mckibben.simulation.integrate.background import Background
-from mckibben.simulation.integrate.engine import MAX_STEPS, CompiledDrive, outcome_of
+from mckibben.simulation.integrate.engine import MAX_STEPS, CompiledDrive, kernel, outcome_of
 from mckibben.simulation.integrate.lane_code import aligned
 from mckibben.simulation.integrate.problem import EVENT_WIDTH, FIRST_STEP, MOST_EVENTS, bounce_of
 from mckibben.simulation.integrate.recycled import recycled
@@ -56,7 +56,8 @@ class LaneKernels(NamedTuple):
 
 
 def _load() -> LaneKernels:
-    # numba: 1 s cached, 20 s the first time ever
+    # numba: 1 s cached, 20 s the first time ever; one after the other, what every run needs first.
+    kernel.awaited()
     from mckibben.simulation.integrate.lane_control import CONTROL_ROWS
     from mckibben.simulation.integrate.lane_kernel import rodas4_lanes
     from mckibben.simulation.integrate.lane_rows import ENTRIES, NUMBERS, WINDOW
