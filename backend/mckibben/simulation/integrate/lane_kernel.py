@@ -37,7 +37,6 @@ from mckibben.simulation.integrate.lane_control import (
     REJECTED,
     TAKEN,
     WANTED,
-    WANTED_NEXT,
     choose_steps,
     commit,
     judge,
@@ -169,7 +168,7 @@ def rodas4_lanes(
         events, counts: of each set, see `rodas4`.
         statuses: of each set, see `mckibben.simulation.integrate.kernels.Status`.
         max_steps: of a set.
-        together: the sets run in groups of LANES; those of a group take all steps together.
+        together: the sets run in groups of LANES; those of a group take the steps of its first.
         arrays: room of `attempt`, twice the Jacobian, arguments, arguments of rows, dense output, arguments
             by lane, windows of rows, arrays for one lane, and
             whole numbers of lanes and the table of `mckibben.simulation.integrate.lane_rows`.
@@ -235,18 +234,15 @@ def rodas4_lanes(
             settle(
                 functions[1], whole, following, first_guard, numbers[OWNER], control, model, lanes, of_sets
             )
-        choose_steps(at)
+        choose_steps(at, together, control)
         attempt(functions, sizes, timed, rtol, atol, whole.ctypes.data, at_packed, places)
         short = judge(at, together, control)
         over = 0
         for lane in range(LANES if short else 0):
             if (short >> lane) & 1:
-                mine = control[ERROR, lane]
-                if mine > 1.0:
-                    statuses[numbers[OWNER, lane]] = 3 if mine >= HOPELESS else 1
-                    over |= 1 << lane
-                else:  # another of the group has failed
-                    control[WANTED_NEXT, lane] = first_step
+                worst = control[ERROR, 0] if together else control[ERROR, lane]
+                statuses[numbers[OWNER, lane]] = 3 if worst >= HOPELESS else 1
+                over |= 1 << lane
         accepted = positive_bits(load(at, ACCEPTED))
         if accepted:
             call(functions[1], following.ctypes.data, at_packed)
@@ -305,6 +301,8 @@ def rodas4_lanes(
             complete(lane, table)
             for i in range(n):
                 ends[q, i] = state[i, lane]
+                if statuses[q] == 0 and not np.isfinite(state[i, lane]):
+                    statuses[q] = 3
             for i in range(kinds):
                 switches[q, i] = packed[first_switch + i, lane]
             control[ACTIVE, lane] = control[FRESH, lane] = 0.0

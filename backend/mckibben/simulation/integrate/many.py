@@ -27,8 +27,8 @@ class ManySolutions:
         events: of each set, see `mckibben.simulation.integrate.problem.Solution`.
         outcomes: of each set.
         steps, rejected: of each set, shape (sets,).
-        nominals: with ``together`` the rows of the first set as it ran beside each set, shape (sets, rows,
-            columns), else empty.
+        alike: of each set, whether it ran like the first one: completed, with the same switches changing in
+            the same order. With ``together`` the rows of other sets are of no use.
     """
 
     rows: np.ndarray
@@ -39,7 +39,7 @@ class ManySolutions:
     outcomes: tuple[Outcome, ...]
     steps: np.ndarray
     rejected: np.ndarray
-    nominals: np.ndarray
+    alike: np.ndarray
 
 
 class LaneKernels(NamedTuple):
@@ -114,9 +114,10 @@ def integrate_many(
         restitution: see `mckibben.simulation.integrate.engine.integrate`.
         first_step: first step that is tried [s].
         max_steps: limit of accepted and rejected steps of a set.
-        together: all sets take the same steps as the first, in groups of as many as there are lanes. The
-            difference of a set to ``nominals`` is then smooth in its parameters, except that a change of a
-            switch is located in each set on its own: for derivatives by differences. Needs common ``times``.
+        together: all sets take the steps of the first one, and where a switch changes, each the step up to
+            its own instant of the same change. The difference to the first set is then smooth in the
+            parameters: for derivatives by differences, of sets that differ little. Needs common ``times``;
+            see `ManySolutions.alike`.
 
     Raises:
         ValueError: arrays whose shapes do not fit, or an unknown column.
@@ -288,17 +289,26 @@ def _run(
     table = out[:, :, :rows].transpose(0, 2, 1)
     for index in np.flatnonzero(counts[:, 2] < rows):
         table[index, counts[index, 2] :] = np.nan
+    happened = tuple(events[index, : min(counts[index, 3], MOST_EVENTS)].copy() for index in range(sets))
     return ManySolutions(
         table,
         counts[:, 2],
         ends,
         given.switches,
-        tuple(events[index, : counts[index, 3]].copy() for index in range(sets)),
+        happened,
         tuple(outcome_of(int(status)) for status in statuses),
         counts[:, 0],
         counts[:, 1],
-        np.empty((0, rows, chosen.count)),
+        _alike(happened, counts, statuses),
     )
+
+
+def _alike(events: Sequence[np.ndarray], counts: np.ndarray, statuses: np.ndarray) -> np.ndarray:
+    """`ManySolutions.alike`."""
+    same = (statuses == 0) & (counts[:, 2] == counts[:1, 2]) & (counts[:, 3] == counts[:1, 3])
+    for index in np.flatnonzero(same).tolist():
+        same[index] = np.array_equal(events[index][:, 1:3], events[0][:, 1:3])
+    return same
 
 
 def _arrays(drive: CompiledDrive, entries: int, chosen: _Columns, kernels: LaneKernels) -> tuple[Any, ...]:
@@ -325,7 +335,6 @@ def _arrays(drive: CompiledDrive, entries: int, chosen: _Columns, kernels: LaneK
 def _separated(done: ManySolutions, order: np.ndarray) -> ManySolutions:
     """Results by set of sets that ran together."""
     first = np.flatnonzero(order == 0)
-    groups = np.searchsorted(first, np.arange(len(order)), side="right") - 1
     wanted = np.concatenate([first[:1], np.flatnonzero(order != 0)])
     return ManySolutions(
         done.rows[wanted],
@@ -336,5 +345,5 @@ def _separated(done: ManySolutions, order: np.ndarray) -> ManySolutions:
         tuple(done.outcomes[index] for index in wanted),
         done.steps[wanted],
         done.rejected[wanted],
-        done.rows[first[groups[wanted]]],
+        done.alike[wanted],
     )

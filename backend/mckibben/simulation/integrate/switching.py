@@ -149,6 +149,31 @@ def first_event(
     return share, landing
 
 
+@njit(error_model="numpy")
+def same_event(
+    guards: int, share: float, t: float, h: float, k: int, least: float, clock: int, packed: np.ndarray,
+    values: np.ndarray, start: np.ndarray, end: np.ndarray, dense: np.ndarray,
+) -> float:  # fmt: skip
+    """Share of a step near ``share`` at which guard k is -least, also outside the step; 2 if there is none.
+
+    Secants; for a run that differs little from one whose switch changes at ``share``.
+    """
+    here, other = share, share + 1e-3
+    at_here = _guard_at(guards, here, t, h, k, clock, packed, values, start, end, dense) + least
+    at_other = _guard_at(guards, other, t, h, k, clock, packed, values, start, end, dense) + least
+    for _ in range(30):
+        if at_here == at_other:
+            break
+        new = here - at_here * (other - here) / (at_other - at_here)
+        if not abs(new - share) < 0.5:
+            break
+        other, at_other = here, at_here
+        here, at_here = new, _guard_at(guards, new, t, h, k, clock, packed, values, start, end, dense) + least
+        if abs(here - other) < 1e-13:
+            break
+    return here if abs(at_here) <= 0.5 * least and abs(here - share) < 0.5 else 2.0
+
+
 @njit(inline="always", error_model="numpy")
 def recedes(end: float, start: float) -> bool:
     """Whether a guard has moved away from its change in the step that was to end there.
