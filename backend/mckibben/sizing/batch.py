@@ -13,10 +13,10 @@ from typing import TypeVar
 
 import numpy as np
 
-from mckibben.physics.drive_terms import INPUTS, DriveStructure
+from mckibben.physics.drive_terms import DriveStructure
 from mckibben.physics.errors import InputError
 from mckibben.simulation.drive.parts import Drive
-from mckibben.simulation.drive.transient import constants_of, segments_of
+from mckibben.simulation.drive.transient import before_of, constants_of, segments_of
 from mckibben.simulation.integrate.engine import compiled_drive
 from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.simulation.outcome import Outcome, Watch
@@ -173,8 +173,4 @@ def _timeline(task: Task, group: Group, drive: Drive) -> Timeline:
     if task.returns:
         grid = np.concatenate([grid, np.linspace(off, off + task.vent_time, ROWS_DOWN)[1:]])
     times, inputs, _ = segments_of(replace(drive, duration=float(grid[-1])))
-    before = inputs[0].copy()
-    rest_command = drive.command.before
-    for name, value in (("opening", rest_command), ("counter_opening", drive.counter(rest_command))):
-        before[INPUTS.index(name)], before[INPUTS.index(f"{name}_slope")] = value, 0.0
-    return Timeline(times, inputs, before, grid, on, off)
+    return Timeline(times, inputs, before_of(drive, inputs), grid, on, off)
