@@ -76,7 +76,8 @@ def greater(a: Value, b: Value) -> Value:
 def where(condition: Value, a: Value, b: Value) -> Value:
     """``a`` where the condition holds, ``b`` elsewhere."""
     if isinstance(condition, se.Basic):
-        return se.Piecewise((se.sympify(a), condition), (se.sympify(b), True))
+        a, b = se.sympify(a), se.sympify(b)
+        return a if a == b else se.Piecewise((a, condition), (b, True))
     if is_symbolic(a) or is_symbolic(b):
         return a if bool(condition) else b
     return np.where(condition, a, b)

@@ -34,7 +34,7 @@ from mckibben.server.routes import (
 from mckibben.server.security import BodyLimitMiddleware, SecurityMiddleware
 from mckibben.server.server_timing import TimingMiddleware
 from mckibben.server.settings import Settings
-from mckibben.simulation.integrate.engine import kernel
+from mckibben.simulation.integrate.many import lane_kernels
 
 # Bytes. The usual curves answer is smaller: compressing it would take longer than computing it.
 _GZIP_FROM = 256 * 1024
@@ -69,8 +69,9 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         # Ready when the first page asks for it, without delaying the start.
         threading.Thread(target=app.state.plotly.compressed, daemon=True).start()
-        # Delayed: importing numba blocks the interpreter for half a second, while the first page loads.
-        warming = asyncio.get_running_loop().call_later(_WARM_AFTER, kernel.warm)
+        # Delayed: importing numba blocks the interpreter for half a second, while the first page loads. The
+        # kernel of many runs brings the one of single runs with it.
+        warming = asyncio.get_running_loop().call_later(_WARM_AFTER, lane_kernels.warm)
         yield
         warming.cancel()
 

@@ -13,10 +13,10 @@ from typing import TypeVar
 
 import numpy as np
 
-from mckibben.physics.drive_terms import INPUTS, DriveStructure
+from mckibben.physics.drive_terms import DriveStructure
 from mckibben.physics.errors import InputError
 from mckibben.simulation.drive.parts import Drive
-from mckibben.simulation.drive.transient import constants_of, segments_of
+from mckibben.simulation.drive.transient import before_of, constants_of, segments_of
 from mckibben.simulation.integrate.engine import compiled_drive
 from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.simulation.outcome import Outcome, Watch
@@ -27,7 +27,8 @@ from mckibben.sizing.task import Task
 
 _THREADS = 2
 _SIDE_BY_SIDE = 64  # designs a thread runs at a time
-_LEVEL = 1  # optimisation of the machine code: pays off, hundreds of runs share a structure
+# Optimisation of the machine code for runs one by one: pays off for hundreds. In lanes it has its own code.
+_ONE_BY_ONE, _IN_LANES = 1, 0
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -55,7 +56,7 @@ class Bench:
         self.runs = 0
         self._timelines: dict[tuple[object, ...], Timeline] = {}
         self._known: dict[tuple[Group, float, float], Figures] = {}
-        lane_kernels.warm()
+        self._level = _ONE_BY_ONE if lane_kernels.ready() is None else _IN_LANES
 
     def each(
         self,
@@ -79,9 +80,7 @@ class Bench:
         done = 0
         with ThreadPoolExecutor(_THREADS) as pool:
             while chunk := list(islice(source, 8 * _THREADS)):
-                ended = self.watch.ended(begin + (share[1] - begin) * done / max(total, 1))
-                if ended is not None:
-                    raise EndedError(ended)
+                self.check_end(begin + (share[1] - begin) * done / max(total, 1))
                 yield from pool.map(function, chunk)
                 done += len(chunk)
 
@@ -92,14 +91,15 @@ class Bench:
     def compile(self, group: Group) -> None:
         """Compile the equations of a group in advance, so that no two threads do it at the same time."""
         compiled_drive(
-            DriveStructure(group.effects, tube=group.tube.tube is not None, pair=group.duty.pair), _LEVEL
+            DriveStructure(group.effects, tube=group.tube.tube is not None, pair=group.duty.pair),
+            self._level,
         )
 
     def prepared(self, design: Design) -> Prepared:
         """A design ready to run."""
         group = design.group
         drive = group.drive(self.task, design.length, design.pressure)
-        compiled = compiled_drive(drive.structure, _LEVEL)
+        compiled = compiled_drive(drive.structure, self._level)
         table = constants_of(drive)
         parameters = np.array([table[name] for name in compiled.model.parameters])
         return Prepared(design, drive, compiled, parameters, self._timeline(group, drive))
@@ -115,6 +115,30 @@ class Bench:
             return prepared.figures(prepared.parameters, prepared.inputs, self.task.returns)
         except InputError:  # no rest position at all: the stretched counter muscle is too strong
             return NOTHING
+
+    def check_end(self, share: float) -> None:
+        """Report progress.
+
+        Raises:
+            EndedError: the watch ends the work.
+        """
+        ended = self.watch.ended(share)
+        if ended is not None:
+            raise EndedError(ended)
+
+    def run_cases(self, cases: Sequence[Case]) -> list[Figures]:
+        """Figures of some runs, side by side."""
+        for _ in cases:
+            self.count_run()
+        if lane_kernels.ready() is not None:
+            return figures_of_many(cases, self.task.returns)
+        parts = [cases[begin::_THREADS] for begin in range(_THREADS)]
+        found: list[Figures] = [NOTHING] * len(cases)
+        with ThreadPoolExecutor(_THREADS) as pool:
+            done = pool.map(lambda part: figures_of_many(part, self.task.returns), parts)
+            for begin, figures in enumerate(done):
+                found[begin::_THREADS] = figures
+        return found
 
     def run_ahead(self, designs: Sequence[Design], share: tuple[float, float]) -> None:
         """Simulate designs side by side; `run` then has the result of each at once.
@@ -149,8 +173,4 @@ def _timeline(task: Task, group: Group, drive: Drive) -> Timeline:
     if task.returns:
         grid = np.concatenate([grid, np.linspace(off, off + task.vent_time, ROWS_DOWN)[1:]])
     times, inputs, _ = segments_of(replace(drive, duration=float(grid[-1])))
-    before = inputs[0].copy()
-    rest_command = drive.command.before
-    for name, value in (("opening", rest_command), ("counter_opening", drive.counter(rest_command))):
-        before[INPUTS.index(name)], before[INPUTS.index(f"{name}_slope")] = value, 0.0
-    return Timeline(times, inputs, before, grid, on, off)
+    return Timeline(times, inputs, before_of(drive, inputs), grid, on, off)

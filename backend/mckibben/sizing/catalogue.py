@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
@@ -125,6 +125,29 @@ class Group:
             valve_share, float(gas.tube_conductance(diameter=tube.inside_diameter, length=tube.length))
         )
 
+    @cached_property
+    def valve_share(self) -> Valve:
+        """The valve of one of the parallel muscles."""
+        flow, count = self.valve.valve, self.parallel
+        return replace(
+            flow,
+            fill_conductance=flow.fill_conductance / count,
+            exhaust_conductance=flow.exhaust_conductance / count,
+        )
+
+    @cached_property
+    def load_share(self) -> Load:
+        """The load of one of the parallel muscles."""
+        duty, count = self.duty, self.parallel
+        force, spring = duty.straight()
+        return Load(
+            mass=duty.mass / count,
+            inclination=duty.inclination,
+            force=force / count,
+            spring=spring / count,
+            lever_ratio=duty.lever_ratio,
+        )
+
     def drive(self, task: Task, length: float, pressure: float) -> Drive:
         """The drive of one of the parallel muscles, with its share of the load and of the valve's flow.
 
@@ -135,26 +158,14 @@ class Group:
             length: nominal length [m].
             pressure: gauge pressure of the supply [Pa].
         """
-        duty, count = self.duty, self.parallel
+        duty = self.duty
         model = StaticModel.of(self.muscle.muscle._replace(nominal_length=length), self.effects, self.values)
         model.limits = self.muscle.limits
-        flow = self.valve.valve
-        force, spring = duty.straight()
         reach = duty.pull / length
         return Drive(
             model=model,
-            valve=replace(
-                flow,
-                fill_conductance=flow.fill_conductance / count,
-                exhaust_conductance=flow.exhaust_conductance / count,
-            ),
-            load=Load(
-                mass=duty.mass / count,
-                inclination=duty.inclination,
-                force=force / count,
-                spring=spring / count,
-                lever_ratio=duty.lever_ratio,
-            ),
+            valve=self.valve_share,
+            load=self.load_share,
             command=command_of(task, duty),
             duration=switch_on(task, duty) + task.fill_time + task.vent_time,
             supply_pressure=pressure,
@@ -197,3 +208,11 @@ class Design:
     def contraction(self) -> float:
         """Contraction ratio at the end of the stroke."""
         return self.group.duty.pull / self.length
+
+
+def alike_designs(designs: Sequence[Design]) -> list[list[int]]:
+    """Numbers of the designs, those with the same muscle and duty together."""
+    found: dict[tuple[int, int], list[int]] = {}
+    for index, design in enumerate(designs):
+        found.setdefault((id(design.group.muscle), id(design.group.duty)), []).append(index)
+    return list(found.values())

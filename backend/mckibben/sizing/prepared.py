@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -138,32 +139,14 @@ class Prepared:
                 engine="rodas",
             )
         names = [*(state.name for state in compiled.model.states), *compiled.model.output_names]
-        chosen = [names.index(name) for name in self.columns]
-        return self.figures_of(solution.rows[:, chosen], events_of(compiled, solution.events), returns)
+        rows = solution.rows[None, :, [names.index(name) for name in self.columns]]
+        return figures_of([self], rows, [solution.events], returns)[0]
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """States and outputs that `figures_of` needs."""
+        """States and outputs of a run that `figures_of` needs."""
         names = [state.name for state in self.compiled.model.states]
         return "stroke", "force", *(n for n in ("supplied", f"supplied{COUNTER}") if n in names)
-
-    def figures_of(self, rows: np.ndarray, events: tuple[Event, ...], returns: bool) -> Figures:
-        """The figures of a run from its rows of `columns`."""
-        if len(rows) < ROWS_UP or not np.isfinite(rows).all():
-            return NOTHING
-        line, high = self.timeline, self.drive.stops[1]
-        stroke, force, air = rows[:, 0], rows[:, 1], rows[-1, 2:] - rows[0, 2:]
-        up = slice(0, ROWS_UP)
-        time = arrival(events, HIGH_STOP, line.on, line.off)
-        back = arrival(events, LOW_STOP, line.off, np.inf) if returns else None
-        return Figures(
-            time,
-            back,
-            bool(np.min(stroke[up][-int(HOLD_SHARE * ROWS_UP) :]) >= high - ON_STOP),
-            float(np.sum(air)) * self.design.group.parallel / ANR_DENSITY,
-            float(force.max()),
-            float(np.max(stroke[up]) - self.drive.stops[0]) / self.drive.load.lever_ratio,
-        )
 
     def start(self, parameters: np.ndarray) -> Start:
         """The load at rest before the run.
@@ -186,6 +169,48 @@ class Prepared:
         before = self.timeline.before.copy()
         before[INPUTS.index("external_force")] = self.drive.load.force
         return before
+
+
+def figures_of(
+    runs: Sequence[Prepared], rows: np.ndarray, events: Sequence[np.ndarray], returns: bool
+) -> list[Figures]:
+    """The figures of runs with the same equations and as many rows; `NOTHING` for one that ended early.
+
+    Args:
+        runs: what ran.
+        rows: of `Prepared.columns`, shape (runs, rows, columns).
+        events: of each run, see `mckibben.simulation.integrate.problem.Solution`.
+        returns: whether the return stroke counts.
+    """
+    size = len(runs[0].timeline.grid)
+    if rows.shape[1] < size:
+        return [NOTHING] * len(runs)
+    sound = np.all(np.isfinite(rows), axis=(1, 2))
+    up = rows[:, :ROWS_UP, 0]
+    least = up[:, -int(HOLD_SHARE * ROWS_UP) :].min(axis=1)
+    air, force = (rows[:, -1, 2:] - rows[:, 0, 2:]).sum(axis=1), rows[:, :, 1].max(axis=1)
+    names = [switch.name for switch in runs[0].compiled.model.switches]
+    top, bottom = names.index(HIGH_STOP), names.index(LOW_STOP)
+    found = []
+    for index, (run, farthest) in enumerate(zip(runs, up.max(axis=1).tolist(), strict=True)):
+        if not sound[index]:
+            found.append(NOTHING)
+            continue
+        line, low, high = run.timeline, *run.drive.stops
+        mine = events[index]
+        found.append(
+            Figures(
+                arrival(events_of(run.compiled, mine[mine[:, 1] == top]), HIGH_STOP, line.on, line.off),
+                arrival(events_of(run.compiled, mine[mine[:, 1] == bottom]), LOW_STOP, line.off, np.inf)
+                if returns
+                else None,
+                bool(least[index] >= high - ON_STOP),
+                float(air[index]) * run.design.group.parallel / ANR_DENSITY,
+                float(force[index]),
+                (farthest - low) / run.drive.load.lever_ratio,
+            )
+        )
+    return found
 
 
 def arrival(events: tuple[Event, ...], stop: str, begin: float, end: float) -> float | None:

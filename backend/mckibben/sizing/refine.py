@@ -1,44 +1,91 @@
-"""Optimises the continuous variables of a design: nominal length and pressure."""
+"""Optimises the continuous variables of designs: nominal length and pressure."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 
 from mckibben.sizing.batch import Bench
 from mckibben.sizing.catalogue import Design
+from mckibben.sizing.simplex import simplex_search
 from mckibben.sizing.statics import contraction_limit
-from mckibben.sizing.trial import Trial, hard_trial_of
+from mckibben.sizing.task import Task
+from mckibben.sizing.trial import Trial, hard_trials_of
 
 _RUNS = 32
 _FIRST_STEP = (0.12, 0.2)  # of the logarithms of length and pressure
+_CLOSE = 1e-3  # of the logarithms, and of the cost
 
 
-def refined(trial: Trial, bench: Bench) -> Trial:
-    """The best design near a trial, found by the simplex method of Nelder and Mead."""
-    from scipy.optimize import minimize  # 0.2 s import, not paid at start
+def refined(trials: Sequence[Trial], bench: Bench, share: tuple[float, float]) -> list[Trial]:
+    """The best design near each trial, found by the simplex method; all searches go on side by side.
 
-    task, group = bench.task, trial.design.group
-    part = group.muscle
-    part_limits = [p for p in (part.limits.max_pressure, group.valve.max_pressure) if p is not None]
-    highest = min(task.available_pressure, *part_limits) if part_limits else task.available_pressure
-    lengths = (
-        max(part.shortest, group.duty.pull / contraction_limit(part, task)),
-        min(part.longest, task.limits.max_length - task.limits.end_fittings),
-    )
-    lowest = min(max(0.1 * highest, group.valve.min_pressure or 0.0), highest)
-    low = np.log([lengths[0], lowest])
-    high = np.log([max(lengths), highest])
-    tried = [hard_trial_of(trial.design, bench)]
+    Args:
+        trials: where to begin.
+        bench: runs the designs of the task.
+        share: progress before and after, as shares of the whole work.
 
-    def cost(point: np.ndarray) -> float:
-        length, pressure = np.exp(np.clip(point, low, high))
-        tried.append(hard_trial_of(Design(group, float(length), float(pressure)), bench))
-        return tried[-1].cost()
+    Raises:
+        EndedError: the bench's watch ends the work.
+    """
+    searches = [_Search(trial, bench.task) for trial in trials]
+    begun = hard_trials_of([trial.design for trial in trials], bench)
+    for search, trial in zip(searches, begun, strict=True):
+        search.tried.append(trial)
+    active = list(searches)
+    while active:
+        done = max(len(search.tried) for search in active) / (_RUNS + 1)
+        bench.check_end(share[0] + (share[1] - share[0]) * min(done, 1.0))
+        wanted = [(search, design) for search in active for design in search.wanted]
+        found = iter(hard_trials_of([design for _, design in wanted], bench))
+        for search in active:
+            search.answer([next(found) for _ in search.wanted])
+        active = [search for search in active if search.wanted]
+    return [search.best for search in searches]
 
-    begin = np.log([trial.design.length, trial.design.pressure])
-    steps = np.where(begin + _FIRST_STEP > high, -1.0, 1.0) * _FIRST_STEP
-    simplex = begin + np.array([[0.0, 0.0], [steps[0], 0.0], [0.0, steps[1]]])
-    options = {"maxfev": _RUNS, "initial_simplex": simplex, "xatol": 1e-3, "fatol": 1e-3}
-    minimize(cost, begin, method="Nelder-Mead", options=options)
-    good = [item for item in tried if item.keeps_limits]
-    return min(good, key=lambda item: item.cost()) if good else trial
+
+class _Search:
+    """The search from one trial.
+
+    Attributes:
+        wanted: designs whose trials are wanted next; empty at the end.
+        tried: all trials so far.
+    """
+
+    def __init__(self, trial: Trial, task: Task) -> None:
+        self._first, self._group = trial, trial.design.group
+        self.tried: list[Trial] = []
+        part, valve = self._group.muscle, self._group.valve
+        limits = [p for p in (part.limits.max_pressure, valve.max_pressure) if p is not None]
+        highest = min(task.available_pressure, *limits) if limits else task.available_pressure
+        lengths = (
+            max(part.shortest, self._group.duty.pull / contraction_limit(part, task)),
+            min(part.longest, task.limits.max_length - task.limits.end_fittings),
+        )
+        lowest = min(max(0.1 * highest, valve.min_pressure or 0.0), highest)
+        self._low = np.log([lengths[0], lowest])
+        self._high = np.log([max(lengths), highest])
+        begin = np.log([trial.design.length, trial.design.pressure])
+        steps = np.where(begin + _FIRST_STEP > self._high, -1.0, 1.0) * _FIRST_STEP
+        simplex = begin + np.array([[0.0, 0.0], [steps[0], 0.0], [0.0, steps[1]]])
+        self._rounds = simplex_search(simplex, most=_RUNS, near=_CLOSE, alike=_CLOSE)
+        self.wanted = self._designs(next(self._rounds))
+
+    def _designs(self, points: list[np.ndarray]) -> list[Design]:
+        sizes = np.exp(np.clip(points, self._low, self._high)).tolist()
+        return [Design(self._group, length, pressure) for length, pressure in sizes]
+
+    def answer(self, trials: list[Trial]) -> None:
+        """Take the trials of the wanted designs."""
+        self.tried += trials
+        try:
+            self.wanted = self._designs(self._rounds.send([trial.cost() for trial in trials]))
+        except StopIteration:
+            self.wanted = []
+
+    @property
+    def best(self) -> Trial:
+        """The best trial that keeps the limits, or else the one the search began with."""
+        good = [trial for trial in self.tried if trial.keeps_limits]
+        return min(good, key=lambda trial: trial.cost()) if good else self._first

@@ -26,7 +26,7 @@ from mckibben.sizing.rejection import (
 )
 from mckibben.sizing.statics import least_time
 from mckibben.sizing.task import Task
-from mckibben.sizing.trial import Trial, trial_of
+from mckibben.sizing.trial import AtRest, Trial, at_rest_of, trial_of
 
 # Progress after each stage, as a share of the whole work.
 _PRUNED, _TRIED, _REFINED, _MEASURED = 0.1, 0.35, 0.65, 0.7
@@ -100,6 +100,10 @@ class DesignCandidate:
         rest = self.sheet.rest
         return Design(self.group, float(rest.length[index]), float(rest.pressure[index]))
 
+    def at_rest(self, index: int) -> AtRest:
+        """The statics of the design at a position of the sheet."""
+        return at_rest_of(self.sheet.rest, self.sheet.margins, index)
+
 
 class _Search:
     def __init__(self, task: Task, catalogue: PartsCatalogue, bench: Bench, sizing: Sizing) -> None:
@@ -118,13 +122,12 @@ class _Search:
         sizing.rejected = at_rest_rejections(sheets, self.catalogue, task, set())
         candidates, failed = self._prune(sheets)
         candidates = self._likely(candidates)
-        self._check_end(_PRUNED)
+        bench.check_end(_PRUNED)
         good, slow = self._try(candidates)
         sizing.explored = good
         failed += slow
         chosen = _varied(sorted(good, key=_by_cost), task.max_proposals + _SPARE)
-        steps = bench.each(lambda trial: refined(trial, bench), chosen, (_TRIED, _REFINED), len(chosen))
-        better = list(steps)
+        better = refined(chosen, bench, (_TRIED, _REFINED))
         proposals: list[Proposal] = []
         for item in bench.each(lambda t: propose(t, bench), better, (_REFINED, _MEASURED), len(better)):
             if isinstance(item, Proposal):
@@ -137,11 +140,6 @@ class _Search:
         sizing.rejected.sort(key=lambda rejection: rejection.nearness)
         sizing.proposals = ranked(proposals, task)[: task.max_proposals]
         sizing.proposals = self._with_chances(sizing.proposals)
-
-    def _check_end(self, share: float) -> None:
-        ended = self.bench.watch.ended(share)
-        if ended is not None:
-            raise EndedError(ended)
 
     def _prune(self, sheets: list[Sheet]) -> tuple[list[DesignCandidate], list[Failed]]:
         """Candidates not ruled out by the closed form, and groups without any such design."""
@@ -219,7 +217,7 @@ class _Search:
         middle = share[0] + 0.9 * (share[1] - share[0])
         self.bench.run_ahead([candidate.design(index) for candidate, index in jobs], (share[0], middle))
         trials = self.bench.each(
-            lambda job: trial_of(job[0].design(job[1]), self.bench, job[0].sheet.rest.only(job[1])),
+            lambda job: trial_of(job[0].design(job[1]), self.bench, job[0].at_rest(job[1])),
             jobs,
             (middle, share[1]),
             len(jobs),

@@ -8,10 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mckibben.physics.errors import InputError
-from mckibben.simulation.drive.events import events_of
 from mckibben.simulation.drive.initial_states import starts_of_many
 from mckibben.simulation.integrate.many import integrate_many, lane_kernels
-from mckibben.sizing.prepared import NOTHING, TOLERANCE, Figures, Prepared
+from mckibben.sizing.prepared import NOTHING, TOLERANCE, Figures, Prepared, figures_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,9 +78,9 @@ def _figures(cases: list[Case], returns: bool) -> list[Figures]:
         tolerance=TOLERANCE,
         columns=first.columns,
     )
-    for row, index in enumerate(sound):
-        rows = solutions.rows[row, : solutions.written[row]]
-        found[index] = cases[index].prepared.figures_of(
-            rows, events_of(compiled, solutions.events[row]), returns
-        )
+    runs = [case.prepared for case in chosen]
+    for index, figures in zip(
+        sound, figures_of(runs, solutions.rows, solutions.events, returns), strict=True
+    ):
+        found[index] = figures
     return found

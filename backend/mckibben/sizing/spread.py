@@ -13,11 +13,12 @@ All muscles of a drive deviate together, like muscles of one batch; that is the 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from mckibben.sizing.catalogue import Design
+from mckibben.sizing.catalogue import Design, alike_designs
 from mckibben.sizing.statics import outputs
 from mckibben.sizing.task import Task
 
@@ -54,9 +55,21 @@ class Spread:
 
 def deviation_of(design: Design, task: Task) -> Deviation:
     """Deviations of a design, linearised at the blocked force (shift) and at the end of the stroke (loop)."""
-    part, stated, end = design.group.muscle, task.uncertainty, design.contraction
-    points = np.array([0.0, _STEP, end, end + _STEP, end])
-    force = _force(design, task, points, np.array([0.0, 0.0, 0.0, 0.0, -1.0]))
+    return deviations_of([design], task)[0]
+
+
+def deviations_of(designs: Sequence[Design], task: Task) -> list[Deviation]:
+    """`deviation_of` of several designs."""
+    found: dict[int, Deviation] = {}
+    for alike in alike_designs(designs):
+        for index, force in zip(alike, _forces([designs[i] for i in alike], task), strict=True):
+            found[index] = _deviation(designs[index], task, force)
+    return [found[index] for index in range(len(designs))]
+
+
+def _deviation(design: Design, task: Task, force: np.ndarray) -> Deviation:
+    """The deviation from the forces at the contractions of `_forces`."""
+    part, stated = design.group.muscle, task.uncertainty
     own = max(float(force[2] - force[4]), 0.0)  # friction of the model while it fills
     lost = np.maximum(force[[0, 2]] - force[[1, 3]], 1e-9) / _STEP  # N per contraction
     width = part.hysteresis if stated.hysteresis is None else stated.hysteresis
@@ -64,11 +77,13 @@ def deviation_of(design: Design, task: Task) -> Deviation:
     return Deviation(shift, max(0.5 * width * float(lost[1]) - own, 0.0))
 
 
-def weak(design: Design, task: Task) -> tuple[float, float, float]:
-    """Shift, friction and pressure factor of a weak specimen: about 19 of 20 are better."""
-    deviation = deviation_of(design, task)
-    shift = _WEAK * deviation.shift
-    return shift, _USUAL * deviation.friction, 1.0 - (1.0 - _USUAL) * task.uncertainty.supply_pressure
+def weak(designs: Sequence[Design], task: Task) -> list[tuple[float, float, float]]:
+    """Shift, friction and pressure factor of a weak specimen of each design: about 19 of 20 are better."""
+    pressure = 1.0 - (1.0 - _USUAL) * task.uncertainty.supply_pressure
+    return [
+        (_WEAK * deviation.shift, _USUAL * deviation.friction, pressure)
+        for deviation in deviations_of(designs, task)
+    ]
 
 
 def spread_of(design: Design, task: Task, count: int) -> Spread:
@@ -87,13 +102,18 @@ def spread_of(design: Design, task: Task, count: int) -> Spread:
     )
 
 
-def _force(design: Design, task: Task, contraction: np.ndarray, direction: np.ndarray) -> np.ndarray:
-    size = len(contraction)
+def _forces(designs: Sequence[Design], task: Task) -> np.ndarray:
+    """Forces without friction at contraction 0, a step on, the end of the stroke, a step on, and at the end
+    while it fills, shape (designs, 5); of designs with one muscle.
+    """
+    ends = np.array([design.contraction for design in designs])
+    contraction = np.stack([0.0 * ends, 0.0 * ends + _STEP, ends, ends + _STEP, ends], axis=1)
+    points = contraction.shape[1]
     return outputs(
-        design.group.muscle,
-        length=np.full(size, design.length),
-        contraction=contraction,
-        pressure=np.full(size, design.pressure),
-        direction=direction,
+        designs[0].group.muscle,
+        length=np.repeat([design.length for design in designs], points),
+        contraction=contraction.ravel(),
+        pressure=np.repeat([design.pressure for design in designs], points),
+        direction=np.tile([0.0, 0.0, 0.0, 0.0, -1.0], len(designs)),
         temperature=task.temperature,
-    )["force"]
+    )["force"].reshape(contraction.shape)

@@ -90,13 +90,16 @@ class Rest:
 
     def only(self, index: int) -> Rest:
         """One of the designs."""
-        return Rest(*(getattr(self, item.name)[index : index + 1] for item in fields(self)))
+        return Rest(*(getattr(self, name)[index : index + 1] for name in _FIELDS))
 
     @property
     def air(self) -> Array:
         """Air that all muscles of one side take for a full fill, at ANR [m^3]."""
         filled = (self.pressure + ideal.ATMOSPHERE) * self.volume - ideal.ATMOSPHERE * self.volume_start
         return self.parallel * filled / (gas.GAS_CONSTANT * gas.ANR_TEMPERATURE * gas.ANR_DENSITY)
+
+
+_FIELDS = tuple(item.name for item in fields(Rest))
 
 
 def at_rest(

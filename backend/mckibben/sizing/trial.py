@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf, log
+from typing import NamedTuple
 
 import numpy as np
 
 from mckibben.sizing.batch import Bench
-from mckibben.sizing.catalogue import Design
+from mckibben.sizing.catalogue import Design, alike_designs
 from mckibben.sizing.prepared import Figures
+from mckibben.sizing.side_by_side import Case
 from mckibben.sizing.spread import weak
 from mckibben.sizing.statics import AMPLE, Rest, at_rest, margins
 from mckibben.sizing.task import Task
@@ -22,6 +25,13 @@ _KEPT = 0.08
 _NEAR, _BROKEN = 1.0, 30.0
 # Share by which a weak specimen may be late for the same cost.
 _WEAK = 0.08
+
+
+class AtRest(NamedTuple):
+    """Statics of a design, and its margin to each limit at rest."""
+
+    rest: Rest
+    margins: dict[str, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,25 +110,51 @@ class Trial:
         return total if self.figures.holds else total + _BROKEN
 
 
-def trial_of(design: Design, bench: Bench, rest: Rest | None = None) -> Trial:
-    """Run a design; ``rest`` are its statics, if known already."""
-    return judged(design, bench.run(design), bench.task, rest)
+def trial_of(design: Design, bench: Bench, known: AtRest | None = None) -> Trial:
+    """Run a design; ``known`` are its statics, if known already."""
+    return judged(design, bench.run(design), bench.task, known)
 
 
-def hard_trial_of(design: Design, bench: Bench) -> Trial:
-    """Run a design and a weak specimen of it."""
-    poor = bench.prepared(design).run_specimen(*weak(design, bench.task), bench.task.returns)
-    bench.count_run()
-    return replace(trial_of(design, bench), weak=poor)
+def hard_trials_of(designs: Sequence[Design], bench: Bench) -> list[Trial]:
+    """Run designs and a weak specimen of each."""
+    task = bench.task
+    prepared = [bench.prepared(design) for design in designs]
+    usual = [Case(item, item.parameters, item.inputs) for item in prepared]
+    poor = [
+        Case(item, *item.specimen(*deviations))
+        for item, deviations in zip(prepared, weak(designs, task), strict=True)
+    ]
+    figures = bench.run_cases([*usual, *poor])
+    return [
+        replace(judged(design, mine, task, known), weak=weakest)
+        for design, mine, weakest, known in zip(
+            designs, figures[: len(designs)], figures[len(designs) :], rests_of(designs, task), strict=True
+        )
+    ]
 
 
-def judged(design: Design, figures: Figures, task: Task, rest: Rest | None = None) -> Trial:
-    """A design with the figures of its run and its margins."""
+def rests_of(designs: Sequence[Design], task: Task) -> list[AtRest]:
+    """The statics of designs, those of the same muscle and duty together."""
+    found: dict[int, AtRest] = {}
+    for alike in alike_designs(designs):
+        group = designs[alike[0]].group
+        arrays = [(d.length, d.pressure, float(d.group.parallel)) for d in (designs[i] for i in alike)]
+        rest = at_rest(group.muscle, group.duty, task, *np.array(arrays).T.copy())
+        limits = margins(rest, group.muscle, task)
+        found |= {index: at_rest_of(rest, limits, row) for row, index in enumerate(alike)}
+    return [found[index] for index in range(len(designs))]
+
+
+def at_rest_of(rest: Rest, limits: Mapping[str, np.ndarray], index: int) -> AtRest:
+    """The statics of one of the designs."""
+    return AtRest(rest.only(index), {name: float(margin[index]) for name, margin in limits.items()})
+
+
+def judged(design: Design, figures: Figures, task: Task, known: AtRest | None = None) -> Trial:
+    """A design with the figures of its run and its margins; ``known`` are its statics, if known already."""
     group = design.group
-    if rest is None:
-        single = (np.array([value]) for value in (design.length, design.pressure, float(group.parallel)))
-        rest = at_rest(group.muscle, group.duty, task, *single)
-    all_margins = {name: float(margin[0]) for name, margin in margins(rest, group.muscle, task).items()}
+    rest, at_rest_margins = known or rests_of([design], task)[0]
+    all_margins = dict(at_rest_margins)
     for name, ratio in times_over(figures, task).items():
         all_margins[name] = 1.0 / ratio - 1.0
     most = group.muscle.limits.max_force

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
 
 from mckibben.identification.diagnose.diagnosis import diagnose
-from mckibben.identification.predict import TransientPredictor, predictor_of
+from mckibben.identification.fit.effort import FitEffort
+from mckibben.identification.fit.misfit import Misfit
+from mckibben.identification.predict import TransientPredictor, moving, predictor_of
 from mckibben.identification.predict.fit_model import FitModel, free_numbers
 from mckibben.measurement.measurement import Measurement, build
 from mckibben.physics.errors import InputError
@@ -17,6 +20,7 @@ from mckibben.simulation.command.signals import signal_from
 from mckibben.simulation.drive.driven import driven_motion
 from mckibben.simulation.drive.parts import Drive, Load, Tube, Valve
 from mckibben.simulation.drive.transient import simulate
+from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.simulation.statics.model import StaticModel
 from tests.identification.comparing import compare
 from tests.identification.synthetic import CATALOGUE, MUSCLE, G, truth
@@ -289,6 +293,51 @@ def test_differences_are_those_of_two_runs():
         expected = (ends[0] - ends[1]) / (2 * step) / predictor.scale
         got = gradient[:, column] / predictor.scale
         assert np.sqrt(np.mean((got - expected) ** 2)) < 0.05 * np.sqrt(np.mean(expected**2))
+
+
+RICH = HIDDEN | {"dahl": {"force": 20.0}, "valve_delay": {"opening_time": 0.004, "closing_time": 0.006}}
+
+
+def test_differences_side_by_side_are_those_of_two_accurate_runs(monkeypatch):
+    lane_kernels.awaited()
+    predictor = predictor_of(measured(drive()), MUSCLE, drive({}))
+    model = fit_model(RICH)
+    free = free_numbers(model, (), frozenset({"valve_delay.opening_time"}))
+    names = [parameter.name for parameter in free]
+    here = predictor.predict(model, clipped=False)
+    usual = predictor.differences(model, free, here)
+    monkeypatch.setattr(moving, "_PAYS_OFF", 0.0)
+    found = predictor.differences(model, free, here)
+    delays = [index for index, name in enumerate(names) if name.startswith("valve_delay")]
+    assert delays, "they move the instants of the command"
+    assert np.array_equal(found[:, delays], usual[:, delays]), "by runs of their own"
+    monkeypatch.setattr(moving, "simulate", partial(simulate, tolerance=1e-10))
+    for column, name in enumerate(names):
+        if column in delays:
+            continue
+        at = model.number(name)
+        ends = [predictor.predict(model.with_numbers([name], [at * (1 + s * 1e-3)])) for s in (1, -1)]
+        exact = (ends[0] - ends[1]) / (2e-3 * at)
+        for channel in predictor.channels:
+            size = np.linalg.norm(exact[channel.rows])
+            error = np.linalg.norm((found[:, column] - exact)[channel.rows]) / size
+            before = np.linalg.norm((usual[:, column] - exact)[channel.rows]) / size
+            assert error < 0.02, name
+            assert error < before, name
+
+
+def test_a_fit_with_differences_side_by_side_finds_the_numbers(monkeypatch):
+    lane_kernels.awaited()
+    predictor = predictor_of(measured(drive()), MUSCLE, drive({}))
+    monkeypatch.setattr(moving, "_PAYS_OFF", 0.0)
+    monkeypatch.setattr(moving, "_FEWEST_TOGETHER", 1)
+    model = fit_model(
+        {"bladder_elasticity": {"shear_modulus": 0.3e6}, "viscous_damping": {"coefficient": 120.0}}
+    )
+    found = Misfit(predictor, model, free_numbers(model)).fit(FitEffort(1, 1e-10, 60))
+    true = {f"{effect}.{name}": value for effect, own in HIDDEN.items() for name, value in own.items()}
+    for parameter in found.parameters:
+        assert parameter.value == pytest.approx(true[parameter.name], rel=1e-3)
 
 
 def test_a_run_that_breaks_off_is_far_off_not_an_error():

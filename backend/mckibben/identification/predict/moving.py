@@ -16,7 +16,8 @@ import numpy as np
 from mckibben.identification.predict.comparable_rows import records_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.folds import FEWEST
-from mckibben.identification.predict.predictor import PredictedChannel, Predictor
+from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.predictor import PredictedChannel, Predictor, farther
 from mckibben.measurement.measurement import STROKES, Measurement, lengths
 from mckibben.measurement.noise import noise_floor
 from mckibben.physics.effect import Effect
@@ -24,8 +25,10 @@ from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
 from mckibben.simulation.command.signals import TableSignal
 from mckibben.simulation.drive.driven import driven_motion
+from mckibben.simulation.drive.neighbours import neighbours
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import simulate
+from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.statics.model import StaticModel
 
@@ -34,6 +37,10 @@ _FEW_LEVELS = 0.2  # share of rows at which the command changes, up to which it 
 _FIRST_ROWS = 50  # most rows for the start pressure
 _NOT_VENTED = 30e3  # Pa from the documented start pressure; less may be a zero error of the gauge
 _LOST = 1e3  # residual after a run has stopped early, over the noise
+_READINGS = {"pressure": "pressure_reading", "displacement": "stroke_reading", "force": "force_reading"}
+# Derivatives side by side: relative step, fewest parameters, and the number of runs that take as long as the
+# compilation; so many segments of a command take as long as another run.
+_STEP_TOGETHER, _FEWEST_TOGETHER, _PAYS_OFF, _SEGMENTS = 1e-4, 3, 200.0, 50.0
 _TIME_LIMIT = 2.0  # s; a longer run means implausible values of a fit
 # Slots of the air flow only; irrelevant when the pressure is measured.
 _AIR = (
@@ -62,6 +69,11 @@ class Record:
     pressure: np.ndarray | None
     stroke: float
     rows: np.ndarray
+
+    @property
+    def segments(self) -> int:
+        """Pieces of the command, at each of which the integration starts afresh."""
+        return len(self.drive.command.segments(self.drive.duration).slopes)
 
 
 class TransientPredictor(Predictor):
@@ -135,6 +147,7 @@ class TransientPredictor(Predictor):
             others |= {"displacement": stroke[rows], "velocity": -np.gradient(stroke, columns["time"])[rows]}
         self.inputs = {name: np.tile(v, len(recorded)) for name, v in {"time": time, **others}.items()}
         self._wide: tuple[Effect, ...] = ()
+        self._spent: dict[tuple[Effect, ...], float] = {}
 
     def why_hidden(self, effect: Effect) -> str:
         """Checked by the kinds of the effect; effects on the air flow need a command channel."""
@@ -171,7 +184,7 @@ class TransientPredictor(Predictor):
 
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
         """The channels of all records, stacked; far from the measurement after a run has stopped early."""
-        model = StaticModel.of(fit_model.muscle, Model(fit_model.effects).effects, fit_model.values)
+        model = _static_model(fit_model)
         parts: list[list[np.ndarray]] = [[] for _ in self.channels]
         for record in self._records:
             readings = self._run(replace(record.drive, model=model), record)
@@ -182,11 +195,64 @@ class TransientPredictor(Predictor):
         predicted = np.concatenate([np.concatenate(part) for part in parts])
         return np.where(np.isfinite(predicted), predicted, self.measured + _LOST * self._noises())
 
+    def differences(
+        self, fit_model: FitModel, free: Sequence[Free], here: np.ndarray | None = None
+    ) -> np.ndarray:
+        """As `Predictor.differences`; after many runs of a structure, all parameters run side by side.
+
+        That gives smooth differences from much smaller steps, but each structure is compiled for it first.
+        """
+        if here is None or not self.commanded or not self._many_runs(fit_model, len(free)):
+            return super().differences(fit_model, free, here)
+        changed = [self.ends(fit_model, parameter, _STEP_TOGETHER) for parameter in free]
+        others = [farther(*ends) for ends in changed]
+        models = [
+            fit_model,
+            *(
+                fit_model.with_numbers([parameter.name], [other])
+                for parameter, other in zip(free, others, strict=True)
+            ),
+        ]
+        values = self._side_by_side(models)
+        first = values[0]
+        columns = []
+        for parameter, (value, _, _), other, found in zip(free, changed, others, values[1:], strict=True):
+            if first is None or found is None:  # it runs another course: by a run of its own
+                columns.append(super().differences(fit_model, [parameter], here)[:, 0])
+            else:
+                columns.append((found - first) / (other - value))
+        return np.column_stack(columns)
+
+    def _many_runs(self, fit_model: FitModel, count: int) -> bool:
+        """Whether the runs for derivatives so far would have paid the compilation; counts these."""
+        if count < _FEWEST_TOGETHER or lane_kernels.ready() is None:
+            return False
+        segments = sum(record.segments for record in self._records)
+        runs = self._spent.get(fit_model.effects, 0.0) + count * (len(self._records) + segments / _SEGMENTS)
+        self._spent[fit_model.effects] = runs
+        return runs > _PAYS_OFF
+
+    def _side_by_side(self, models: Sequence[FitModel]) -> list[np.ndarray | None]:
+        """`predict` of models that differ little from the first; None for one that runs another course."""
+        parts: list[list[list[np.ndarray]]] = [[[] for _ in self.channels] for _ in models]
+        lost: set[int] = set()
+        for record in self._records:
+            drives = [replace(record.drive, model=_static_model(model)) for model in models]
+            for number, readings in enumerate(neighbours(drives, grid=record.time)):
+                if readings is None:
+                    lost.add(number)
+                    continue
+                for part, channel in zip(parts[number], self.channels, strict=True):
+                    part.append(readings[_READINGS[channel.name]])
+        return [
+            None if number in lost else np.concatenate([np.concatenate(part) for part in parts[number]])
+            for number in range(len(models))
+        ]
+
     def _noises(self) -> np.ndarray:
         return np.repeat([channel.noise for channel in self.channels], len(self.rows))
 
     def _run(self, drive: Drive, record: Record) -> dict[str, np.ndarray]:
-        names = {"pressure": "pressure_reading", "displacement": "stroke_reading", "force": "force_reading"}
         try:
             if self.commanded:
                 run = simulate(drive, grid=record.time, watch=Watch(time_limit=_TIME_LIMIT))
@@ -200,7 +266,11 @@ class TransientPredictor(Predictor):
                 )
         except InputError:  # values of the fit that no drive can have
             return {}
-        return {name: results[output] for name, output in names.items() if output in results}
+        return {name: results[output] for name, output in _READINGS.items() if output in results}
+
+
+def _static_model(fit_model: FitModel) -> StaticModel:
+    return StaticModel.of(fit_model.muscle, Model(fit_model.effects).effects, fit_model.values)
 
 
 def _fast(effect: Effect) -> bool:

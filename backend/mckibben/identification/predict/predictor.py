@@ -128,11 +128,9 @@ class Predictor(ABC):
         """Finite differences of `predict`, shape (values, free): central, or from the prediction ``here``."""
         columns = []
         for parameter in free:
-            value = fit_model.number(parameter.name)
-            step = self.step * min(parameter.upper - parameter.lower, max(abs(value), parameter.typical))
-            low, high = max(value - step, parameter.lower), min(value + step, parameter.upper)
+            value, low, high = self.ends(fit_model, parameter, self.step)
             if here is not None:
-                other = high if high - value >= value - low else low
+                other = farther(value, low, high)
                 changed = self.predict(fit_model.with_numbers([parameter.name], [other]), clipped=False)
                 columns.append((changed - here) / (other - value))
                 continue
@@ -142,6 +140,12 @@ class Predictor(ABC):
             ]
             columns.append((ends[1] - ends[0]) / (high - low))
         return np.column_stack(columns) if columns else np.empty((len(self.measured), 0))
+
+    def ends(self, fit_model: FitModel, parameter: Free, step: float) -> tuple[float, float, float]:
+        """The value of a parameter, and the ends of a difference with this relative step."""
+        value = fit_model.number(parameter.name)
+        size = step * min(parameter.upper - parameter.lower, max(abs(value), parameter.typical))
+        return value, max(value - size, parameter.lower), min(value + size, parameter.upper)
 
     def residual(self, fit_model: FitModel) -> np.ndarray:
         """Measured minus predicted."""
@@ -212,3 +216,8 @@ class Predictor(ABC):
     def predicted(self) -> str:
         """Names of the predicted channels."""
         return ", ".join(channel.name for channel in self.channels)
+
+
+def farther(value: float, low: float, high: float) -> float:
+    """The end of a one-sided difference: a bound may cut the other side off."""
+    return high if high - value >= value - low else low

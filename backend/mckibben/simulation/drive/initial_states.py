@@ -11,13 +11,12 @@ from mckibben.physics import gas
 from mckibben.physics.braid import volume as braid_volume
 from mckibben.physics.drive_terms import COUNTER, HIGH_STOP, LOW_STOP, SLACK
 from mckibben.physics.errors import InputError
+from mckibben.physics.muscle import GEOMETRY, Muscle
 from mckibben.simulation.drive.initial_state import BALANCED, Rest, beyond_lock, stated_stroke
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.integrate.engine import CompiledDrive
 from mckibben.simulation.integrate.lane_calls import LaneCalls
-
-_NARROW = 1e-13  # m; bracket of a root
-_MOST_TRIES = 200
+from mckibben.simulation.statics.model import longest_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +43,7 @@ def starts_of_many(
     """The states at the start of each set, as `mckibben.simulation.drive.initial_state.start_of` finds them.
 
     Args:
-        drives: the drive of each set, or one for all.
+        drives: the drive of each set, or one for all; its geometry and its stops are those of the parameters.
         compiled: their equations.
         parameters: constants of the runs, shape (sets, parameters).
         inputs: inputs before the runs, shape (inputs,) or (sets, inputs).
@@ -80,39 +79,41 @@ class _Search:
             pressure = plain in ("pressure", "tube_pressure", "regulator_pressure")
             start = absolute if pressure else 0.0
             self.calls.put(index, start if state.initial is None else state.initial)
-        rough = _of_drives(
-            drives,
-            lambda drive: float(braid_volume(braid=drive.muscle.braid, length=drive.muscle.nominal_length)),
-        )
+        table = dict(zip(model.parameters, parameters.T, strict=True))
+        braid = Muscle(**{name: table[name] for name in GEOMETRY}).braid
+        self.nominal = table["nominal_length"]
+        rough = np.asarray(braid_volume(braid=braid, length=self.nominal))
         for index in self._places("gas_mass"):
             self.calls.put(index, self.specific * rough)
-        places = list(model.parameters)
-        self.middle = (
-            parameters[:, places.index("nominal_length")] - parameters[:, places.index("precontraction")]
-        )
+        self.low, self.high = table["stop_low"], table["stop_high"]
+        self.middle = self.nominal - table["precontraction"]
+        self.longest = np.asarray(longest_of(braid))
         self.lengths = self._places("length")
         volumes = [
             "volume" + self.names[index].removeprefix("gas_mass") for index in self._places("gas_mass")
         ]
         outputs = [model.output_names.index(name) for name in ("net_force", *volumes)]
         self.outputs, _ = compiled.lanes.outputs(outputs)
-        self.nominal = _of_drives(drives, lambda drive: drive.muscle.nominal_length)
-        self.longest = _of_drives(drives, lambda drive: drive.model.longest)
 
     def _places(self, name: str) -> list[int]:
         return [index for index, full in enumerate(self.names) if full.removesuffix(COUNTER) == name]
 
+    def _follows(self) -> dict[int, tuple[np.ndarray | float, float]]:
+        """The states that follow the strokes: number -> (offset, slope)."""
+        found: dict[int, tuple[np.ndarray | float, float]] = {self.names.index("stroke"): (0.0, 1.0)}
+        for place, sense in zip(self.lengths, (1.0, -1.0), strict=False):
+            found[place] = (self.middle, -sense)
+        return found
+
     def net_force(self, strokes: np.ndarray) -> np.ndarray:
         """Force along the stroke without that of the stops [N]."""
-        self.calls.put(self.names.index("stroke"), strokes)
-        for place, sense in zip(self.lengths, (1.0, -1.0), strict=False):
-            self.calls.put(place, self.middle - sense * strokes)
+        for place, (offset, slope) in self._follows().items():
+            self.calls.put(place, offset + slope * strokes)
         return self.calls.call(self.outputs)[0]
 
     def found(self) -> Starts:
         drives, model = self.drives, self.compiled.model
-        low = _of_drives(drives, lambda drive: drive.stops[0])
-        high = _of_drives(drives, lambda drive: drive.stops[1])
+        low, high = self.low, self.high
         strokes, why, errors = self._rest(low, high)
         for index, drive in enumerate(drives):
             if drive.start_position is not None:
@@ -149,7 +150,8 @@ class _Search:
         lifted = ~hangs & ~free & (above > BALANCED)
         between = ~(hangs | free | lifted)
         strokes = np.where(hangs, low, np.where(lifted, high, lowest))
-        root = _root(lambda x: self.net_force(x) - BALANCED, lowest, high, between)
+        line = (-BALANCED, 1.0)
+        root = self.calls.roots(self.outputs, 0, self._follows(), (lowest, high), between, line)
         strokes = np.where(between, root, strokes)
         why = [
             Rest.LOW_STOP
@@ -180,7 +182,10 @@ class _Search:
             long = np.minimum(self.nominal, self.longest)
             long = np.where((long > short) & (tension(long) >= 0.0), long, self.longest)
             taut = (long > short) & (tension(long) >= 0.0)
-            root = _root(lambda x, t=tension: -t(x), short, long, loose & taut)
+            jacobian = self.compiled.lanes.step["jacobian"]
+            guard = jacobian.width - len(self.compiled.model.switches) + number
+            ends, follows = (short, long), {place: (0.0, 1.0)}
+            root = self.calls.roots(jacobian, guard, follows, ends, loose & taut, (0.0, -1.0))
             self.calls.put(place, np.where(loose & taut, root, short))
 
     def _tension(self, number: int) -> np.ndarray:
@@ -210,39 +215,3 @@ class _Search:
         changes = -np.einsum("qij,jq->iq", np.linalg.pinv(matrices), np.where(broken, 0.0, zero))
         for row, index in enumerate(chosen):
             self.calls.put(index, self.calls.get(index) + scales[row] * changes[row])
-
-
-def _root(
-    function: Callable[[np.ndarray], np.ndarray], low: np.ndarray, high: np.ndarray, wanted: np.ndarray
-) -> np.ndarray:
-    """Roots of functions that are positive at ``low`` and not at ``high``, where wanted.
-
-    Regula falsi of the Illinois kind; a bracket that three tries do not halve is bisected.
-    """
-    low, high = low.copy(), np.where(wanted, high, low)
-    if not wanted.any():
-        return low
-    at_low, at_high = function(low), function(high)
-    side, width = np.zeros(len(low)), high - low
-    for attempt in range(_MOST_TRIES):
-        open_ = wanted & (high - low > _NARROW)
-        if not open_.any():
-            break
-        middle = 0.5 * (low + high)
-        straight = (low * at_high - high * at_low) / (at_high - at_low)
-        inside = (straight > low) & (straight < high)
-        if attempt % 4 == 3:
-            inside &= high - low < 0.5 * width
-            width = high - low
-        middle = np.where(inside, straight, middle)
-        middle = np.where(open_, middle, low)
-        value = function(middle)
-        above, zero = open_ & (value > 0.0), open_ & (value == 0.0)
-        down = open_ & ~above
-        at_high = np.where(above & (side == 1.0), 0.5 * at_high, at_high)
-        at_low = np.where(down & (side == -1.0), 0.5 * at_low, at_low)
-        low, at_low = np.where(above | zero, middle, low), np.where(above, value, at_low)
-        high, at_high = np.where(down, middle, high), np.where(down, value, at_high)
-        side = np.where(above, 1.0, np.where(down, -1.0, side))
-    # The end with the smaller value of the function.
-    return np.where(np.abs(function(low)) < np.abs(function(high)), low, high)

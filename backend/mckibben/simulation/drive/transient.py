@@ -155,6 +155,15 @@ def segments_of(drive: Drive) -> tuple[np.ndarray, np.ndarray, Segments]:
     return command.times, np.column_stack([columns[name] for name in INPUTS]), command
 
 
+def before_of(drive: Drive, inputs: np.ndarray) -> np.ndarray:
+    """Inputs before t = 0: the valve has the command's value before it, not that of the first segment."""
+    before = inputs[0].copy()
+    rest_command = drive.command.before
+    for name, value in (("opening", rest_command), ("counter_opening", drive.counter(rest_command))):
+        before[INPUTS.index(name)], before[INPUTS.index(f"{name}_slope")] = value, 0.0
+    return before
+
+
 def simulate(
     drive: Drive,
     *,
@@ -177,12 +186,7 @@ def simulate(
     compiled = compiled_drive(drive.structure)
     parameters = parameters_of(drive, compiled)
     times, inputs, command = segments_of(drive)
-    # Before t = 0 the valve has the command's value before t = 0, not that of its first segment.
-    before = inputs[0].copy()
-    rest_command = drive.command.before
-    for name, value in (("opening", rest_command), ("counter_opening", drive.counter(rest_command))):
-        before[INPUTS.index(name)], before[INPUTS.index(f"{name}_slope")] = value, 0.0
-    start = start_of(drive, compiled, parameters, before)
+    start = start_of(drive, compiled, parameters, before_of(drive, inputs))
     grid = np.linspace(0.0, drive.duration, points) if grid is None else grid
     began = time.perf_counter()
     solution = integrate(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import math
 import threading
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -24,7 +25,7 @@ Functions = Mapping[str, tuple[Sequence[Any], Sequence[Any]]]
 
 def aligned(*shape: int, zeros: bool = True) -> np.ndarray:
     """An array at an address that rows of lanes may have; of zeros, or of anything."""
-    count = int(np.prod(shape))
+    count = math.prod(shape)
     raw = (np.zeros if zeros else np.empty)(count + _ALIGNED // 8)
     skip = -raw.ctypes.data % _ALIGNED // 8
     return raw[skip : skip + count].reshape(shape)

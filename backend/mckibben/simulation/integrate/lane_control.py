@@ -40,10 +40,17 @@ CONTROL_ROWS = 21
 
 
 @njit(inline="always", error_model="numpy")
-def choose_steps(at: int) -> None:
-    """STEP, REACHED and LAST: the step wanted, or less to the end of the segment."""
+def choose_steps(at: int, together: bool, control: np.ndarray) -> None:
+    """STEP, REACHED and LAST: the step wanted, or less to the end of the segment.
+
+    Together, the first lane decides, and only a change of a switch has a step of its own in each lane.
+    """
     t, wanted, end = load(at, INSTANT), load(at, WANTED), load(at, END)
     last = where_positive(end - (t + 1.0000001 * wanted), splat(0.0), splat(1.0))
+    if together:
+        last = splat(1.0 if control[INSTANT, 0] + 1.0000001 * control[WANTED, 0] >= control[END, 0] else 0.0)
+        if control[LANDING, 0] < 0.0:
+            wanted = splat(control[WANTED, 0])
     step = where_positive(last, end - t, wanted)
     store(at, LAST, last)
     store(at, STEP, step)
@@ -54,21 +61,17 @@ def choose_steps(at: int) -> None:
 def judge(at: int, together: bool, control: np.ndarray) -> int:
     """ACCEPTED from ERROR; the rejected lanes get a shorter step. Returns the lanes whose step is too short.
 
-    Together, the largest error is that of all lanes.
+    Together, the error is that of the first lane.
     """
     active, squared, t = load(at, ACTIVE), load(at, ERROR), load(at, INSTANT)
     if together:
-        worst = 0.0
-        for lane in range(control.shape[1]):
-            if control[ACTIVE, lane] > 0.0:
-                worst = max(worst, control[ERROR, lane])
-        squared = splat(worst)
+        squared, t = splat(control[ERROR, 0]), splat(control[INSTANT, 0])
     # 0.9 times the fourth root of 1 / error, between 0.2 and 6
     eighth = root(root(root(larger(squared, splat(1e-30)))))
     factor = smaller(splat(6.0), larger(splat(0.2), 0.9 / eighth))
     accepted = where_positive(squared - 1.0, splat(0.0), active)
     rejected = active - accepted
-    shorter = load(at, STEP) * factor
+    shorter = (splat(control[STEP, 0]) if together else load(at, STEP)) * factor
     store(at, FACTOR, factor)
     store(at, ACCEPTED, accepted)
     store(at, WANTED_NEXT, where_positive(rejected, shorter, load(at, WANTED)))

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 
+from mckibben.simulation.integrate.coefficients import DENSE_2, DENSE_3
 from mckibben.simulation.integrate.lane_control import (
     ACCEPTED,
     CUT,
@@ -23,7 +24,13 @@ from mckibben.simulation.integrate.lane_control import (
     WANTED_NEXT,
 )
 from mckibben.simulation.integrate.lane_type import LANES, load, positive_bits, splat, store, where_positive
-from mckibben.simulation.integrate.switching import call, change_switch, first_event
+from mckibben.simulation.integrate.switching import (
+    call,
+    change_switch,
+    first_event,
+    recedes,
+    same_event,
+)
 
 
 @njit(error_model="numpy")
@@ -36,7 +43,7 @@ def change(k: int, lane: int, q: int, t: float, rates: np.ndarray, model: Any, l
         kept: of each set: strokes of stops, events, counts.
     """
     guards, moved, (least, bounce, follows) = model
-    state, packed, own, (start, before, _, guarded, switches) = lanes
+    state, packed, own, (start, before, _, _, guarded, switches) = lanes
     stops, events, counts = kept
     n, kinds = state.shape[0], switches.shape[0]
     first = packed.shape[0] - kinds
@@ -55,26 +62,51 @@ def change(k: int, lane: int, q: int, t: float, rates: np.ndarray, model: Any, l
 
 
 @njit(error_model="numpy")
+def _gather(lane: int, ends: np.ndarray, first_guard: int, room: Any, lanes: Any) -> None:
+    """The step of a lane into the arrays for one lane."""
+    state, packed, _, (start, end, dense, column, _, switches) = lanes
+    _, trial, u, _, _, _, _ = room
+    n, kinds = state.shape[0], switches.shape[0]
+    first = packed.shape[0] - kinds
+    for i in range(n):
+        start[i], end[i] = state[i, lane], trial[i, lane]
+        dense[0, i] = dense[1, i] = 0.0
+        for j in range(5):
+            dense[0, i] += DENSE_2[j] * u[n * j + i, lane]
+            dense[1, i] += DENSE_3[j] * u[n * j + i, lane]
+    for i in range(kinds):
+        switches[i], column[i] = packed[first + i, lane], ends[first_guard + i, lane]
+
+
+@njit(error_model="numpy")
 def _event(
     lane: int, q: int, clock: int, ends: np.ndarray, first_guard: int, room: Any, model: Any, lanes: Any,
     kept: Any,
 ) -> tuple[float, int]:  # fmt: skip
     """`first_event` of a lane."""
     guards, moved, (least, bounce, follows) = model
-    state, packed, own, (start, end, stages, guarded, switches) = lanes
-    _, trial, u, _, _, _, control = room
-    n, kinds = state.shape[0], switches.shape[0]
-    first = packed.shape[0] - kinds
-    for i in range(n):
-        start[i], end[i] = state[i, lane], trial[i, lane]
-        for j in range(6):
-            stages[i, j] = u[n * j + i, lane]
-    column = np.empty(kinds)
-    for i in range(kinds):
-        switches[i], column[i] = packed[first + i, lane], ends[first_guard + i, lane]
+    _, _, own, (start, end, dense, column, guarded, switches) = lanes
+    control = room[6]
+    _gather(lane, ends, first_guard, room, lanes)
     return first_event(
         guards, control[INSTANT, lane], control[STEP, lane], column, 0, switches, moved,
-        (least, kept[0][q], bounce, follows), clock, own[lane], guarded, start, end, stages,
+        (least, kept[0][q], bounce, follows), clock, own[lane], guarded, start, end, dense,
+    )  # fmt: skip
+
+
+@njit(error_model="numpy")
+def _same_event(
+    lane: int, share: float, k: int, clock: int, ends: np.ndarray, first_guard: int, room: Any, model: Any,
+    lanes: Any,
+) -> float:  # fmt: skip
+    """`same_event` of a lane."""
+    guards, _, (least, _, _) = model
+    _, _, own, (start, end, dense, _, guarded, _) = lanes
+    control = room[6]
+    _gather(lane, ends, first_guard, room, lanes)
+    return same_event(
+        guards, share, control[INSTANT, lane], control[STEP, lane], k, least[k], clock, own[lane], guarded,
+        start, end, dense,
     )  # fmt: skip
 
 
@@ -131,28 +163,40 @@ def locate(
     clock: int, whole: np.ndarray, following: np.ndarray, first_guard: int, owner: np.ndarray, together: bool,
     room: Any, model: Any, lanes: Any, kept: Any,
 ) -> None:  # fmt: skip
-    """Find the changes in the flagged lanes; these lanes repeat the step up to there, together all lanes."""
+    """Find the changes in the flagged lanes; these lanes repeat the step up to there.
+
+    Together only those of the first lane count; every lane repeats the step up to its own instant of the same
+    change, which may lie somewhat outside its step.
+    """
     control = room[6]
-    share = 2.0
     for lane in range(LANES):
         control[SHARE, lane] = 2.0
-        if control[FLAG, lane] > 0.0:
-            control[SHARE, lane], landing = _event(
+        if control[FLAG, lane] > 0.0 and not (together and lane > 0):
+            control[SHARE, lane], control[LANDING, lane] = _event(
                 lane, owner[lane], clock, following, first_guard, room, model, lanes, kept
             )
-            control[LANDING, lane] = landing
-            share = min(share, control[SHARE, lane])
+    if together and control[SHARE, 0] != 2.0:
+        k, share = int(control[LANDING, 0]), control[SHARE, 0]
+        for lane in range(LANES):
+            if control[ACCEPTED, lane] > 0.0:
+                found = _same_event(lane, share, k, clock, following, first_guard, room, model, lanes)
+                if lane == 0 and found == 2.0:
+                    found = share
+                control[SHARE, lane], control[LANDING, lane] = found, -1.0 if found == 2.0 else float(k)
+    now = together and control[SHARE, 0] * control[STEP, 0] <= _least_step(control[INSTANT, 0])
+    all_repeat = together and control[SHARE, 0] != 2.0
     for lane in range(LANES):
-        mine = share if together else control[SHARE, lane]
-        if control[ACCEPTED, lane] == 0.0 or mine == 2.0:
+        mine = control[SHARE, lane]
+        if control[ACCEPTED, lane] == 0.0 or (mine == 2.0 and not all_repeat):
             continue
-        if control[SHARE, lane] > mine:
-            control[LANDING, lane] = -1.0
+        if mine == 2.0:  # runs apart from the first lane
+            mine = control[SHARE, 0]
         used, t = control[STEP, lane], control[INSTANT, lane]
         control[REJECTED, lane] += 1.0
         control[ACCEPTED, lane] = 0.0
-        if mine * used > LEAST_STEP * max(1.0, abs(t)):
-            control[WANTED_NEXT, lane] = mine * used
+        if not now and (mine * used > _least_step(t) or together):
+            # A step of no length cannot be solved for.
+            control[WANTED_NEXT, lane] = mine * used if abs(mine * used) > _least_step(t) else _least_step(t)
             if control[CUT, lane] == 0.0:
                 control[CUT, lane], control[UNCUT, lane] = 1.0, control[WANTED, lane]
         else:
@@ -161,3 +205,30 @@ def locate(
                 change(int(control[LANDING, lane]), lane, owner[lane], t, whole, model, lanes, kept)
                 control[FRESH, lane] = 1.0
             control[LANDING, lane] = -1.0
+
+
+@njit(inline="always", error_model="numpy")
+def _least_step(t: float) -> float:
+    return LEAST_STEP * max(1.0, abs(t))
+
+
+@njit(inline="always", error_model="numpy")
+def confirm(
+    landing: int, whole: np.ndarray, following: np.ndarray, first_guard: int, together: bool,
+    control: np.ndarray,
+) -> None:  # fmt: skip
+    """Of accepted lanes that end at a change: leave the change out where the guard recedes.
+
+    Together the first lane decides.
+    """
+    left_out = 0
+    for lane in range(LANES):
+        if (landing >> lane) & 1:
+            guard = first_guard + int(control[LANDING, lane])
+            if recedes(following[guard, lane], whole[guard, lane]):
+                left_out |= 1 << lane
+    if together:
+        left_out = landing if left_out & 1 else 0
+    for lane in range(LANES):
+        if (left_out >> lane) & 1:
+            control[LANDING, lane], control[CUT, lane] = -1.0, 0.0

@@ -37,12 +37,11 @@ from mckibben.simulation.integrate.lane_control import (
     REJECTED,
     TAKEN,
     WANTED,
-    WANTED_NEXT,
     choose_steps,
     commit,
     judge,
 )
-from mckibben.simulation.integrate.lane_events import change, locate, settle, suspicious
+from mckibben.simulation.integrate.lane_events import change, confirm, locate, settle, suspicious
 from mckibben.simulation.integrate.lane_rows import (
     OWNER,
     ROW,
@@ -113,7 +112,8 @@ _SIGNATURE = (
     f"{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_TABLE},float64,{_ROWS},float64,float64[::1],"
     f"UniTuple(int64[::1],4),{_TABLE},{_ROWS},{_TABLE},int64[:,::1],int64[::1],int64,boolean,"
     f"Tuple((UniTuple({_ROWS},7),UniTuple({_ROWS},2),{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_TABLE},"
-    f"Tuple((float64[::1],float64[::1],{_ROWS},float64[::1],float64[::1])),Tuple((int64[:,::1],int64[::1])))))"
+    f"Tuple((float64[::1],float64[::1],{_ROWS},float64[::1],float64[::1],float64[::1])),"
+    "Tuple((int64[:,::1],int64[::1])))))"
 )
 
 
@@ -168,7 +168,7 @@ def rodas4_lanes(
         events, counts: of each set, see `rodas4`.
         statuses: of each set, see `mckibben.simulation.integrate.kernels.Status`.
         max_steps: of a set.
-        together: the sets run in groups of LANES; those of a group take all steps together.
+        together: the sets run in groups of LANES; those of a group take the steps of its first.
         arrays: room of `attempt`, twice the Jacobian, arguments, arguments of rows, dense output, arguments
             by lane, windows of rows, arrays for one lane, and
             whole numbers of lanes and the table of `mckibben.simulation.integrate.lane_rows`.
@@ -188,8 +188,8 @@ def rodas4_lanes(
     a, b, c, d, e, f, g = room
     room = borrowed(a), borrowed(b), borrowed(c), borrowed(d), borrowed(e), borrowed(f), borrowed(g)
     state, _, _, _, _, _, control = room
-    a, b, c, d, e = of_lane
-    of_lane = borrowed(a), borrowed(b), borrowed(c), borrowed(d), borrowed(e)
+    a, b, c, d, e, f = of_lane
+    of_lane = borrowed(a), borrowed(b), borrowed(c), borrowed(d), borrowed(e), borrowed(f)
     a, b, c = switching_
     switching_ = borrowed(a), borrowed(b), borrowed(c)
     least = switching_[0]
@@ -234,18 +234,15 @@ def rodas4_lanes(
             settle(
                 functions[1], whole, following, first_guard, numbers[OWNER], control, model, lanes, of_sets
             )
-        choose_steps(at)
+        choose_steps(at, together, control)
         attempt(functions, sizes, timed, rtol, atol, whole.ctypes.data, at_packed, places)
         short = judge(at, together, control)
         over = 0
         for lane in range(LANES if short else 0):
             if (short >> lane) & 1:
-                mine = control[ERROR, lane]
-                if mine > 1.0:
-                    statuses[numbers[OWNER, lane]] = 3 if mine >= HOPELESS else 1
-                    over |= 1 << lane
-                else:  # another of the group has failed
-                    control[WANTED_NEXT, lane] = first_step
+                worst = control[ERROR, 0] if together else control[ERROR, lane]
+                statuses[numbers[OWNER, lane]] = 3 if worst >= HOPELESS else 1
+                over |= 1 << lane
         accepted = positive_bits(load(at, ACCEPTED))
         if accepted:
             call(functions[1], following.ctypes.data, at_packed)
@@ -256,6 +253,9 @@ def rodas4_lanes(
                     of_sets,
                 )  # fmt: skip
                 accepted = positive_bits(load(at, ACCEPTED))
+            landing = positive_bits(where_positive(load(at, ACCEPTED), load(at, LANDING) + 1.0, splat(0.0)))
+            if landing:
+                confirm(landing, whole, following, first_guard, together, control)
             due = where_positive(load(at, NEXT_ROW) - load(at, REACHED), splat(0.0), load(at, ACCEPTED))
             crossing = positive_bits(due)
             if crossing:
@@ -301,6 +301,8 @@ def rodas4_lanes(
             complete(lane, table)
             for i in range(n):
                 ends[q, i] = state[i, lane]
+                if statuses[q] == 0 and not np.isfinite(state[i, lane]):
+                    statuses[q] = 3
             for i in range(kinds):
                 switches[q, i] = packed[first_switch + i, lane]
             control[ACTIVE, lane] = control[FRESH, lane] = 0.0

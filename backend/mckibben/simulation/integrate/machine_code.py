@@ -27,6 +27,8 @@ _LIBRARY = ("sin", "cos", "log", "exp", "pow", "tan", "asin", "acos", "atan", "s
 _COMPARISONS = {"StrictLessThan": "olt", "LessThan": "ole", "Equality": "oeq", "Unequality": "une"}
 # Largest integer exponent that is expanded into multiplications.
 _MOST_FACTORS = 32
+# Exponents of reciprocals.
+_RECIPROCALS = (se.Integer(-1), se.Rational(-1, 2))
 
 
 class Function:
@@ -222,11 +224,11 @@ class Writer:
         return value
 
     def _product(self, factors: Sequence[Any]) -> str:
-        """A product with at most one division."""
+        """A product with at most one division, besides those of reciprocals that serve several times."""
         above, below = [], []
         for factor in factors:
             base, exponent = factor.args if type(factor).__name__ == "Pow" else (factor, None)
-            if exponent is not None and exponent.is_Number and float(exponent) < 0.0:
+            if exponent is not None and exponent in _RECIPROCALS and factor not in self._known:
                 below.append(base**-exponent)
             else:
                 above.append(factor)
@@ -239,7 +241,7 @@ class Writer:
         if exponent.is_Number:
             power = float(exponent)
             if power < 0.0:
-                return self._binary("fdiv", self._number(1.0), self._value(base**-exponent))
+                return self._reciprocal(base, exponent)
             whole = int(power)
             if power - whole in (0.0, 0.5) and whole <= _MOST_FACTORS:
                 root = self._call("llvm.sqrt.f64", self._value(base)) if power > whole else None
@@ -248,6 +250,15 @@ class Writer:
                     return root or raised or self._number(1.0)
                 return self._binary("fmul", raised, root)
         return self._call("llvm.pow.f64", self._value(base), self._value(exponent))
+
+    def _reciprocal(self, base: Any, exponent: Any) -> str:
+        """A negative power; divisions are slow, so all negative powers of a base share one."""
+        halves = -2.0 * float(exponent)
+        root = _RECIPROCALS[0] if halves % 2.0 == 0.0 else _RECIPROCALS[1]
+        if exponent == root or halves % 1.0 or halves > _MOST_FACTORS:
+            return self._binary("fdiv", self._number(1.0), self._value(base**-exponent))
+        factors = int(halves) // 2 if root == _RECIPROCALS[0] else int(halves)
+        return self._whole_power(self._value(base**root), factors)
 
     def _whole_power(self, base: str, power: int) -> str:
         if power == 1:

@@ -9,9 +9,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mckibben.simulation.integrate.background import Background
-from mckibben.simulation.integrate.engine import MAX_STEPS, CompiledDrive, outcome_of
+from mckibben.simulation.integrate.engine import MAX_STEPS, CompiledDrive, kernel, outcome_of
 from mckibben.simulation.integrate.lane_code import aligned
 from mckibben.simulation.integrate.problem import EVENT_WIDTH, FIRST_STEP, MOST_EVENTS, bounce_of
+from mckibben.simulation.integrate.recycled import recycled
 from mckibben.simulation.outcome import Outcome
 
 
@@ -26,8 +27,8 @@ class ManySolutions:
         events: of each set, see `mckibben.simulation.integrate.problem.Solution`.
         outcomes: of each set.
         steps, rejected: of each set, shape (sets,).
-        nominals: with ``together`` the rows of the first set as it ran beside each set, shape (sets, rows,
-            columns), else empty.
+        alike: of each set, whether it ran like the first one: completed, with the same switches changing in
+            the same order. With ``together`` the rows of other sets are of no use.
     """
 
     rows: np.ndarray
@@ -38,7 +39,7 @@ class ManySolutions:
     outcomes: tuple[Outcome, ...]
     steps: np.ndarray
     rejected: np.ndarray
-    nominals: np.ndarray
+    alike: np.ndarray
 
 
 class LaneKernels(NamedTuple):
@@ -46,6 +47,7 @@ class LaneKernels(NamedTuple):
 
     run: Callable[..., None]
     call_blocks: Callable[[int, np.ndarray, np.ndarray], None]
+    find_roots: Callable[..., None]
     lanes: int
     window: int
     numbers: int
@@ -54,14 +56,15 @@ class LaneKernels(NamedTuple):
 
 
 def _load() -> LaneKernels:
-    # numba: 1 s cached, 20 s the first time ever
+    # numba: 1 s cached, 20 s the first time ever; one after the other, what every run needs first.
+    kernel.awaited()
     from mckibben.simulation.integrate.lane_control import CONTROL_ROWS
     from mckibben.simulation.integrate.lane_kernel import rodas4_lanes
     from mckibben.simulation.integrate.lane_rows import ENTRIES, NUMBERS, WINDOW
     from mckibben.simulation.integrate.lane_type import LANES
-    from mckibben.simulation.integrate.repeated import call_blocks
+    from mckibben.simulation.integrate.repeated import call_blocks, find_roots
 
-    return LaneKernels(rodas4_lanes, call_blocks, LANES, WINDOW, NUMBERS, ENTRIES, CONTROL_ROWS)
+    return LaneKernels(rodas4_lanes, call_blocks, find_roots, LANES, WINDOW, NUMBERS, ENTRIES, CONTROL_ROWS)
 
 
 lane_kernels = Background(_load, "lane-kernels")
@@ -111,9 +114,10 @@ def integrate_many(
         restitution: see `mckibben.simulation.integrate.engine.integrate`.
         first_step: first step that is tried [s].
         max_steps: limit of accepted and rejected steps of a set.
-        together: all sets take the same steps as the first, in groups of as many as there are lanes. The
-            difference of a set to ``nominals`` is then smooth in its parameters, except that a change of a
-            switch is located in each set on its own: for derivatives by differences. Needs common ``times``.
+        together: all sets take the steps of the first one, and where a switch changes, each the step up to
+            its own instant of the same change. The difference to the first set is then smooth in the
+            parameters: for derivatives by differences, of sets that differ little. Needs common ``times``;
+            see `ManySolutions.alike`.
 
     Raises:
         ValueError: arrays whose shapes do not fit, or an unknown column.
@@ -249,7 +253,7 @@ def _run(
     room = (rows + 2 * lanes - 1) // lanes * lanes
     padded = np.full((len(given.grid), rows + 2 * lanes), np.inf)
     padded[:, :rows] = given.grid
-    out = aligned(sets, chosen.count, room, zeros=False)
+    out = recycled(sets, chosen.count, room)
     ends, counts, statuses = np.empty((sets, n)), np.zeros((sets, 4), np.int64), np.zeros(sets, np.int64)
     events = np.empty((sets, MOST_EVENTS, EVENT_WIDTH))
     functions = [step[name].address for name in ("rates", "jacobian", "factorise", "solve")]
@@ -285,17 +289,26 @@ def _run(
     table = out[:, :, :rows].transpose(0, 2, 1)
     for index in np.flatnonzero(counts[:, 2] < rows):
         table[index, counts[index, 2] :] = np.nan
+    happened = tuple(events[index, : min(counts[index, 3], MOST_EVENTS)].copy() for index in range(sets))
     return ManySolutions(
         table,
         counts[:, 2],
         ends,
         given.switches,
-        tuple(events[index, : counts[index, 3]].copy() for index in range(sets)),
+        happened,
         tuple(outcome_of(int(status)) for status in statuses),
         counts[:, 0],
         counts[:, 1],
-        np.empty((0, rows, chosen.count)),
+        _alike(happened, counts, statuses),
     )
+
+
+def _alike(events: Sequence[np.ndarray], counts: np.ndarray, statuses: np.ndarray) -> np.ndarray:
+    """`ManySolutions.alike`."""
+    same = (statuses == 0) & (counts[:, 2] == counts[:1, 2]) & (counts[:, 3] == counts[:1, 3])
+    for index in np.flatnonzero(same).tolist():
+        same[index] = np.array_equal(events[index][:, 1:3], events[0][:, 1:3])
+    return same
 
 
 def _arrays(drive: CompiledDrive, entries: int, chosen: _Columns, kernels: LaneKernels) -> tuple[Any, ...]:
@@ -314,7 +327,7 @@ def _arrays(drive: CompiledDrive, entries: int, chosen: _Columns, kernels: LaneK
         aligned(4 * max(len(chosen.kept), 1), lanes),
         np.zeros((lanes, arguments)),
         aligned(lanes, kept, lanes + kernels.window),
-        (np.zeros(n), np.zeros(n), np.zeros((n, 6)), np.zeros(kinds + 1), np.zeros(kinds)),
+        (np.zeros(n), np.zeros(n), np.zeros((2, n)), np.zeros(kinds), np.zeros(kinds + 1), np.zeros(kinds)),
         (np.zeros((kernels.numbers, lanes), np.int64), np.zeros(kernels.entries, np.int64)),
     )
 
@@ -322,7 +335,6 @@ def _arrays(drive: CompiledDrive, entries: int, chosen: _Columns, kernels: LaneK
 def _separated(done: ManySolutions, order: np.ndarray) -> ManySolutions:
     """Results by set of sets that ran together."""
     first = np.flatnonzero(order == 0)
-    groups = np.searchsorted(first, np.arange(len(order)), side="right") - 1
     wanted = np.concatenate([first[:1], np.flatnonzero(order != 0)])
     return ManySolutions(
         done.rows[wanted],
@@ -333,5 +345,5 @@ def _separated(done: ManySolutions, order: np.ndarray) -> ManySolutions:
         tuple(done.outcomes[index] for index in wanted),
         done.steps[wanted],
         done.rejected[wanted],
-        done.rows[first[groups[wanted]]],
+        done.alike[wanted],
     )

@@ -22,8 +22,15 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from mckibben.simulation.integrate.coefficients import ALPHA, DELTA, DENSE_2, DENSE_3, GAMMA, A, C
-from mckibben.simulation.integrate.switching import call, change_switch, first_event
+from mckibben.simulation.integrate.coefficients import ALPHA, DELTA, GAMMA, A, C
+from mckibben.simulation.integrate.switching import (
+    call,
+    change_switch,
+    first_event,
+    may_change,
+    recedes,
+    write_dense,
+)
 
 
 @njit(inline="always", error_model="numpy", fastmath={"contract"})
@@ -174,10 +181,13 @@ def advance(
             packed[i] = trial[i]
         call(jacobian, at_next, at_packed)
         if landing < 0:
-            share, landing = first_event(
-                guards, t, h, next_whole, first_guard, switches, moved, switching, clock, packed, guarded,
-                state, trial, u,
-            )  # fmt: skip
+            share = 2.0
+            if may_change(next_whole, first_guard, least, moved[1], state, trial):
+                write_dense(dense, u)
+                share, landing = first_event(
+                    guards, t, h, next_whole, first_guard, switches, moved, switching, clock, packed,
+                    guarded, state, trial, dense,
+                )  # fmt: skip
             if landing >= 0:
                 counts[1] += 1
                 if share * h > 1e-13 * max(1.0, abs(t)):
@@ -190,13 +200,11 @@ def advance(
                 )  # fmt: skip
                 landing, fresh = -1, True
                 continue
+        elif recedes(next_whole[first_guard + landing], whole[first_guard + landing]):
+            landing = -1
         counts[0] += 1
         if row < last_row and grid[row] <= reached:
-            for i in range(n):
-                dense[0, i] = dense[1, i] = 0.0
-                for j in range(5):
-                    dense[0, i] += DENSE_2[j] * u[i, j]
-                    dense[1, i] += DENSE_3[j] * u[i, j]
+            write_dense(dense, u)
             while row < last_row and grid[row] <= reached:
                 s = (grid[row] - t) / h
                 for i in range(n):

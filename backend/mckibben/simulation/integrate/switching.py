@@ -2,7 +2,7 @@
 
 They hold no physics: guards are a compiled function, end stops and lengths that follow are given by
 ``switching``, see `mckibben.simulation.integrate.kernels.rodas4`. A step is known by its start and end and by
-the stages ``u`` of Rodas4, whose dense output lies between.
+the coefficients ``dense`` of the dense output between them.
 """
 
 from __future__ import annotations
@@ -34,23 +34,29 @@ call: Any = intrinsic(_call_at)
 
 
 @njit(inline="always", error_model="numpy")
-def _interpolated(i: int, s: float, start: np.ndarray, end: np.ndarray, u: np.ndarray) -> float:
-    """Dense output of a state at the share s of a step."""
-    first = second = 0.0
-    for j in range(5):
-        first += DENSE_2[j] * u[i, j]
-        second += DENSE_3[j] * u[i, j]
-    return start[i] * (1.0 - s) + s * (end[i] + (1.0 - s) * (first + s * second))
+def _interpolated(i: int, s: float, start: np.ndarray, end: np.ndarray, dense: np.ndarray) -> float:
+    """A state at the share s of a step."""
+    return start[i] * (1.0 - s) + s * (end[i] + (1.0 - s) * (dense[0, i] + s * dense[1, i]))
+
+
+@njit(inline="always", error_model="numpy")
+def write_dense(dense: np.ndarray, u: np.ndarray) -> None:
+    """Coefficients of the dense output of each state, shape (2, states), from the stages of a step."""
+    for i in range(dense.shape[1]):
+        dense[0, i] = dense[1, i] = 0.0
+        for j in range(5):
+            dense[0, i] += DENSE_2[j] * u[i, j]
+            dense[1, i] += DENSE_3[j] * u[i, j]
 
 
 @njit(error_model="numpy")
 def _guard_at(
     guards: int, s: float, t: float, h: float, k: int, clock: int, packed: np.ndarray, values: np.ndarray,
-    start: np.ndarray, end: np.ndarray, u: np.ndarray,
+    start: np.ndarray, end: np.ndarray, dense: np.ndarray,
 ) -> float:  # fmt: skip
     """Guard of switch k at the share s of a step."""
     for i in range(start.shape[0]):
-        packed[i] = _interpolated(i, s, start, end, u)
+        packed[i] = _interpolated(i, s, start, end, dense)
     packed[clock] = t + s * h
     call(guards, values.ctypes.data, packed.ctypes.data)
     return values[k]
@@ -59,15 +65,15 @@ def _guard_at(
 @njit(error_model="numpy")
 def _crossing(
     guards: int, upper: float, t: float, h: float, k: int, least: float, clock: int, packed: np.ndarray,
-    values: np.ndarray, start: np.ndarray, end: np.ndarray, u: np.ndarray,
+    values: np.ndarray, start: np.ndarray, end: np.ndarray, dense: np.ndarray,
 ) -> float:  # fmt: skip
     """Share of a step at which guard k falls below -least; it is above at 0 and below at ``upper``.
 
     Regula falsi of the Illinois kind.
     """
     low, high = 0.0, upper
-    at_low = _guard_at(guards, low, t, h, k, clock, packed, values, start, end, u) + least
-    at_high = _guard_at(guards, high, t, h, k, clock, packed, values, start, end, u) + least
+    at_low = _guard_at(guards, low, t, h, k, clock, packed, values, start, end, dense) + least
+    at_high = _guard_at(guards, high, t, h, k, clock, packed, values, start, end, dense) + least
     if at_low <= 0.0:
         return 0.0
     side = 0
@@ -75,7 +81,7 @@ def _crossing(
         if high - low < 1e-12 or not at_high < 0.0:
             break
         middle = (low * at_high - high * at_low) / (at_high - at_low)
-        value = _guard_at(guards, middle, t, h, k, clock, packed, values, start, end, u) + least
+        value = _guard_at(guards, middle, t, h, k, clock, packed, values, start, end, dense) + least
         if abs(value) <= 0.5 * least:
             return middle
         if value < 0.0:
@@ -92,12 +98,12 @@ def _crossing(
 
 
 @njit(error_model="numpy")
-def _turning(i: int, start: np.ndarray, end: np.ndarray, u: np.ndarray) -> float:
+def _turning(i: int, start: np.ndarray, end: np.ndarray, dense: np.ndarray) -> float:
     """Share of a step at which a speed that changes its sign is zero."""
     low, high = 0.0, 1.0
     for _ in range(30):
         middle = 0.5 * (low + high)
-        if _interpolated(i, middle, start, end, u) * start[i] > 0.0:
+        if _interpolated(i, middle, start, end, dense) * start[i] > 0.0:
             low = middle
         else:
             high = middle
@@ -105,10 +111,21 @@ def _turning(i: int, start: np.ndarray, end: np.ndarray, u: np.ndarray) -> float
 
 
 @njit(inline="always", error_model="numpy")
+def may_change(
+    ends: np.ndarray, first_guard: int, least: np.ndarray, speed: int, start: np.ndarray, end: np.ndarray
+) -> bool:
+    """Whether a switch may change within a step: a guard is violated at its end, or the load turns round."""
+    for k in range(least.shape[0]):
+        if ends[first_guard + k] < -least[k]:
+            return True
+    return speed >= 0 and start[speed] * end[speed] < 0.0
+
+
+@njit(inline="always", error_model="numpy")
 def first_event(
     guards: int, t: float, h: float, ends: np.ndarray, first_guard: int, switches: np.ndarray,
     moved: tuple[int, int], switching: Any, clock: int, packed: np.ndarray, guarded: np.ndarray,
-    start: np.ndarray, end: np.ndarray, u: np.ndarray,
+    start: np.ndarray, end: np.ndarray, dense: np.ndarray,
 ) -> tuple[float, int]:  # fmt: skip
     """Share of a step at which a switch changes first, and its number; (2, -1) if none changes.
 
@@ -122,14 +139,49 @@ def first_event(
         free = upper == 0.0 and switches[k] == 0.0 and stops[k] == stops[k]
         if free and start[moved[1]] * end[moved[1]] < 0.0:
             # A load that turns round within the step may have touched the stop.
-            turn = _turning(moved[1], start, end, u)
-            at = _guard_at(guards, turn, t, h, k, clock, packed, guarded, start, end, u)
+            turn = _turning(moved[1], start, end, dense)
+            at = _guard_at(guards, turn, t, h, k, clock, packed, guarded, start, end, dense)
             upper = turn if at < -least[k] else 0.0
         if upper > 0.0:
-            at = _crossing(guards, upper, t, h, k, least[k], clock, packed, guarded, start, end, u)
+            at = _crossing(guards, upper, t, h, k, least[k], clock, packed, guarded, start, end, dense)
             if at < share:
                 share, landing = at, k
     return share, landing
+
+
+@njit(error_model="numpy")
+def same_event(
+    guards: int, share: float, t: float, h: float, k: int, least: float, clock: int, packed: np.ndarray,
+    values: np.ndarray, start: np.ndarray, end: np.ndarray, dense: np.ndarray,
+) -> float:  # fmt: skip
+    """Share of a step near ``share`` at which guard k is -least, also outside the step; 2 if there is none.
+
+    Secants; for a run that differs little from one whose switch changes at ``share``.
+    """
+    here, other = share, share + 1e-3
+    at_here = _guard_at(guards, here, t, h, k, clock, packed, values, start, end, dense) + least
+    at_other = _guard_at(guards, other, t, h, k, clock, packed, values, start, end, dense) + least
+    for _ in range(30):
+        if at_here == at_other:
+            break
+        new = here - at_here * (other - here) / (at_other - at_here)
+        if not abs(new - share) < 0.5:
+            break
+        other, at_other = here, at_here
+        here, at_here = new, _guard_at(guards, new, t, h, k, clock, packed, values, start, end, dense) + least
+        if abs(here - other) < 1e-13:
+            break
+    return here if abs(at_here) <= 0.5 * least and abs(here - share) < 0.5 else 2.0
+
+
+@njit(inline="always", error_model="numpy")
+def recedes(end: float, start: float) -> bool:
+    """Whether a guard has moved away from its change in the step that was to end there.
+
+    The dense output of a long step may dip where the motion does not: at the start of a stiff transient,
+    which the short step then resolves. The switch stays, and steps grow again from the short one.
+    """
+    return end > start and end > 0.0
 
 
 @njit(error_model="numpy")

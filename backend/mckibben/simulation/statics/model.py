@@ -10,11 +10,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mckibben.physics import ideal
+from mckibben.physics.braid import Braid
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.physics.muscle import Muscle
+from mckibben.physics.ops import Value
 from mckibben.simulation.statics.compiled import OUTPUTS, CompiledState, compiled_state
 from mckibben.simulation.statics.limits import MuscleLimits
 
@@ -94,7 +96,7 @@ class StaticModel:
     @property
     def longest(self) -> float:
         """The longest permitted length: just below the braid lock L = b [m]."""
-        return 0.9999 * float(self.muscle.braid.thread_length)
+        return float(longest_of(self.muscle.braid))
 
     def outputs(
         self,
@@ -187,6 +189,11 @@ def checked_values(effects: EffectValues, catalogue: Mapping[str, Effect]) -> di
                 )
         values[effect_id] = {**effect.defaults, **stated}
     return values
+
+
+def longest_of(braid: Braid) -> Value:
+    """The longest permitted length of a braid: just below its lock L = b [m]."""
+    return 0.9999 * braid.thread_length
 
 
 def clip_slack(outputs: Mapping[str, np.ndarray]) -> np.ndarray:
