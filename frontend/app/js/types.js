@@ -54,11 +54,13 @@
 /** The colour scale of the heat map: that of the first model ("start") or that of this map ("own"); "auto": the
  * former as long as it shows anything. @typedef {"auto" | "start" | "own"} Heat */
 /** Ranges of variables in SI. @typedef {Record<string, [number, number]>} Brush */
+/** Decisions about entries that may be wrong; they hold for the files `of`, their ids joined by commas.
+ * @typedef {{of: string, use: string[], keep: string[]}} Decisions */
 /** The Compare view's part of the document. `effects`: null = those of the preset. `history`: the models before
  * this one, the first one first.
  * @typedef {{files: Chosen[], muscle: Muscle, start: "ideal" | "preset", effects: Effects | null,
  *   freed: string[], free: string[], fit: Fit, label: string, holdout: number | null, history: Step[],
- *   drive: Drive | null, noise: number | null, mystery: string | null, guided: boolean,
+ *   drive: Drive | null, noise: number | null, decisions: Decisions, mystery: string | null, guided: boolean,
  *   tab: Tab, over: string | null, channel: string | null, heat: Heat, brush: Brush | null,
  *   before: boolean}} Compare */
 

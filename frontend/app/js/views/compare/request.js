@@ -22,10 +22,15 @@ function experimentInput(experiment) {
   };
 }
 
+/** The decisions about entries of the present files; those about other files do not count.
+ * @param {Compare} c @returns {import("../../types.js").Decisions} */
+export const decided = (c) =>
+  c.decisions.of === used(c).map((file) => file.id).join() ? c.decisions : { of: "", use: [], keep: [] };
+
 /** Data and model as every request of this view takes them; the model is the current one or a step of the history.
  * @param {Compare} c @param {Pick<Step, "effects" | "freed" | "values">} [model] */
 export function modelBody(c, model = { effects: c.effects, freed: c.freed, values: c.muscle.values }) {
-  const muscle = muscleInput({ ...c.muscle, values: model.values });
+  const muscle = muscleInput({ ...c.muscle, values: model.values }), decisions = decided(c);
   return {
     ...(c.drive ? { drive: { schema: 1, ...c.drive, muscle } } : { muscle }),
     effects: model.effects,
@@ -37,6 +42,8 @@ export function modelBody(c, model = { effects: c.effects, freed: c.freed, value
     ...(c.free.length ? { free: c.free } : {}),
     ...(model.freed.length ? { freed: model.freed } : {}),
     ...(c.noise === null ? {} : { noise: c.noise }),
+    ...(decisions.use.length ? { use: decisions.use } : {}),
+    ...(decisions.keep.length ? { keep: decisions.keep } : {}),
   };
 }
 

@@ -37,7 +37,9 @@ const scale = (p) => {
 };
 
 /** A diagnosis that adds no effect has fitted the current model. */
-const lastFit = computed(() => diagnosis.value?.path.length === 1 ? fitOf(diagnosis.value.parameters) : {});
+const lastFit = computed(() =>
+  diagnosis.value?.verdict.effects.length === 0 ? fitOf(diagnosis.value.parameters) : {}
+);
 
 /** @param {string} id @param {Field} p */
 function range(id, p) {

@@ -16,6 +16,7 @@ import {
   stage,
   stale,
 } from "../answers.js";
+import { entryQuestions } from "./entries.js";
 import { errorText, titleOf, whatIsLeft } from "../words.js";
 
 /** @typedef {import("../types.js").Status} Status */
@@ -62,7 +63,8 @@ const halted = (words, button) =>
 /** Adds all missing effects at once. */
 function allButton() {
   const path = diagnosis.value?.path.slice(1) ?? [], a = answer.value;
-  if (path.length < 2) return null;
+  const added = path.filter((step) => step.added);
+  if (added.length < 2) return null;
   const last = path[path.length - 1];
   const error = errorText(last.rmse, a?.unit ?? "N", a?.predicted ?? "force", units.value);
   return h("button", {
@@ -71,8 +73,8 @@ function allButton() {
     id: "add-all",
     disabled: () => stale.value,
     onclick: addAll,
-    title: path.map((s) => titleOf(s.added ?? "")).join(", "),
-  }, `Add all ${path.length} effects: error ${error}`);
+    title: added.map((s) => titleOf(s.added ?? "")).join(", "),
+  }, `Add all ${added.length} effects: error ${error}`);
 }
 
 const AT_FLOOR = 1.15;
@@ -187,6 +189,7 @@ export function verdictCard() {
     }
     const { messages } = result;
     return [
+      entryQuestions(result),
       conclusion(result),
       allButton(),
       next(result.verdict),

@@ -1,0 +1,40 @@
+"""A wrong rest length in a file: the page asks about it before it names effects, and takes the answer."""
+
+from __future__ import annotations
+
+import re
+
+from playwright.sync_api import Page, expect
+
+from tests.frontend.comparing import choose, diagnosed, file, measured, use
+from tests.frontend.views import open_compare
+
+
+def wrong() -> str:
+    """The measurement of the other tests, whose muscle of 300 mm is said to have 345 mm."""
+    return measured(1).replace("nominal_length: 300 mm", "nominal_length: 345 mm")
+
+
+def test_a_wrong_rest_length_is_asked_about_and_used_in_one_click(page: Page) -> None:
+    open_compare(page)
+    choose(page, file("sweeps.csv", wrong()))
+    use(page)
+    diagnosed(page, 60_000)
+    asked = page.locator("#entry-questions")
+    expect(asked).to_be_visible()
+    expect(page.locator("#verdict-status")).to_contain_text("An entry may be wrong")
+    first = asked.locator(".entry").first
+    expect(first).to_have_attribute("data-hypothesis", "rest_length")
+    expect(first).to_contain_text(re.compile(r"Rest length (299|300)[.\d]* mm instead of 345 mm"))
+    with page.expect_request("**/api/diagnoses") as sent:
+        first.get_by_role("button", name=re.compile("^Use (299|300)")).click()
+    said = sent.value.post_data_json["measurements"][0]["experiment"]["rest_length"]
+    assert said["origin"] == "suggested"
+    diagnosed(page, 60_000)
+    expect(asked).to_have_count(0)
+    expect(page.locator("#verdict-status")).not_to_contain_text("entry")
+    page.get_by_role("button", name="Undo").first.click()
+    expect(page.locator("#entry-questions")).to_be_visible(timeout=60_000)
+    with page.expect_request("**/api/diagnoses") as kept:
+        first.get_by_role("button", name=re.compile("^Keep")).click()
+    assert kept.value.post_data_json["keep"] == ["rest_length"]
