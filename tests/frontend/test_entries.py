@@ -23,7 +23,7 @@ def test_a_wrong_rest_length_is_asked_about_and_used_in_one_click(page: Page) ->
     asked = page.locator("#entry-questions")
     expect(asked).to_be_visible()
     expect(page.locator("#verdict-status")).to_contain_text("An entry may be wrong")
-    first = asked.locator(".entry").first
+    first = asked.locator(".entry-doubt").first
     expect(first).to_have_attribute("data-hypothesis", "rest_length")
     expect(first).to_contain_text(re.compile(r"Rest length (299|300)[.\d]* mm instead of 345 mm"))
     with page.expect_request("**/api/diagnoses") as sent:

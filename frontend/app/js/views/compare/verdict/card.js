@@ -16,7 +16,7 @@ import {
   stage,
   stale,
 } from "../answers.js";
-import { entryQuestions } from "./entries.js";
+import { entryQuestions, isDoubted } from "./entries.js";
 import { errorText, titleOf, whatIsLeft } from "../words.js";
 
 /** @typedef {import("../types.js").Status} Status */
@@ -69,7 +69,7 @@ function allButton() {
   const error = errorText(last.rmse, a?.unit ?? "N", a?.predicted ?? "force", units.value);
   return h("button", {
     type: "button",
-    class: "primary block",
+    class: diagnosis.value && isDoubted(diagnosis.value) ? "block" : "primary block",
     id: "add-all",
     disabled: () => stale.value,
     onclick: addAll,
@@ -100,7 +100,7 @@ function fall(result) {
 }
 
 /** The missing effects, and the effects that explain the data as well. @param {Diagnosis["verdict"]} verdict */
-function missing({ effects, indistinguishable }) {
+function missing({ effects, indistinguishable }, doubted = false) {
   return h(
     "ul",
     { class: "plain found-missing" },
@@ -108,13 +108,15 @@ function missing({ effects, indistinguishable }) {
       const twins = indistinguishable.find(([one]) => one === id)?.slice(1) ?? [];
       return h(
         "li",
-        { class: twins.length ? "unsure" : "sure" },
-        icon(twins.length ? "info" : "check"),
+        { class: twins.length || doubted ? "unsure" : "sure" },
+        icon(twins.length || doubted ? "info" : "check"),
         h(
           "span",
           null,
           h("b", null, titleOf(id)),
-          twins.length
+          doubted
+            ? h("small", null, "only if all entries are right")
+            : twins.length
             ? h("small", null, `or ${twins.map(titleOf).join(", ")}: these data cannot tell them apart`)
             : h("small", null, "no other effect fits as well"),
         ),
@@ -171,7 +173,7 @@ function conclusion(result) {
       null,
       h("b", { id: "verdict-status" }, verdict.title),
       ...some
-        ? [missing(verdict), fall(result), unknown ? h("p", null, rest) : null]
+        ? [missing(verdict, isDoubted(result)), fall(result), unknown ? h("p", null, rest) : null]
         : [h("p", null, verdict.sentence)],
     ),
   );

@@ -4,7 +4,6 @@ import { h, icon } from "../../../dom.js";
 import { capitalized, number } from "../../../format.js";
 import { chosen, compare, editCompare, stale } from "../answers.js";
 import { decided } from "../request.js";
-import { titleOf } from "../words.js";
 
 /** @typedef {import("../types.js").Diagnosis} Diagnosis */
 /** @typedef {Diagnosis["context"][number]} Entry */
@@ -58,11 +57,8 @@ function question(entry, first) {
   const stated = entry.stated === null ? "" : ` ${asText(entry.stated, entry.unit)}`;
   return h(
     "li",
-    { class: "entry", "data-hypothesis": entry.hypothesis },
+    { class: "entry-doubt", "data-hypothesis": entry.hypothesis },
     h("p", null, `${capitalized(entry.sentence)}.`),
-    entry.effects.length
-      ? h("p", { class: "muted" }, `Then missing: ${entry.effects.map(titleOf).join(", ")}.`)
-      : null,
     h(
       "div",
       { class: "row" },
@@ -84,6 +80,9 @@ function question(entry, first) {
     ),
   );
 }
+
+/** Whether an entry has to be answered before the effects count. @param {Diagnosis} result */
+export const isDoubted = ({ context }) => context.some((entry) => entry.asked);
 
 /** The questions about entries, before anything else; null without one. @param {Diagnosis} result */
 export function entryQuestions({ context }) {
