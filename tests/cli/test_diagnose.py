@@ -114,7 +114,7 @@ def test_a_freed_geometry_and_a_stated_noise(run: Run) -> None:
     file = write("bent.csv", text(rows, CYCLE_HEADER, "kind: isobaric"))
     options = ("--muscle", write("m.json", BRAID), "--free", "braid_angle", "--noise", "1.2", "--json")
     answer = answer_of(run("diagnose", file, *options))
-    assert answer["noise_floor"] == {"rmse": 1.2, "how": "given"}
+    assert answer["noise_floor"] == {"rmse": 1.2, "how": "given", "interval": [1.2, 1.2]}
     assert answer["verdict"]["status"] == "adequate"
     angle = answer["parameters"]["geometry"]["braid_angle"]
     assert np.degrees(angle["value"]) == pytest.approx(25.5, abs=0.05)
@@ -308,3 +308,14 @@ def test_bad_input_is_one_line_that_says_what_would_be_right(run: Run, name: str
     line = refused(run("diagnose", *arguments))
     for word in words:
         assert word in line
+
+
+def test_a_wrong_rest_length_is_asked_about_and_answered(run: Run) -> None:
+    file, long = rubbing(), write("long.json", {**BRAID, "nominal_length": "345 mm"})
+    code, _, err = run("diagnose", file, "--muscle", long)
+    assert code == 0
+    assert "Check an entry first: Rest length 300" in err
+    used = answer_of(run("diagnose", file, "--muscle", long, "--use", "rest_length", "--json"))
+    assert used["verdict"]["effects"] == ["coulomb_friction"]
+    err = refused(run("diagnose", file, "--muscle", long, "--keep", "length"))
+    assert "--keep: 'length' is not a doubtful statement" in err

@@ -28,7 +28,7 @@ PATH = "/api/diagnoses"
 PROMISED = {
     "kind", "rows", "predicted", "unit", "baseline", "noise_floor", "where", "candidates", "path", "verdict",
     "model", "rows_used", "excluded", "channels", "parameters", "correlations", "geometry", "freed",
-    "messages", "not_tried", "experiment", "assumptions", "specimens", "absorbed",
+    "messages", "not_tried", "experiment", "assumptions", "specimens", "absorbed", "context",
 }  # fmt: skip
 STATUS = {"adequate", "missing_effects", "ambiguous", "unknown_effect"}
 
@@ -100,7 +100,7 @@ def test_the_answer_is_the_promised_one(answer: dict[str, Any]) -> None:
     assert (answer["kind"], answer["predicted"], answer["unit"]) == ("isobaric", "force", "N")
     assert answer["rows"] == 240
     assert answer["baseline"].keys() == {"rmse", "nrmse_percent", "holdout_rmse"}
-    assert answer["noise_floor"].keys() == {"rmse", "how"}
+    assert answer["noise_floor"].keys() == {"rmse", "how", "interval"}
     assert answer["channels"] == {}
     verdict = answer["verdict"]
     assert verdict["status"] == "missing_effects"
@@ -240,7 +240,7 @@ def test_several_measurements_and_one_to_judge_by(client: TestClient, rubbing: s
 def test_a_stated_noise_is_the_floor(client: TestClient, rubbing: str) -> None:
     effects = {"bladder_elasticity": {}, "coulomb_friction": {}}
     answer = diagnose(client, measurement=rubbing, noise=1.3, effects=effects)
-    assert answer["noise_floor"] == {"rmse": 1.3, "how": "given"}
+    assert answer["noise_floor"] | {"interval": None} == {"rmse": 1.3, "how": "given", "interval": None}
     assert answer["verdict"]["status"] == "adequate"
 
 
@@ -541,3 +541,71 @@ def test_a_handful_of_rows_is_refused_in_words(client: TestClient) -> None:
     response = post(client, PATH, {"muscle": BRAID, "measurement": few})
     assert response.status_code == 422
     assert "4 values are too few for a diagnosis" in response.text
+
+
+# --- entries that may be wrong
+
+
+LONG = {**BRAID, "nominal_length": "345 mm"}
+
+
+@pytest.fixture(scope="module")
+def doubted(client: TestClient, rubbing: str) -> dict[str, Any]:
+    """The same cycles, with a muscle of 345 mm stated instead of 300 mm."""
+    return diagnose(client, measurement=rubbing, muscle=LONG)
+
+
+def test_a_wrong_rest_length_is_asked_about_first(doubted: dict[str, Any]) -> None:
+    first = doubted["context"][0]
+    assert (first["hypothesis"], first["field"], first["asked"]) == (
+        "rest_length", "muscle.nominal_length", True,
+    )  # fmt: skip
+    assert first["stated"] == pytest.approx(0.345)
+    assert first["value"] == pytest.approx(0.3, abs=2e-3)
+    assert set(first["effects"]) == {"bladder_elasticity", "coulomb_friction"}
+    assert first["rmse_after"] == pytest.approx(1.0, rel=0.15)
+    verdict = doubted["verdict"]
+    assert verdict["status"] == "ambiguous"
+    assert verdict["proposed_term"] is None
+    assert verdict["sentence"].startswith("Check an entry first: Rest length 300")
+    assert "--keep rest_length" in verdict["sentence"]
+
+
+def test_an_accepted_entry_is_fitted_and_its_origin_is_a_suggestion(client: TestClient, rubbing: str) -> None:
+    used = diagnose(client, measurement=rubbing, muscle=LONG, use=["rest_length"])
+    assert set(used["verdict"]["effects"]) == {"bladder_elasticity", "coulomb_friction"}
+    assert used["model"]["muscle"]["nominal_length"] == pytest.approx(0.3, abs=2e-3)
+    said = used["experiment"]["rest_length"]
+    assert (said["origin"], said["where"]) == ("suggested", "--use rest_length")
+    assert said["value"] == pytest.approx(0.3, abs=2e-3)
+    assert not any(entry["asked"] for entry in used["context"])
+
+
+def test_a_kept_entry_is_told_and_not_asked(client: TestClient, rubbing: str) -> None:
+    kept = diagnose(client, measurement=rubbing, muscle=LONG, keep=["rest_length"])
+    (entry,) = [entry for entry in kept["context"] if entry["hypothesis"] == "rest_length"]
+    assert (entry["kept"], entry["asked"]) == (True, False)
+    assert any("is kept as stated, although" in message for message in kept["messages"])
+
+
+def test_a_force_in_kgf_is_compared_in_newton_once_accepted(client: TestClient) -> None:
+    rows = cycle_rows(noise=1.0, each=20, second=3.0)
+    *others, force = zip(*(row.split(",") for row in rows), strict=True)
+    small = [",".join((*left, f"{float(f) / 9.80665:.6f}")) for *left, f in zip(*others, force, strict=True)]
+    wrong = upload(client, "kgf", text(small, CYCLE_HEADER, "kind: isobaric"))
+    answer = diagnose(client, measurement=wrong)
+    assert answer["context"][0]["hypothesis"] == "force_in_kgf"
+    assert answer["context"][0]["value"] == "in kgf"
+    compared = compare(client, measurement=wrong, use=["force_in_kgf"])
+    assert compared["rmse"] == pytest.approx(1.0, rel=0.15)
+    assert compared["experiment"]["force"]["origin"] == "suggested"
+
+
+@pytest.mark.parametrize("decision", ["use", "keep"])
+@pytest.mark.parametrize("path", [PATH, "/api/comparisons"])
+def test_a_decision_about_nothing_names_its_field(
+    client: TestClient, rubbing: str, path: str, decision: str
+) -> None:
+    body = {"muscle": BRAID, "measurement": rubbing, decision: ["rest_lenght"]}
+    error = assert_error(post(client, path, body), 422, field=decision)
+    assert "rest_length" in error["hint"]

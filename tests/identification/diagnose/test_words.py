@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from mckibben.identification.diagnose.verdict import Interval
 from mckibben.identification.diagnose.words import sentence_of, title_of
 from mckibben.identification.residual.structure import ResidualStructure
 
@@ -15,15 +16,19 @@ TITLES = {"creep": "Creep", "leak": "Leak"}
 
 def result(
     status: str, before: float, after: float, *added: str, unit: str = "N", noise: float | None = 2.0,
-    share: float = 0.05, alternatives: tuple[Any, ...] = (),
+    share: float = 0.05, alternatives: tuple[Any, ...] = (), refitted: float | None = None,
+    highest: float | None = None, doubted: bool = False,
 ) -> Any:  # fmt: skip
     return SimpleNamespace(
         status=status,
         predictor=SimpleNamespace(unit=unit),
         start=SimpleNamespace(rmse=before),
+        root=SimpleNamespace(rmse=before if refitted is None else refitted, free=refitted is not None),
         best=SimpleNamespace(rmse=after),
         added=added,
         noise=noise,
+        noise_interval=None if highest is None else Interval(noise or 0.0, highest),
+        context=(SimpleNamespace(stands=True),) if doubted else (),
         alternatives=alternatives,
         structure=ResidualStructure(share, (("pressure", 0.5), ("time", 0.2), ("velocity", 0.1))),
     )
@@ -54,6 +59,13 @@ SENTENCES = {
     ),
     "No catalogued effect explains the error of 40 N: 90 % of it depends on pressure and time.": result(
         "unknown_effect", 40.0, 40.0, share=0.9
+    ),
+    "Missing: Creep. The model's own numbers, refitted, lower the error from 40 to 15 N; with it the error falls "
+    "to 2.1 N, the noise of the data (2 N).": result("missing_effects", 40.0, 2.1, "creep", refitted=15.0),
+    "Nothing is missing: the error of 6 N is of the size of the noise (2 N between neighbouring readings, 6 N "
+    "in all).": result("adequate", 6.0, 6.0, highest=6.0),
+    "With the entries as stated no catalogued effect explains the error of 40 N.": result(
+        "ambiguous", 40.0, 40.0, doubted=True
     ),
     "Missing: Creep. With it the error falls from 40 to 2.1 N, the noise of the data (2 N). These data "
     "cannot tell Creep from Leak.": result(

@@ -80,7 +80,7 @@ def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
     if result.root.free and refitted < _REFITTED * before:
         text = (
             f"Missing: {names}. The model's own numbers, refitted, lower the error from {before:.3g} to "
-            f"{refitted:.3g} {unit}; with {these} it falls to {after:.3g} {unit}{floor}."
+            f"{refitted:.3g} {unit}; with {these} the error falls to {after:.3g} {unit}{floor}."
         )
     if result.status == "unknown_effect":
         return f"{text} No catalogued effect explains the rest: {rest}."
