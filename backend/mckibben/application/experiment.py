@@ -17,7 +17,7 @@ from mckibben.documents.drive import DriveDocument
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.measurement.accuracy import CHANNELS, ChannelAccuracy, default_accuracy, sigma_of
-from mckibben.measurement.corrected import corrected
+from mckibben.measurement.corrected import FROM_DRIVE, corrected
 from mckibben.measurement.experiment import (
     ACCURACY,
     FIELDS,
@@ -278,11 +278,27 @@ def _specimen(one: _One, model: SaidModel, start: StartModel, studio: Studio) ->
         for channel in CHANNELS
         if (value := values.get(f"{ACCURACY}{channel}")) is not None
     }
-    drive = own_drive(measurement, values, model.drive, replace(start, muscle=muscle), studio, model.where)
+    own = replace(start, muscle=muscle)
+    try:
+        drive = own_drive(measurement, values, model.drive, own, studio, model.where)
+    except InputError as error:
+        raise _of_statement(error, one) from error
     ordered = {name: values[name] for name in (*FIELDS, LOAD_FORCE) if name in values}
     return Specimen(
         replace(points, measurement=measurement, nominal_length=length), muscle, drive, ordered, accuracy
     )
+
+
+def _of_statement(error: InputError, one: _One) -> InputError:
+    """An error of the drive at the statement that it comes from, if it comes from one."""
+    path = (error.field or "").removeprefix("drive.").split(".")
+    name = "inclination" if path[-1] == "inclination" else path[0]
+    value = one.values.get(name)
+    if value is None or value.origin == "assumed" or value.where == FROM_DRIVE:
+        return error
+    if one.said.field:
+        return error.at(one.at(name))
+    return InputError(f"{value.where}: {error.message}", hint=error.hint, code=error.code)
 
 
 def _own_geometry(one: _One, start: StartModel, studio: Studio) -> Muscle:
