@@ -195,3 +195,26 @@ def test_the_zero_of_the_force_is_subtracted(run: Run, files: dict[str, str]) ->
     answer = json.loads(out)
     assert answer["residual_mean"] == pytest.approx(errors[1], abs=1e-3)
     assert answer["experiment"]["force_zero"]["origin"] == "file"
+
+
+def test_a_drive_can_be_stated_in_options(run: Run, files: dict[str, str]) -> None:
+    rows = ["time_s,command,pressure_bar,displacement_mm"]
+    rows += [f"{0.01 * n},{int(n > 9)},{min(n, 60) / 10},{min(n, 50)}" for n in range(120)]
+    Path("run.csv").write_text("\n".join(rows), encoding="utf-8")
+    code, _, err = run("compare", "run.csv", "--muscle", "DMSP-20")
+    assert code == 2
+    for word in ("valve", "--load", '--experiment "valve=', "--drive"):
+        assert word in err
+    stated = ("--load", "6 kg", "--experiment", "valve=MPYE-5-1/8-HF", "--experiment", "tube=4 mm x 1 m")
+    code, out, err = run("compare", "run.csv", "--muscle", "DMSP-20", *stated, "--json")
+    assert code == 0, err
+    answer = json.loads(out)
+    assert [each.partition(":")[0] for each in answer["assumptions"]] == [
+        "assuming a rest length of 300 mm, the preset's",
+        "assuming a supply pressure of 6 bar",
+    ]
+    assert answer["experiment"]["tube"]["value"] == "4 mm x 1 m"
+    bad = (*stated[:2], "--experiment", "valve=MPYE")
+    code, _, err = run("compare", "run.csv", "--muscle", "DMSP-20", *bad)
+    assert code == 2
+    assert "--experiment valve" in err

@@ -248,6 +248,23 @@ def test_the_form_says_what_stands_in_the_way(client: TestClient) -> None:
     assert answer["experiment"]["valve"]["value"] == "MPYE-5-1/8-HF"
 
 
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("valve", "MPYE"), ("tube", "2 mm of 1 m"), ("stops", "wide"), ("stops", "30 % to 20 %"),
+     ("inclination", "100 deg")],
+)  # fmt: skip
+def test_a_bad_part_of_the_drive_names_its_field(client: TestClient, name: str, value: str) -> None:
+    rows = ["time_s,command,pressure_bar,displacement_mm"]
+    rows += [f"{0.01 * n},{int(n > 9)},{min(n, 60) / 10},{min(n, 50)}" for n in range(120)]
+    said = {"valve": "MPYE-5-1/8-HF", "load": "6 kg", name: value}
+    body = {
+        "muscle": {"preset": "DMSP-20"},
+        "measurements": [{"id": put(client, "\n".join(rows)), "experiment": said}],
+    }
+    answer = client.post("/api/comparisons", json=body)
+    assert_error(answer, 422, field=f"measurements.0.experiment.{name}")
+
+
 def test_a_diagnosis_tells_what_the_accuracy_took_up(client: TestClient) -> None:
     errors = np.array([1.2e-3, -0.8e-3, 0.5e-3, -1.5e-3, 0.9e-3])
     body = {
@@ -274,3 +291,29 @@ def test_fields_of_requests_and_declarations_agree(client: TestClient) -> None:
     declared = {name for name in FIELDS if not name.startswith("accuracy_")} | {"accuracy"}
     assert set(known) == declared
     assert json.dumps(known["rest_length"]).count('"suggested"') == 1
+
+
+def test_a_report_tells_who_says_what(client: TestClient) -> None:
+    body = {
+        "muscle": document(),
+        "effects": {},
+        "measurements": [
+            {"id": put(client, specimen(0.25)), "experiment": {"force_zero": "1 N"}},
+            {"id": put(client, specimen(0.4, seed=2), "b.csv")},
+        ],
+        "accuracy": "length caliper",
+        "diagnose": False,
+    }
+    response = client.post("/api/reports", json=body)
+    assert response.status_code == 200, response.text
+    page = response.text
+    for words in (
+        "Who says it", "the file (a.csv, row 1)", "the file (b.csv, row 1)", "stated (accuracy)",
+        "stated (measurements.0.experiment.force_zero)", "Errors of reading within the accuracy",
+        "assumed (zero error of each specimen)",
+    ):  # fmt: skip
+        assert words in page, words
+    # The command states what the user stated of all files, and leaves each its own length.
+    command = page[page.rindex("mckibben compare") :]
+    assert "--accuracy &#x27;length 0.1 mm&#x27;" in command or "--accuracy 'length 0.1 mm'" in command
+    assert "nominal_length" not in command
