@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -123,6 +124,40 @@ def test_an_effect_that_clamps_cannot_explain_is_found_beside_them(studio: Studi
     )
     assert result.verdict.effects
     assert result.path[0].rmse > 2.0 * (result.noise_floor.rmse or 0.0)
+
+
+def test_an_error_within_the_accuracy_of_a_sensor_is_not_missing(studio: Studio) -> None:
+    """A force sensor that is off by 4 N: a missing effect, unless the sensor is said to be no better."""
+    text = specimen(0.3, zero=4.0, walled=False)
+    exact = diagnosed(studio, asked(studio, [text]))
+    assert exact.verdict.effects
+    said = stated_accuracy("force 4 N", "accuracy")
+    honest = diagnosed(studio, asked(studio, [text], said=said))
+    assert (honest.verdict.status, honest.verdict.effects) == ("adequate", [])
+    assert honest.noise_floor.rmse == pytest.approx(np.hypot(4.0, exact.noise_floor.rmse or 0.0), rel=0.1)
+    assert "accuracy" in honest.noise_floor.how
+
+
+def test_what_a_test_has_no_use_for_is_told(studio: Studio) -> None:
+    said = {
+        "load": ExperimentValue(3.0, "kg", "you", "--load"),
+        "stops": ExperimentValue("0 % to 20 %", "", "you", "here"),
+    }
+    messages = compare(asked(studio, [specimen(0.3)], said=said)).messages
+    assert any("load (3 kg) is stated, but not used in this isobaric test" in each for each in messages)
+    assert any("end stops" in each and "not used" in each for each in messages)
+
+
+def test_a_length_for_one_of_several_files_names_the_way_out(studio: Studio) -> None:
+    length = ExperimentValue(0.2, "m", "you", "--muscle M:200mm")
+    model = replace(said_model(studio, document(0.2)), length=length)
+    measurements = [
+        SaidMeasurement(Points(read_measurement(specimen(each).encode(), f"{each}.csv")))
+        for each in (0.2, 0.3)
+    ]
+    with pytest.raises(InputError, match=r"0\.3\.csv says a rest length of 300 mm") as caught:
+        question_of(model, measurements, studio)
+    assert "each file has its own" in str(caught.value.hint)
 
 
 def test_specimens_of_several_lengths_are_diagnosed_together(studio: Studio) -> None:

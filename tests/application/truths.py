@@ -56,7 +56,9 @@ def plateaus(
     return "\n".join(rows) + "\n"
 
 
-def specimen(length: float, *, zero: float = 0.0, seed: int = 0, said: bool = True) -> str:
+def specimen(
+    length: float, *, zero: float = 0.0, seed: int = 0, said: bool = True, walled: bool = True
+) -> str:
     """A file of a slow tensile test at held pressures of a muscle of this length with a rubber wall.
 
     Args:
@@ -64,9 +66,10 @@ def specimen(length: float, *, zero: float = 0.0, seed: int = 0, said: bool = Tr
         zero: error of the force sensor [N].
         seed: of the noise.
         said: whether the file says its rest length; the stroke is a displacement.
+        walled: whether it has the wall.
     """
     of = muscle(length)
-    parts = (wall(of), *((sensors.zero_error("force", zero),) if zero else ()))
+    parts = (*((wall(of),) if walled else ()), *((sensors.zero_error("force", zero),) if zero else ()))
     truth = Truth(of, hidden=parts)
     random = np.random.default_rng(seed)
     record = isobaric(truth, levels=(2e5, 4e5, 6e5), rows=60)

@@ -28,7 +28,7 @@ PATH = "/api/diagnoses"
 PROMISED = {
     "kind", "rows", "predicted", "unit", "baseline", "noise_floor", "where", "candidates", "path", "verdict",
     "model", "rows_used", "excluded", "channels", "parameters", "correlations", "geometry", "freed",
-    "messages", "not_tried",
+    "messages", "not_tried", "experiment", "assumptions", "specimens", "absorbed",
 }  # fmt: skip
 STATUS = {"adequate", "missing_effects", "ambiguous", "unknown_effect"}
 

@@ -58,6 +58,7 @@ REQUESTS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
     ("POST", "/api/sizings/reports"): ("/api/sizings/reports", {"json": {"task": TASK}}),
     ("POST", "/api/comparisons"): ("/api/comparisons", {"json": MODEL}),
     ("POST", "/api/diagnoses"): ("/api/diagnoses", {"json": MODEL}),
+    ("POST", "/api/experiments"): ("/api/experiments", {"json": MODEL}),
     ("GET", "/api/health"): ("/api/health", {}),
     ("GET", "/api/effects"): ("/api/effects", {}),
     ("GET", "/api/presets/{kind}"): ("/api/presets/muscles", {}),

@@ -25,6 +25,8 @@ from mckibben.measurement.experiment import (
     Experiment,
     ExperimentValue,
     file_experiment,
+    mattering,
+    shown_value,
 )
 from mckibben.measurement.measurement import Measurement, StatedValue
 from mckibben.measurement.points import Points
@@ -149,8 +151,9 @@ def resolved(
     named = str(first.values["muscle"].value) if "muscle" in first.values else ""
     start = model.start(named, _number(first.values.get("rest_length")))
     for one in ones:
-        one.values["rest_length"] = _rest_length(one, model, start)
+        one.values["rest_length"] = _rest_length(one, model, start, alone=len(ones) == 1)
         _name_muscle(one, model, start)
+        _tell_unused(one)
     length = float(first.values["rest_length"].value)
     if abs(float(start.muscle.nominal_length) - length) > 1e-12 * length:
         start = replace(start, muscle=start.muscle._replace(nominal_length=length))
@@ -180,7 +183,7 @@ def _shown(value: float) -> str:
     return f"{1e3 * value:.4g} mm"
 
 
-def _rest_length(one: _One, model: SaidModel, start: StartModel) -> ExperimentValue:
+def _rest_length(one: _One, model: SaidModel, start: StartModel, *, alone: bool) -> ExperimentValue:
     """The rest length of a measurement.
 
     Raises:
@@ -209,7 +212,9 @@ def _rest_length(one: _One, model: SaidModel, start: StartModel) -> ExperimentVa
         raise InputError(
             both,
             field=one.at("rest_length"),
-            hint=f'decide with --rest-length "{_shown(theirs)}" or --rest-length "{_shown(mine)}"',
+            hint=f'decide with --rest-length "{_shown(theirs)}" or --rest-length "{_shown(mine)}"'
+            if alone
+            else "leave the length of the muscle out: each file has its own; or decide with --rest-length",
         )
     one.remarks.append(f"{both}: the latter is taken; --rest-length decides")
     return said
@@ -231,6 +236,21 @@ def _name_muscle(one: _One, model: SaidModel, start: StartModel) -> None:
                 f"{start.preset.id}: the latter is taken"
             )
     one.values["muscle"] = model.muscle
+
+
+def _tell_unused(one: _One) -> None:
+    """A remark on what the user states and a test of this kind has no use for."""
+    measurement = one.measurement
+    used = set(mattering(measurement.kind, measurement.columns))
+    if measurement.kind == "transient":  # its channels are weighed by their noise
+        used -= {name for name in used if name.startswith(ACCURACY)}
+    for name, value in one.values.items():
+        if value.origin in ("you", "suggested") and name not in used and name != LOAD_FORCE:
+            title = FIELDS[name].title.lower()
+            one.remarks.append(
+                f"{measurement.name}: {title} ({shown_value(name, value)}) is stated, but not used in this "
+                f"{measurement.kind} test"
+            )
 
 
 def _add_accuracy(one: _One) -> None:
