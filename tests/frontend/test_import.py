@@ -22,6 +22,7 @@ from tests.frontend.importing import (
     trace,
 )
 from tests.frontend.views import REFUSED, run
+from tests.measurement.read.open_files import WRITERS, OpenFile
 
 needs_corpus = pytest.mark.skipif(
     not CORPUS.is_dir(), reason="the files of the laboratories are not beside this checkout"
@@ -445,3 +446,37 @@ def test_a_length_that_contradicts_the_file_is_decided_in_the_view(case: Page, p
     with case.expect_response("**/api/comparisons") as answer:
         length.press("Enter")
     assert answer.value.json()["specimens"][0]["experiment"]["rest_length"]["value"] == 0.25
+
+
+@pytest.mark.parametrize(
+    "made", [made for write in WRITERS if (made := write()).stops], ids=lambda m: m.about[0]
+)
+def test_every_question_is_answered_in_the_view(case: Page, made: OpenFile) -> None:
+    """The readings are then those of the answer on the command line."""
+    choose(case, {"name": made.name, "mimeType": "application/octet-stream", "buffer": made.data})
+    dialog = panel(case)
+    for _ in range(4):
+        expect(dialog.locator(".state-now")).not_to_contain_text("Reading")
+        asks = dialog.locator(".ask:not(.may-wait)")
+        if not asks.count():
+            break
+        about = asks.first.get_attribute("data-about")
+        tick = dialog.locator(".unread .open input")
+        with read_anew(case):
+            if tick.count():
+                tick.first.click()
+            else:
+                answers = asks.first.get_by_role("button")
+                words = [text.removesuffix("proposed") for text in answers.all_inner_texts()]
+                said = " ".join(made.options)
+                right = [n for n, text in enumerate(words) if text.partition(" [")[0].strip() in said]
+                answers.nth(right[0] if right else 0).click()
+        expect(dialog.locator(f'.ask:not(.may-wait)[data-about="{about}"]')).to_have_count(0)
+    answer_everything(case)
+    use(case)
+    expect(case.locator(".file")).to_have_count(1)
+    identity = case.locator(".file").get_attribute("data-file")
+    columns = case.request.get(f"/api/measurements/{identity}").json()["columns"]
+    assert made.channel is not None
+    channel, values = made.channel
+    assert columns[channel] == pytest.approx(list(values), abs=1e-4 * float(max(abs(values))))

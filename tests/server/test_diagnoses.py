@@ -590,8 +590,10 @@ def test_a_kept_entry_is_told_and_not_asked(client: TestClient, rubbing: str) ->
 
 def test_a_force_in_kgf_is_compared_in_newton_once_accepted(client: TestClient) -> None:
     rows = cycle_rows(noise=1.0, each=20, second=3.0)
-    *others, force = zip(*(row.split(",") for row in rows), strict=True)
-    small = [",".join((*left, f"{float(f) / 9.80665:.6f}")) for *left, f in zip(*others, force, strict=True)]
+    small = []
+    for row in rows:
+        time, pressure, length, force, direction = row.split(",")
+        small.append(f"{time},{pressure},{length},{float(force) / 9.80665:.6f},{direction}")
     wrong = upload(client, "kgf", text(small, CYCLE_HEADER, "kind: isobaric"))
     answer = diagnose(client, measurement=wrong)
     assert answer["context"][0]["hypothesis"] == "force_in_kgf"

@@ -60,10 +60,12 @@ SENTENCES = {
     "No catalogued effect explains the error of 40 N: 90 % of it depends on pressure and time.": result(
         "unknown_effect", 40.0, 40.0, share=0.9
     ),
-    "Missing: Creep. The model's own numbers, refitted, lower the error from 40 to 15 N; with it the error falls "
-    "to 2.1 N, the noise of the data (2 N).": result("missing_effects", 40.0, 2.1, "creep", refitted=15.0),
-    "Nothing is missing: the error of 6 N is of the size of the noise (2 N between neighbouring readings, 6 N "
-    "in all).": result("adequate", 6.0, 6.0, highest=6.0),
+    "Missing: Creep. The model's own numbers, refitted, lower the error from 40 to 15 N; with it the error "
+    "falls to 2.1 N, the noise of the data (2 N).": result(
+        "missing_effects", 40.0, 2.1, "creep", refitted=15.0
+    ),
+    "Nothing is missing: the error of 6 N is of the size of the noise (2 N between neighbouring readings, "
+    "6 N in all).": result("adequate", 6.0, 6.0, highest=6.0),
     "With the entries as stated no catalogued effect explains the error of 40 N.": result(
         "ambiguous", 40.0, 40.0, doubted=True
     ),

@@ -191,7 +191,7 @@ def preview(data: bytes, name: str, correction: Correction | None = None) -> Pre
 def _points(measurement: Measurement) -> dict[str, NDArray[np.float64]]:
     step = -(-measurement.rows // _POINTS)
     return {
-        name: np.asarray(values, dtype=np.float64)[:: max(step, 1)]
+        name: np.asarray(values)[:: max(step, 1)].astype(np.float64)
         for name, values in measurement.columns.items()
         if name in CHANNEL_UNITS
     }

@@ -73,7 +73,8 @@ export function answersOf(q, p) {
   }
   const alternatives = q.option.split(/ or (?=--)/).map((option) => spoken(option, p));
   const said = alternatives.filter((one) => one !== null);
-  const named = q.choices.length === said.length ? q.choices : null;
+  // Both answers name the pressure; only the unit tells what it counts from.
+  const named = q.about === "reference of pressure" ? q.choices : null;
   const found = said.map((one, i) => answer(named?.[i] ?? one.label, one.columns));
   if (column && q.choices.includes("ignore")) {
     const more = q.choices.filter((one) => one !== "ignore" && !found.some((a) => a.label === one));

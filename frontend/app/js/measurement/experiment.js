@@ -310,7 +310,7 @@ function ownEntry(m, i, system) {
           ? placeOf(m, f) || "file"
           : way
           ? "assumed"
-          : f.origin ?? "?"),
+          : f.origin ?? "missing"),
     ),
   );
 }

@@ -184,7 +184,7 @@ export function importModel({ files, previews, mapping: first, experiments, kept
         file,
         mapping: mapping.peek(),
         experiment: { ...common.peek(), ...own.peek()[i] },
-        kept: usesKept.peek() ? kept : null,
+        kept: usesKept.peek() && mapping.peek() === first ? kept : null,
       })),
     stop,
   };

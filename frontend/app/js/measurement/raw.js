@@ -137,7 +137,7 @@ function rowsTable(m, placed) {
           ),
           // A line of a preamble may be longer than the table is wide.
           cells.length === 1 && width > 1
-            ? h("td", { colspan: width, class: "whole" }, h("div", null, cells[0]))
+            ? h("td", { colspan: width, class: "whole-line" }, h("div", null, cells[0]))
             : places.map((place) => h("td", { class: used(place) ? "" : "unused" }, cells[place] ?? "")),
         );
       }),

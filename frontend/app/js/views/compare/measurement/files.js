@@ -51,6 +51,10 @@ export async function addFiles(list) {
     if (answer) kept.push(answer);
   }
   if (!kept.length) return;
+  const there = files.peek().filter((f) => SHA256.test(f.id) && !kept.some(({ info }) => info.id === f.id));
+  for (const { info } of kept.slice(Math.max(0, MOST_FILES - there.length))) {
+    complain(info.name, `It is left out: ${MOST_FILES} files are compared at most.`);
+  }
   const names = kept.map(({ info }) => info.name).join(", ");
   edit((d) => ({
     ...d,
