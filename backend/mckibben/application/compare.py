@@ -13,6 +13,7 @@ from mckibben.application.compared_series import (
     ComparedSeries,
     series_of,
 )
+from mckibben.application.doubts import with_accepted
 from mckibben.application.experiment_result import (
     SpecimenResult,
     absorbed_message,
@@ -164,6 +165,8 @@ def compare(question: ModelQuestion, *, fit: bool = False) -> ComparisonResult:
         thinned = thinned or thin
     if thinned:
         messages.append(f"curves show at most {MAX_POINTS_PER_SERIES} points each; the figures use all rows")
+    # A quantity that is accepted as wrong has another value only after a fit.
+    accepted = [entry for entry in question.accepted if fit or entry.reading is not None]
     residual = comparison.residual / predictor.scale
     variables = variables_of(predictor, comparison.fit_model)
     where = profiles(residual, variables, predictor.folds[0])
@@ -197,7 +200,7 @@ def compare(question: ModelQuestion, *, fit: bool = False) -> ComparisonResult:
         messages=messages,
         flags=start_notices(start),
         rmse_beyond_accuracy=comparison.rmse_beyond_accuracy,
-        experiment=common_experiment(question),
+        experiment=with_accepted(common_experiment(question), accepted, comparison.fit_model),
         assumptions=[assumption.message for assumption in question.assumptions],
         specimens=specimen_results(question, predictor, residual),
         absorbed=list(comparison.absorbed),

@@ -207,7 +207,7 @@ def compared(
     messages = list(predictor.messages)
     choice = free_numbers(fit_model, geometry, freed, load=predictor.unknown_load) if fit else ()
     if geometry and not fit:
-        messages.append("geometry fields were freed, but no fit was requested")
+        messages.append("geometry fields were freed or accepted as wrong, but no fit was requested")
     if fit and not choice:
         messages.append("nothing to fit: the model has no effects and no geometry was freed")
     result = None
