@@ -53,9 +53,14 @@ def test_from_a_dropped_file_to_the_first_comparison(page: Page) -> None:
     expect(dialog.locator("[data-field='experiment.muscle'] .origin.from-file")).to_have_text("file: line 2")
     expect(dialog.locator("[data-field='experiment.rest_length'] input")).to_have_value("250 mm")
     actions += answer_everything(page)
-    accept_button(page).click()
+    with page.expect_response("**/api/comparisons") as answer:
+        accept_button(page).click()
     actions += 1
     assert actions <= 5
+    (specimen,) = answer.value.json()["specimens"]
+    said = {name: (one["value"], one["origin"]) for name, one in specimen["experiment"].items()}
+    assert said["muscle"][0] == "DMSP-20"
+    assert said["rest_length"] == (0.25, "file")
     expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
     # The right comparison: the file's muscle and length (its "Probe" is a DMSP-20 of 250 mm), 360 readings.
     expect(page.locator("#compare-preset")).to_have_value("DMSP-20")
@@ -455,6 +460,7 @@ def test_every_question_is_answered_in_the_view(case: Page, made: OpenFile) -> N
     """The readings are then those of the answer on the command line."""
     choose(case, {"name": made.name, "mimeType": "application/octet-stream", "buffer": made.data})
     dialog = panel(case)
+    points: dict[str, list[float]] = {}
     for _ in range(4):
         expect(dialog.locator(".state-now")).not_to_contain_text("Reading")
         asks = dialog.locator(".ask:not(.may-wait)")
@@ -462,7 +468,7 @@ def test_every_question_is_answered_in_the_view(case: Page, made: OpenFile) -> N
             break
         about = asks.first.get_attribute("data-about")
         tick = dialog.locator(".unread .open input")
-        with read_anew(case):
+        with read_anew(case) as answer:
             if tick.count():
                 tick.first.click()
             else:
@@ -471,12 +477,9 @@ def test_every_question_is_answered_in_the_view(case: Page, made: OpenFile) -> N
                 said = " ".join(made.options)
                 right = [n for n, text in enumerate(words) if text.partition(" [")[0].strip() in said]
                 answers.nth(right[0] if right else 0).click()
+        points = answer.value.json()["points"]
         expect(dialog.locator(f'.ask:not(.may-wait)[data-about="{about}"]')).to_have_count(0)
-    answer_everything(case)
-    use(case)
-    expect(case.locator(".file")).to_have_count(1)
-    identity = case.locator(".file").get_attribute("data-file")
-    columns = case.request.get(f"/api/measurements/{identity}").json()["columns"]
+    expect(dialog.locator(".state-now")).not_to_contain_text("question")
     assert made.channel is not None
     channel, values = made.channel
-    assert columns[channel] == pytest.approx(list(values), abs=1e-4 * float(max(abs(values))))
+    assert points[channel] == pytest.approx(list(values), abs=1e-4 * float(max(abs(values))))
