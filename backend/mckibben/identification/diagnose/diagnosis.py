@@ -14,6 +14,7 @@ from mckibben.identification.diagnose.next_measurement import SeparatingExperime
 from mckibben.identification.diagnose.reason import ResidualTraits, traits_of, why
 from mckibben.identification.diagnose.score import effective_rows, score
 from mckibben.identification.diagnose.search import search
+from mckibben.identification.diagnose.turned import turned_constants
 from mckibben.identification.diagnose.twins import Alternative, alternatives, same, same_predictions
 from mckibben.identification.diagnose.verdict import (
     Interval,
@@ -302,7 +303,11 @@ def _diagnose(
         structure=remaining,
         term=term,
         proposals=tuple(proposals(best, exchangeable, catalogue, level, predictor)),
-        messages=(*([] if gauge_zero is None else [gauge_zero.message]), *messages(fitter, best, fit)),
+        messages=(
+            *([] if gauge_zero is None else [gauge_zero.message]),
+            *messages(fitter, best, fit),
+            *turned_constants(fitter, fit_model, best),
+        ),
         not_tried=tuple(not_tried),
         context=context,
         absorbed=absorbed_by(predictor, best.fit_model),
