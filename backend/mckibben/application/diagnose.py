@@ -38,6 +38,7 @@ from mckibben.identification.diagnose.diagnosis import (
 )
 from mckibben.identification.diagnose.diagnosis import diagnose as search_effects
 from mckibben.identification.diagnose.next_measurement import declared
+from mckibben.identification.diagnose.verdict import unexplained_share
 from mckibben.identification.diagnose.words import sentence_of, title_of
 from mckibben.identification.fit.comparison import (
     ParameterValue,
@@ -232,7 +233,9 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
         ),
         effects=list(diagnosis.added),
         indistinguishable=groups_of(diagnosis),
-        unexplained_share=diagnosis.structure.share,
+        unexplained_share=unexplained_share(
+            diagnosis.status, diagnosis.best, diagnosis.noise, diagnosis.structure
+        ),
         unexplained_in=[name for name, _ in diagnosis.structure.variables],
         proposed_term=_term(question, diagnosis),
         next_measurement="; ".join(nexts[:3]) or None,

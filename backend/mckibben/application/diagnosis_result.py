@@ -129,7 +129,8 @@ class Verdict:
         title: the status in words.
         effects: the missing effects.
         indistinguishable: groups of effects that the data cannot distinguish.
-        unexplained_share, unexplained_in: structure left in the residual, and the variables it depends on.
+        unexplained_share, unexplained_in: what is left to explain of the residual, and the variables it
+            depends on; of an unknown effect at least all above the noise.
         next_measurement: recommended next measurement.
         sentence: the verdict in one to three sentences.
     """

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from mckibben.identification.diagnose.diagnosis import diagnose
+from mckibben.identification.diagnose.verdict import unexplained_share
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.measurement.read import read_measurement
@@ -59,3 +60,10 @@ def test_a_structure_is_one_and_has_no_interval_of_noise() -> None:
     assert found.status == "unknown_effect"
     assert found.structure.share > 0.3
     assert found.noise_interval is None
+
+
+def test_what_is_left_of_an_unknown_effect_is_all_above_the_noise() -> None:
+    found = diagnosed(lambda random, count: random.standard_normal(count), 0, ripple=12.0)
+    left = unexplained_share(found.status, found.best, found.noise, found.structure)
+    assert left >= 1.0 - (found.noise / found.best.rmse) ** 2
+    assert left > 0.8

@@ -121,6 +121,17 @@ def noise_interval(best: FittedModel, noise: float | None, rest: ResidualStructu
     return Interval(noise, max(noise, unexplained))
 
 
+def unexplained_share(
+    status: Status, best: FittedModel, noise: float | None, rest: ResidualStructure
+) -> float:
+    """Share of the last mean square that is left to explain: its structure; of an unknown effect at least
+    all above the noise.
+    """
+    if status != "unknown_effect" or noise is None or not best.mean_square > 0.0:
+        return rest.share
+    return max(rest.share, 1.0 - min(noise**2 / best.mean_square, 1.0))
+
+
 def is_force(predictor: Predictor) -> bool:
     """Whether the force is the only predicted channel, so that a term can be added to it."""
     return [channel.name for channel in predictor.channels] == ["force"]

@@ -14,10 +14,16 @@ export const OWN_TERM = "custom", FORMULA = "term";
 export const titleOf = (id) =>
   id === OWN_TERM ? "Own term" : effectsById.value.get(id)?.title ?? readable(id);
 
-/** "62 % of the remaining residual depends on contraction and pressure" @param {import("./types.js").Diagnosis["verdict"]} verdict */
+/** "62 % of the remaining residual is left to explain, it depends on pressure" @param {import("./types.js").Diagnosis["verdict"]} verdict */
 export function whatIsLeft({ unexplained_share: share, unexplained_in: names }) {
   const where = names.map((name) => VARIABLES[name]?.title.toLowerCase() ?? readable(name));
-  return `${brief(100 * share)} % of the remaining residual depends on ${where.join(" and ") || "a pattern"}`;
+  return where.length
+    ? `${brief(100 * share)} % of the remaining residual is left to explain, it depends on ${
+      where.join(" and ")
+    }`
+    : `${
+      brief(100 * share)
+    } % of the remaining residual is above the noise and depends on no measured variable`;
 }
 
 /** The scale of a channel: a contraction is shown in percent.
