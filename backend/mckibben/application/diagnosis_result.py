@@ -130,8 +130,10 @@ class Verdict:
         effects: the missing effects.
         indistinguishable: groups of effects that the data cannot distinguish.
         unexplained_share, unexplained_in: structure left in the residual, and the variables it depends on.
+        proposed_term: a short formula for it that halves the error of the groups left out.
+        where_to_look: without a formula, the ranges of these variables with the largest error.
         next_measurement: recommended next measurement.
-        sentence: the verdict in one to three sentences.
+        sentence: the verdict in one to four sentences.
     """
 
     status: Status
@@ -141,6 +143,7 @@ class Verdict:
     unexplained_share: float
     unexplained_in: list[str]
     proposed_term: TermProposal | None
+    where_to_look: str | None
     next_measurement: str | None
     experiments: list[ExperimentProposal]
     sentence: str
