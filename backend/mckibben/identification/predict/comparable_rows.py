@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mckibben.measurement.digits import settled
 from mckibben.measurement.measurement import FORCE_KINDS, STROKES, Measurement, lengths
 from mckibben.measurement.motion import RecordedMotion, motion_of
 from mckibben.physics.errors import InputError
@@ -45,7 +46,7 @@ class ComparableRows:
         measured: its values, shape (rows used,).
         state: inputs of the model (`mckibben.simulation.statics.compiled.INPUTS`), of the same shape, and
             "load" where the length is predicted.
-        time: of each row [s]; None where the rows have no order in time.
+        time: of each row since its record began [s]; None where the rows have no order in time.
         records: label of the uninterrupted record that each row belongs to; rows of a record are in order.
         groups: group label of each row.
         turning: mask of the rows whose friction is unknown, because the motion turns, its speed jumps or the
@@ -100,6 +101,7 @@ def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
     Raises:
         InputError: the predicted channel is missing, or no row can be compared.
     """
+    measurement = settled(measurement)
     columns, kind, count = measurement.columns, measurement.kind, measurement.rows
     messages = list(measurement.messages)
     stroked = any(name in columns for name in STROKES)

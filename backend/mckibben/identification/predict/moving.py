@@ -18,6 +18,7 @@ from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.folds import FEWEST
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor, farther
+from mckibben.measurement.digits import settled
 from mckibben.measurement.measurement import STROKES, Measurement, lengths
 from mckibben.measurement.noise import noise_floor
 from mckibben.physics.effect import Effect
@@ -91,6 +92,7 @@ class TransientPredictor(Predictor):
     step = 2e-2
 
     def __init__(self, measurement: Measurement, drive: Drive) -> None:
+        measurement = settled(measurement)
         columns = measurement.columns
         self.kind = measurement.kind
         self.commanded = "command" in columns
