@@ -2,10 +2,10 @@
 
     python -m tests.benchmarks.metamorphic [--only TEXT] [--few]
 
-Each case is a measurement; each relation rewrites its files so that they say the same: another origin of time,
-other units, names, order. *Exact* relations must give the same status, the same effects with the same
-alternatives, and the same error within 1e-3; of half the sampling the effects must be among the same groups.
-``--few`` lets the diagnosis choose from six effects only.
+Each case is a measurement; each relation rewrites its files so that they say the same: another origin of
+time, other units, names, order. *Exact* relations must give the same status, the same effects with the same
+alternatives, and the same error and noise within 1e-3; of half the sampling each effect must be
+in one of the groups. ``--few`` lets the diagnosis choose from six effects only.
 """
 
 from __future__ import annotations
@@ -145,8 +145,10 @@ def logger_case() -> Case | None:
     lines = [line.split(",") for line in path.read_text().splitlines()[1:] if line.strip()]
     table = np.array([[float(line[place]) for place in (2, 5, 7)] for line in lines])
     columns = {
-        "time": 1e-3 * table[:, 0], "pressure": UNITS["psi"] * table[:, 1], "displacement": 1e-3 * table[:, 2],
-    }  # fmt: skip
+        "time": 1e-3 * table[:, 0],
+        "pressure": UNITS["psi"] * table[:, 1],
+        "displacement": 1e-3 * table[:, 2],
+    }
     sheet = Sheet(path.name, ("kind: transient", "load_mass: 0.3 kg"), columns)
     muscle = Muscle(0.155, 0.0118, np.radians(24.0), 0.0015, 0.010)
     return Case("logger, transient", (sheet,), muscle)
@@ -158,7 +160,9 @@ def isometric_case() -> Case | None:
     if not path.exists():
         return None
     made = read_measurement(path.read_bytes(), path.name)
-    columns = {name: np.array(made.columns[name], float) for name in ("length", "pressure", "force", "direction")}
+    columns = {
+        name: np.array(made.columns[name], float) for name in ("length", "pressure", "force", "direction")
+    }
     muscle = Muscle(0.182, 0.0118, np.radians(24.0), 0.0015, 0.010)
     return Case("clamped, isometric", (Sheet(path.name, ("kind: isometric",), columns),), muscle)
 
@@ -283,8 +287,11 @@ def difference(relation: Relation, before: Diagnosis, after: Diagnosis) -> str:
         ("error", before.best.rmse, after.best.rmse),
         ("noise", before.noise, after.noise),
     ):
-        if (first is None) != (second is None) or abs((second or 0.0) - (first or 0.0)) > SAME * (first or 1.0):
-            return f"{what} {second:.6g} instead of {first:.6g}" if second and first else f"{what} unknown"
+        if first is None or second is None:
+            if first is not second:
+                return f"{what} {second} instead of {first}"
+        elif abs(second - first) > SAME * first:
+            return f"{what} {second:.6g} instead of {first:.6g}"
     return ""
 
 
