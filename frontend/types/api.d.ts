@@ -1797,7 +1797,7 @@ export interface components {
       /** Drive document for /api/simulations, of one of the muscles. */
       drive: { [key: string]: unknown };
     };
-    /** A formula for a residual that no catalogued effect explains. */
+    /** A short formula for a residual that no catalogued effect explains, proven on groups left out. */
     ProposedTerm: {
       formula: string;
       coefficients: { [key: string]: number };
@@ -2440,6 +2440,8 @@ export interface components {
       unexplained_share: number;
       unexplained_in: string[];
       proposed_term: components["schemas"]["ProposedTerm"] | null;
+      /** Without a formula: the ranges in which the unexplained error is largest. */
+      where_to_look: string | null;
       next_measurement: string | null;
       experiments: components["schemas"]["Experiment"][];
       sentence: string;

@@ -137,9 +137,12 @@ def test_the_model_goes_back_into_compare(run: Run) -> None:
 
 
 def test_a_proposed_term_goes_back_into_compare(run: Run) -> None:
-    rows = cycle_rows(lambda kappa, **_: 12.0 * float(np.sin(150.0 * kappa)), noise=1.0, each=40)
+    def growing(*, kappa: float, direction: float, **_: float) -> float:
+        return 3000.0 * kappa**2 * direction
+
+    rows = cycle_rows(growing, noise=1.0, each=40, second=3.0)
     file, muscle = (
-        write("waved.csv", text(rows, CYCLE_HEADER, "kind: isobaric")),
+        write("rough.csv", text(rows, CYCLE_HEADER, "kind: isobaric")),
         write("m.json", BRAID),
     )
     answer = answer_of(run("diagnose", file, "--muscle", muscle, "--json"))

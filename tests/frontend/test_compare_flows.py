@@ -177,7 +177,7 @@ def test_a_term_by_hand_is_checked_fitted_changed_and_removed(
     expect(page.get_by_role("button", name="Add a term of your own…")).to_be_visible()
 
 
-def test_a_proposed_term_explains_what_no_effect_does(page: Page) -> None:
+def test_what_no_effect_explains_is_told_with_its_place_and_a_term_by_hand_explains_it(page: Page) -> None:
     open_compare(page)
     page.locator(".tile", has_text="The bump at one stroke").click()
     expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
@@ -186,7 +186,12 @@ def test_a_proposed_term_explains_what_no_effect_does(page: Page) -> None:
         "Something is missing that no catalogued effect explains"
     )
     start = error(page)
-    page.get_by_role("button", name="Add as own term").click()
+    unknown = page.locator(".unknown")
+    expect(unknown).to_contain_text("look where it is largest: contraction")
+    expect(unknown.get_by_role("button", name="Add as own term")).to_have_count(0)
+    page.get_by_role("button", name="Add a term of your own…").click()
+    own_term(page).fill("pull*exp(-((kappa - 0.09)/0.02)**2)")
+    page.locator(".model-card .term-form").get_by_role("button", name="Add and fit").click()
     expect(page.locator(".in-model", has_text="Own term")).to_be_visible()
     diagnosed(page)
     assert error(page) < 0.6 * start

@@ -37,6 +37,10 @@ def coulomb(*, direction: float, **_: float) -> float:
     return 15.0 * direction
 
 
+def growing_friction(*, kappa: float, direction: float, **_: float) -> float:
+    return 3000.0 * kappa**2 * direction
+
+
 def ripple(*, kappa: float, **_: float) -> float:
     return 12.0 * float(np.sin(150.0 * kappa))
 
@@ -199,27 +203,40 @@ def test_a_fitted_geometry_goes_back_as_the_muscle(client: TestClient) -> None:
 
 
 def test_an_unknown_effect_brings_a_term_that_can_be_sent_back(client: TestClient) -> None:
-    rows = cycle_rows(ripple, noise=1.0, each=40)
-    waved = upload(client, "waved", text(rows, CYCLE_HEADER, "kind: isobaric"))
-    answer = diagnose(client, measurement=waved)
+    rows = cycle_rows(growing_friction, noise=1.0, each=40, second=3.0)
+    rough = upload(client, "rough", text(rows, CYCLE_HEADER, "kind: isobaric"))
+    answer = diagnose(client, measurement=rough)
     verdict = answer["verdict"]
     assert verdict["status"] == "unknown_effect"
     assert verdict["unexplained_share"] > 0.8
-    assert verdict["unexplained_in"][0] == "contraction"
+    assert set(verdict["unexplained_in"][:2]) == {"contraction", "direction"}
+    assert verdict["where_to_look"] is None
     term = verdict["proposed_term"]
     assert set(term["model"]["effects"]["custom"]) == {"term", *term["coefficients"]}
     assert term["model"]["effects"]["custom"]["term"] == term["formula"]
     curve = term["curve"]
-    assert curve["x"] == "contraction"
+    assert curve["x"] == verdict["unexplained_in"][0]
     assert len(curve["values"]) == len(curve["term"]) == len(curve["residual"]) <= 200
     assert curve["values"] == sorted(curve["values"])
-    again = compare(client, measurement=waved, effects=term["model"]["effects"])
+    again = compare(client, measurement=rough, effects=term["model"]["effects"])
     left = answer["path"][-1]["rmse"] * np.sqrt(1.0 - term["share"])
     assert again["rmse"] == pytest.approx(left, rel=0.05)
     # It stays in the model of the next diagnosis, with its text.
-    further = diagnose(client, measurement=waved, effects=term["model"]["effects"])
+    further = diagnose(client, measurement=rough, effects=term["model"]["effects"])
     assert further["model"]["effects"]["custom"]["term"] == term["formula"]
     assert "custom" not in {c["effect"] for c in further["candidates"]}
+
+
+def test_an_unknown_effect_without_a_short_formula_is_told_with_its_place(client: TestClient) -> None:
+    rows = cycle_rows(ripple, noise=1.0, each=40)
+    waved = upload(client, "waved", text(rows, CYCLE_HEADER, "kind: isobaric"))
+    verdict = diagnose(client, measurement=waved)["verdict"]
+    assert verdict["status"] == "unknown_effect"
+    assert verdict["unexplained_in"][0] == "contraction"
+    assert verdict["proposed_term"] is None
+    look = verdict["where_to_look"]
+    assert look.startswith("No short formula halves it; look where it is largest: contraction")
+    assert look in verdict["sentence"]
 
 
 # --- what is asked

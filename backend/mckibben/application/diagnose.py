@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
@@ -39,7 +40,7 @@ from mckibben.identification.diagnose.diagnosis import (
 from mckibben.identification.diagnose.diagnosis import diagnose as search_effects
 from mckibben.identification.diagnose.next_measurement import declared
 from mckibben.identification.diagnose.verdict import unexplained_share
-from mckibben.identification.diagnose.words import sentence_of, title_of
+from mckibben.identification.diagnose.words import sentence_of, title_of, where_to_look
 from mckibben.identification.fit.comparison import (
     ParameterValue,
     channel_misfits,
@@ -51,7 +52,7 @@ from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import CancelledError
 from mckibben.identification.predict import Predictor
 from mckibben.identification.residual.profiles import variables_of
-from mckibben.identification.residual.structure import SYMBOLS
+from mckibben.identification.residual.term import SYMBOLS
 from mckibben.physics.custom import CUSTOM, TERM
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
@@ -238,6 +239,7 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
         ),
         unexplained_in=[name for name, _ in diagnosis.structure.variables],
         proposed_term=_term(question, diagnosis),
+        where_to_look=where_to_look(diagnosis) or None,
         next_measurement="; ".join(nexts[:3]) or None,
         experiments=[
             ExperimentProposal([p.first, p.second], p.declared, p.protocol, p.separation)
@@ -335,7 +337,7 @@ def _joined(
     """The sum of a custom term and a proposed one; the coefficients of the proposed one are renamed."""
     renamed = {name: f"d{name[1:]}" for name in coefficients}
     for name, other in renamed.items():
-        formula = formula.replace(f"{name}*", f"{other}*")
+        formula = re.sub(rf"\b{name}\b", other, formula)
     values = {renamed[name]: value for name, value in coefficients.items()}
     values |= {name: float(value) for name, value in old.items() if name != TERM}
     return f"{old[TERM]} + {formula}", values

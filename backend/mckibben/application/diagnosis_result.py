@@ -131,8 +131,10 @@ class Verdict:
         indistinguishable: groups of effects that the data cannot distinguish.
         unexplained_share, unexplained_in: what is left to explain of the residual, and the variables it
             depends on; of an unknown effect at least all above the noise.
+        proposed_term: a short formula for it that halves the error of the groups left out.
+        where_to_look: without a formula, the ranges of these variables with the largest error.
         next_measurement: recommended next measurement.
-        sentence: the verdict in one to three sentences.
+        sentence: the verdict in one to four sentences.
     """
 
     status: Status
@@ -142,6 +144,7 @@ class Verdict:
     unexplained_share: float
     unexplained_in: list[str]
     proposed_term: TermProposal | None
+    where_to_look: str | None
     next_measurement: str | None
     experiments: list[ExperimentProposal]
     sentence: str

@@ -266,21 +266,39 @@ def test_an_error_is_not_called_noise_where_the_noise_is_not_known():
 # --- what nobody knows
 
 
-def test_a_ripple_is_an_unknown_effect_with_a_term():
+def test_a_ripple_is_an_unknown_effect_told_with_its_place_but_without_a_formula():
     found = diagnosis(cycles(ripple, noise=1.0, each=40))
     assert found.status == "unknown_effect"
     assert found.added == ()
     assert found.structure.share > 0.8
     assert found.structure.variables[0][0] == "contraction"
+    assert found.term is None
+    said = sentence_of(found, {})
+    # A tenth of the rows around the place with the largest error, by the data themselves.
+    contraction = 100.0 * (1.0 - found.predictor.inputs["length"] / 0.3)
+    low, high = map(float, said.split("largest: contraction ")[1].split(" %")[0].split(" to "))
+    inside = (contraction >= low) & (contraction <= high)
+    there = np.sqrt(np.mean(found.best.residual[inside] ** 2))
+    assert there > 1.1 * found.best.rmse
+    assert "No short formula halves it" in said
+
+
+def test_a_smooth_unknown_effect_is_proposed_as_a_short_term():
+    """Friction in proportion to the square of the contraction: no effect of the catalogue."""
+
+    def growing(*, kappa: float, direction: float, **_: float) -> float:
+        return 3000.0 * kappa**2 * direction
+
+    found = diagnosis(cycles(growing, noise=1.0, each=40, second=3.0))
+    assert found.status == "unknown_effect"
     assert found.term is not None
-    assert found.term.share > 0.9
-    contraction = 1.0 - found.predictor.inputs["length"] / 0.3
-    hidden = 12.0 * np.sin(150.0 * contraction)
-    assert np.sqrt(np.mean((found.term.values - hidden) ** 2)) < 2.5
-    # The term can be typed; with it nothing is left.
+    assert found.term.formula == "c1*kappa**2*sign(v)"
+    assert found.term.coefficients["c1"] == pytest.approx(3000.0, rel=0.01)
+    assert "look where" not in sentence_of(found, {})
+    # The term can be typed; with it only the noise is left.
     effect = custom_effect(found.term.formula, found.term.coefficients)
     start = FitModel(MUSCLE, (effect,), {"custom": effect.defaults})
-    assert found.predictor.rmse(found.predictor.residual(start)) < 3.0
+    assert found.predictor.rmse(found.predictor.residual(start)) < 1.2
 
 
 def test_a_catalogued_part_is_found_beside_an_unknown_one():
@@ -291,8 +309,8 @@ def test_a_catalogued_part_is_found_beside_an_unknown_one():
     assert found.status == "unknown_effect"
     # Beside a ripple of this size the first rows after a reversal do not tell Dahl's law from Coulomb's.
     assert "coulomb_friction" in {*found.added, *(other.effect for other in found.alternatives)}
-    assert found.term is not None
-    assert "kappa" in found.term.formula
+    assert found.term is None
+    assert "look where it is largest: contraction" in sentence_of(found, {})
 
 
 # --- noise, geometry, the end

@@ -17,11 +17,11 @@ TITLES = {"creep": "Creep", "leak": "Leak"}
 def result(
     status: str, before: float, after: float, *added: str, unit: str = "N", noise: float | None = 2.0,
     share: float = 0.05, alternatives: tuple[Any, ...] = (), refitted: float | None = None,
-    highest: float | None = None, doubted: bool = False,
+    highest: float | None = None, doubted: bool = False, term: object = None,
 ) -> Any:  # fmt: skip
     return SimpleNamespace(
         status=status,
-        predictor=SimpleNamespace(unit=unit),
+        predictor=SimpleNamespace(unit=unit, channels=[SimpleNamespace(name="force" if unit == "N" else "")]),
         start=SimpleNamespace(rmse=before),
         root=SimpleNamespace(rmse=before if refitted is None else refitted, free=refitted is not None),
         best=SimpleNamespace(rmse=after),
@@ -30,6 +30,12 @@ def result(
         noise_interval=None if highest is None else Interval(noise or 0.0, highest),
         context=(SimpleNamespace(stands=True),) if doubted else (),
         alternatives=alternatives,
+        term=term,
+        left_where=(
+            SimpleNamespace(over="load", worst="load 1 to 2 N", rmse=99.0),
+            SimpleNamespace(over="time", worst="time 3.00 to 4.00 s", rmse=11.0 * after / 10.0),
+            SimpleNamespace(over="pressure", worst="pressure 5.00 to 6.00 bar", rmse=13.0 * after / 10.0),
+        ),
         structure=ResidualStructure(share, (("pressure", 0.5), ("time", 0.2), ("velocity", 0.1))),
     )
 
@@ -57,8 +63,16 @@ SENTENCES = {
     "the rest: it depends on no measured variable; repeat the run to see whether it recurs.": result(
         "unknown_effect", 40.0, 9.0, "creep"
     ),
+    "No catalogued effect explains the error of 40 N: 90 % of it depends on pressure and time. No short "
+    "formula halves it; look where it is largest: pressure 5.00 to 6.00 bar (52 N) and time 3.00 to 4.00 s "
+    "(44 N).": result("unknown_effect", 40.0, 40.0, share=0.9),
     "No catalogued effect explains the error of 40 N: 90 % of it depends on pressure and time.": result(
-        "unknown_effect", 40.0, 40.0, share=0.9
+        "unknown_effect", 40.0, 40.0, share=0.9, term=object()
+    ),
+    "Missing: Creep. With it the error falls from 40 to 10 mm; the noise is 2 mm. No catalogued effect "
+    "explains the rest: 90 % of it depends on pressure and time. No formula is proposed; look where it is "
+    "largest: pressure 5.00 to 6.00 bar (13 mm) and time 3.00 to 4.00 s (11 mm).": result(
+        "unknown_effect", 0.040, 0.010, "creep", unit="m", noise=2e-3, share=0.9
     ),
     "Missing: Creep. The model's own numbers, refitted, lower the error from 40 to 15 N; with it the error "
     "falls to 2.1 N, the noise of the data (2 N).": result(

@@ -32,7 +32,7 @@ DATA = Path(__file__).parents[4] / "shared" / "data"
 
 def test_the_right_model_has_no_error():
     result = compare(force_map(), MUSCLE, {}, catalogue=CATALOGUE)
-    assert result.rmse < 1e-9
+    assert result.rmse < 1e-8  # N; twelve digits of each reading count
     assert result.predictor.rows_used == 60
 
 

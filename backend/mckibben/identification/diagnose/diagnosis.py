@@ -36,7 +36,8 @@ from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.identification.residual.noise import absorbed_by, allowing_for_errors, noise_of
 from mckibben.identification.residual.profiles import Profile, profiles, variables_of
-from mckibben.identification.residual.structure import ResidualStructure, Term, proposed_term
+from mckibben.identification.residual.structure import ResidualStructure
+from mckibben.identification.residual.term import Term, proposed_term
 from mckibben.physics.effect import Effect
 from mckibben.simulation.outcome import Outcome, Watch
 
@@ -98,6 +99,7 @@ class Diagnosis:
         noise_how: how it was obtained.
         noise_interval: from the scatter of neighbouring readings to all that no variable explains.
         where: the start model's residual over each variable.
+        left_where: the best model's residual over each variable.
         candidates: single additions, the best first.
         path: steps to the best model; each adds the effect that lowers the error most.
         best: the best model.
@@ -106,7 +108,7 @@ class Diagnosis:
         added: effects of the best model that the start model does not have.
         alternatives: effects that could replace one of these.
         structure: the part of the last residual that a regression still predicts.
-        term: a formula for it.
+        term: a short formula that halves the error of the folds left out; None without one.
         proposals: experiments that would separate the alternatives.
         messages: notes for the user.
         not_tried: effects of the catalogue that were not candidates, with the reason.
@@ -121,6 +123,7 @@ class Diagnosis:
     noise_how: str
     noise_interval: Interval | None
     where: tuple[Profile, ...]
+    left_where: tuple[Profile, ...]
     candidates: tuple[SingleAddition, ...]
     path: tuple[PathStep, ...]
     best: FittedModel
@@ -283,7 +286,13 @@ def _diagnose(
     status = status_of(start, best, fitter.noise, added, exchangeable, remaining, full_scale, doubted=doubted)
     term = None
     if status == "unknown_effect" and is_force(predictor):
-        term = proposed_term(best.residual, variables, best.jacobian[:, best.inner])
+        term = proposed_term(
+            best.residual,
+            variables,
+            folds=predictor.folds,
+            basis=best.jacobian[:, best.inner],
+            weigh=predictor.weighted,
+        )
     progress.share = 0.95
     return Diagnosis(
         predictor=predictor,
@@ -293,6 +302,7 @@ def _diagnose(
         noise_how=how,
         noise_interval=noise_interval(best, fitter.noise, remaining),
         where=tuple(where),
+        left_where=tuple(profiles(best.residual, variables, predictor.folds[0])),
         candidates=tuple(ranked),
         path=path,
         best=best,

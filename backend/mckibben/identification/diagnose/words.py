@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from mckibben.identification.diagnose.diagnosis import Diagnosis
 from mckibben.identification.diagnose.score import AT_FLOOR
-from mckibben.identification.diagnose.verdict import Status
+from mckibben.identification.diagnose.verdict import Status, is_force
 
 _REFITTED = 0.98  # error over the error before, below which the refit of the start model is mentioned
 _WORTH_TELLING = 0.15  # share of the residual that depends on variables, above which it is mentioned
@@ -40,12 +40,9 @@ def title_of(status: Status, *, added: bool, doubted: bool = False) -> str:
 
 
 def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
-    """The verdict in one to three sentences."""
-    # Lengths are shown in millimetres.
+    """The verdict in one to four sentences."""
     scaled = result.predictor.unit == "1"
-    unit, scale = {"1": ("times the noise", 1.0), "m": ("mm", 1e3)}.get(
-        result.predictor.unit, (result.predictor.unit, 1.0)
-    )
+    unit, scale = _unit_of(result)
     before, after = scale * result.start.rmse, scale * result.best.rmse
     refitted = scale * result.root.rmse
     names = _joined([titles.get(name, name) for name in result.added])
@@ -65,7 +62,8 @@ def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
             return f"With the entries as stated no catalogued effect explains {error}."
         if result.status == "unknown_effect":
             unsure = "" if result.noise is not None else f" {_UNKNOWN_NOISE}"
-            return f"No catalogued effect explains {error}: {rest}.{unsure}"
+            look = f" {where_to_look(result)}".rstrip()
+            return f"No catalogued effect explains {error}: {rest}.{look}{unsure}"
         if result.noise is None:
             return f"No catalogued effect lowers {error}. {_UNKNOWN_NOISE}"
         of_noise = f"is of the size of the noise ({level})" if level else "is noise"
@@ -83,7 +81,7 @@ def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
             f"{refitted:.3g} {unit}; with {these} the error falls to {after:.3g} {unit}{floor}."
         )
     if result.status == "unknown_effect":
-        return f"{text} No catalogued effect explains the rest: {rest}."
+        return f"{text} No catalogued effect explains the rest: {rest}. {where_to_look(result)}".rstrip()
     if noise is not None and not at_floor and result.structure.share >= _WORTH_TELLING:
         text += f" Of the rest, {_structured(result)}."
     if result.status == "ambiguous":
@@ -95,6 +93,31 @@ def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
             pairs.append(f"{titles.get(added, added)} from {_joined(others, 'or')}")
         text += f" These data cannot tell {'; nor '.join(pairs)}."
     return text
+
+
+def where_to_look(result: Diagnosis) -> str:
+    """The ranges in which a rest without a formula is largest, one sentence; empty where nothing is left."""
+    if result.status != "unknown_effect" or result.term is not None:
+        return ""
+    if result.structure.share < _WORTH_TELLING:
+        return ""
+    unit, scale = _unit_of(result)
+    profiles = {profile.over: profile for profile in result.left_where}
+    ranges = [
+        f"{profiles[name].worst} ({scale * profiles[name].rmse:.3g} {unit})"
+        for name, _ in result.structure.variables[:2]
+        if name in profiles
+    ]
+    if not ranges:
+        return ""
+    no_formula = "No short formula halves it" if is_force(result.predictor) else "No formula is proposed"
+    return f"{no_formula}; look where it is largest: {_joined(ranges)}."
+
+
+def _unit_of(result: Diagnosis) -> tuple[str, float]:
+    """Unit of the shown errors, and their factor from SI; lengths are shown in millimetres."""
+    unit = result.predictor.unit
+    return {"1": ("times the noise", 1.0), "m": ("mm", 1e3)}.get(unit, (unit, 1.0))
 
 
 def _rest(result: Diagnosis) -> str:

@@ -17,6 +17,7 @@ import numpy as np
 
 from mckibben.measurement.measurement import FORCE_KINDS, STROKES, Measurement, lengths
 from mckibben.measurement.motion import RecordedMotion, motion_of
+from mckibben.measurement.settled import settled
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.physics.muscle import Muscle
@@ -45,7 +46,7 @@ class ComparableRows:
         measured: its values, shape (rows used,).
         state: inputs of the model (`mckibben.simulation.statics.compiled.INPUTS`), of the same shape, and
             "load" where the length is predicted.
-        time: of each row [s]; None where the rows have no order in time.
+        time: of each row since its record began [s]; None where the rows have no order in time.
         records: label of the uninterrupted record that each row belongs to; rows of a record are in order.
         groups: group label of each row.
         turning: mask of the rows whose friction is unknown, because the motion turns, its speed jumps or the
@@ -100,8 +101,10 @@ def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
     Raises:
         InputError: the predicted channel is missing, or no row can be compared.
     """
+    data = settled(measurement)
+    measurement = data.measurement
     columns, kind, count = measurement.columns, measurement.kind, measurement.rows
-    messages = list(measurement.messages)
+    messages = [*measurement.messages, *([data.message] if data.message else [])]
     stroked = any(name in columns for name in STROKES)
     length = lengths(measurement, muscle.nominal_length) if stroked else None
     records = records_of(measurement)
@@ -144,6 +147,7 @@ def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
     excluded["history unknown at the start or after a break"] = int(
         np.count_nonzero(unseen & keep & ~turning)
     )
+    excluded["repeated rows"] = data.repeated
     turning |= unseen
     return ComparableRows(
         kind=kind,
@@ -155,7 +159,7 @@ def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
         records=records[keep],
         groups=columns["group"][keep],
         turning=turning[keep],
-        rows=np.flatnonzero(keep),
+        rows=data.rows[keep],
         excluded={reason: number for reason, number in excluded.items() if number},
         unknown_load=unknown_load,
         messages=tuple(messages),
@@ -189,7 +193,8 @@ def _motion(
         moved = motion_of(measurement, nominal_length)
         velocity = moved.velocity
         if stroked and not moved.measured:
-            unsure = _jumps(columns["time"], lengths(measurement, nominal_length), moved)
+            length = lengths(measurement, nominal_length)
+            unsure = _jumps(columns["time"], length, moved, records_of(measurement))
             # The file does not show whether the muscle already moves after a pause.
             unsure[1:] |= _pauses(columns["time"], columns["group"])
         messages += moved.messages
@@ -233,26 +238,43 @@ def _unknown_history(measurement: Measurement, length: np.ndarray | None) -> np.
     if constant is not None:
         jumps = np.abs(np.diff(constant)) > _NEW_LEVEL * max(np.ptp(constant), 0.2 * np.max(np.abs(constant)))
         breaks |= jumps & (np.diff(columns["group"]) != 0)
-    edges = [*(np.flatnonzero(breaks) + 1), measurement.rows]
+    begins = np.concatenate([[True], np.diff(records_of(measurement)) != 0])
+    unknown = np.concatenate([[False], breaks]) & ~begins
     if measurement.kind == "isotonic":
-        edges.insert(0, 0)
+        unknown |= begins
+    edges = [*np.flatnonzero(unknown | begins), measurement.rows]
     for first, last in itertools.pairwise(edges):
+        if not unknown[first]:
+            continue
         moved = np.abs(swept[first:last] - swept[first]) > _FORGOTTEN * np.ptp(swept[first:last])
         until = int(np.argmax(moved)) if np.any(moved) else 0
         rows[first : first + min(until, (last - first) // 4)] = True
     return rows
 
 
-def _jumps(time: np.ndarray, length: np.ndarray, moved: RecordedMotion) -> np.ndarray:
-    """Mask of the rows at which the velocity jumps, so that it is undefined; empty if there are many.
+def _jumps(time: np.ndarray, length: np.ndarray, moved: RecordedMotion, records: np.ndarray) -> np.ndarray:
+    """Mask of the rows at which the velocity jumps within a record; empty if there are many.
 
     These are rows whose velocity is far less certain than that of the others. Where the velocity changes
     suddenly between two rows, it is the row nearer to the intersection of both straight lines.
     """
-    velocity, sigma = moved.velocity, moved.velocity_sigma
+    unsure = _UNSURE * float(np.median(moved.velocity_sigma))
+    edges = [0, *(np.flatnonzero(np.diff(records)) + 1).tolist(), len(time)]
+    parts = [slice(first, last) for first, last in itertools.pairwise(edges)]
+    jumps = np.concatenate([
+        _jumps_within(time[part], length[part], moved.velocity[part], moved.velocity_sigma[part], unsure)
+        for part in parts
+    ])  # fmt: skip
+    return jumps if np.mean(jumps) < _FEW else np.zeros(len(jumps), bool)
+
+
+def _jumps_within(
+    time: np.ndarray, length: np.ndarray, velocity: np.ndarray, sigma: np.ndarray, unsure: float
+) -> np.ndarray:
+    """Mask of the rows of one record at which the velocity jumps, or is less certain than ``unsure``."""
     speed = np.pad(np.abs(velocity), 1)
     size = np.maximum(np.maximum(speed[:-2], speed[2:]), speed[1:-1])
-    jumps = np.isfinite(sigma) & (sigma > np.maximum(_UNSURE * float(np.median(sigma)), _JUMP * size))
+    jumps = np.isfinite(sigma) & (sigma > np.maximum(unsure, _JUMP * size))
     jumps |= speed[1:-1] < _STILL * np.minimum(speed[:-2], speed[2:])
     change = np.pad(np.abs(np.diff(velocity)), 1)
     around = np.maximum(np.maximum(change[:-2], change[2:]), np.hypot(sigma[1:], sigma[:-1]))
@@ -263,7 +285,7 @@ def _jumps(time: np.ndarray, length: np.ndarray, moved: RecordedMotion) -> np.nd
         before - after
     )  # time of the intersection after the first row [s]
     jumps[sudden + (intersection > 0.5 * step)] = True
-    return jumps if np.mean(jumps) < _FEW else np.zeros(len(jumps), bool)
+    return jumps
 
 
 def _turning(direction: np.ndarray, records: np.ndarray) -> np.ndarray:

@@ -20,6 +20,7 @@ from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor, farther
 from mckibben.measurement.measurement import STROKES, Measurement, lengths
 from mckibben.measurement.noise import noise_floor
+from mckibben.measurement.settled import settled
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
@@ -91,6 +92,8 @@ class TransientPredictor(Predictor):
     step = 2e-2
 
     def __init__(self, measurement: Measurement, drive: Drive) -> None:
+        data = settled(measurement)
+        measurement = data.measurement
         columns = measurement.columns
         self.kind = measurement.kind
         self.commanded = "command" in columns
@@ -115,10 +118,15 @@ class TransientPredictor(Predictor):
                 "used instead)",
             )
         rows = np.concatenate([record.rows for record in self._records])
-        self.rows, count = rows, len(rows)
+        self.rows, count = data.rows[rows], len(rows)
         channels: list[PredictedChannel] = []
-        self.rows_used, self.messages = count, measurement.messages
+        self.rows_used, self.messages = (
+            count,
+            (*measurement.messages, *([data.message] if data.message else [])),
+        )
         self.excluded = dict(measurement.exclusions)
+        if data.repeated:
+            self.excluded["repeated rows"] = data.repeated
         if between := int(np.count_nonzero(measurement.usable)) - count:
             self.excluded[f"in between ({_MOST_ROWS} rows of each run are compared, evenly spread)"] = between
         for number, (name, unit, values) in enumerate(recorded):

@@ -190,7 +190,7 @@ def _unknown(verdict: Verdict) -> Html:
     ]
     term = verdict.proposed_term
     if term is None:
-        return html(parts)
+        return html([*parts, *([paragraph(verdict.where_to_look)] if verdict.where_to_look else [])])
     values = [f"{name} = {plain(value, 4)}" for name, value in term.coefficients.items()]
     parts += [
         paragraph(

@@ -108,7 +108,7 @@ class TermCurve(Strict):
 
 
 class ProposedTerm(Strict):
-    """A formula for a residual that no catalogued effect explains."""
+    """A short formula for a residual that no catalogued effect explains, proven on groups left out."""
 
     formula: str
     coefficients: dict[str, float]
@@ -136,6 +136,9 @@ class Verdict(Strict):
     unexplained_share: float
     unexplained_in: list[str]
     proposed_term: ProposedTerm | None
+    where_to_look: str | None = Field(
+        description="Without a formula: the ranges in which the unexplained error is largest."
+    )
     next_measurement: str | None
     experiments: list[Experiment]
     sentence: str

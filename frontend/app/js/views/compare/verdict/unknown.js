@@ -74,6 +74,7 @@ export function unknownCard() {
         "p",
         null,
         `${verdict.effects.length ? "After adding the missing effects, " : ""}${whatIsLeft(verdict)}.`,
+        verdict.where_to_look ? ` ${verdict.where_to_look}` : null,
       ),
       proposed
         ? [
