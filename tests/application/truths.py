@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import radians
 
 import numpy as np
@@ -56,7 +57,14 @@ def plateaus(
     return "\n".join(rows) + "\n"
 
 
-def specimen(length: float, *, zero: float = 0.0, seed: int = 0, said: bool = True) -> str:
+def specimen(
+    length: float,
+    *,
+    zero: float = 0.0,
+    seed: int = 0,
+    said: bool = True,
+    levels: Sequence[float] = (2e5, 4e5, 6e5),
+) -> str:
     """A file of a slow tensile test at held pressures of a muscle of this length with a rubber wall.
 
     Args:
@@ -64,12 +72,13 @@ def specimen(length: float, *, zero: float = 0.0, seed: int = 0, said: bool = Tr
         zero: error of the force sensor [N].
         seed: of the noise.
         said: whether the file says its rest length; the stroke is a displacement.
+        levels: the pressures [Pa].
     """
     of = muscle(length)
     parts = (wall(of), *((sensors.zero_error("force", zero),) if zero else ()))
     truth = Truth(of, hidden=parts)
     random = np.random.default_rng(seed)
-    record = isobaric(truth, levels=(2e5, 4e5, 6e5), rows=60)
+    record = isobaric(truth, levels=levels, rows=60)
     noise = usual_noise(truth, random, force=0.001)
     keep = record.kept
     force = truth.force(record.pressure, record.length, record.temperature)[keep] + zero

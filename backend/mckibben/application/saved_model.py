@@ -116,6 +116,12 @@ def _assumed(question: ModelQuestion, result: DiagnosisResult, muscle: Muscle) -
     ]
     needed = [name for name in GEOMETRY if not getattr(start.muscle, name) and getattr(muscle, name)]
     assumed += [assumption(muscle, name) for name in (*start.assumed, *needed)]
+    drive, known = specimens.each[0].drive, start.catalogue
+    if drive is not None and drive.tube is None and drive.assumed_tube is not None:
+        tube = drive.assumed_tube
+        if any(name in known and known[name].of_tube for name in result.model.effects):
+            size = f"{1e3 * tube.inside_diameter:.3g} mm bore and {tube.length:.3g} m length"
+            assumed.append(f"a tube of {size}, because an effect acts on it")
     if result.model.drive is not None and specimens.several:
         assumed.append(f"the drive is that of {specimens.each[0].name}, the first of the measurements")
     return assumed

@@ -55,15 +55,20 @@ def model_question(
         constants += tuple(
             name for name in saved.freed if name not in constants and name.partition(".")[0] in kept
         )
-    question = question_of(
-        said_model(studio, options),
-        measurements,
-        studio,
-        free=geometry,
-        freed=constants,
-        noise=noise,
-        strict=strict,
-    )
+    try:
+        question = question_of(
+            said_model(studio, options),
+            measurements,
+            studio,
+            free=geometry,
+            freed=constants,
+            noise=noise,
+            strict=strict,
+        )
+    except InputError as error:
+        if (error.field or "").startswith("freed."):  # those of the options are known
+            raise at_file(options.model, error.field, error.message, error.hint) from error
+        raise
     for name in constants:
         effect = name.partition(".")[0]
         if effect not in question.start.effects:

@@ -44,7 +44,7 @@ Free = Annotated[
     typer.Option(
         "--free",
         metavar="NAME",
-        help="Geometry or constant to fit as well, e.g. braid_angle or dahl.exponent; repeatable.",
+        help="Geometry or constant to fit as well, e.g. braid_angle or dahl.break_strain; repeatable.",
     ),
 ]
 SavedModelFile = Annotated[

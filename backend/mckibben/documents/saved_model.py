@@ -10,7 +10,8 @@ from mckibben.documents.drive import DriveDocument
 from mckibben.documents.muscle import EffectsInput, MuscleInput
 from mckibben.documents.problems import first_problem
 from mckibben.documents.strict import Strict
-from mckibben.physics.errors import InputError
+from mckibben.physics.errors import InputError, did_you_mean
+from mckibben.physics.muscle import GEOMETRY
 
 _HINT = "the file of: mckibben diagnose DATA --save MODEL.json"
 Text = Annotated[str, Field(max_length=2000)]
@@ -80,6 +81,24 @@ class SavedModel(Strict):
     )
     assumed: list[Text] = Field(default_factory=list, description="What nobody said and was assumed.")
     origin: SavedOrigin | None = None
+
+    @model_validator(mode="after")
+    def _known_names(self) -> SavedModel:
+        """What is freed is part of the model."""
+        for place, name in enumerate(self.freed):
+            effect, dot, _ = name.partition(".")
+            if not dot or effect not in self.effects:
+                raise InputError(
+                    f"the model has no effect {effect}",
+                    field=f"freed.{place}",
+                    hint=did_you_mean(effect, self.effects) if self.effects else "remove it",
+                )
+        for place, name in enumerate(self.free):
+            if name not in GEOMETRY:
+                raise InputError(
+                    f"'{name}' is no geometry", field=f"free.{place}", hint=did_you_mean(name, GEOMETRY)
+                )
+        return self
 
     @model_validator(mode="after")
     def _one_model(self) -> SavedModel:
