@@ -171,6 +171,38 @@ def test_a_model_predicts_pressures_and_a_length_that_it_was_not_fitted_to(run: 
     assert "rest lengths up to 400 mm: the model was measured at 250 mm" in longer["messages"]
 
 
+def test_a_transient_model_predicts_a_motion_that_it_was_not_fitted_to(run: Run) -> None:
+    """Trained on the filling and the rest after it; the whole trace, with the venting, is predicted."""
+    file, start = true_case("leak-rests")
+    lines = Path(file).read_text("utf-8").splitlines(keepends=True)
+    write("filling.csv", "".join(lines[: len(lines) - 1201]))  # 2501 rows in 5 s; it vents from 2.6 s on
+    answer, model = saved(run, "filling.csv", "--drive", start)
+    assert "leak" in answer["verdict"]["effects"]
+    whole = answer_of(run("compare", file, "--model", "model.json", "--json"))
+    noise = case("leak-rests").noise
+    assert set(whole["channels"]) == set(noise)
+    for name, channel in whole["channels"].items():
+        assert channel["rmse"] < 1.3 * noise[name], name
+    code, out, _ = run("compare", file, "--model", "model.json")
+    assert code == 0
+    assert f"{model['effects']['leak']['conductance']:.5g}" in out
+
+
+def test_several_lengths_and_a_typed_term_come_back(run: Run) -> None:
+    """The length is that of each file; the text of the term is part of the model."""
+    write("a.csv", specimen(0.25, seed=1))
+    write("b.csv", specimen(0.4, seed=2))
+    typed = {"muscle": document(), "effects": {"custom": {"term": "-c*kappa", "c": 5.0}}}
+    answer, model = saved(run, "a.csv", "b.csv", "--drive", write("d.json", typed))
+    assert "nominal_length" not in model["muscle"]
+    assert model["effects"]["custom"]["term"] == "-c*kappa"
+    assert model["envelope"]["rest_length"] == {"least": 0.25, "most": 0.4, "unit": "m"}
+    assert [each["name"] for each in model["origin"]["files"]] == ["a.csv", "b.csv"]
+    again = answer_of(run("compare", "a.csv", "b.csv", "--model", "model.json", "--json"))
+    assert again["rmse_beyond_accuracy"] == pytest.approx(answer["path"][-1]["rmse"], rel=0.01)
+    assert rmse(run, "b.csv", "--model", "model.json") < 1.3 * 0.001 * muscle(0.4).blocked
+
+
 def test_data_beyond_the_pressures_of_the_model_are_told(run: Run) -> None:
     file = rubbing()
     high = rubbing("high.csv", levels=(5e5, 7e5), seed=8)

@@ -258,10 +258,9 @@ def _specimen(one: _One, model: SaidModel, start: StartModel, studio: Studio) ->
         for channel in CHANNELS
         if (value := values.get(f"{ACCURACY}{channel}")) is not None
     }
-    start = replace(start, muscle=muscle)
-    where = "" if model.drive is None else model.where
-    document = own_document(measurement, values, model.drive, start, where)
-    drive = own_drive(measurement, values, document, start, studio, where)
+    own, where = replace(start, muscle=muscle), "" if model.drive is None else model.where
+    document = own_document(measurement, values, model.drive, own, where)
+    drive = own_drive(measurement, values, document, own, studio, where)
     ordered = {name: values[name] for name in (*FIELDS, LOAD_FORCE) if name in values}
     return Specimen(
         replace(points, measurement=measurement, nominal_length=length),

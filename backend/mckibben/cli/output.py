@@ -128,8 +128,8 @@ def write_parameters(parameters: ParameterTable) -> None:
     rows = [
         [
             f"{effect}.{name}",
-            figure(item.value, 5),
-            figure(item.stderr, 2) if item.fitted else "given",
+            f"{item.value:.5g}",  # a conductance is below the rounding errors that a figure hides
+            ("–" if item.stderr is None else f"{item.stderr:.2g}") if item.fitted else "given",
             item.unit,
             "at its bound" if item.at_bound else "",
         ]
