@@ -543,7 +543,7 @@ export interface components {
       parameters: { [key: string]: { [key: string]: components["schemas"]["FittedParameter"] } };
       correlations: components["schemas"]["Correlation"][];
       geometry: components["schemas"]["MuscleGeometry"];
-      /** Muscle and effects; a comparison takes them as a drive. */
+      /** Muscle and effects; of a transient also 'drive': the drive document with both inside, which a comparison takes. */
       model: { [key: string]: unknown };
       freed: string[];
       /** Effects of the catalogue that were not tried, with the reason. */
@@ -559,6 +559,8 @@ export interface components {
       absorbed: components["schemas"]["Absorbed"][];
       /** Entries that may be wrong instead, the most convincing first. */
       context: components["schemas"]["DoubtfulEntry"][];
+      /** Quantity -> range of the data: rest_length, pressure, contraction, speed, temperature, load, mass, supply, as far as they were measured or stated. */
+      envelope: { [key: string]: components["schemas"]["MeasuredRange"] };
     };
     /** The start model and the measurements to explain. */
     DiagnosisRequest: {
@@ -1270,6 +1272,13 @@ export interface components {
       area: number;
       /** Travel between the reversals. [m] */
       span: number;
+    };
+    /** The range of a quantity in the data of a model. */
+    MeasuredRange: {
+      least: number;
+      most: number;
+      /** SI unit; pressures are gauge. */
+      unit: string;
     };
     /** A measurement as it was read. */
     MeasurementAnswer: {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import radians
 
 import numpy as np
@@ -57,7 +58,13 @@ def plateaus(
 
 
 def specimen(
-    length: float, *, zero: float = 0.0, seed: int = 0, said: bool = True, walled: bool = True
+    length: float,
+    *,
+    zero: float = 0.0,
+    seed: int = 0,
+    said: bool = True,
+    walled: bool = True,
+    levels: Sequence[float] = (2e5, 4e5, 6e5),
 ) -> str:
     """A file of a slow tensile test at held pressures of a muscle of this length with a rubber wall.
 
@@ -67,12 +74,13 @@ def specimen(
         seed: of the noise.
         said: whether the file says its rest length; the stroke is a displacement.
         walled: whether it has the wall.
+        levels: the pressures [Pa].
     """
     of = muscle(length)
     parts = (*((wall(of),) if walled else ()), *((sensors.zero_error("force", zero),) if zero else ()))
     truth = Truth(of, hidden=parts)
     random = np.random.default_rng(seed)
-    record = isobaric(truth, levels=(2e5, 4e5, 6e5), rows=60)
+    record = isobaric(truth, levels=levels, rows=60)
     noise = usual_noise(truth, random, force=0.001)
     keep = record.kept
     force = truth.force(record.pressure, record.length, record.temperature)[keep] + zero

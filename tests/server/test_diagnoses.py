@@ -23,9 +23,11 @@ from mckibben.simulation.outcome import Outcome, Watch
 from tests.identification.synthetic import BRAID, CYCLE_HEADER, LIFT, cycle_rows, text
 from tests.server.conftest import URL, assert_error, post, run_async
 from tests.server.test_simulations import events_of
+from tests.truth.generate import case
 
 PATH = "/api/diagnoses"
 PROMISED = {
+    "envelope",
     "kind", "rows", "predicted", "unit", "baseline", "noise_floor", "where", "candidates", "path", "verdict",
     "model", "rows_used", "excluded", "channels", "parameters", "correlations", "geometry", "freed",
     "messages", "not_tried", "experiment", "assumptions", "specimens", "absorbed", "context",
@@ -307,6 +309,18 @@ def test_a_transient_is_told_channel_by_channel(client: TestClient, lifted: str)
     assert known["channels"]["pressure"]["rmse"] == pytest.approx(500.0, rel=0.15)
     assert known["channels"]["displacement"]["rmse"] == pytest.approx(5e-5, rel=0.15)
     assert shown["rmse"] > 2 * known["rmse"]
+
+
+def test_the_model_of_a_transient_is_a_drive_that_a_comparison_takes(client: TestClient) -> None:
+    made = case("leak-rests")
+    ((name, content),) = made.files.items()
+    trace = upload(client, name, content)
+    answer = diagnose(client, muscle=None, effects=None, drive=made.drive, measurement=trace)
+    assert answer["freed"] == ["leak.laminar_share"]
+    drive = answer["model"]["drive"]
+    assert drive["effects"] == answer["model"]["effects"]
+    again = compare(client, muscle=None, effects=None, drive=drive, measurement=trace)
+    assert again["rmse"] == pytest.approx(answer["path"][-1]["rmse"], rel=1e-6)
 
 
 def test_beside_a_measured_command_the_drive_needs_none(client: TestClient, lifted: str) -> None:

@@ -14,6 +14,7 @@ from mckibben.application.compared_series import (
     series_of,
 )
 from mckibben.application.doubts import with_accepted
+from mckibben.application.envelope import beyond, envelope_of
 from mckibben.application.experiment_result import (
     SpecimenResult,
     absorbed_message,
@@ -154,8 +155,10 @@ def compare(question: ModelQuestion, *, fit: bool = False) -> ComparisonResult:
     )
     predictor, left_out = comparison.predictor, sum(points.left_out.values())
     series, thinned = series_of(comparison, "fit")
+    data = envelope_of(question.specimens, predictor, comparison.fit_model)
     messages = [
         *question.opening,
+        *beyond(question.envelope, data),
         *comparison.messages,
         *absorbed_message(comparison.absorbed, predictor.unit),
     ]

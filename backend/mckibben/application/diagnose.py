@@ -28,9 +28,11 @@ from mckibben.application.doubts import (
     statements_of,
     with_accepted,
 )
+from mckibben.application.envelope import beyond, envelope_of
 from mckibben.application.experiment_result import absorbed_message, common_experiment, specimen_results
 from mckibben.application.model_question import ModelQuestion
 from mckibben.application.muscle_summary import geometry_of
+from mckibben.application.saved_model import drive_of_model
 from mckibben.documents.studio import Studio
 from mckibben.identification.diagnose.diagnosis import (
     FEWEST_VALUES,
@@ -125,7 +127,7 @@ def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], Diagno
                 hint="use fewer rows or effects",
                 code="stopped",
             ) from stop
-        return _result(question, data, diagnosis, catalogue)
+        return _result(question, data, diagnosis, catalogue, studio)
 
     return work
 
@@ -152,11 +154,13 @@ def _result(
     data: _Data,
     diagnosis: Diagnosis,
     catalogue: Mapping[str, Effect],
+    studio: Studio,
 ) -> DiagnosisResult:
     titles = {name: effect.title for name, effect in catalogue.items()}
     predictor, best, start = diagnosis.predictor, diagnosis.best, question.start
     full_scale = float(np.max(np.abs(predictor.measured / predictor.scale)))
     muscle = best.fit_model.muscle
+    envelope = envelope_of(question.specimens, predictor, best.fit_model)
     return DiagnosisResult(
         rows=data.rows,
         rows_used=predictor.rows_used,
@@ -199,11 +203,13 @@ def _result(
                 if value and (name != "nominal_length" or question.specimens.one_length)
             },
             effects=question.effect_document(best.fit_model),
+            drive=drive_of_model(question, best.fit_model, studio),
         ),
         freed=sorted(best.freed),
         not_tried=list(diagnosis.not_tried),
         messages=[
             *question.opening,
+            *beyond(question.envelope, envelope),
             *question.points.measurement.messages,
             *data.notes,
             *diagnosis.messages,
@@ -215,6 +221,7 @@ def _result(
         specimens=specimen_results(question, predictor, best.residual, best),
         absorbed=list(diagnosis.absorbed),
         context=doubtful_entries(diagnosis.context, titles),
+        envelope=envelope,
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 
 from mckibben.application.compare import ModelDocument
 from mckibben.application.doubts import DoubtfulEntry
+from mckibben.application.envelope import MeasuredRange
 from mckibben.application.experiment_result import SpecimenResult
 from mckibben.application.model_question import EffectDocument
 from mckibben.application.muscle_summary import GeometrySummary
@@ -154,11 +156,21 @@ class Verdict:
 class DiagnosedModel:
     """The best model of a diagnosis, in the form of a request.
 
-    A model of muscles of several lengths has none: it is that of each measurement.
+    Attributes:
+        muscle: fitted geometry; of muscles of several lengths without one: it is that of each measurement.
+        effects: with all their values.
+        drive: of a transient, the drive document of the first measurement, muscle and effects inside; None
+            where there is no drive.
     """
 
     muscle: dict[str, float]
     effects: EffectDocument
+    drive: Mapping[str, object] | None = None
+
+    def to_document(self) -> dict[str, object]:
+        """The keys of an answer; without a drive where there is none."""
+        known = {"muscle": self.muscle, "effects": self.effects}
+        return known if self.drive is None else {**known, "drive": dict(self.drive)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,6 +192,7 @@ class DiagnosisResult:
         specimens: each measurement, with the error of the best model on it.
         context: entries that may be wrong instead, the most convincing first.
         absorbed: errors of readings within the accuracy.
+        envelope: quantity -> range in which the model was measured.
     """
 
     rows: int
@@ -207,3 +220,4 @@ class DiagnosisResult:
     specimens: list[SpecimenResult]
     absorbed: list[AbsorbedError]
     context: list[DoubtfulEntry]
+    envelope: dict[str, MeasuredRange]

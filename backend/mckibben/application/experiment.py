@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from mckibben.application.assumptions import Assumption, assumptions_of, refuse_assumptions
-from mckibben.application.experiment_drive import drive_values, own_drive
+from mckibben.application.experiment_drive import drive_values, own_document, own_drive
 from mckibben.application.specimens import Specimen, Specimens, specimens_of
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.start_model import StartModel
@@ -278,14 +278,20 @@ def _specimen(one: _One, model: SaidModel, start: StartModel, studio: Studio) ->
         for channel in CHANNELS
         if (value := values.get(f"{ACCURACY}{channel}")) is not None
     }
-    own = replace(start, muscle=muscle)
+    own, where = replace(start, muscle=muscle), "" if model.drive is None else model.where
     try:
-        drive = own_drive(measurement, values, model.drive, own, studio, model.where)
+        document = own_document(measurement, values, model.drive, own, where)
+        drive = own_drive(measurement, values, document, own, studio, where)
     except InputError as error:
         raise _of_statement(error, one) from error
     ordered = {name: values[name] for name in (*FIELDS, LOAD_FORCE) if name in values}
     return Specimen(
-        replace(points, measurement=measurement, nominal_length=length), muscle, drive, ordered, accuracy
+        replace(points, measurement=measurement, nominal_length=length),
+        muscle,
+        drive,
+        ordered,
+        accuracy,
+        document=document,
     )
 
 

@@ -98,6 +98,35 @@ def _angle(load: Any) -> float:
     return 0.0 if load.arrangement == "horizontal" else pi / 2.0
 
 
+def own_document(
+    measurement: Measurement,
+    values: Mapping[str, ExperimentValue],
+    document: DriveDocument | None,
+    start: StartModel,
+    where: str,
+) -> DriveDocument | None:
+    """The document of the drive of a transient measurement; None where too little is known of it.
+
+    Args:
+        measurement: the data.
+        values: its experiment.
+        document: of the request.
+        start: for the geometry, where the experiment alone describes the drive.
+        where: name of the document in errors.
+
+    Raises:
+        InputError: a value that cannot be used, naming the field of the document or the experiment.
+    """
+    if measurement.kind != "transient":
+        return None
+    if document is None:
+        return _of_experiment(values, start) if "command" in measurement.columns else None
+    said = _said(values)
+    if not said:
+        return document
+    return read_document({**document.to_document(), **_document_of(said, document)}, where)
+
+
 def own_drive(
     measurement: Measurement,
     values: Mapping[str, ExperimentValue],
@@ -108,24 +137,26 @@ def own_drive(
 ) -> Drive | None:
     """The drive of a transient measurement; None where none is needed, or too little is known of it.
 
+    Args:
+        measurement: the data.
+        values: its experiment.
+        document: of its drive (`own_document`).
+        start: its muscle with the effects of the model.
+        studio: presets and effects.
+        where: name of the document of the request in errors.
+
     Raises:
         InputError: a value that cannot be used, naming the field of the document or the experiment.
     """
     if measurement.kind != "transient":
         return None
-    said = {name: values[name] for name in _OWN if name in values and _own(values[name])}
     if document is None:
-        if "command" in measurement.columns:
-            return _without_document(values, start, studio)
-        if not said.keys() & {"stops", "inclination"}:
+        said = _said(values)
+        if "command" in measurement.columns or not said.keys() & {"stops", "inclination"}:
             return None
         return _bare(measurement, said, start, studio)
-    changed = document
-    if said:
-        given = {**document.to_document(), **_document_of(said, document)}
-        changed = read_document(given, where)
     try:
-        drive = drive_of(changed, studio, measured=True).drive
+        drive = drive_of(document, studio, measured=True).drive
     except InputError as error:
         raise error.at(
             f"{where}.{error.field}" if error.field and where == "drive" else error.field
@@ -133,13 +164,16 @@ def own_drive(
     return replace(drive, model=studio.static_model(start))
 
 
+def _said(values: Mapping[str, ExperimentValue]) -> dict[str, ExperimentValue]:
+    """The values that change the drive document."""
+    return {name: values[name] for name in _OWN if name in values and _own(values[name])}
+
+
 def _own(value: ExperimentValue) -> bool:
     return value.origin != "assumed" and value.where != FROM_DRIVE
 
 
-def _without_document(
-    values: Mapping[str, ExperimentValue], start: StartModel, studio: Studio
-) -> Drive | None:
+def _of_experiment(values: Mapping[str, ExperimentValue], start: StartModel) -> DriveDocument | None:
     """A drive from what the experiment alone states; None without a valve or a load."""
     if "valve" not in values or "load" not in values:
         return None
@@ -153,8 +187,7 @@ def _without_document(
             load["mass" if values[name].unit == "kg" else "force"] = float(values[name].value)
     document = {"muscle": geometry, "effects": {}, "load": load, **_document_of(chosen, None)}
     document["load"] = {**load, **document["load"]}
-    drive = drive_of(read_document(document, "the experiment"), studio, measured=True).drive
-    return replace(drive, model=studio.static_model(start))
+    return read_document(document, "the experiment")
 
 
 def _document_of(said: Mapping[str, ExperimentValue], document: DriveDocument | None) -> dict[str, Any]:

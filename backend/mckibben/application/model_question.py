@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
+from mckibben.application.envelope import Envelope
 from mckibben.application.experiment import Assumption, SaidMeasurement, SaidModel, resolved
 from mckibben.application.specimens import Specimens
 from mckibben.documents.start_model import StartModel, StatedMuscle
@@ -39,6 +40,8 @@ class ModelQuestion:
             quantities are fitted.
         kept: hypotheses of wrong entries that the user has ruled out.
         remarks: notes on the experiment for the user.
+        envelope: quantity -> range in which the model was measured, if it is a saved one.
+        load_force: of isotonic data that do not state their load, where a fit begins [N].
 
     Raises:
         InputError: a geometry field to be fitted is not stated.
@@ -54,6 +57,8 @@ class ModelQuestion:
     remarks: tuple[str, ...] = ()
     accepted: tuple[Entry, ...] = ()
     kept: frozenset[str] = frozenset()
+    envelope: Envelope = field(default_factory=dict)
+    load_force: float = 0.0
 
     def __post_init__(self) -> None:
         for name in self.free:
@@ -97,7 +102,9 @@ class ModelQuestion:
         """The start model in the form for fits."""
         start = self.start
         effects = tuple(start.catalogue[name] for name in start.effects)
-        return FitModel(start.muscle.checked(), effects, start.effects, assumed=frozenset(start.assumed))
+        return FitModel(
+            start.muscle.checked(), effects, start.effects, self.load_force, frozenset(start.assumed)
+        )
 
     def free_geometry(self) -> tuple[Free, ...]:
         """The freed geometry with its bounds: within the tolerance, or within what is plausible where an

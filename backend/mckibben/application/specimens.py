@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from mckibben.documents.drive import DriveDocument
 from mckibben.identification.predict import Predictor, predictor_of
 from mckibben.identification.predict.specimens import (
     SpecimenData,
@@ -37,6 +38,7 @@ class Specimen:
         experiment: every value with its origin.
         accuracy: channel -> standard deviation [SI].
         zeros: channel -> standard deviation of a zero error of its own, where there are several specimens.
+        document: of the drive, with what the experiment says of it.
     """
 
     points: Points
@@ -45,6 +47,7 @@ class Specimen:
     experiment: Experiment = field(default_factory=dict)
     accuracy: Mapping[str, float] = field(default_factory=dict)
     zeros: Mapping[str, float] = field(default_factory=dict)
+    document: DriveDocument | None = None
 
     @property
     def name(self) -> str:

@@ -26,6 +26,7 @@ from mckibben.cli.options import (
     ModelOptions,
     MuscleText,
     PresetsFolder,
+    SavedModelFile,
     Use,
     located,
 )
@@ -135,6 +136,7 @@ def compare(
     ideal: Ideal = False,
     effect: EffectIds = None,
     drive: str = typer.Option("", "--drive", help="A drive document (JSON file): its muscle and effects."),
+    model: SavedModelFile = "",
     fit: bool = typer.Option(False, "--fit", help="Fit the parameters of the effects."),
     free: Free = None,
     use: Use = None,
@@ -174,7 +176,7 @@ def compare(
     run(
         open_studio(presets, effects, data),
         files=files,
-        model=ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or ()),
+        model=ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or (), model),
         fit=fit,
         free=free or [],
         correction=with_said(correction, said, accuracy),
@@ -192,6 +194,7 @@ def diagnose(
     drive: str = typer.Option(
         "", "--drive", help="A drive document (JSON file): its muscle, effects, valve."
     ),
+    model: SavedModelFile = "",
     free: Free = None,
     noise: Annotated[
         float | None,
@@ -199,6 +202,9 @@ def diagnose(
     ] = None,
     report: Annotated[
         Path | None, typer.Option("--report", metavar="FILE", help="Also write an HTML report.")
+    ] = None,
+    save: Annotated[
+        Path | None, typer.Option("--save", metavar="FILE", help="Also write the model found, for --model.")
     ] = None,
     use: Use = None,
     keep: Keep = None,
@@ -237,13 +243,14 @@ def diagnose(
     run(
         open_studio(presets, effects, data),
         files=files,
-        model=ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or ()),
+        model=ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or (), model),
         free=free or [],
         noise=noise,
         correction=with_said(correction, said, accuracy),
         said=said,
         as_json=as_json,
         report=report,
+        save=save,
     )
 
 

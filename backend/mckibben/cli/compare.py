@@ -40,7 +40,7 @@ def run(
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
     measurements = measurements_of(files, studio, correction, said)
-    question = model_question(studio, measurements, model, free=free, strict=correction.strict)
+    question = model_question(studio, measurements, model, free=free, strict=correction.strict, refit=fit)
     result = compare(question, fit=fit)
     if as_json:
         write_json(result)

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from mckibben.application.diagnose import prepare
 from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.application.saved_model import saved_model
 from mckibben.cli.data import measurements_of
 from mckibben.cli.model import model_question
 from mckibben.cli.options import ModelOptions
 from mckibben.cli.output import (
+    check_folder,
     error_unit,
     figure,
     progress,
@@ -21,9 +24,11 @@ from mckibben.cli.output import (
     write_parameters,
     write_table,
 )
+from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import ExperimentValue
 from mckibben.measurement.read import Correction
+from mckibben.physics.errors import InputError
 
 _SHOWN = 8  # most candidates listed
 
@@ -39,12 +44,15 @@ def run(
     said: Mapping[str, ExperimentValue],
     as_json: bool,
     report: Path | None = None,
+    save: Path | None = None,
 ) -> None:
-    """Print the diagnosis, and write a report if requested.
+    """Print the diagnosis, and write a report and the model if requested.
 
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
+    if save is not None:
+        check_folder(save, "--save")
     measurements = measurements_of(files, studio, correction, said)
     question = model_question(studio, measurements, model, free=free, noise=noise, strict=correction.strict)
     work = prepare(question, studio)
@@ -54,10 +62,28 @@ def run(
         from mckibben.cli.report import write
 
         write(report, studio, question, result)
+    if save is not None:
+        _save(save, saved_model(question, result, studio))
     if as_json:
         write_json(result)
         return
     _write(result)
+
+
+def _save(path: Path, model: SavedModel) -> None:
+    """Write a model, and print its path.
+
+    Raises:
+        InputError: the file cannot be written.
+    """
+    text = json.dumps(model.to_document(), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    try:
+        path.write_text(text, encoding="utf-8", newline="\n")
+    except OSError as error:
+        raise InputError(
+            f"--save {path}: cannot be written: {error.strerror or error}", hint="name a file in a folder"
+        ) from error
+    remark(f"model: {path}")
 
 
 def _write(result: DiagnosisResult) -> None:

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from mckibben.application.doubts import deciding
+from mckibben.application.envelope import MeasuredRange
 from mckibben.application.experiment import SaidMeasurement, SaidModel
 from mckibben.application.model_question import ModelQuestion, question_of
-from mckibben.cli.drive_file import drive_document
-from mckibben.cli.options import ModelOptions, at_file, is_file, start_model
+from mckibben.cli.drive_file import drive_document, saved_model
+from mckibben.cli.options import ModelOptions, at_file, is_file, start_model, stated_model
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_files import read_document
+from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import ExperimentValue
@@ -28,23 +31,101 @@ def model_question(
     free: Sequence[str],
     noise: float | None = None,
     strict: bool = False,
+    refit: bool = True,
 ) -> ModelQuestion:
     """The question of ``compare`` and ``diagnose``, from their options and measurements.
+
+    Args:
+        studio: presets and effects.
+        measurements: the data.
+        options: the model.
+        free: geometry, and constants as "effect.parameter", that fits may change as well.
+        noise: standard deviation of the predicted channel [SI], if known.
+        strict: refuse instead of assuming.
+        refit: whether the numbers of a saved model are fitted again; what was freed for it is freed again.
 
     Raises:
         InputError: names the file or option, what is wrong and what would be right.
     """
-    for name in free:
-        if name not in GEOMETRY:
-            raise InputError(f"--free {name}: there is no such geometry", hint=did_you_mean(name, GEOMETRY))
-    model = said_model(studio, options)
-    question = question_of(model, measurements, studio, free=tuple(free), noise=noise, strict=strict)
+    saved = saved_model(options.model) if options.model else None
+    geometry, constants = _freed(free, studio, saved)
+    if saved is not None and refit:
+        geometry += tuple(name for name in saved.free if name not in geometry)
+        kept = _effects_of(options, saved)
+        constants += tuple(
+            name for name in saved.freed if name not in constants and name.partition(".")[0] in kept
+        )
+    try:
+        question = question_of(
+            said_model(studio, options),
+            measurements,
+            studio,
+            free=geometry,
+            freed=constants,
+            noise=noise,
+            strict=strict,
+        )
+    except InputError as error:
+        if (error.field or "").startswith("freed."):  # those of the options are known
+            raise at_file(options.model, error.field, error.message, error.hint) from error
+        raise
+    for name in constants:
+        effect = name.partition(".")[0]
+        if effect not in question.start.effects:
+            raise InputError(
+                f"--free {name}: the start model has no effect {effect}", hint=f"add --effect {effect}"
+            )
+    if saved is not None:
+        question = _of_saved(question, saved, options.model)
     try:
         return deciding(question, use=options.use, keep=options.keep)
     except InputError as error:
         if error.field in ("use", "keep"):
             raise InputError(f"--{error.field}: {error.message}", hint=error.hint) from error
         raise
+
+
+def _freed(
+    names: Sequence[str], studio: Studio, saved: SavedModel | None
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Geometry and constants of ``--free``.
+
+    Raises:
+        InputError: no such geometry or constant.
+    """
+    constants = [f"{effect.id}.{p.name}" for effect in studio.catalogue.values() for p in effect.parameters]
+    if saved is not None:
+        constants += [f"{effect}.{name}" for effect, values in saved.effects.items() for name in values]
+    for name in names:
+        if "." in name and name not in constants:
+            similar = [each for each in constants if each.startswith(name.partition(".")[0])] or constants
+            raise InputError(f"--free {name}: there is no such constant", hint=did_you_mean(name, similar))
+        if "." not in name and name not in GEOMETRY:
+            raise InputError(f"--free {name}: there is no such geometry", hint=did_you_mean(name, GEOMETRY))
+    unique = tuple(dict.fromkeys(names))
+    return tuple(name for name in unique if "." not in name), tuple(name for name in unique if "." in name)
+
+
+def _effects_of(options: ModelOptions, saved: SavedModel) -> set[str]:
+    """Ids of the effects that the options leave of a saved model."""
+    if options.ideal:
+        return set()
+    return set(saved.effects) & set(options.effects or saved.effects)
+
+
+def _of_saved(question: ModelQuestion, saved: SavedModel, path: str) -> ModelQuestion:
+    """The question with what a saved model says of its data: where it was measured, and what was assumed."""
+    remarks = question.remarks
+    if saved.assumed:
+        remarks += (f"{path}: the model was fitted assuming {'; '.join(saved.assumed)}",)
+    load = 0.0
+    if saved.load_force is not None and question.predictor.unknown_load is not None:
+        load = saved.load_force
+        remarks += (f"the load is not stated: {load:.4g} N is taken, which the model's own data showed",)
+    ranges = {
+        name: MeasuredRange(found.least, found.most, found.unit) for name, found in saved.envelope.items()
+    }
+    return replace(question, envelope=ranges, load_force=load, remarks=remarks)
 
 
 def said_model(studio: Studio, options: ModelOptions) -> SaidModel:
@@ -60,8 +141,10 @@ def said_model(studio: Studio, options: ModelOptions) -> SaidModel:
     muscle = None
     if options.muscle and not is_file(options.muscle, studio):
         muscle = ExperimentValue(options.muscle.partition(":")[0], "", "you", "--muscle")
-    where = f"--drive {options.drive}"
-    return SaidModel(start, _said_length(studio, options), muscle, _drive(options, where), where)
+    elif options.model and not options.muscle:
+        preset = saved_model(options.model).muscle.preset
+        muscle = None if preset is None else ExperimentValue(preset, "", "you", f"--model {options.model}")
+    return SaidModel(start, _said_length(studio, options), muscle, *_drive(options))
 
 
 def _said_length(studio: Studio, options: ModelOptions) -> ExperimentValue | None:
@@ -73,10 +156,10 @@ def _said_length(studio: Studio, options: ModelOptions) -> ExperimentValue | Non
         document = _json(options.muscle)
         length = document.get("nominal_length") if "kind" not in document else None
         where = options.muscle
-    elif options.drive:
-        muscle = drive_document(options.drive).get("muscle")
+    elif options.model or options.drive:
+        muscle = stated_model(options)[0].get("muscle")
         length = muscle.get("nominal_length") if isinstance(muscle, dict) else None
-        where = "--drive"
+        where = f"--model {options.model}" if options.model else "--drive"
     else:
         return None
     if length is None or length == "":
@@ -97,14 +180,19 @@ def _json(path: str) -> dict[str, object]:
     return document if isinstance(document, dict) else {}
 
 
-def _drive(options: ModelOptions, where: str) -> DriveDocument | None:
-    """The drive of a document that has a valve; its muscle and effects are those of the start model."""
+def _drive(options: ModelOptions) -> tuple[DriveDocument | None, str]:
+    """The drive of a document that has a valve, and the name of the document in origins and errors.
+
+    Its muscle and effects are those of the start model. A saved model's own drive gives way to ``--drive``.
+    """
     if not options.drive:
-        return None
+        own = saved_model(options.model).drive if options.model else None
+        return own, f"--model {options.model}" if own is not None else "--drive "
+    where = f"--drive {options.drive}"
     document = drive_document(options.drive)
     if "valve" not in document:
-        return None
+        return None, where
     try:
-        return read_document({**document, "effects": {}}, options.drive)
+        return read_document({**document, "effects": {}}, options.drive), where
     except InputError as error:
         raise at_file(options.drive, error.field, error.message, error.hint) from error

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, cast
 
 import typer
 
-from mckibben.cli.drive_file import drive_document
+from mckibben.cli.drive_file import drive_document, saved_model
 from mckibben.physics.errors import InputError, did_you_mean
 
 if TYPE_CHECKING:
@@ -33,11 +33,23 @@ DataFiles = Annotated[
 Ideal = Annotated[bool, typer.Option("--ideal", help="The ideal model: no effects.")]
 EffectIds = Annotated[
     list[str] | None,
-    typer.Option("--effect", metavar="ID", help="Use it instead of the effects of the preset; repeatable."),
+    typer.Option(
+        "--effect",
+        metavar="ID",
+        help="Use it instead of the effects of preset or document, with its numbers there; repeatable.",
+    ),
 ]
 Free = Annotated[
     list[str] | None,
-    typer.Option("--free", metavar="NAME", help="Geometry to fit as well, e.g. braid_angle; repeatable."),
+    typer.Option(
+        "--free",
+        metavar="NAME",
+        help="Geometry or constant to fit as well, e.g. braid_angle or dahl.break_strain; repeatable.",
+    ),
+]
+SavedModelFile = Annotated[
+    str,
+    typer.Option("--model", metavar="FILE", help="A model that 'diagnose --save' wrote; others override it."),
 ]
 Use = Annotated[
     list[str] | None,
@@ -73,6 +85,8 @@ class ModelOptions:
         effects: ids of ``--effect``.
         drive: path of ``--drive``, "" without it; its muscle and effects are used where the others name none.
         use, keep: of ``--use`` and ``--keep``: decisions about entries that may be wrong.
+        model: path of ``--model``, "" without it: a saved model; its muscle and effects come before those of
+            ``--drive``, and its drive is used without one.
     """
 
     muscle: str
@@ -81,6 +95,7 @@ class ModelOptions:
     drive: str = ""
     use: Sequence[str] = ()
     keep: Sequence[str] = ()
+    model: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,27 +150,58 @@ def start_model(
     """
     if options.ideal and options.effects:
         raise InputError("--ideal and --effect exclude each other", hint="use one of them")
+    document, source = stated_model(options)
+    stated = cast("Effects | None", document.get("effects"))
     for effect in options.effects:
-        if effect not in studio.catalogue:
+        if effect not in studio.catalogue and effect not in (stated or {}):
             raise InputError(
                 f"--effect {effect}: there is no such effect", hint=did_you_mean(effect, studio.catalogue)
             )
-    document = drive_document(options.drive) if options.drive else {}
-    chosen: Effects | None = {} if options.ideal else {effect: {} for effect in options.effects} or None
-    if chosen is None and "effects" in document:
-        chosen = cast(Effects, document["effects"])
+    chosen = _chosen(options, stated)
     if not options.muscle and "muscle" in document:
-        return _start_of_input(studio, _with_length(document["muscle"], rest_length), chosen, options.drive)
+        return _start_of_input(studio, _with_length(document["muscle"], rest_length), chosen, source)
     muscle = options.muscle or named
     name, separator, length = muscle.partition(":")
     if not name:
         raise InputError("--muscle is missing", hint="e.g. --muscle DMSP-20:300mm")
     if is_file(muscle, studio):
         return _start_of_file(studio, Path(muscle), chosen, rest_length)
-    document: dict[str, object] = {"preset": name}
+    by_preset: dict[str, object] = {"preset": name}
     if separator:
-        document["nominal_length"] = length
-    return _start_of_input(studio, _with_length(document, rest_length), chosen, f"--muscle {muscle}")
+        by_preset["nominal_length"] = length
+    return _start_of_input(studio, _with_length(by_preset, rest_length), chosen, f"--muscle {muscle}")
+
+
+def stated_model(options: ModelOptions) -> tuple[dict[str, object], str]:
+    """Muscle and effects of ``--model`` or ``--drive`` as documents, and the file that states them.
+
+    Raises:
+        InputError: the file cannot be used.
+    """
+    if options.model:
+        saved = saved_model(options.model).to_document()
+        return {"muscle": saved["muscle"], "effects": saved["effects"]}, options.model
+    return (drive_document(options.drive) if options.drive else {}), options.drive
+
+
+@dataclass(frozen=True, slots=True)
+class _Named:
+    """Effects of ``--effect``: with the numbers of the document or preset where it has them."""
+
+    ids: tuple[str, ...]
+
+    def of(self, stated: Mapping[str, Mapping[str, float | str]]) -> Effects:
+        """The effects with what is stated of each; what is not takes its default."""
+        return {name: dict(stated.get(name, {})) for name in self.ids}
+
+
+def _chosen(options: ModelOptions, stated: Effects | None) -> Effects | _Named | None:
+    """Effects of the options; None are those of the preset, named ones get the numbers of the preset."""
+    if options.ideal:
+        return {}
+    if stated is None:
+        return _Named(tuple(options.effects)) if options.effects else None
+    return _Named(tuple(options.effects)).of(stated) if options.effects else stated
 
 
 def _with_length(document: object, rest_length: float | None) -> object:
@@ -174,7 +220,7 @@ def is_file(muscle: str, studio: Studio) -> bool:
 
 
 def _start_of_file(
-    studio: Studio, path: Path, effects: Effects | None, rest_length: float | None
+    studio: Studio, path: Path, effects: Effects | _Named | None, rest_length: float | None
 ) -> StartModel:
     """A muscle by geometry, or a whole preset file."""
     from mckibben.documents.start_model import StatedMuscle, preset_facts, start_model
@@ -193,6 +239,8 @@ def _start_of_file(
     assert isinstance(preset, MusclePreset)  # noqa: S101 - parsed as one
     preset.adopt("user", studio.effect_table)
     facts = preset_facts(preset, studio.catalogue)
+    if isinstance(effects, _Named):
+        effects = effects.of(facts.effects)
     try:
         return _usable(studio, start_model(StatedMuscle(), effects, preset=facts, catalogue=studio.catalogue))
     except InputError as error:
@@ -205,7 +253,9 @@ def _usable(studio: Studio, start: StartModel) -> StartModel:
     return start
 
 
-def _start_of_input(studio: Studio, document: object, effects: Effects | None, source: str) -> StartModel:
+def _start_of_input(
+    studio: Studio, document: object, effects: Effects | _Named | None, source: str
+) -> StartModel:
     from pydantic import ValidationError
 
     from mckibben.documents.convert import stated_muscle
@@ -214,6 +264,8 @@ def _start_of_input(studio: Studio, document: object, effects: Effects | None, s
 
     try:
         muscle = stated_muscle(MuscleInput.model_validate(document))
+        if isinstance(effects, _Named):
+            effects = effects.of({} if muscle.preset is None else studio.facts(muscle.preset).effects)
         return _usable(studio, studio.start_model(muscle, effects))
     except ValidationError as error:
         problem = first_problem(error.errors(), MuscleInput, document, "the muscle")

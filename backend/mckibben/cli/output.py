@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 import typer
@@ -14,6 +15,7 @@ from rich.table import Table
 
 from mckibben.application.json_text import to_json
 from mckibben.identification.fit.comparison import ParameterTable
+from mckibben.physics.errors import InputError
 from mckibben.simulation.outcome import Watch
 
 if TYPE_CHECKING:
@@ -24,6 +26,20 @@ def write_json(answer: object) -> None:
     """One JSON object and a line end, nothing else."""
     sys.stdout.buffer.write(to_json(answer) + b"\n")
     sys.stdout.buffer.flush()
+
+
+def check_folder(path: Path, option: str) -> None:
+    """Check that a file can be written there, before long work is done for it.
+
+    Raises:
+        InputError: it is a folder, or its folder does not exist.
+    """
+    if path.is_dir():
+        raise InputError(
+            f"{option} {path}: is a folder", hint=f"name a file in it, e.g. {path / 'model.json'}"
+        )
+    if not path.parent.is_dir():
+        raise InputError(f"{option} {path}: there is no folder {path.parent}", hint="name an existing folder")
 
 
 def write_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
@@ -112,8 +128,8 @@ def write_parameters(parameters: ParameterTable) -> None:
     rows = [
         [
             f"{effect}.{name}",
-            figure(item.value, 5),
-            figure(item.stderr, 2) if item.fitted else "given",
+            f"{item.value:.5g}",  # a conductance is below the rounding errors that a figure hides
+            ("–" if item.stderr is None else f"{item.stderr:.2g}") if item.fitted else "given",
             item.unit,
             "at its bound" if item.at_bound else "",
         ]

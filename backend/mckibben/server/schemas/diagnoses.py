@@ -151,6 +151,14 @@ class NotTried(Strict):
     why: str
 
 
+class MeasuredRange(Strict):
+    """The range of a quantity in the data of a model."""
+
+    least: float
+    most: float
+    unit: str = Field(description="SI unit; pressures are gauge.")
+
+
 class DiagnosisAnswer(Strict):
     """What the model is missing, and how certain that is."""
 
@@ -170,7 +178,10 @@ class DiagnosisAnswer(Strict):
     parameters: dict[str, dict[str, FittedParameter]]
     correlations: list[Correlation]
     geometry: MuscleGeometry
-    model: dict[str, Any] = Field(description="Muscle and effects; a comparison takes them as a drive.")
+    model: dict[str, Any] = Field(
+        description="Muscle and effects; of a transient also 'drive': the drive document with both inside, "
+        "which a comparison takes."
+    )
     freed: list[str]
     not_tried: list[NotTried] = Field(
         description="Effects of the catalogue that were not tried, with the reason."
@@ -188,6 +199,10 @@ class DiagnosisAnswer(Strict):
     )
     context: list[DoubtfulEntry] = Field(
         description="Entries that may be wrong instead, the most convincing first."
+    )
+    envelope: dict[str, MeasuredRange] = Field(
+        description="Quantity -> range of the data: rest_length, pressure, contraction, speed, temperature, "
+        "load, mass, supply, as far as they were measured or stated."
     )
 
 

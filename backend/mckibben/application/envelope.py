@@ -1,0 +1,147 @@
+"""Where a model was measured: the range of each quantity of its data, and which data leave it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.application.specimens import Specimen, Specimens
+from mckibben.identification.predict import Predictor
+from mckibben.identification.predict.fit_model import FitModel
+from mckibben.measurement.measurement import STROKES
+
+_MARGIN = {"speed": 0.2}  # share of the largest magnitude that data may lie outside; a speed is less certain
+_USUAL_MARGIN = 0.02
+_FASTEST = 99.0  # percentile of the speeds: single ones are noise of the differentiation
+#: Quantity -> how it is shown: plural, factor from SI, offset, unit.
+_SHOWN: Mapping[str, tuple[str, float, float, str]] = {
+    "rest_length": ("rest lengths", 1e3, 0.0, "mm"),
+    "pressure": ("pressures", 1e-5, 0.0, "bar"),
+    "contraction": ("contractions", 100.0, 0.0, "%"),
+    "speed": ("speeds", 1e3, 0.0, "mm/s"),
+    "temperature": ("temperatures", 1.0, -273.15, "°C"),
+    "load": ("loads", 1.0, 0.0, "N"),
+    "mass": ("masses", 1.0, 0.0, "kg"),
+    "supply": ("supply pressures", 1e-5, 0.0, "bar"),
+}
+_UNITS = {
+    "rest_length": "m", "pressure": "Pa", "contraction": "1", "speed": "m/s", "temperature": "K",
+    "load": "N", "mass": "kg", "supply": "Pa",
+}  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class MeasuredRange:
+    """The range of a quantity in the data of a model, SI; pressures are gauge."""
+
+    least: float
+    most: float
+    unit: str
+
+
+#: Quantity (rest_length, pressure, contraction, speed, temperature, load, mass, supply) -> its range. A
+#: quantity that was not measured, or does not occur in data of this kind, is missing.
+Envelope = Mapping[str, MeasuredRange]
+
+
+def envelope_of(specimens: Specimens, predictor: Predictor, model: FitModel) -> dict[str, MeasuredRange]:
+    """The ranges of the rows that are compared.
+
+    The largest speed is the 99th percentile of the magnitudes: single ones are noise of the differentiation.
+
+    Args:
+        specimens: the measurements.
+        predictor: their rows that are compared.
+        model: for the rest length that contractions are counted from.
+    """
+    measured = {name for one in specimens.each for name in one.points.measurement.columns}
+    inputs, rest = predictor.inputs, predictor.rest_length(model)
+    values: dict[str, NDArray[np.float64]] = {
+        "rest_length": np.array([float(one.muscle.nominal_length) for one in specimens.each])
+    }
+    if "pressure" in measured and "pressure" in inputs:
+        values["pressure"] = inputs["pressure"]
+    if measured & set(STROKES):
+        if "length" in inputs:
+            values["contraction"] = 1.0 - inputs["length"] / rest
+        elif "displacement" in inputs:
+            values["contraction"] = inputs["displacement"] / rest
+    if "time" in measured and "velocity" in inputs:
+        values["speed"] = np.array([0.0, np.percentile(np.abs(inputs["velocity"]), _FASTEST)])
+    if "temperature" in measured and "temperature" in inputs:
+        values["temperature"] = inputs["temperature"]
+    if "load" in inputs and predictor.unknown_load is None:
+        values["load"] = inputs["load"]
+    for name, numbers in _of_drives(specimens).items():
+        values[name] = np.array(numbers)
+    return {
+        name: MeasuredRange(float(np.min(numbers)), float(np.max(numbers)), _UNITS[name])
+        for name, numbers in values.items()
+        if len(numbers) and np.all(np.isfinite(numbers))
+    }
+
+
+def _of_drives(specimens: Specimens) -> dict[str, list[float]]:
+    """Moved mass, constant force and supply pressure of transient measurements."""
+    found: dict[str, list[float]] = {}
+    for one in specimens.each:
+        if one.points.measurement.kind == "transient":
+            for name, value in _of_drive(one).items():
+                found.setdefault(name, []).append(value)
+    return found
+
+
+def _of_drive(specimen: Specimen) -> dict[str, float]:
+    measurement, drive = specimen.points.measurement, specimen.drive
+    conditions, values = measurement.conditions, {}
+    force = None if drive is None or not isinstance(drive.load.force, float | int) else drive.load.force
+    for name, condition, of_drive in (
+        ("mass", "load_mass", None if drive is None else drive.load.mass),
+        ("load", "load_force", force or None),
+        ("supply", "supply_pressure", None if drive is None else drive.supply_pressure),
+    ):
+        value = conditions.get(condition, of_drive)
+        if value is not None and (name != "supply" or "command" in measurement.columns):
+            values[name] = float(value)
+    return values
+
+
+def beyond(known: Envelope, data: Envelope) -> list[str]:
+    """Where data leave the ranges that a model was measured in, in words; empty where nowhere.
+
+    Args:
+        known: of the model; empty where it is not known.
+        data: of the data.
+    """
+    if not known:
+        return []
+    messages = []
+    for name, found in data.items():
+        words, factor, offset, unit = _SHOWN[name]
+        if name not in known:
+            if name == "speed" and found.most > 0.0:
+                messages.append(
+                    f"speeds up to {_number(found.most, factor, offset)} {unit}: the model was measured "
+                    "without time"
+                )
+            continue
+        own = known[name]
+        margin = _MARGIN.get(name, _USUAL_MARGIN) * max(abs(own.least), abs(own.most))
+        low, high = (f"{_number(value, factor, offset)} {unit}" for value in (own.least, own.most))
+        single = low == high
+        if found.most > own.most + margin:
+            limit = f"at {high}" if single else f"up to {high}"
+            shown = _number(found.most, factor, offset)
+            messages.append(f"{words} up to {shown} {unit}: the model was measured {limit}")
+        if found.least < own.least - margin:
+            limit = f"at {low}" if single else f"from {low}"
+            shown = _number(found.least, factor, offset)
+            messages.append(f"{words} down to {shown} {unit}: the model was measured {limit}")
+    return messages
+
+
+def _number(value: float, factor: float, offset: float) -> str:
+    return f"{factor * value + offset:.3g}"

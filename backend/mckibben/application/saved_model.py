@@ -1,0 +1,160 @@
+"""A diagnosed model as documents: the file of the model, and of a transient the drive with it inside."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from typing import Any
+
+from mckibben import __version__
+from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.application.experiment_result import SpecimenResult
+from mckibben.application.model_question import ModelQuestion
+from mckibben.application.specimens import Specimen
+from mckibben.documents.saved_model import SavedModel, read_saved_model
+from mckibben.documents.studio import Studio
+from mckibben.identification.predict.fit_model import LOAD, FitModel
+from mckibben.measurement.experiment import place_of, shown_value, title_of
+from mckibben.physics.muscle import GEOMETRY, Muscle, assumption
+
+#: Condition of a measurement that takes precedence over the drive, and where a drive document has it.
+_CONDITIONS = (
+    ("load_mass", "load", "mass"), ("load_force", "load", "force"), ("supply_pressure", "supply", "pressure")
+)  # fmt: skip
+
+
+def muscle_document(question: ModelQuestion, muscle: Muscle, studio: Studio) -> dict[str, Any]:
+    """A fitted muscle with all its dimensions, and its preset if that is one of the program.
+
+    A preset adds the limits and tolerances of the maker; one of the user would not be found elsewhere.
+
+    Args:
+        question: for the preset.
+        muscle: the geometry.
+        studio: presets.
+    """
+    preset = question.start.preset
+    named = preset is not None and studio.library.is_built_in("muscles", preset.id)
+    geometry = {name: float(value) for name, value in zip(GEOMETRY, muscle, strict=True) if value}
+    return {"preset": preset.id, **geometry} if preset is not None and named else geometry
+
+
+def drive_of_model(question: ModelQuestion, model: FitModel, studio: Studio) -> dict[str, object] | None:
+    """The drive document of the first transient measurement with a model inside; None where there is none.
+
+    Supply and load are those of the measurement, stops are stated. Its command was measured: it is the
+    document's own, if that has one.
+
+    Args:
+        question: the measurements.
+        model: muscle and effects.
+        studio: presets.
+    """
+    specimen = question.specimens.each[0]
+    if specimen.document is None or specimen.drive is None:
+        return None
+    drive, conditions = specimen.drive, specimen.points.measurement.conditions
+    parts = specimen.document.to_document()
+    parts["supply"] = {"pressure": float(drive.supply_pressure)}
+    for condition, part, name in _CONDITIONS:
+        if condition in conditions:
+            own = parts.get(part)
+            parts[part] = {**(own if isinstance(own, dict) else {}), name: float(conditions[condition])}
+    own = parts.get("stops")
+    parts["stops"] = {
+        **(own if isinstance(own, dict) else {}),
+        "min_contraction": float(drive.min_contraction),
+        "max_contraction": float(drive.max_contraction),
+    }
+    parts["muscle"] = muscle_document(question, model.muscle, studio)
+    parts["effects"] = question.effect_document(model)
+    return {"schema": 1, **parts}
+
+
+def saved_model(question: ModelQuestion, result: DiagnosisResult, studio: Studio) -> SavedModel:
+    """The best model of a diagnosis as a document that stands alone.
+
+    Args:
+        question: of the diagnosis.
+        result: its answer.
+        studio: presets.
+
+    Raises:
+        InputError: a fitted value lies outside what a document may state.
+    """
+    of_geometry = result.parameters.get("geometry", {})
+    # The summary has every dimension of the fitted muscle.
+    fitted = Muscle(*(float(getattr(result.geometry, name)) for name in GEOMETRY))
+    muscle = muscle_document(question, fitted, studio)
+    if not question.specimens.one_length:
+        del muscle["nominal_length"]
+    document: dict[str, Any] = {
+        "schema": 1,
+        "kind": "model",
+        "muscle": muscle,
+        "effects": result.model.effects,
+        "freed": list(result.freed),
+        "free": [name for name in of_geometry if name in GEOMETRY],
+        "envelope": {
+            name: {"least": found.least, "most": found.most, "unit": found.unit}
+            for name, found in result.envelope.items()
+        },
+        "assumed": _assumed(question, result, fitted),
+        "origin": _origin(question, result),
+    }
+    if LOAD in of_geometry and question.predictor.unknown_load is not None:
+        document["load_force"] = of_geometry[LOAD].value
+    if result.model.drive is not None:
+        document["drive"] = result.model.drive
+    return read_saved_model(document, "the model")
+
+
+def _assumed(question: ModelQuestion, result: DiagnosisResult, muscle: Muscle) -> list[str]:
+    """What nobody said: of the experiments, of the muscle, and which drive is shown."""
+    specimens, start = question.specimens, question.start
+    assumed = [
+        one.words + (f" for {', '.join(one.files)}" if one.files else "") for one in question.assumptions
+    ]
+    needed = [name for name in GEOMETRY if not getattr(start.muscle, name) and getattr(muscle, name)]
+    assumed += [assumption(muscle, name) for name in (*start.assumed, *needed)]
+    drive, known = specimens.each[0].drive, start.catalogue
+    if drive is not None and drive.tube is None and drive.assumed_tube is not None:
+        tube = drive.assumed_tube
+        if any(name in known and known[name].of_tube for name in result.model.effects):
+            size = f"{1e3 * tube.inside_diameter:.3g} mm bore and {tube.length:.3g} m length"
+            assumed.append(f"a tube of {size}, because an effect acts on it")
+    if result.model.drive is not None and specimens.several:
+        assumed.append(f"the drive is that of {specimens.each[0].name}, the first of the measurements")
+    return assumed
+
+
+def _origin(question: ModelQuestion, result: DiagnosisResult) -> dict[str, Any]:
+    return {
+        "program": f"mckibben {__version__}",
+        "made": datetime.now(UTC).isoformat(timespec="seconds"),
+        "kind": result.kind,
+        "predicted": result.predicted,
+        "verdict": result.verdict.title,
+        "error": {
+            "rmse": result.path[-1].rmse,
+            "holdout_rmse": result.path[-1].holdout_rmse,
+            "noise": result.noise_floor.rmse,
+            "unit": result.unit,
+        },
+        "files": [
+            _file(specimen, shown)
+            for specimen, shown in zip(question.specimens.each, result.specimens, strict=True)
+        ],
+    }
+
+
+def _file(specimen: Specimen, shown: SpecimenResult) -> dict[str, Any]:
+    points = specimen.points
+    return {
+        "name": specimen.name,
+        "sha256": None if points.source else points.measurement.id,
+        "rows": points.measurement.rows,
+        "experiment": {
+            title_of(name): f"{shown_value(name, value)}, {place_of(value)}"
+            for name, value in shown.experiment.items()
+        },
+    }

@@ -1,0 +1,140 @@
+"""The document of a model that was fitted to measurements, as ``mckibben diagnose --save`` writes it."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from mckibben.documents.drive import DriveDocument
+from mckibben.documents.muscle import EffectsInput, MuscleInput
+from mckibben.documents.problems import first_problem
+from mckibben.documents.strict import Strict
+from mckibben.physics.errors import InputError, did_you_mean
+from mckibben.physics.muscle import GEOMETRY
+
+_HINT = "the file of: mckibben diagnose DATA --save MODEL.json"
+Text = Annotated[str, Field(max_length=2000)]
+
+
+class RangeInput(Strict):
+    """The range of a quantity in the data of the model."""
+
+    least: float
+    most: float
+    unit: str = Field(description="SI unit.")
+
+
+class FittedFile(Strict):
+    """A measurement that the model was fitted to."""
+
+    name: str
+    sha256: str | None = Field(description="Of the file; null for a preset of the program.")
+    rows: int
+    experiment: dict[str, str] = Field(
+        default_factory=dict, description="What it was made with, and who says it, in words."
+    )
+
+
+class FitError(Strict):
+    """How well the model describes its data."""
+
+    rmse: float
+    holdout_rmse: float | None
+    noise: float | None = Field(description="Noise of the data; null where it cannot be estimated.")
+    unit: str = Field(description='SI unit; "1" = relative to the noise of each channel.')
+
+
+class SavedOrigin(Strict):
+    """Where the model comes from."""
+
+    program: str = Field(description="Name and version.")
+    made: str = Field(description="Date and time, ISO 8601, UTC.")
+    kind: str = Field(description="Kind of the measurements.")
+    predicted: str
+    verdict: str = Field(description="Title of the verdict.")
+    error: FitError
+    files: list[FittedFile]
+
+
+class SavedModel(Strict):
+    """A model with its values: a muscle with its fitted geometry, effects, and of a transient the drive."""
+
+    schema_version: Literal[1] = Field(alias="schema", description="Version of the document.")
+    kind: Literal["model"]
+    muscle: MuscleInput = Field(
+        description="Without a length where the model is one of muscles of several lengths."
+    )
+    effects: EffectsInput
+    freed: list[str] = Field(
+        default_factory=list, description="Constants that the fit changed as well, as effect.parameter."
+    )
+    free: list[str] = Field(default_factory=list, description="Geometry that the fit changed as well.")
+    load_force: float | None = Field(
+        None, description="Load of isotonic data that do not state it, as the fit found it [N]."
+    )
+    drive: DriveDocument | None = Field(
+        None, description="Of a transient: valve, tube, supply, load, stops, with muscle and effects."
+    )
+    envelope: dict[str, RangeInput] = Field(
+        default_factory=dict, description="Quantity -> range in which the model was measured."
+    )
+    assumed: list[Text] = Field(default_factory=list, description="What nobody said and was assumed.")
+    origin: SavedOrigin | None = None
+
+    @model_validator(mode="after")
+    def _known_names(self) -> SavedModel:
+        """What is freed is part of the model."""
+        for place, name in enumerate(self.freed):
+            effect, dot, _ = name.partition(".")
+            if not dot or effect not in self.effects:
+                raise InputError(
+                    f"the model has no effect {effect}",
+                    field=f"freed.{place}",
+                    hint=did_you_mean(effect, self.effects) if self.effects else "remove it",
+                )
+        for place, name in enumerate(self.free):
+            if name not in GEOMETRY:
+                raise InputError(
+                    f"'{name}' is no geometry", field=f"free.{place}", hint=did_you_mean(name, GEOMETRY)
+                )
+        return self
+
+    @model_validator(mode="after")
+    def _one_model(self) -> SavedModel:
+        """The model inside the drive is the same one."""
+        if self.drive is None:
+            return self
+        mine = self.muscle.model_dump(exclude={"nominal_length"})
+        if self.drive.muscle.model_dump(exclude={"nominal_length"}) != mine:
+            raise InputError(
+                "drive.muscle is not the muscle of the model", field="drive.muscle", hint="change both"
+            )
+        if self.drive.effects != self.effects:
+            raise InputError(
+                "drive.effects are not the effects of the model", field="drive.effects", hint="change both"
+            )
+        return self
+
+
+def read_saved_model(document: object, subject: str) -> SavedModel:
+    """A saved model from JSON.
+
+    Args:
+        document: parsed JSON.
+        subject: name of the document in messages.
+
+    Raises:
+        InputError: the document is not valid; ``field`` is the path in it.
+    """
+    from pydantic import ValidationError
+
+    if not isinstance(document, dict) or document.get("kind") != "model":
+        raise InputError(f'{subject} is no saved model: it has no "kind": "model"', hint=_HINT)
+    try:
+        return SavedModel.model_validate(document)
+    except ValidationError as error:
+        problem = first_problem(error.errors(), SavedModel, document, subject)
+        raise InputError(
+            problem.message, field=problem.field, hint=problem.hint, code=problem.code
+        ) from error
