@@ -14,15 +14,16 @@ from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES, Measurement
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.cells import CellTable, Skip
 from mckibben.measurement.read.channels import ChannelReading, read_channels
-from mckibben.measurement.read.checks import Evidence, questions_of
+from mckibben.measurement.read.checks import questions_of
 from mckibben.measurement.read.conditions import ATMOSPHERE, key_of, read_conditions
 from mckibben.measurement.read.correction import Correction
+from mckibben.measurement.read.evidence import Evidence, is_numeric
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning, map_headers
+from mckibben.measurement.read.propose import with_proposed_stroke
 from mckibben.measurement.read.questions import refusal
 from mckibben.measurement.read.recognise import held_pressure
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import NAME, SIGN
-from mckibben.measurement.read.values import NUMBER, TEXT, kind_of
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
 
@@ -39,8 +40,8 @@ class Read(NamedTuple):
 
 
 def meaning_of(source: RawTable, correction: Correction, *, collect: bool = False) -> Meaning:
-    """What the columns of a source are."""
-    return map_headers(
+    """What the columns of a source are; a stroke that no head names is proposed where the numbers show it."""
+    meaning = map_headers(
         source.headers,
         place=source.place,
         row=source.header_row,
@@ -49,6 +50,7 @@ def meaning_of(source: RawTable, correction: Correction, *, collect: bool = Fals
         collect=collect,
         units=source.units,
     )
+    return with_proposed_stroke(source, meaning, correction.conditions)
 
 
 def conditions_of(source: RawTable, correction: Correction, messages: list[str]) -> dict[str, float | str]:
@@ -194,8 +196,7 @@ def _evidence(
     channels: Mapping[str, NDArray], correction: Correction,
 ) -> Evidence:  # fmt: skip
     def numeric(index: int) -> bool:
-        kinds = [kind_of(row[index]) for row in source.sample if index < len(row)]
-        return NUMBER in kinds and TEXT not in kinds
+        return is_numeric(source.sample, index)
 
     def pair(first: int, second: int) -> tuple[NDArray, NDArray] | None:
         try:

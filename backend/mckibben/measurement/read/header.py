@@ -57,8 +57,8 @@ TEXT_COLUMNS = ("direction", "group", SLACK, SAMPLE)
 class HeaderColumn(NamedTuple):
     """A column that is used: ``use`` is a channel, ``slack`` or ``sample``; ``unit`` None = not given.
 
-    ``sign`` -1: the file counts it the other way. ``origin``: who says what it is, ``file`` or ``you``;
-    ``extends``: its name says that it grows as the muscle becomes longer.
+    ``sign`` -1: the file counts it the other way. ``origin``: who says what it is, ``file``, ``you``
+    or ``proposed`` from its numbers; ``extends``: its name says that it grows as the muscle becomes longer.
     """
 
     place: int

@@ -23,6 +23,7 @@ from mckibben.measurement.read.vocabulary import (
     LETTERS,
     LOADLESS,
     NO_CHANNEL,
+    STATISTICS,
     channel_of_word,
     folded,
     other_quantity,
@@ -187,7 +188,8 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
         return Recognised(None, head.unit, None, 0, "it holds counts of a converter, not a physical value")
     if dimension in ("a voltage", "a current"):
         return Recognised(None, head.unit, None, 0, f"'{head.unit}' is {dimension}, no calibrated value")
-    named = [channel for word in words if (channel := channel_of_word(word)) is not None]
+    meant = _without_statistic(words, dimension)
+    named = [channel for word in meant if (channel := channel_of_word(word)) is not None]
     for word in words:
         reason = other_quantity(word, named[-1] if named else None)
         if reason is not None and (named or dimension):
@@ -223,6 +225,17 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
     return Recognised(
         by_unit, head.unit, head.absolute, penalty + BY_UNIT, f"by its unit '{head.unit}' alone"
     )
+
+
+def _without_statistic(words: list[str], dimension: str) -> list[str]:
+    """Words without the statistic behind them; "Last" is one where the unit is none of a load."""
+    while len(words) > 1 and (words[-1] in STATISTICS or (words[-1] == "last" and _no_load(dimension))):
+        words = words[:-1]
+    return words
+
+
+def _no_load(dimension: str) -> bool:
+    return bool(dimension) and dimension not in DIMENSIONS["force"]
 
 
 def is_raw(header: str) -> bool:
