@@ -68,3 +68,28 @@ def test_a_statistic_behind_a_name_is_no_load() -> None:
     columns = read_measurement(data, "a.csv").columns
     np.testing.assert_allclose(columns["displacement"], R.stroke, atol=1e-8)
     np.testing.assert_allclose(columns["pressure"], R.pressure, atol=1.0)
+
+
+def test_a_clock_without_a_head_is_the_time() -> None:
+    stamps = [f"2025-02-03T08:00:{second:06.3f}+01:00" for second in R.time[:100]]
+    rows = [
+        f"{stamp},{p / 1e5:.5f},{f:.3f},{s * 1e3:.5f}"
+        for stamp, p, f, s in zip(stamps, R.pressure, R.force, R.stroke, strict=False)
+    ]
+    data = "\n".join(["Pressure (bar),Force (N),Stroke (mm)".join(['"",', ""]), *rows]).encode()
+    time = read_measurement(data, "a.csv").columns["time"]
+    np.testing.assert_allclose(time, R.time[: len(rows)], atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("words", "kind"),
+    [("Isotonic run with a weight", "isotonic"), ("isotonic or isometric, see the book", "transient")],
+)
+def test_a_text_says_the_kind(words: str, kind: str) -> None:
+    up = isotonic()
+    heads = "Zeit [s];Druck [bar];Hub [mm]"
+    rows = np.column_stack([up.time, up.pressure / 1e5, up.stroke * 1e3])
+    data = "\n".join([words, "", heads, *(";".join(f"{v:.5f}" for v in row) for row in rows)]).encode()
+    result = read_measurement(data, "a.csv")
+    assert result.kind == kind
+    assert any("a text of the file says so" in said for said in result.messages) == (kind == "isotonic")

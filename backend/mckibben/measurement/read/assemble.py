@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.measurement.kind import FORCE_KINDS
 from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES, Measurement, StatedValue, build
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.cells import CellTable, Skip
@@ -19,11 +20,11 @@ from mckibben.measurement.read.conditions import ATMOSPHERE, key_of, read_condit
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.evidence import Evidence, is_numeric
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning, map_headers
-from mckibben.measurement.read.propose import with_proposed_stroke
+from mckibben.measurement.read.propose import with_clock, with_proposed_stroke
 from mckibben.measurement.read.questions import refusal
 from mckibben.measurement.read.recognise import held_pressure
 from mckibben.measurement.read.source import RawTable
-from mckibben.measurement.read.stated import NAME, SIGN
+from mckibben.measurement.read.stated import KIND_SAID, NAME, SIGN
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
 
@@ -50,7 +51,7 @@ def meaning_of(source: RawTable, correction: Correction, *, collect: bool = Fals
         collect=collect,
         units=source.units,
     )
-    return with_proposed_stroke(source, meaning, correction.conditions)
+    return with_proposed_stroke(source, with_clock(source, meaning), correction.conditions)
 
 
 def conditions_of(source: RawTable, correction: Correction, messages: list[str]) -> dict[str, float | str]:
@@ -111,6 +112,10 @@ def assemble(
     messages += [f"{question.text} ({question.option})" for question in questions if not question.stops]
     kind = conditions.pop("kind", None) if correction.kind is None else correction.kind
     conditions.pop("kind", None)
+    said = str(conditions.pop(KIND_SAID, ""))
+    if kind is None and said and _suits(said, columns):
+        kind = said
+        messages.append(f"kind {said}: a text of the file says so")
     order = {header: index for index, header in reversed(list(enumerate(source.headers)))}
     conditions.pop(SIGN, None)
     measurement = build(
@@ -133,6 +138,12 @@ def assemble(
         questions=tuple(questions),
     )
     return Read(measurement, list(by_use.values()), skipped, questions)
+
+
+def _suits(kind: str, columns: Mapping[str, NDArray]) -> bool:
+    """Whether the channels that a kind needs are there."""
+    needed = {"pressure", "force"} if kind in FORCE_KINDS else {"pressure"}
+    return needed <= set(columns) and bool(set(columns) & set(STROKES))
 
 
 def _hold_pressure_of_name(

@@ -1,4 +1,4 @@
-"""A stroke for a table in which nothing is read as one: the one column of lengths whose numbers can be it."""
+"""Channels that no head names: the one column of lengths that can be the stroke, a clock without a head."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from mckibben.measurement.read.physical_checks import mostly_negative, runs_agai
 from mckibben.measurement.read.plausible import ENOUGH, is_plausible
 from mckibben.measurement.read.recognise import BY_UNIT, taken_apart
 from mckibben.measurement.read.source import RawTable
-from mckibben.measurement.read.unit_words import dimension_of
+from mckibben.measurement.read.unit_words import CLOCK, dimension_of
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
 
@@ -70,6 +70,23 @@ def with_proposed_stroke(source: RawTable, meaning: Meaning, given: Mapping[str,
         messages=[m for m in meaning.messages if not m.startswith(f"{source.noun} '{header}' is not used")],
         reasons={place: why for place, why in meaning.reasons.items() if place != index},
         problems={place: error for place, error in meaning.problems.items() if place != index},
+    )
+
+
+def with_clock(source: RawTable, meaning: Meaning) -> Meaning:
+    """The meaning with a time, where the only column of times of day or dates has no head."""
+    used = {column.use for column in meaning.columns}
+    places = [index for index in sorted(source.clocks) if index < len(source.headers)]
+    if "time" in used or not used or len(places) != 1:
+        return meaning
+    (index,) = places
+    if source.headers[index].strip() or index in meaning.dismissed or index in meaning.problems:
+        return meaning
+    name = f"column {index + 1}"
+    return meaning._replace(
+        columns=sorted([*meaning.columns, HeaderColumn(index, name, "time", CLOCK)], key=lambda c: c.place),
+        ignored=[ignored for ignored in meaning.ignored if ignored != name],
+        reasons={place: why for place, why in meaning.reasons.items() if place != index},
     )
 
 

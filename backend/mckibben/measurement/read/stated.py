@@ -17,6 +17,7 @@ from mckibben.resources import presets_folder
 NAME = "the file's name"
 #: Conditions that only these texts say, besides those with a unit.
 SIGN = "force_sign"  # text: "compression positive"
+KIND_SAID = "kind_said"  # text: "isotonic"
 _NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
 _QUANTITY = re.compile(rf"(?<![\w.,-])({_NUMBER})\s*([A-Za-zµ°%\"]+(?:\s*\([a-zü]+\))?)?(?![\w.,]*\d)")
 _UNIT_FIRST = re.compile(rf"[\[(]\s*([^\])]+?)\s*[\])]\s*[:=;]?\s*({_NUMBER})(?!\s*[A-Za-z])")
@@ -32,6 +33,8 @@ _SUPPLIES = word_set(
 )
 _SAMPLES = word_set("specimen sample probe prufling eprouvette provino probeta muestra muster dut campione")
 _DATES = word_set("date datum fecha data giorno")
+#: Kind of a test -> how its name begins in the languages of the heads.
+_KINDS = {"isobaric": "isobar", "isometric": "isometr", "isotonic": "isoton"}
 _COMPRESSION = re.compile(
     r"(compress\w*|druckkraft)\W+(?:\w+\W+){0,2}positi|(tension|traction|pull\w*|zug\w*|trazione)\W+(?:\w+\W+){0,3}negati"
 )
@@ -84,6 +87,9 @@ def _of_text(text: str) -> Iterator[tuple[str, str]]:
     references = {REFERENCE_WORDS[w] for w in folded_words(text) if len(w) > 2 and w in REFERENCE_WORDS}
     if len(references) == 1 and any(channel_of_word(word) == "pressure" for word in words):
         yield "pressure", "absolute" if references.pop() else "gauge"
+    kinds = {kind for word in words for kind, stem in _KINDS.items() if word.startswith(stem)}
+    if len(kinds) == 1:
+        yield KIND_SAID, kinds.pop()
     for quantity in _quantities(text):
         key = _key_of(quantity)
         if key is not None:
