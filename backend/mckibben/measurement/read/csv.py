@@ -93,6 +93,9 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
     known = plainly_known(headers)
     first = list(sample[0]) if sample else []
     words = [i for i in known if i < len(first) and kind_of(first[i]) in (TEXT, CLOCK)]
+    words += [
+        i for i, name in enumerate(headers) if not name and i < len(first) and kind_of(first[i]) == CLOCK
+    ]
     pressures = {(held.value, held.unit) for header in headers if (held := held_pressure(header)) is not None}
     sure = bool(known) and not words and len(pressures) < 2 and not _has_thousands(body, separator)
 
