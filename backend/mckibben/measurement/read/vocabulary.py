@@ -20,14 +20,14 @@ _CHANNEL_TEXTS = {
     "time": "time zeit sekunden seconds temps tiempo tempo timestamp uhrzeit heure hora ora clock elapsed "
     "dauer",
     "pressure": "pressure druck pression presion pressione press",
-    "force": "force kraft effort forza fuerza load last charge carga carico weight gewicht",
+    "force": "force kraft effort forza fuerza load last charge carga carico weight gewicht tension traction",
     "length": "length laenge lange longueur longitud lunghezza",
     "displacement": "displacement displ disp weg hub stroke course corsa carrera verschiebung deplacement "
     "desplazamiento spostamento position posicion posizione travel verkuerzung verkurzung "
     "raccourcissement accorciamento acortamiento shortening auslenkung verfahrweg",
     "extension": "extension elongation langenanderung dehnung verlaengerung verlangerung allongement "
     "allungamento alargamiento",
-    "contraction": "contraction kontraktion contrazione contraccion strain kappa",
+    "contraction": "contraction kontraktion contrazione contraccion strain kappa eps epsilon",
     "diameter": "diameter durchmesser diametre diametro",
     "velocity": "velocity speed geschwindigkeit vitesse velocidad velocita",
     "command": "command ventil valve stellgroesse stellgrosse comando vanne valvola",
