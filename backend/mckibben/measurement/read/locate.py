@@ -241,7 +241,7 @@ def _placed_units(names: str, units: str) -> list[str] | None:
     """
     heads = list(re.finditer(r"\S+(?:\s[\[(]\S+)?", names.expandtabs()))
     found = list(re.finditer(r"\S+", units.expandtabs()))
-    if not found or len(found) >= len(heads) or any(unit_of(word[0]) is None for word in found):
+    if not found or len(found) > len(heads) or any(unit_of(word[0]) is None for word in found):
         return None
     cells = [""] * len(heads)
     for word in found:

@@ -23,18 +23,24 @@ _QUANTITY = re.compile(rf"(?<![\w.,-])({_NUMBER})\s*([A-Za-zµ°%\"]+(?:\s*\([a-
 _UNIT_FIRST = re.compile(rf"[\[(]\s*([^\])]+?)\s*[\])]\s*[:=;]?\s*({_NUMBER})(?!\s*[A-Za-z])")
 _AT_REST = word_set(
     "l0 rest unloaded relaxed free initial nominal gauge start ruhe anfang anfangs nenn einspann ausgangs "
-    "vide repos initiale libre riposo iniziale libera reposo inicial sample specimen"
+    "vide repos initiale libre riposo iniziale libera reposo inicial spoczynkowa poczatkowa repouso "
+    "sample specimen"
 )
-_REST_LENGTHS = re.compile(r"(ruhe|einspann|anfangs|nenn|ausgangs|probe[nr]?)[a-z]{0,2}(lange|laenge)")
+_REST_LENGTHS = re.compile(
+    r"(ruhe|einspann|anfangs|nenn|ausgangs|probe[nr]?)[a-z]{0,2}(lange|laenge)|自然長|初期長"
+)
 _LOADS = word_set("load last mass masse weight gewicht charge carico carga massa peso poids masa")
 _SUPPLIES = word_set(
     "supply versorgung versorgungsdruck speisedruck vordruck netzdruck alimentation alimentazione "
     "alimentacion"
 )
-_SAMPLES = word_set("specimen sample probe prufling eprouvette provino probeta muestra muster dut campione")
+_SAMPLES = word_set(
+    "specimen sample probe prufling eprouvette provino probeta muestra muster dut campione probka amostra"
+)
 _DATES = word_set("date datum fecha data giorno")
 #: Kind of a test -> how its name begins in the languages of the heads.
 _KINDS = {"isobaric": "isobar", "isometric": "isometr", "isotonic": "isoton"}
+_UNPARTED = 0x3000  # code of the first letters of languages without blanks
 _COMPRESSION = re.compile(
     r"(compress\w*|druckkraft)\W+(?:\w+\W+){0,2}positi|(tension|traction|pull\w*|zug\w*|trazione)\W+(?:\w+\W+){0,3}negati"
 )
@@ -103,9 +109,10 @@ def _of_text(text: str) -> Iterator[tuple[str, str]]:
 
 
 def folded_words(text: str) -> list[str]:
-    """The words of a text in lower case, with their accents and without."""
+    """The words of a text in lower case, with their accents and without; Japanese does not part its words."""
     lower = re.findall(r"[^\W_]+", text.lower())
-    return [*lower, *(folded(word) for word in lower)]
+    unparted = [word for word in REFERENCE_WORDS if ord(word[0]) > _UNPARTED and word in text]
+    return [*lower, *(folded(word) for word in lower), *unparted]
 
 
 def _quantities(text: str) -> Iterator[_Quantity]:
