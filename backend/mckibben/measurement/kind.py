@@ -20,6 +20,7 @@ STROKES = ("length", "contraction", "displacement")
 _GRAIN = 0.01  # share of the range; readings within it are the same level
 _MANY = 25  # levels from which the finer axis of a grid is a sweep rather than a map
 _JUMP = 0.02  # change of the load to the next level, share of the range
+_HELD_SHARE = 0.7  # of the rows, in which a hanging weight pulls with its weight alone
 _FEWEST_IN_RUN = 5  # rows with the same load
 _MANY_EXTREMES = 200_000  # limit of the loop over extremes; longer signals are reduced to blocks
 
@@ -44,7 +45,7 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
        pressure/stroke is constant throughout. Otherwise the occupied 1 % steps of both ranges are counted: a
        filled grid without time and direction is ``static`` (unless one axis is fine, >= 25 levels and 4 times
        the other); an axis with at most half the steps of the other is the constant one; without such an axis
-       ``static``.
+       ``static``, or ``transient`` where over time the force leaves one level (2 %) in few rows only.
     3. diameter with pressure or stroke: ``diameter``.
     4. pressure and stroke: ``transient`` with time, else ``isotonic``.
     5. time with pressure or stroke: ``transient``.
@@ -60,7 +61,10 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
     if force is not None and pressure is not None and stroke is not None:
         if timed and "load_mass" in conditions:
             return "transient", "force, pressure and stroke over time with a load mass"
-        return _force_kind(pressure, stroke, force, swept=timed or "direction" in columns)
+        found = _force_kind(pressure, stroke, force, swept=timed or "direction" in columns)
+        if found[0] == "static" and timed and _held_load(force):
+            return "transient", "the force leaves one level only for short while pressure and stroke change"
+        return found
     if "diameter" in columns and (pressure is not None or stroke is not None):
         return "diameter", "a diameter beside pressure or stroke"
     if pressure is not None and stroke is not None:
@@ -103,6 +107,12 @@ def _force_kind(pressure: Array, stroke: Array, force: Array, *, swept: bool) ->
 def _constant(values: Array) -> bool:
     """Whether a pressure or force is constant within 2 % of its magnitude."""
     return bool(np.ptp(values) <= 0.02 * np.max(np.abs(values)))
+
+
+def _held_load(force: Array) -> bool:
+    """Whether most rows show one force: a weight that shakes only while it is moved."""
+    level = float(np.median(force))
+    return bool(level > 0.0 and np.mean(np.abs(force - level) <= 0.02 * level) >= _HELD_SHARE)
 
 
 def _constant_runs(force: Array, pressure: Array, stroke: Array) -> int:

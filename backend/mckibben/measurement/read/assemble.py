@@ -10,19 +10,21 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.measurement.kind import FORCE_KINDS
 from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES, Measurement, StatedValue, build
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.cells import CellTable, Skip
 from mckibben.measurement.read.channels import ChannelReading, read_channels
-from mckibben.measurement.read.checks import Evidence, questions_of
+from mckibben.measurement.read.checks import questions_of
 from mckibben.measurement.read.conditions import ATMOSPHERE, key_of, read_conditions
 from mckibben.measurement.read.correction import Correction
+from mckibben.measurement.read.evidence import Evidence, is_numeric
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning, map_headers
+from mckibben.measurement.read.propose import with_clock, with_proposed_stroke
 from mckibben.measurement.read.questions import refusal
 from mckibben.measurement.read.recognise import held_pressure
 from mckibben.measurement.read.source import RawTable
-from mckibben.measurement.read.stated import NAME, SIGN
-from mckibben.measurement.read.values import NUMBER, TEXT, kind_of
+from mckibben.measurement.read.stated import KIND_SAID, NAME, SIGN
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
 
@@ -39,8 +41,8 @@ class Read(NamedTuple):
 
 
 def meaning_of(source: RawTable, correction: Correction, *, collect: bool = False) -> Meaning:
-    """What the columns of a source are."""
-    return map_headers(
+    """What the columns of a source are; a stroke that no head names is proposed where the numbers show it."""
+    meaning = map_headers(
         source.headers,
         place=source.place,
         row=source.header_row,
@@ -49,6 +51,7 @@ def meaning_of(source: RawTable, correction: Correction, *, collect: bool = Fals
         collect=collect,
         units=source.units,
     )
+    return with_proposed_stroke(source, with_clock(source, meaning), correction.conditions)
 
 
 def conditions_of(source: RawTable, correction: Correction, messages: list[str]) -> dict[str, float | str]:
@@ -109,6 +112,10 @@ def assemble(
     messages += [f"{question.text} ({question.option})" for question in questions if not question.stops]
     kind = conditions.pop("kind", None) if correction.kind is None else correction.kind
     conditions.pop("kind", None)
+    said = str(conditions.pop(KIND_SAID, ""))
+    if kind is None and said and _suits(said, columns):
+        kind = said
+        messages.append(f"kind {said}: a text of the file says so")
     order = {header: index for index, header in reversed(list(enumerate(source.headers)))}
     conditions.pop(SIGN, None)
     measurement = build(
@@ -131,6 +138,12 @@ def assemble(
         questions=tuple(questions),
     )
     return Read(measurement, list(by_use.values()), skipped, questions)
+
+
+def _suits(kind: str, columns: Mapping[str, NDArray]) -> bool:
+    """Whether the channels that a kind needs are there."""
+    needed = {"pressure", "force"} if kind in FORCE_KINDS else {"pressure"}
+    return needed <= set(columns) and bool(set(columns) & set(STROKES))
 
 
 def _hold_pressure_of_name(
@@ -194,8 +207,7 @@ def _evidence(
     channels: Mapping[str, NDArray], correction: Correction,
 ) -> Evidence:  # fmt: skip
     def numeric(index: int) -> bool:
-        kinds = [kind_of(row[index]) for row in source.sample if index < len(row)]
-        return NUMBER in kinds and TEXT not in kinds
+        return is_numeric(source.sample, index)
 
     def pair(first: int, second: int) -> tuple[NDArray, NDArray] | None:
         try:

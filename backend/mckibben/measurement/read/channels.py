@@ -103,6 +103,9 @@ def _with_known_unit(column: HeaderColumn, reading: ChannelReading) -> HeaderCol
         reading.messages.append(
             f"{reading.noun} '{column.header}' holds times: they count from the first row"
         )
+    if use == "time" and unit is None and (since := _since_1970(raw)) is not None:
+        unit = since
+        reading.messages.append(f"{reading.noun} '{column.header}' counts {unit} since 1970")
     if unit is None:
         unit, origin = CHANNEL_UNITS[use], "proposed"
         largest = float(np.max(np.abs(raw)))
@@ -126,6 +129,14 @@ def _with_known_unit(column: HeaderColumn, reading: ChannelReading) -> HeaderCol
     if use == "force":
         column = _signed_force(column, reading)
     return column._replace(unit=unit, unit_origin=origin)
+
+
+def _since_1970(raw: NDArray[np.float64]) -> str | None:
+    """The unit of times that can only count from 1970: dates of 2001 to 2096; None = they do not."""
+    for unit, size in (("ms", 1e12), ("µs", 1e15), ("ns", 1e18)):
+        if len(raw) and size <= float(np.min(raw)) and float(np.max(raw)) <= 4.0 * size:
+            return unit
+    return None
 
 
 def _signed_force(column: HeaderColumn, reading: ChannelReading) -> HeaderColumn:

@@ -14,6 +14,7 @@ from mckibben.measurement.read.evidence import Evidence, bare_name
 from mckibben.measurement.read.header import HeaderColumn
 from mckibben.measurement.read.physical_checks import context_questions, physical_questions
 from mckibben.measurement.read.plausible import ENOUGH, is_plausible, median_step, proposal
+from mckibben.measurement.read.propose import KNOWN_REASONS, PROPOSED
 from mckibben.measurement.read.questions import column_option, ignore_option
 from mckibben.measurement.read.recognise import BY_WORDS, taken_apart
 from mckibben.measurement.read.unit_words import dimension_of
@@ -22,15 +23,6 @@ from mckibben.physics.units import convert
 Floats = NDArray[np.float64]
 
 _CARRIES = {"a force": "force", "a pressure": "pressure", "a length": "length"}
-_KNOWN_REASONS = (
-    "the supply",
-    "the surrounding air",
-    "a length at rest",
-    "a size of the tube",
-    "a preload",
-    "a deviation",
-    "you do not want it",
-)
 _SAME = 0.01  # of the range; columns that differ by less are the same reading
 _CLIPPED = 100  # the penalty of a clipped column
 _RAW_PENALTY = 1  # between a column and its raw, filtered or clipped form
@@ -46,7 +38,13 @@ def _questions(evidence: Evidence) -> list[Question]:
     rows = len(next(iter(evidence.channels.values()), ()))
     asked = _tables(evidence)
     if rows >= ENOUGH:
-        asked += [*_units(evidence), *_unread(evidence), *_rivals(evidence), *_specimens(evidence)]
+        asked += [
+            *_units(evidence),
+            *_proposed(evidence),
+            *_unread(evidence),
+            *_rivals(evidence),
+            *_specimens(evidence),
+        ]
         unit_doubts = {question.about for question in asked}
         if not any(about.startswith("unit of") for about in unit_doubts):
             asked += [*physical_questions(evidence)]
@@ -174,7 +172,7 @@ def _unread(evidence: Evidence) -> list[Question]:
         head = taken_apart(header, evidence.apart[index] if index < len(evidence.apart) else None)
         channel = "force" if header == UNNAMED else _CARRIES.get(dimension_of(head.unit))
         reason = meaning.reasons.get(index, "")
-        if channel is None or any(known in reason for known in _KNOWN_REASONS):
+        if channel is None or any(known in reason for known in KNOWN_REASONS):
             continue
         is_filled = channel in filled or (channel == "length" and bool(filled & set(STROKES)))
         if "a set value" in reason and is_filled:
@@ -192,6 +190,28 @@ def _unread(evidence: Evidence) -> list[Question]:
                 choices=("ignore", *others),
             )
         )
+    return asked
+
+
+def _proposed(evidence: Evidence) -> list[Question]:
+    """Columns that only their unit and numbers tell: read, but said."""
+    asked = []
+    for channel, column in evidence.used.items():
+        if column.origin == PROPOSED:
+            other = "length" if channel == "displacement" else "displacement"
+            name = bare_name(column)
+            asked.append(
+                Question(
+                    f"column '{name}'",
+                    f"{evidence.noun} '{column.header}' is read as {channel}: proposed from its unit "
+                    f"'{column.unit}' and its numbers, its name does not say it",
+                    f"{column_option(other, name)} or {ignore_option(name)}",
+                    column.header,
+                    channel,
+                    (channel, other, "ignore"),
+                    stops=False,
+                )
+            )
     return asked
 
 

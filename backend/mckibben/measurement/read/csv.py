@@ -14,6 +14,7 @@ from mckibben.measurement.read.assemble import assemble
 from mckibben.measurement.read.cells import CellTable
 from mckibben.measurement.read.conditions import Note, note_of_line
 from mckibben.measurement.read.correction import Correction
+from mckibben.measurement.read.encodings import decoded_otherwise
 from mckibben.measurement.read.grid import split_line
 from mckibben.measurement.read.header import HEADER_EXAMPLE, plainly_known
 from mckibben.measurement.read.lines import located_text
@@ -93,6 +94,9 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
     known = plainly_known(headers)
     first = list(sample[0]) if sample else []
     words = [i for i in known if i < len(first) and kind_of(first[i]) in (TEXT, CLOCK)]
+    words += [
+        i for i, name in enumerate(headers) if not name and i < len(first) and kind_of(first[i]) == CLOCK
+    ]
     pressures = {(held.value, held.unit) for header in headers if (held := held_pressure(header)) is not None}
     sure = bool(known) and not words and len(pressures) < 2 and not _has_thousands(body, separator)
 
@@ -192,8 +196,8 @@ def _decoded(data: bytes, name: str, messages: list[str]) -> str:
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        text = data.decode("latin-1")
-        messages.append("the file is not UTF-8: read as Latin-1")
+        text, encoding = decoded_otherwise(data)
+        messages.append(f"the file is not UTF-8: read as {encoding}")
     if not text.strip():
         raise InputError(
             f"{name}, row 1: the file is empty", field="row 1", hint="a header and one line per reading"

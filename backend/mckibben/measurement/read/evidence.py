@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from mckibben.measurement.read.cells import Labels
 from mckibben.measurement.read.header import HeaderColumn, Meaning
 from mckibben.measurement.read.recognise import taken_apart
+from mckibben.measurement.read.values import NUMBER, TEXT, kind_of
 
 Array = NDArray[np.float64]
 
@@ -46,3 +47,9 @@ class Evidence(NamedTuple):
 def bare_name(column: HeaderColumn) -> str:
     """The name of a column as an option takes it: without its unit."""
     return taken_apart(column.header).name or column.header
+
+
+def is_numeric(sample: Sequence[Sequence[str]], index: int) -> bool:
+    """Whether a column holds numbers in the first rows."""
+    kinds = [kind_of(row[index]) for row in sample if index < len(row)]
+    return NUMBER in kinds and TEXT not in kinds

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.read.correction import SAMPLE, SLACK, Choice
 from mckibben.measurement.read.marks import MARK_WORDS, split_mark
-from mckibben.measurement.read.recognise import BY_UNIT, is_raw, recognise, taken_apart
+from mckibben.measurement.read.recognise import BY_UNIT, is_raw, recognise, taken_apart, without_paths
 from mckibben.measurement.read.unit_words import CLOCK, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import factor, is_unit, meaning
@@ -57,8 +57,8 @@ TEXT_COLUMNS = ("direction", "group", SLACK, SAMPLE)
 class HeaderColumn(NamedTuple):
     """A column that is used: ``use`` is a channel, ``slack`` or ``sample``; ``unit`` None = not given.
 
-    ``sign`` -1: the file counts it the other way. ``origin``: who says what it is, ``file`` or ``you``;
-    ``extends``: its name says that it grows as the muscle becomes longer.
+    ``sign`` -1: the file counts it the other way. ``origin``: who says what it is, ``file``, ``you``
+    or ``proposed`` from its numbers; ``extends``: its name says that it grows as the muscle becomes longer.
     """
 
     place: int
@@ -126,7 +126,9 @@ def map_headers(
     problems: dict[int, InputError] = {}
     seen: set[str] = set()
     found: list[HeaderColumn] = []
+    bare = without_paths(names)
     for index, header in enumerate(names):
+        name = bare[index]
         try:
             if index in choices:
                 column = _chosen(index, header, choices[index], apart[index])
@@ -140,16 +142,16 @@ def map_headers(
                 )  # fmt: skip
             else:
                 column, said = None, []
-                if CLOCK not in (recognise(header).unit, apart[index]):
-                    text = _with(header, apart[index])
+                if CLOCK not in (recognise(name).unit, apart[index]):
+                    text = _with(name, apart[index])
                     column = _column(index, text, f"{where}, {noun} '{header}'", noun, said)
-                if column is None and not (said and recognise(header, apart[index]).unit is None):
+                if column is None and not (said and recognise(name, apart[index]).unit is None):
                     other: list[str] = []
-                    column = _in_other_words(index, header, apart[index], reasons, other)
+                    column = _in_other_words(index, name, apart[index], reasons, other)
                     said = said if column is None else other
                 if column is None and said:
                     reasons[index] = said[-1].partition(" is not used: ")[2] or reasons.get(index, "")
-                messages += said
+                messages += [text.replace(f"'{name}'", f"'{header}'") for text in said]
                 column = column if column is None else column._replace(header=header)
         except InputError as error:
             if not collect:
@@ -162,15 +164,7 @@ def map_headers(
             found.append(column)
     if not any(column.penalty < BY_UNIT for column in found) and not all(map(_is_unit, names)):
         found.clear()  # units alone make no table
-    found.sort(
-        key=lambda c: (
-            c.place not in choices,
-            is_raw(c.header),
-            c.penalty,
-            not c.header.lower().startswith(c.use),
-            c.place,
-        )
-    )
+    found.sort(key=lambda c: _rank(c, bare[c.place], c.place in choices))
     messages += [
         f"{noun} '{column.header}' is read as {column.use} by its unit '{column.unit}' alone"
         for column in found
@@ -192,6 +186,11 @@ def map_headers(
     dismissed = frozenset(index for index, choice in choices.items() if choice is None)
     columns = sorted(used.values(), key=lambda column: column.place)
     return Meaning(columns, ignored, messages, problems, reasons, tuple(rivals), dismissed)
+
+
+def _rank(column: HeaderColumn, name: str, chosen: bool) -> tuple[bool, bool, int, bool, int]:
+    plainly = name.lower().startswith(column.use)
+    return not chosen, is_raw(column.header), column.penalty, not plainly, column.place
 
 
 def _with(header: str, unit: str | None) -> str:

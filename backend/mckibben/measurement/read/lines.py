@@ -13,6 +13,7 @@ from mckibben.measurement.read.conditions import note_of_line
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.grid import TextGrid, separator_of
 from mckibben.measurement.read.limits import check_columns, check_rows
+from mckibben.measurement.read.recognise import taken_apart, without_paths
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import in_known_words, statements
 from mckibben.measurement.read.table_source import source_of
@@ -27,6 +28,7 @@ _PAIR = re.compile(
     r"""["']?(?P<key>[A-Za-zµκ][A-Za-z0-9_ ]{0,30}?)["']?\s*[:=]\s*"""
     r"""(?P<value>[+-]?[0-9]+(?:\.[0-9]*)?(?:[eE][+-]?[0-9]+)?)(?![\w:.])"""
 )
+_UNIT_SAID = re.compile(r"(?i)\bunits?\s*[:=]\s*[\"'\[(]?([^\s,;\"'\])]+)")
 _KEYED_SHARE = 0.5  # of the lines, from which a text is a log of keys and values
 
 
@@ -66,6 +68,7 @@ def located_text(text: str, name: str, correction: Correction, messages: Sequenc
     table = chosen.table
     check_columns(len(table.names), f"{name}, row {table.head_row}", f"row {table.head_row}")
     _name_abscissa(table)
+    _units_of_comments(table, original)
     table.rest += remarks
     table.unread = [*table.unread, *chosen.unread]
     found = in_known_words(notes)
@@ -97,6 +100,25 @@ def _name_abscissa(table: Table) -> None:
             if said is not None:
                 table.names[index], table.units[index] = f"{column} (time)", "s"
                 table.messages.append(f"'{column}' is the time in s ({said[1]}: '{said[0][:40]}')")
+
+
+def _units_of_comments(table: Table, lines: Sequence[str]) -> None:
+    """Units that comment lines say of columns by their full names: ``# /rig/p  units=kPa``, ``# p: bar``."""
+    above = range(min((table.head_row or 1) - 1, _FIRST_LINES))
+    comments = [(i, lines[i].lstrip("# \t")) for i in above if lines[i].lstrip().startswith("#")]
+    for index, (name, bare) in enumerate(zip(table.names, without_paths(table.names), strict=True)):
+        if not name or table.units[index] is not None or taken_apart(bare).unit is not None:
+            continue
+        for line, text in comments:
+            if not re.match(rf"{re.escape(name)}(?![\w./])", text):
+                continue
+            rest = text[len(name) :].strip()
+            found = _UNIT_SAID.search(rest) or re.fullmatch(r"[:=\s]*[\[(]?([^\s\[\]()]+)[\])]?", rest)
+            if found and unit_of(found[1]) is not None:
+                table.units[index] = found[1]
+                table.unit_where = table.unit_where or f"line {line + 1}"
+                table.messages.append(f"column '{name}' is in {found[1]} (line {line + 1})")
+                break
 
 
 def _keyed(lines: Sequence[str]) -> tuple[list[str], list[tuple[str, str]]] | None:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from mckibben.measurement.read.cells import Cell
-from mckibben.measurement.read.grid import Grid, TextGrid
+from mckibben.measurement.read.grid import BLANKS, Grid, TextGrid
 from mckibben.measurement.read.recognise import BY_UNIT, recognise
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.values import CLOCK, GAP, NUMBER, TEXT, kind_of
@@ -210,6 +210,10 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
     named = at if at is not None else _row_of_names(texts, rows, run)
     names = _padded(texts[named], run.width)
     width = len(names)
+    if isinstance(grid, TextGrid) and grid.separator == BLANKS:
+        for index in rows:
+            if index != named and (placed := _placed_units(grid.lines[named], grid.lines[index])):
+                texts[index] = placed
     units_at = _row_of_units(texts, [index for index in rows if index != named], names)
     if units_at is None and not any(recognise(name).unit for name in names if name):
         units_at = _units_in_preamble(grid, named, names)
@@ -228,6 +232,32 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
             continue
         names = [name or (o if _names_channel(o) else "") for name, o in zip(names, other, strict=False)]
     return TableHead(names, units, named, units_at, tuple(rows))
+
+
+def _placed_units(names: str, units: str) -> list[str] | None:
+    """Units below names in columns of fixed width, one cell per name; None = it is no such line.
+
+    A unit belongs to the name whose end or middle is nearest; the first column may have none.
+    """
+    heads = list(re.finditer(r"\S+(?:\s[\[(]\S+)?", names.expandtabs()))
+    found = list(re.finditer(r"\S+", units.expandtabs()))
+    if not found or len(found) > len(heads) or any(unit_of(word[0]) is None for word in found):
+        return None
+    cells = [""] * len(heads)
+    for word in found:
+        gaps = [
+            min(
+                abs(word.end() - head.end()),
+                abs(word.start() - head.start()),
+                abs(sum(word.span()) - sum(head.span())) // 2,
+            )
+            for head in heads
+        ]
+        nearest = gaps.index(min(gaps))
+        if cells[nearest]:
+            return None
+        cells[nearest] = word[0]
+    return cells
 
 
 def _divides(names: Sequence[str], below: Sequence[str]) -> bool:

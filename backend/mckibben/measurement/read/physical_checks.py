@@ -21,7 +21,7 @@ def _signs(evidence: Evidence) -> list[Question]:
     asked = []
     force = evidence.channels.get("force")
     column = evidence.used.get("force")
-    if force is not None and column is not None and column.origin != "you" and _mostly_negative(force):
+    if force is not None and column is not None and column.origin != "you" and mostly_negative(force):
         asked.append(
             Question(
                 "sign of force",
@@ -43,8 +43,8 @@ def _signs(evidence: Evidence) -> list[Question]:
 
 def _sign_of_stroke(evidence: Evidence, channel: str, stroke: Array, force: Array | None) -> list[Question]:
     column = evidence.used[channel]
-    against = _against(evidence, stroke, force)
-    falls = _mostly_negative(stroke)
+    against = runs_against(stroke, evidence.channels.get("pressure"), force)
+    falls = mostly_negative(stroke)
     if against is False or not (falls or against or column.extends):
         return []
     turned = column_option(channel, bare_name(column), sign=-1)
@@ -63,17 +63,17 @@ def _sign_of_stroke(evidence: Evidence, channel: str, stroke: Array, force: Arra
     ]
 
 
-def _mostly_negative(values: Array) -> bool:
+def mostly_negative(values: Array) -> bool:
+    """Whether values lie below zero nearly throughout."""
     low, high = float(np.min(values)), float(np.max(values))
     return low < 0.0 and -low > 4.0 * max(high, 0.0)
 
 
-def _against(evidence: Evidence, stroke: Array, force: Array | None) -> bool | None:
+def runs_against(stroke: Array, pressure: Array | None, force: Array | None) -> bool | None:
     """Whether the stroke runs against physics: pulled harder, a muscle becomes longer, more air shortens it.
 
-    None = the readings do not show it.
+    Units do not matter. None = the readings do not show it.
     """
-    pressure = evidence.channels.get("pressure")
     if np.ptp(stroke) == 0.0 or pressure is None:
         return None
     if force is not None and np.ptp(force) > 0.02 * np.max(np.abs(force)):

@@ -6,6 +6,7 @@ It comes after the plain way (``pressure_bar``) and never overrules it.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
@@ -23,6 +24,7 @@ from mckibben.measurement.read.vocabulary import (
     LETTERS,
     LOADLESS,
     NO_CHANNEL,
+    STATISTICS,
     channel_of_word,
     folded,
     other_quantity,
@@ -40,6 +42,7 @@ DIMENSIONS = {
 }  # fmt: skip
 BY_WORDS, BY_UNIT = 10, 60  # how much less such a column is wanted than one named the plain way
 _CHANGES = frozenset(("change", "delta", "anderung", "variation", "difference"))
+_ALSO_VOLTAGE = frozenset(("tension", "tensione", "tensao"))  # a voltage in other languages
 _RAW = 3  # of LESS_WANTED: a raw column
 _NUMBER = r"[0-9]+(?:[.,][0-9]+)?"
 _HELD = re.compile(
@@ -171,6 +174,31 @@ def taken_apart(header: str, unit_below: str | None = None) -> Head:
     return Head(text.strip(" _"), None if unit is None else unit.unit, absolute, held)
 
 
+_NEWTONS = {"n": UnitText("N")}  # behind a name of a force only; alone it counts
+_PATH = re.compile(r"/?(?P<first>[A-Za-z_]\w*)[./](?:[A-Za-z_]\w*[./])*(?P<name>[A-Za-z_]\w*)")
+
+
+def without_paths(names: Sequence[str]) -> list[str]:
+    """Names without the path that most of them share the beginning of; a unit behind ``/`` is no name.
+
+    >>> without_paths(["/rig/t", "/rig/run", "p/bar"])
+    ['t', 'run', 'p/bar']
+    """
+    found = [_PATH.fullmatch(name) for name in names]
+    firsts = [match["first"] for match in found if match]
+    common = max(set(firsts), key=firsts.count, default="")
+    count = firsts.count(common)
+    if count < 2 or 2 * count < sum(map(bool, names)):
+        return list(names)
+    parts = [match["name"] if match and match["first"] == common else None for match in found]
+    if all(
+        part is None or (unit_of(part) and not name.startswith("/"))
+        for name, part in zip(names, parts, strict=True)
+    ):
+        return list(names)
+    return [part or name for name, part in zip(names, parts, strict=True)]
+
+
 def recognise(header: str, unit_below: str | None = None) -> Recognised:
     """What a head means.
 
@@ -187,7 +215,8 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
         return Recognised(None, head.unit, None, 0, "it holds counts of a converter, not a physical value")
     if dimension in ("a voltage", "a current"):
         return Recognised(None, head.unit, None, 0, f"'{head.unit}' is {dimension}, no calibrated value")
-    named = [channel for word in words if (channel := channel_of_word(word)) is not None]
+    meant = _without_statistic(words, dimension)
+    named = [channel for word in meant if (channel := channel_of_word(word)) is not None]
     for word in words:
         reason = other_quantity(word, named[-1] if named else None)
         if reason is not None and (named or dimension):
@@ -200,12 +229,8 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
     if channel == "length" and set(words) & _CHANGES:
         channel = "extension"
     if channel is not None and (not dimension or dimension in DIMENSIONS[channel]):
-        if (
-            channel in ("force",)
-            and not dimension
-            and set(words) & {"last", "charge", "carga", "load"}
-            and len(words) > 2
-        ):
+        ambiguous = set(words) & {"last", "charge", "carga", "load"} and len(words) > 2
+        if channel == "force" and not dimension and (ambiguous or set(words) & _ALSO_VOLTAGE):
             return Recognised(None, None, None, 0, "its name is not known")
         return Recognised(
             _proper(channel), head.unit, head.absolute, penalty, "by its name", channel == "extension"
@@ -223,6 +248,17 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
     return Recognised(
         by_unit, head.unit, head.absolute, penalty + BY_UNIT, f"by its unit '{head.unit}' alone"
     )
+
+
+def _without_statistic(words: list[str], dimension: str) -> list[str]:
+    """Words without the statistic behind them; "Last" is one where the unit is none of a load."""
+    while len(words) > 1 and (words[-1] in STATISTICS or (words[-1] == "last" and _no_load(dimension))):
+        words = words[:-1]
+    return words
+
+
+def _no_load(dimension: str) -> bool:
+    return bool(dimension) and dimension not in DIMENSIONS["force"]
 
 
 def is_raw(header: str) -> bool:
@@ -260,12 +296,12 @@ def _of_letter(words: list[str], dimension: str) -> str | None:
 def _unit_behind(text: str) -> tuple[str, UnitText | None]:
     """The unit behind ``/``, a comma, ``in``, ``_`` or a blank, and the text before it."""
     for pattern in (r"(.+?)\s*/\s*([^/]+)", r"(.+?)\s*,\s*([^,]+)", r"(.+?)\s+in\s+(\S+)"):
-        found = re.fullmatch(pattern, text)
+        found = None if text.startswith("/") else re.fullmatch(pattern, text)  # a path
         unit = unit_of(found[2]) if found else None
         if found and unit is not None:
             return found[1], unit
     found = re.fullmatch(r"(.+?)[_\s]+([^\s_]+)_?", text.strip("_ ") + ("_" if text.endswith("_") else ""))
-    unit = unit_of(found[2]) if found else None
+    unit = (unit_of(found[2]) or _NEWTONS.get(found[2])) if found else None
     if found and unit is not None and _sure(found[1], found[2], unit):
         return found[1], unit
     return text, None

@@ -17,21 +17,30 @@ from mckibben.resources import presets_folder
 NAME = "the file's name"
 #: Conditions that only these texts say, besides those with a unit.
 SIGN = "force_sign"  # text: "compression positive"
+KIND_SAID = "kind_said"  # text: "isotonic"
 _NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
 _QUANTITY = re.compile(rf"(?<![\w.,-])({_NUMBER})\s*([A-Za-zµ°%\"]+(?:\s*\([a-zü]+\))?)?(?![\w.,]*\d)")
 _UNIT_FIRST = re.compile(rf"[\[(]\s*([^\])]+?)\s*[\])]\s*[:=;]?\s*({_NUMBER})(?!\s*[A-Za-z])")
 _AT_REST = word_set(
     "l0 rest unloaded relaxed free initial nominal gauge start ruhe anfang anfangs nenn einspann ausgangs "
-    "vide repos initiale libre riposo iniziale libera reposo inicial sample specimen"
+    "vide repos initiale libre riposo iniziale libera reposo inicial spoczynkowa poczatkowa repouso "
+    "sample specimen"
 )
-_REST_LENGTHS = re.compile(r"(ruhe|einspann|anfangs|nenn|ausgangs|probe[nr]?)[a-z]{0,2}(lange|laenge)")
+_REST_LENGTHS = re.compile(
+    r"(ruhe|einspann|anfangs|nenn|ausgangs|probe[nr]?)[a-z]{0,2}(lange|laenge)|自然長|初期長"
+)
 _LOADS = word_set("load last mass masse weight gewicht charge carico carga massa peso poids masa")
 _SUPPLIES = word_set(
     "supply versorgung versorgungsdruck speisedruck vordruck netzdruck alimentation alimentazione "
     "alimentacion"
 )
-_SAMPLES = word_set("specimen sample probe prufling eprouvette provino probeta muestra muster dut campione")
+_SAMPLES = word_set(
+    "specimen sample probe prufling eprouvette provino probeta muestra muster dut campione probka amostra"
+)
 _DATES = word_set("date datum fecha data giorno")
+#: Kind of a test -> how its name begins in the languages of the heads.
+_KINDS = {"isobaric": "isobar", "isometric": "isometr", "isotonic": "isoton"}
+_UNPARTED = 0x3000  # code of the first letters of languages without blanks
 _COMPRESSION = re.compile(
     r"(compress\w*|druckkraft)\W+(?:\w+\W+){0,2}positi|(tension|traction|pull\w*|zug\w*|trazione)\W+(?:\w+\W+){0,3}negati"
 )
@@ -84,6 +93,9 @@ def _of_text(text: str) -> Iterator[tuple[str, str]]:
     references = {REFERENCE_WORDS[w] for w in folded_words(text) if len(w) > 2 and w in REFERENCE_WORDS}
     if len(references) == 1 and any(channel_of_word(word) == "pressure" for word in words):
         yield "pressure", "absolute" if references.pop() else "gauge"
+    kinds = {kind for word in words for kind, stem in _KINDS.items() if word.startswith(stem)}
+    if len(kinds) == 1:
+        yield KIND_SAID, kinds.pop()
     for quantity in _quantities(text):
         key = _key_of(quantity)
         if key is not None:
@@ -97,9 +109,10 @@ def _of_text(text: str) -> Iterator[tuple[str, str]]:
 
 
 def folded_words(text: str) -> list[str]:
-    """The words of a text in lower case, with their accents and without."""
+    """The words of a text in lower case, with their accents and without; Japanese does not part its words."""
     lower = re.findall(r"[^\W_]+", text.lower())
-    return [*lower, *(folded(word) for word in lower)]
+    unparted = [word for word in REFERENCE_WORDS if ord(word[0]) > _UNPARTED and word in text]
+    return [*lower, *(folded(word) for word in lower), *unparted]
 
 
 def _quantities(text: str) -> Iterator[_Quantity]:

@@ -73,8 +73,11 @@ def tables_of_grid(grid: Grid, *, head: int | None = None, until: int | None = N
         table = tables_of_run(grid, run, table_head, titles)
         if not isinstance(table.parts[0], MapPart):  # above a map stand titles only
             taken.update(row for row in (table_head.row, table_head.units_at) if row is not None)
+        page = _is_next_page(grid, after, run)
         after = run.last - 1
         same = next((t for t in tables if t.signature == table.signature and t.names), None)
+        if same is not None and page and _continue_part(same, table):
+            continue
         if same is not None:
             same.parts += table.parts
             same.messages += table.messages
@@ -83,6 +86,24 @@ def tables_of_grid(grid: Grid, *, head: int | None = None, until: int | None = N
     for table in tables:
         table.rest = _rest(grid, kept, taken, table)
     return tables
+
+
+def _is_next_page(grid: Grid, before: int, run: Run) -> bool:
+    """Whether a form feed stands between the table above and these rows."""
+    return isinstance(grid, TextGrid) and any("\f" in grid.lines[i] for i in range(before + 1, run.first + 1))
+
+
+def _continue_part(table: Table, page: Table) -> bool:
+    """Take the rows of a page with the same head into the part above, where both have the same columns."""
+    last, new = table.parts[-1], page.parts[0]
+    if len(page.parts) > 1 or len(table.parts) > 1 or isinstance(new, MapPart):
+        return False
+    if (last.columns, last.held) != (new.columns, new.held):
+        return False
+    last.pieces += new.pieces
+    said = "the head is repeated on the pages of the file: they are read as one table"
+    table.messages += [said] if said not in table.messages else []
+    return True
 
 
 def _row_at(grid: Grid, head: int) -> int:

@@ -88,7 +88,9 @@ REFERENCE_WORDS = dict(MARK_WORDS) | {
     "absolut": True, "absolutdruck": True, "absolue": True, "absolu": True, "assoluta": True,
     "assoluto": True, "absoluta": True, "absoluto": True, "überdruck": False, "ueberdruck": False,
     "ü": False, "relativ": False, "relativa": False, "relativo": False, "effective": False,
-    "manometrique": False, "manométrique": False, "manometrica": False, "manométrica": False,
+    "manometrique": False, "manométrique": False, "manometrica": False,
+    "nadcisnienie": False, "nadciśnienie": False, "relatywne": False,
+    "ゲージ圧": False, "絶対圧": True, "bezwzgledne": True, "manométrica": False,
 }  # fmt: skip
 
 

@@ -1,7 +1,9 @@
-"""Words of table heads and preambles in English, German, French, Spanish and Italian.
+"""Words of table heads and preambles in eight languages of Europe and Japan.
 
-Words are compared without case and accents. A word of four letters or more also counts as the beginning or
-end of a longer one, as German builds them ("Muskeldruck", "Wegaufnehmer"); a shorter one as its end only.
+Words are compared without case and accents. A word of four letters or "
+"more also counts as the beginning or
+end of a longer one, as German builds them ("Muskeldruck", "
+""Wegaufnehmer"); a shorter one as its end only.
 """
 
 from __future__ import annotations
@@ -17,21 +19,28 @@ def word_set(text: str) -> frozenset[str]:
 
 
 _CHANNEL_TEXTS = {
-    "time": "time zeit sekunden seconds temps tiempo tempo timestamp uhrzeit heure hora ora clock elapsed "
-    "dauer",
-    "pressure": "pressure druck pression presion pressione press",
-    "force": "force kraft effort forza fuerza load last charge carga carico weight gewicht",
-    "length": "length laenge lange longueur longitud lunghezza",
-    "displacement": "displacement displ disp weg hub stroke course corsa carrera verschiebung deplacement "
+    "time": "time zeit sekunden seconds temps tiempo tempo timestamp uhrzeit "
+    "heure hora ora clock elapsed "
+    "dauer czas czasu hora zaman 時刻 時間 経過時間 日時",
+    "pressure": "pressure druck pression presion pressione press cisnienie "
+    "cisnienia nadcisnienie pressao 圧力 ゲージ圧 内圧 空気圧",
+    "force": "force kraft effort forza fuerza load last charge carga carico "
+    "weight gewicht tension traction sila sily forca tracao 荷重 力 張力 引張力 発生力",
+    "length": "length laenge lange longueur longitud lunghezza dlugosc dlugosci comprimento 長さ 全長",
+    "displacement": "displacement displ disp weg hub stroke course corsa "
+    "carrera verschiebung deplacement "
     "desplazamiento spostamento position posicion posizione travel verkuerzung verkurzung "
-    "raccourcissement accorciamento acortamiento shortening auslenkung verfahrweg",
+    "raccourcissement accorciamento acortamiento shortening auslenkung "
+    "verfahrweg skrocenie przemieszczenie skok encurtamento deslocamento curso 変位 "
+    "収縮量 縮み ストローク",
     "extension": "extension elongation langenanderung dehnung verlaengerung verlangerung allongement "
-    "allungamento alargamiento",
-    "contraction": "contraction kontraktion contrazione contraccion strain kappa",
-    "diameter": "diameter durchmesser diametre diametro",
-    "velocity": "velocity speed geschwindigkeit vitesse velocidad velocita",
+    "allungamento alargamiento wydluzenie alongamento 伸び",
+    "contraction": "contraction kontraktion contrazione contraccion strain "
+    "kappa eps epsilon kontrakcja contracao 収縮率 ひずみ",
+    "diameter": "diameter durchmesser diametre diametro srednica 直径 外径",
+    "velocity": "velocity speed geschwindigkeit vitesse velocidad velocita predkosc velocidade 速度",
     "command": "command ventil valve stellgroesse stellgrosse comando vanne valvola",
-    "temperature": "temperature temperatur temperatura temp",
+    "temperature": "temperature temperatur temperatura temp 温度",
     "group": "cycle zyklus ciclo versuch essai prova lauf sweep",
 }
 #: Channel -> words for it.
@@ -48,12 +57,16 @@ OTHER_QUANTITIES = {
     for reason, words in {
         "a set value": "set setpoint soll sollwert target desired demand demanded consigne consigna "
         "riferimento fuehrung reference ref",
-        "the supply": "supply versorgung versorgungs speise vordruck alimentation alimentazione "
+        "the supply": "zasilanie zasilania alimentacao 供給圧 supply versorgung "
+        "versorgungs speise vordruck alimentation alimentazione "
         "alimentacion line tank reservoir kessel inlet source",
-        "the surrounding air": "ambient umgebung umgebungs atmosphere atmospheric baro barometer luftdruck",
-        "a length at rest": "rest ruhe ruhelaenge ruhelange initial anfang anfangs nominal nenn nennlange l0",
+        "the surrounding air": "otoczenia otoczenie ambiente 大気圧 ambient umgebung "
+        "umgebungs atmosphere atmospheric baro barometer luftdruck",
+        "a length at rest": "rest ruhe ruhelaenge ruhelange initial anfang anfangs "
+        "nominal nenn nennlange l0 "
+        "spoczynkowa poczatkowa inicial repouso 自然長 初期長",
         "a preload": "vorkraft preload vorlast precarga precarico precharge",
-        "a deviation": "error fehler vs versus std sigma residual abweichung rms",
+        "a deviation": "dev stdev error fehler vs versus std sigma residual abweichung rms",
         "a size of the tube": "inside inner innen outside outer aussen wall bore",
     }.items()
     for word in words.split()
@@ -87,8 +100,10 @@ LOADLESS = word_set(
 )
 #: Words with which the statistics below a table begin.
 STATISTICS = word_set(
-    "mean mittel mittelwert average avg moyenne media promedio durchschnitt max maximum maxi min minimum "
-    "mini std stdev stdabw sigma sd sum summe total totale somme suma count anzahl median range spannweite "
+    "mean mittel mittelwert average avg moyenne media promedio durchschnitt "
+    "max maximum maxi min minimum "
+    "mini std stdev stdabw sigma sd sum summe total totale somme suma count "
+    "anzahl median range spannweite "
     "end ende fin fine statistics statistik"
 )
 
@@ -99,8 +114,9 @@ def folded(text: str) -> str:
     >>> folded("Prüfzeit")
     'prufzeit'
     """
-    plain = unicodedata.normalize("NFKD", text.casefold())
-    return "".join(character for character in plain if not unicodedata.combining(character))
+    plain = unicodedata.normalize("NFKD", text.casefold().replace("ł", "l"))
+    bare = "".join(character for character in plain if not unicodedata.combining(character))
+    return bare if bare.isascii() else unicodedata.normalize("NFC", bare)
 
 
 def words_of(text: str) -> list[str]:
