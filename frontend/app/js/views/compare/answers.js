@@ -69,6 +69,8 @@ export const isBefore = computed(() => compare.value.before && previous.value !=
 const foundSoFar = signal({ text: "", candidates: /** @type {Candidate[]} */ ([]) });
 export const progress = signal(/** @type {Progress} */ ({ share: 0 }));
 
+const NOTABLE = 0.98; // error over the error before, from which a refit is worth a step
+
 /** @type {Memory<Diagnosis>} */
 const diagnoses = new Memory(REMEMBERED);
 const diagnosisQuestion = new Question((text, signal) => {
@@ -87,6 +89,12 @@ const diagnosisQuestion = new Question((text, signal) => {
 }, { memory: diagnoses, patience: 0, keeps: false });
 /** The diagnosis, once it is complete, and why it failed. */
 export const { answer: diagnosis, error: diagnosisError } = diagnosisQuestion;
+/** The steps of a diagnosis beyond the present model; fitting its own numbers counts only where it helps.
+ * @type {import("../../reactive.js").Signal<Diagnosis["path"]>} */
+export const ahead = computed(() => {
+  const [start, ...steps] = diagnosis.value?.path ?? [];
+  return steps.filter((step) => !step.refitted || step.rmse < NOTABLE * start.rmse);
+});
 /** The candidates of the diagnosis; while it runs, those found so far, the best first. */
 export const candidates = computed(() => {
   const { text, candidates: some } = foundSoFar.value;

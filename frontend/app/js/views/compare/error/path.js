@@ -4,7 +4,7 @@ import { h, icon } from "../../../dom.js";
 import { future, past, units } from "../../../state.js";
 import { redoAndReport, undoAndReport } from "../../../ui/history.js";
 import { goBack, here } from "../model/history.js";
-import { answer, diagnosis, stale, steps } from "../answers.js";
+import { ahead, answer, stale, steps } from "../answers.js";
 import { errorText, errorUnit, titleOf } from "../words.js";
 
 /** @typedef {{label: string, rmse: number | null, holdout: number | null,
@@ -13,11 +13,11 @@ import { errorText, errorUnit, titleOf } from "../words.js";
 /** @returns {Row[]} */
 function rows() {
   const now = here();
-  const ahead = stale.value ? [] : diagnosis.value?.path.slice(1) ?? [];
+  const proposed = stale.value ? [] : ahead.value;
   return [
     ...steps.value.map((s, index) => ({ ...s, kind: /** @type {const} */ ("past"), index })),
     { ...now, rmse: stale.value ? null : now.rmse, kind: "now", index: -1 },
-    ...ahead.map((s) => ({
+    ...proposed.map((s) => ({
       label: s.added ? `+ ${titleOf(s.added)}` : "Values fitted",
       rmse: s.rmse,
       holdout: s.holdout_rmse,

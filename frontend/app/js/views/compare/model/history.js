@@ -4,7 +4,7 @@ import { signal } from "../../../reactive.js";
 import { edit } from "../../../state.js";
 import { ApiError } from "../../../server/client.js";
 import { status } from "../../../store.js";
-import { answer, compare, diagnosis, fitWith, preset } from "../answers.js";
+import { ahead, answer, compare, diagnosis, fitWith, preset } from "../answers.js";
 import { fitOf, stepOf, withStep } from "../document.js";
 import { keyOf, valuesOf } from "../request.js";
 import { effectValues } from "../../../muscle/preset.js";
@@ -51,7 +51,7 @@ export function add(c) {
 /** Adds every effect the diagnosis found missing, in one undo step. */
 export function addAll() {
   const result = diagnosis.peek();
-  const path = result?.path.slice(1) ?? [];
+  const path = ahead.peek();
   if (!result || !path.length) return;
   const names = path.map((s) => s.added ? titleOf(s.added) : "Values fitted");
   go(

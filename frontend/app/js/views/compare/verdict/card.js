@@ -6,6 +6,7 @@ import { brief, capitalized } from "../../../format.js";
 import { addAll } from "../model/history.js";
 import {
   again,
+  ahead,
   answer,
   cancel,
   candidates,
@@ -62,7 +63,7 @@ const halted = (words, button) =>
 
 /** Adds all missing effects at once. */
 function allButton() {
-  const path = diagnosis.value?.path.slice(1) ?? [], a = answer.value;
+  const path = ahead.value, a = answer.value;
   const added = path.filter((step) => step.added);
   if (added.length < 2) return null;
   const last = path[path.length - 1];
