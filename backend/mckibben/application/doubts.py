@@ -9,8 +9,8 @@ from mckibben.application.model_question import ModelQuestion
 from mckibben.application.specimens import Specimens
 from mckibben.identification.diagnose.contest import WrongEntry, sentence_of
 from mckibben.identification.diagnose.entries import (
-    Entry,
-    Reading,
+    OtherReading,
+    StatedEntry,
     Statements,
     read_otherwise,
     statements,
@@ -90,7 +90,7 @@ def statements_of(question: ModelQuestion, most_rows: int | None = None) -> Stat
         most_rows: of the predictor, as in `Specimens.predictor`.
     """
 
-    def predictor(readings: Sequence[Reading]) -> Predictor:
+    def predictor(readings: Sequence[OtherReading]) -> Predictor:
         specimens = _read_otherwise(question.specimens, readings)
         return specimens.predictor(question.start.muscle, most_rows)[0]
 
@@ -100,7 +100,7 @@ def statements_of(question: ModelQuestion, most_rows: int | None = None) -> Stat
     return replace(found, entries=entries, kept=question.kept)
 
 
-def _read_otherwise(specimens: Specimens, readings: Sequence[Reading]) -> Specimens:
+def _read_otherwise(specimens: Specimens, readings: Sequence[OtherReading]) -> Specimens:
     if not readings:
         return specimens
     each = tuple(
@@ -133,7 +133,7 @@ def doubtful_entries(context: Sequence[WrongEntry], titles: Mapping[str, str]) -
     ]
 
 
-def with_accepted(experiment: Experiment, accepted: Sequence[Entry], model: FitModel) -> Experiment:
+def with_accepted(experiment: Experiment, accepted: Sequence[StatedEntry], model: FitModel) -> Experiment:
     """The experiment with the accepted values, whose origin is a suggestion."""
     changed = dict(experiment)
     for entry in accepted:

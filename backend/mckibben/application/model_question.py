@@ -11,7 +11,7 @@ from mckibben.application.experiment import Assumption, SaidMeasurement, SaidMod
 from mckibben.application.specimens import Specimens
 from mckibben.documents.start_model import StartModel, StatedMuscle
 from mckibben.documents.studio import Studio
-from mckibben.identification.diagnose.entries import Entry
+from mckibben.identification.diagnose.entries import StatedEntry
 from mckibben.identification.predict import Predictor
 from mckibben.identification.predict.fit_model import LOAD, FitModel, free_geometry
 from mckibben.identification.predict.free import Free
@@ -55,7 +55,7 @@ class ModelQuestion:
     noise: float | None = None
     assumptions: tuple[Assumption, ...] = ()
     remarks: tuple[str, ...] = ()
-    accepted: tuple[Entry, ...] = ()
+    accepted: tuple[StatedEntry, ...] = ()
     kept: frozenset[str] = frozenset()
     envelope: Envelope = field(default_factory=dict)
     load_force: float = 0.0

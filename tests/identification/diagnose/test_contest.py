@@ -9,7 +9,7 @@ import pytest
 
 from mckibben.identification.diagnose.contest import sentence_of
 from mckibben.identification.diagnose.diagnosis import Diagnosis, diagnose
-from mckibben.identification.diagnose.entries import Reading, read_otherwise, statements
+from mckibben.identification.diagnose.entries import OtherReading, read_otherwise, statements
 from mckibben.identification.predict import Predictor, predictor_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.measurement.read import read_measurement
@@ -44,7 +44,7 @@ def diagnosis(
     measurement = read_measurement("\n".join(rows).encode(), "loops.csv")
     start = FitModel(muscle)
 
-    def predictor(readings: Sequence[Reading]) -> Predictor:
+    def predictor(readings: Sequence[OtherReading]) -> Predictor:
         return predictor_of(read_otherwise(measurement, readings), muscle)
 
     stated, accepted = statements(measurement, start, predictor).keeping(keep).using(use)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mckibben.identification.diagnose.entries import Entry, Statements, predicted_scale
+from mckibben.identification.diagnose.entries import StatedEntry, Statements, predicted_scale
 from mckibben.identification.diagnose.score import AT_FLOOR, LEAST_SCORE, better, effective_rows, score
 from mckibben.identification.diagnose.search import search
 from mckibben.identification.fit.fitted_model import FittedModel
@@ -51,7 +51,7 @@ class WrongEntry:
         kept: whether it would stand, but the user has ruled it out.
     """
 
-    entry: Entry
+    entry: StatedEntry
     value: float | None
     stderr: float | None
     explains: float
@@ -68,7 +68,7 @@ class WrongEntry:
 class _Trial:
     """One entry changed: its data and fitter, and the start model fitted with it."""
 
-    entry: Entry
+    entry: StatedEntry
     fitter: Fitter
     root: FittedModel
     best: FittedModel
@@ -159,7 +159,7 @@ def _level(trial: _Trial) -> float | None:
 
 
 def _tried(
-    entry: Entry,
+    entry: StatedEntry,
     statements: Statements,
     fitter: Fitter,
     first: FitModel,

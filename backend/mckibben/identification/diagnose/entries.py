@@ -32,7 +32,7 @@ _USUAL, _RARE = 0.2, 0.1
 
 
 @dataclass(frozen=True)
-class Reading:
+class OtherReading:
     """Another way of reading a channel: true value = factor * reading + offset."""
 
     channel: str
@@ -42,7 +42,7 @@ class Reading:
 
 
 @dataclass(frozen=True)
-class Entry:
+class StatedEntry:
     """A statement that may be wrong.
 
     Attributes:
@@ -62,7 +62,7 @@ class Entry:
     stated: float | None
     unit: str
     free: Free | None
-    reading: Reading | None
+    reading: OtherReading | None
     prior: float
 
 
@@ -77,12 +77,12 @@ class Statements:
         kept: hypotheses that the user has ruled out; they are still examined and told, but never asked about.
     """
 
-    entries: tuple[Entry, ...]
-    predictor: Callable[[Sequence[Reading]], Predictor]
-    readings: tuple[Reading, ...] = ()
+    entries: tuple[StatedEntry, ...]
+    predictor: Callable[[Sequence[OtherReading]], Predictor]
+    readings: tuple[OtherReading, ...] = ()
     kept: frozenset[str] = frozenset()
 
-    def read(self, reading: Reading) -> Predictor:
+    def read(self, reading: OtherReading) -> Predictor:
         """The data with one channel read in another way.
 
         Raises:
@@ -90,7 +90,7 @@ class Statements:
         """
         return self.predictor((*self.readings, reading))
 
-    def using(self, hypotheses: Iterable[str]) -> tuple[Statements, tuple[Entry, ...]]:
+    def using(self, hypotheses: Iterable[str]) -> tuple[Statements, tuple[StatedEntry, ...]]:
         """The statements after accepting some hypotheses, and the accepted entries.
 
         Channels are read in the accepted ways; accepted quantities are for the fit and no longer doubted.
@@ -113,7 +113,7 @@ class Statements:
         kept = frozenset(self._entry(hypothesis, "keep").hypothesis for hypothesis in hypotheses)
         return replace(self, kept=self.kept | kept)
 
-    def _entry(self, hypothesis: str, field: str) -> Entry:
+    def _entry(self, hypothesis: str, field: str) -> StatedEntry:
         for entry in self.entries:
             if entry.hypothesis == hypothesis:
                 return entry
@@ -125,7 +125,7 @@ class Statements:
         )
 
 
-def read_otherwise(measurement: Measurement, readings: Iterable[Reading]) -> Measurement:
+def read_otherwise(measurement: Measurement, readings: Iterable[OtherReading]) -> Measurement:
     """A measurement with some channels read in other ways.
 
     Raises:
@@ -137,7 +137,7 @@ def read_otherwise(measurement: Measurement, readings: Iterable[Reading]) -> Mea
 
 
 def statements(
-    measurement: Measurement, fit_model: FitModel, predictor: Callable[[Sequence[Reading]], Predictor]
+    measurement: Measurement, fit_model: FitModel, predictor: Callable[[Sequence[OtherReading]], Predictor]
 ) -> Statements:
     """Everything stated about a measurement that may be wrong.
 
@@ -149,7 +149,7 @@ def statements(
     return Statements((*_quantities(measurement, fit_model), *_readings(measurement, fit_model)), predictor)
 
 
-def _quantities(measurement: Measurement, fit_model: FitModel) -> Iterator[Entry]:
+def _quantities(measurement: Measurement, fit_model: FitModel) -> Iterator[StatedEntry]:
     muscle = fit_model.muscle
     rest, diameter, angle = muscle.nominal_length, muscle.braid_diameter, muscle.braid_angle
     yield _quantity(
@@ -173,18 +173,18 @@ def _quantities(measurement: Measurement, fit_model: FitModel) -> Iterator[Entry
         force += float(measurement.conditions.get("load_mass") or 0.0) * _G
         if force > 0.0:
             more = Free(LOAD, 0.0, -0.8 * force, 4.0 * force, "N", off=0.0, usual=0.1 * force)
-            yield Entry("load", "load", "the load", force, "N", more, None, _USUAL)
+            yield StatedEntry("load", "load", "the load", force, "N", more, None, _USUAL)
 
 
 def _quantity(
     hypothesis: str, name: str, title: str, value: float, low: float, high: float, unit: str, prior: float
-) -> Entry:
+) -> StatedEntry:
     field = f"muscle.{name}"
     free = Free(name, value, low, high, unit, off=value, usual=0.05 * abs(value))
-    return Entry(hypothesis, field, title, value, unit, free, None, prior)
+    return StatedEntry(hypothesis, field, title, value, unit, free, None, prior)
 
 
-def _readings(measurement: Measurement, fit_model: FitModel) -> Iterator[Entry]:
+def _readings(measurement: Measurement, fit_model: FitModel) -> Iterator[StatedEntry]:
     columns = measurement.columns
     rest = fit_model.muscle.nominal_length
     if "pressure" in columns:
@@ -252,15 +252,17 @@ def _readings(measurement: Measurement, fit_model: FitModel) -> Iterator[Entry]:
 
 def _reading(
     hypothesis: str, channel: str, title: str, factor: float, offset: float, words: str, prior: float
-) -> Entry:
-    return Entry(hypothesis, channel, title, None, "", None, Reading(channel, factor, offset, words), prior)
+) -> StatedEntry:
+    return StatedEntry(
+        hypothesis, channel, title, None, "", None, OtherReading(channel, factor, offset, words), prior
+    )
 
 
 def _within(value: float, limits: tuple[float, float]) -> bool:
     return limits[0] <= value <= limits[1]
 
 
-def predicted_scale(predictor: Predictor, reading: Reading | None) -> float:
+def predicted_scale(predictor: Predictor, reading: OtherReading | None) -> float:
     """Factor between a predicted channel read in the other way and as stated.
 
     Errors of the two are compared after division by it.
