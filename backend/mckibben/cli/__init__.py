@@ -14,6 +14,7 @@ from typing import Annotated
 import typer
 
 from mckibben import __version__
+from mckibben.cli.located import located
 from mckibben.cli.options import (
     AsJson,
     DataFiles,
@@ -28,7 +29,6 @@ from mckibben.cli.options import (
     PresetsFolder,
     SavedModelFile,
     Use,
-    located,
 )
 from mckibben.cli.reading import (
     Accuracy,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mckibben.cli.located import at_file
 from mckibben.physics.errors import InputError, did_you_mean
 
 if TYPE_CHECKING:
@@ -58,7 +59,6 @@ def saved_model(path: str) -> SavedModel:
     Raises:
         InputError: names the file, the field, what is wrong and what would be right.
     """
-    from mckibben.cli.options import at_file
     from mckibben.documents.saved_model import read_saved_model
 
     try:

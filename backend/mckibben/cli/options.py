@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, cast
 import typer
 
 from mckibben.cli.drive_file import drive_document, saved_model
+from mckibben.cli.located import at_file
 from mckibben.physics.errors import InputError, did_you_mean
 
 if TYPE_CHECKING:
@@ -44,7 +45,7 @@ Free = Annotated[
     typer.Option(
         "--free",
         metavar="NAME",
-        help="Geometry or constant to fit as well, e.g. braid_angle or dahl.break_strain; repeatable.",
+        help="Geometry or constant to fit as well, braid_angle or EFFECT.CONSTANT; repeatable.",
     ),
 ]
 SavedModelFile = Annotated[
@@ -274,19 +275,3 @@ def _start_of_input(
         raise at_file(
             source, (error.field or "").removeprefix("muscle."), error.message, error.hint
         ) from error
-
-
-def at_file(source: str, field: str | None, message: str, hint: str | None) -> InputError:
-    """The error with the name of the file in front."""
-    return InputError(f"{source}: {located(field, message).removesuffix('.')}", hint=hint)
-
-
-def located(field: str | None, message: str) -> str:
-    """The message with its field in front, unless the message names the field already."""
-    if (
-        not field
-        or field in message.replace("'", "")
-        or field.rpartition(".")[2].replace("_", " ") in message
-    ):
-        return message
-    return f"{field}: {message}"

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from mckibben.application.simulate import SimulationQuestion, SimulationResult, simulate
-from mckibben.cli.options import located
+from mckibben.cli.located import located
 from mckibben.cli.output import figure, remark, write_json, write_table
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_files import preset_document, read_document

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mckibben.application.size import Searched, SizingResult, prepare_search, sizing_question
-from mckibben.cli.options import located
+from mckibben.cli.located import located
 from mckibben.cli.output import figure, remark, write_json, write_table
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask

@@ -1,0 +1,21 @@
+"""Errors of the command line with the file and the field that they are about."""
+
+from __future__ import annotations
+
+from mckibben.physics.errors import InputError
+
+
+def at_file(source: str, field: str | None, message: str, hint: str | None) -> InputError:
+    """The error with the name of the file in front."""
+    return InputError(f"{source}: {located(field, message).removesuffix('.')}", hint=hint)
+
+
+def located(field: str | None, message: str) -> str:
+    """The message with its field in front, unless the message names the field already."""
+    if (
+        not field
+        or field in message.replace("'", "")
+        or field.rpartition(".")[2].replace("_", " ") in message
+    ):
+        return message
+    return f"{field}: {message}"
