@@ -41,9 +41,7 @@ from mckibben.cli.reading import (
     Sheet,
     Strict,
     Supply,
-    correction_of,
-    said_of,
-    with_said,
+    file_options,
 )
 from mckibben.physics.errors import InputError
 
@@ -160,7 +158,7 @@ def compare(
     from mckibben.cli.compare import run
     from mckibben.cli.options import open_studio
 
-    correction = correction_of(
+    options = file_options(
         sheet=sheet,
         head=head,
         columns=column,
@@ -168,10 +166,9 @@ def compare(
         rest_length=rest_length,
         load=load,
         supply=supply,
+        accuracy=accuracy,
+        experiment=experiment,
         strict=strict,
-    )
-    said = said_of(
-        rest_length=rest_length, load=load, supply=supply, accuracy=accuracy, experiment=experiment
     )
     run(
         open_studio(presets, effects, data),
@@ -179,8 +176,8 @@ def compare(
         model=ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or (), model),
         fit=fit,
         free=free or [],
-        correction=with_said(correction, said, accuracy),
-        said=said,
+        correction=options.correction,
+        said=options.said,
         as_json=as_json,
     )
 
@@ -227,7 +224,7 @@ def diagnose(
     from mckibben.cli.diagnose import run
     from mckibben.cli.options import open_studio
 
-    correction = correction_of(
+    options = file_options(
         sheet=sheet,
         head=head,
         columns=column,
@@ -235,10 +232,9 @@ def diagnose(
         rest_length=rest_length,
         load=load,
         supply=supply,
+        accuracy=accuracy,
+        experiment=experiment,
         strict=strict,
-    )
-    said = said_of(
-        rest_length=rest_length, load=load, supply=supply, accuracy=accuracy, experiment=experiment
     )
     run(
         open_studio(presets, effects, data),
@@ -246,8 +242,8 @@ def diagnose(
         model=ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or (), model),
         free=free or [],
         noise=noise,
-        correction=with_said(correction, said, accuracy),
-        said=said,
+        correction=options.correction,
+        said=options.said,
         as_json=as_json,
         report=report,
         save=save,
@@ -275,7 +271,7 @@ def convert(
     """A measurement file as the canonical CSV, with its conditions and where they stand."""
     from mckibben.cli.convert import run
 
-    correction = correction_of(
+    options = file_options(
         sheet=sheet,
         head=head,
         columns=column,
@@ -283,14 +279,13 @@ def convert(
         rest_length=rest_length,
         load=load,
         supply=supply,
+        accuracy=accuracy,
+        experiment=experiment,
         strict=strict,
-    )
-    said = said_of(
-        rest_length=rest_length, load=load, supply=supply, accuracy=accuracy, experiment=experiment
     )
     run(
         file=file,
-        correction=with_said(correction, said, accuracy),
+        correction=options.correction,
         out=out,
     )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -55,8 +56,24 @@ Strict = Annotated[
     bool, typer.Option("--strict", help="Refuse a file instead of assuming what it does not say.")
 ]
 
+# What may answer a question of the file while it is read.
+_CONDITIONS = ("force_zero", "pressure_zero", "inclination", "valve", "tube", "stops", "fixed_end")
 
-def correction_of(
+
+@dataclass(frozen=True)
+class FileOptions:
+    """What the options say about the files.
+
+    Attributes:
+        correction: how they are to be read.
+        said: values of the experiment of all measurements.
+    """
+
+    correction: Correction
+    said: Mapping[str, ExperimentValue]
+
+
+def file_options(
     *,
     sheet: str | None,
     head: int | None,
@@ -65,16 +82,18 @@ def correction_of(
     rest_length: str | None,
     load: str | None,
     supply: str | None,
+    accuracy: str | None,
+    experiment: Sequence[str] | None,
     strict: bool,
-) -> Correction:
-    """What these options say about the files.
+) -> FileOptions:
+    """What these options say about the files and their experiment.
 
     Raises:
         InputError: names the option, what is wrong and what would be right.
     """
     from mckibben.measurement.read import spoken_correction
 
-    return spoken_correction(
+    correction = spoken_correction(
         sheet=sheet,
         head=head,
         columns=columns or (),
@@ -84,9 +103,15 @@ def correction_of(
         supply=supply,
         strict=strict,
     )
+    said = _said(rest_length=rest_length, load=load, supply=supply, accuracy=accuracy, experiment=experiment)
+    conditions = dict(correction.conditions)
+    conditions |= {name: said[name].value for name in _CONDITIONS if name in said}
+    if accuracy is not None:
+        conditions["accuracy"] = accuracy
+    return FileOptions(replace(correction, conditions=conditions), said)
 
 
-def said_of(
+def _said(
     *,
     rest_length: str | None,
     load: str | None,
@@ -94,11 +119,6 @@ def said_of(
     accuracy: str | None,
     experiment: Sequence[str] | None,
 ) -> Mapping[str, ExperimentValue]:
-    """What these options say about the experiment of all measurements.
-
-    Raises:
-        InputError: names the option, what is wrong and what would be right.
-    """
     from mckibben.cli.data import said_values
     from mckibben.documents.experiment import ExperimentInput
 
@@ -118,18 +138,3 @@ def said_of(
     options = {"rest_length": rest_length, "load": load, "supply": supply, "accuracy": accuracy}
     given |= {name: value for name, value in options.items() if value is not None}
     return said_values(given, "--")
-
-
-def with_said(
-    correction: Correction, said: Mapping[str, ExperimentValue], accuracy: str | None
-) -> Correction:
-    """The correction with the same statements as conditions, where they may answer a question of a file."""
-    from dataclasses import replace
-
-    conditions = dict(correction.conditions)
-    for name, value in said.items():
-        if name in ("force_zero", "pressure_zero", "inclination", "valve", "tube", "stops", "fixed_end"):
-            conditions[name] = value.value
-    if accuracy is not None:
-        conditions["accuracy"] = accuracy
-    return replace(correction, conditions=conditions)
