@@ -70,9 +70,7 @@ def deciding(question: ModelQuestion, *, use: Sequence[str] = (), keep: Sequence
     """
     if not use and not keep:
         return question
-    doubtful = statements_of(question)
-    doubtful.keeping(keep)
-    left, accepted = doubtful.using(use)
+    left, accepted = statements_of(question).keeping(keep).using(use)
     specimens = _read_otherwise(question.specimens, left.readings)
     validation = question.validation
     if validation is not None:

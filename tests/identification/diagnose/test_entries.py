@@ -82,3 +82,17 @@ def test_an_unknown_hypothesis_names_the_nearest(call) -> None:
     with pytest.raises(InputError) as error:
         call(stated(loops()), ["rest_lenght"])
     assert "rest_length" in str(error.value.hint)
+
+
+@pytest.mark.parametrize(
+    ("use", "keep", "words"),
+    [
+        (["force_in_kgf", "force_in_lbf"], [], "are both about the force"),
+        (["rest_length"], ["rest_length"], "is both used and kept"),
+    ],
+)
+def test_decisions_that_contradict_each_other_are_refused(use, keep, words) -> None:
+    with pytest.raises(InputError) as error:
+        stated(loops()).keeping(keep).using(use)
+    assert error.value.field == "use"
+    assert words in str(error.value)

@@ -96,11 +96,24 @@ class Statements:
         Channels are read in the accepted ways; accepted quantities are for the fit and no longer doubted.
 
         Raises:
-            InputError: there is no such hypothesis for these data.
+            InputError: there is no such hypothesis for these data, it is ruled out, or two are about the same
+                statement.
         """
         accepted = tuple(self._entry(hypothesis, "use") for hypothesis in dict.fromkeys(hypotheses))
         readings = tuple(entry.reading for entry in accepted if entry.reading is not None)
-        settled = {entry.field for entry in accepted}
+        settled: dict[str, str] = {}
+        for entry in accepted:
+            other = settled.setdefault(entry.field, entry.hypothesis)
+            if other != entry.hypothesis:
+                raise InputError(
+                    f"'{other}' and '{entry.hypothesis}' are both about {entry.title}",
+                    field="use",
+                    hint="use one of them",
+                )
+            if entry.hypothesis in self.kept:
+                raise InputError(
+                    f"'{entry.hypothesis}' is both used and kept", field="use", hint="choose one"
+                )
         left = tuple(entry for entry in self.entries if entry.field not in settled)
         return replace(self, readings=(*self.readings, *readings), entries=left), accepted
 
