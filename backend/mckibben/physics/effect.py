@@ -93,6 +93,22 @@ class Twin:
 
 
 @dataclass(frozen=True, slots=True)
+class Prior:
+    """How likely an effect is before any data.
+
+    A diagnosis uses it only between effects that the data cannot tell apart, and for its probabilities.
+    The values of the catalogue are engineering judgement (grade E); only their order matters much.
+
+    Attributes:
+        share: of the drives and rigs in which it reaches a measurable size, between 0 and 1.
+        why: one clause, which a diagnosis repeats where it chooses this effect.
+    """
+
+    share: float
+    why: str
+
+
+@dataclass(frozen=True, slots=True)
 class Example:
     """A worked example: ``quantity`` of the ideal muscle with only this effect equals ``expected``.
 
@@ -133,6 +149,7 @@ class Effect:
             assumed (`mckibben.physics.muscle.Muscle.assuming`).
         among_lengths: whether it shows only among muscles of several lengths; a search in the data of one
             muscle does not try it, because it would imitate other effects of the geometry.
+        prior: how likely it is before any data.
         states: states of the effect; ``rates`` (of the muscle) or ``drive_rates`` gives their derivatives.
         id: the file name, set by the catalogue.
     """
@@ -152,6 +169,7 @@ class Effect:
     order: int = 0
     needs: tuple[str, ...] = ()
     among_lengths: bool = False
+    prior: Prior = Prior(0.2, "it is not known how often it occurs")
     states: tuple[StateVariable, ...] = ()
     id: str = ""
     _wanted: Mapping[str, tuple[str, ...]] = field(default_factory=dict, repr=False)
@@ -166,6 +184,8 @@ class Effect:
             raise ValueError(f"unknown zero_at {sorted(unknown)}; known: {', '.join(ZERO_STATES)}")
         if not (self.parameters and self.slots and self.kinds and self.references and self.examples):
             raise ValueError("parameters, slots, kinds, references and examples must not be empty")
+        if not 0.0 < self.prior.share < 1.0:
+            raise ValueError(f"prior.share is {self.prior.share}; it must lie between 0 and 1")
         names = [parameter.name for parameter in self.parameters]
         if len(set(names)) != len(names):
             raise ValueError(f"a parameter name occurs twice: {names}")

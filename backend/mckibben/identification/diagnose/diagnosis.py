@@ -11,6 +11,7 @@ from mckibben.identification.diagnose.contest import WrongEntry, contest
 from mckibben.identification.diagnose.entries import Statements
 from mckibben.identification.diagnose.gauge_zero import GaugeZero, vented
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment
+from mckibben.identification.diagnose.probability import Evidence, evidence, model_weights
 from mckibben.identification.diagnose.reason import ResidualTraits, traits_of, why
 from mckibben.identification.diagnose.score import effective_rows, score
 from mckibben.identification.diagnose.search import search
@@ -138,6 +139,7 @@ class Diagnosis:
     not_tried: tuple[NotTried, ...] = ()
     context: tuple[WrongEntry, ...] = ()
     absorbed: tuple[AbsorbedError, ...] = ()
+    evidence: tuple[Evidence, ...] = ()
 
 
 def diagnose(
@@ -265,6 +267,20 @@ def _diagnose(
     proven = () if gauge_zero is None else (gauge_zero.effect.id,)
     exchangeable = tuple(alternatives(fitter, best, [name for name in added if name not in proven], level))
     fit = _final_fit(predictor, best)
+    rows = effective_rows(best.residual, predictor.sweeps, predictor.folds)
+    weights = model_weights(fitter.known.values(), root, rows=rows, noise=fitter.noise)
+    support = tuple(
+        evidence(
+            name,
+            [name, *(other.effect for other in exchangeable if other.of == name)],
+            weights=weights,
+            without=fitter.dropping(best, name),
+            best=best,
+            root=root,
+            noise=level,
+        )
+        for name in added
+    )
     changing = [
         (effect.id, fitted_model)
         for effect, fitted_model in fitted_singles
@@ -321,6 +337,7 @@ def _diagnose(
         not_tried=tuple(not_tried),
         context=context,
         absorbed=absorbed_by(predictor, best.fit_model),
+        evidence=support,
     )
 
 

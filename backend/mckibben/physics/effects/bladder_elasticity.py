@@ -12,7 +12,7 @@ contraction and then saturates, whatever the pressure; with a stiffening wall (y
 """
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
@@ -116,6 +116,7 @@ EFFECT = Effect(
         Twin("threshold_pressure", "force over pressure at several lengths: the intercept grows"),
         Twin("contraction_factor", "several pressures: the effect of the factor grows with pressure"),
     ),
+    prior=Prior(0.9, "every muscle has a rubber bladder, and it resists every change of diameter"),
     references=(
         Source("Yeoh, Rubber Chem. Technol. 66 (1993) 754; Gent, ibid. 69 (1996) 59", "M"),
         Source("Klute & Hannaford, J. Dyn. Syst. Meas. Control 122 (2000) 386", "M"),

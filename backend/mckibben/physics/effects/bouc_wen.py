@@ -8,7 +8,7 @@ rest for :math:`\beta \ge 1/2`, which is the lower bound.
 """
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
@@ -120,6 +120,7 @@ EFFECT = Effect(
         Twin("maxwell_slip", "loops within a loop: only Maxwell slip closes them"),
         Twin("coulomb_friction", "the corners of a loop: Coulomb friction jumps at the reversal"),
     ),
+    prior=Prior(0.15, "one particular form of a hysteresis loop, with many constants"),
     references=(_BOUC,),
     examples=(
         Example("slot:friction", 2.5, 1e-12, _DEFINITION, {"force": 10.0}, {}, {"presliding": 0.25}),

@@ -10,7 +10,7 @@ At :math:`d_r` beyond the lock the stiffness is force over travel for any expone
 """
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
@@ -90,6 +90,7 @@ EFFECT = Effect(
         Twin("bladder_elasticity", "large contractions: the lock has a kink, the bladder saturates"),
         Twin("contraction_factor", "free contraction against pressure: the lock ends it at one length"),
     ),
+    prior=Prior(0.1, "it matters only near the largest contraction of the braid"),
     references=(_DAVIS,),
     examples=(
         Example(

@@ -5,7 +5,7 @@ push over the whole working range; the spring is meant to act beyond :math:`L_{m
 """
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
@@ -66,6 +66,7 @@ EFFECT = Effect(
         Twin("rig_compliance", "replace the muscle by a rigid rod"),
         Twin("length_offset", "several pressures: the braid's share does not grow with pressure"),
     ),
+    prior=Prior(0.2, "it matters for muscles pulled beyond their nominal length"),
     references=(_COLBRUNN,),
     examples=(
         Example(

@@ -7,7 +7,7 @@ The published coefficients have :math:`f_k > f_s`: friction rises with speed.
 """
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
@@ -105,6 +105,7 @@ EFFECT = Effect(
         Twin("coulomb_friction", "loops at three pressures: width growing with pressure or constant"),
         Twin("viscous_damping", "speeds over two decades: contact friction levels off"),
     ),
+    prior=Prior(0.25, "one particular form of the friction between threads"),
     references=(_TONDU,),
     examples=(
         Example(

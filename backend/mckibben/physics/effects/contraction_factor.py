@@ -17,7 +17,7 @@ U is that of the ideal braid, also where other effects change the volume.
 from collections.abc import Callable
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
@@ -126,6 +126,7 @@ EFFECT = Effect(
         Twin("bladder_elasticity", "several pressures: the bladder's share does not grow with pressure"),
         Twin("linear_elasticity", "several pressures: the elastic share does not grow with pressure"),
     ),
+    prior=Prior(0.3, "an empirical summary of what the ends do"),
     references=(_TONDU, _KERSCHER),
     examples=(
         Example(

@@ -7,7 +7,7 @@ static curve has a direction but no speed: it uses :math:`F_s`.
 """
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -85,6 +85,7 @@ EFFECT = Effect(
         Twin("viscous_damping", "three speeds: Coulomb friction does not change"),
         Twin("prestress", "both directions: friction changes sign, the prestress does not"),
     ),
+    prior=Prior(0.6, "every braid rubs, and most measured loops are open"),
     references=(_CHOU,),
     examples=(
         Example(

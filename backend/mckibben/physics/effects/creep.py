@@ -10,7 +10,7 @@ relaxes nearly with the logarithm of time for :math:`\alpha = 0`, with a power o
 :math:`\alpha > 0`; a spread of 1 is one arm.
 """
 
-from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -114,6 +114,7 @@ EFFECT = Effect(
         Twin("temperature", "a hold after a single motion: only creep drifts"),
         Twin("coulomb_friction", "very slow loops: creep vanishes, Coulomb friction stays"),
     ),
+    prior=Prior(0.4, "every rubber relaxes when it is held"),
     references=(_FESTO, Source("Minh et al., creep of pneumatic artificial muscles (2010-2012)", "M")),
     examples=(
         Example(

@@ -9,7 +9,7 @@ friction. Because z is a share, the force is exactly zero for F_c = 0. Minor loo
 """
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
@@ -83,6 +83,7 @@ EFFECT = Effect(
         Twin("viscous_damping", "three speeds over two decades: Dahl friction does not change"),
         Twin("pressure_hysteresis", "a pressure loop at constant length: Dahl friction shows no loop"),
     ),
+    prior=Prior(0.25, "one particular form of friction before sliding"),
     references=(_DAHL,),
     examples=(
         Example("slot:friction", -7.5, 1e-12, _DEFINITION, {"force": 10.0}, {}, {"presliding": -0.75}),

@@ -1,6 +1,6 @@
 r"""Dead volume: gas in fittings, end caps and ports, :math:`V = V_{muscle} + V_d`."""
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -49,6 +49,7 @@ EFFECT = Effect(
         Twin("tube_resistance", "a second pressure sensor at the valve"),
         Twin("heat_exchange", "close the valve and hold the length: dead volume does not drift"),
     ),
+    prior=Prior(0.5, "fittings and valve ports always hold some air"),
     references=(Source("conservation of mass", "D"),),
     examples=(Example("slot:extra_volume", 8e-6, 1e-12, _DEFINITION, {"volume": 8e-6}, {}, {}),),
 )

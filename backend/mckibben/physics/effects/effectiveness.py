@@ -7,7 +7,7 @@ model.
 """
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -79,6 +79,7 @@ EFFECT = Effect(
             "force against pressure at four lengths: the slope changes, or the intercept",
         ),
     ),
+    prior=Prior(0.3, "an empirical factor for everything that scales the force"),
     references=(_COLBRUNN,),
     examples=(
         Example(

@@ -12,7 +12,7 @@ small contraction this is Tondu's factor with :math:`k - 1 = \chi\cot^2\theta_0\
 from collections.abc import Callable
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
@@ -72,6 +72,7 @@ EFFECT = Effect(
         Twin("length_offset", "gauge blocks, or two muscle lengths"),
         Twin("bladder_elasticity", "several pressures: the bladder's share does not grow with pressure"),
     ),
+    prior=Prior(0.6, "every muscle ends in fittings that keep their diameter"),
     references=(
         Source("Tsagarakis & Caldwell, IEEE ICRA (2000)", "M"),
         Source("Doumit, Fahim & Munro, IEEE Trans. Robotics 25 (2009) 1282", "M"),

@@ -3,7 +3,7 @@ r"""Exhaust restricted by a silencer, throttle or smaller port, :math:`C_{ex}' =
 A silencer of conductance C_s in series is about :math:`f_{ex} = 1/\sqrt{1 + (C_{ex}/C_s)^2}`.
 """
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -50,6 +50,7 @@ EFFECT = Effect(
         Twin("tube_resistance", "filling and venting: a tube slows both"),
         Twin("viscous_damping", "vent a rigid vessel instead of the muscle"),
     ),
+    prior=Prior(0.25, "silencers restrict the exhaust"),
     references=(Source("restrictions in series, ISO 6358-3", "M"),),
     examples=(
         Example(

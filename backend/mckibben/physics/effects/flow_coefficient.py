@@ -1,6 +1,6 @@
 r"""The valve's conductance differs from its data sheet by one factor, :math:`C' = f_C\,C`, both ways."""
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -48,6 +48,7 @@ EFFECT = Effect(
         Twin("tube_resistance", "a second pressure sensor at the valve"),
         Twin("supply_droop", "log the supply pressure"),
     ),
+    prior=Prior(0.5, "data sheets state conductances for the bare valve, without its fittings"),
     references=(Source("ISO 6358", "M"),),
     examples=(
         Example(

@@ -1,6 +1,6 @@
 r"""Zero error of the force sensor, :math:`F_{read} = F + o_F`, e.g. the weight of parts attached to it."""
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 from mckibben.physics.slots import Reading
@@ -51,6 +51,7 @@ EFFECT = Effect(
         Twin("coulomb_friction", "both directions: friction changes sign, an offset does not"),
         Twin("pressure_offset", "lengths near the zero-force length: there a pressure offset vanishes"),
     ),
+    prior=Prior(0.2, "load cells are often not tared after mounting"),
     references=(Source("definition of a zero error", "D"),),
     examples=(
         Example(

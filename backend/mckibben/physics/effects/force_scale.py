@@ -3,7 +3,7 @@ r"""Scale error of the force sensor, :math:`F_{read} = s_F F`.
 A pull that is not in line with the sensor reads the same way, :math:`s_F = \cos\varphi`.
 """
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 from mckibben.physics.slots import Reading
@@ -51,6 +51,7 @@ EFFECT = Effect(
         Twin("pressure_scale", "a pressure calibrator and dead weights: two independent calibrations"),
         Twin("wall_thickness", "measure wall and braid diameter"),
     ),
+    prior=Prior(0.1, "a scale error above the accuracy of the sensor is a wrong calibration"),
     references=(Source("definition of a scale error", "D"),),
     examples=(
         Example(

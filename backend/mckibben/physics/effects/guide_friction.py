@@ -11,7 +11,7 @@ on the load, so a force sensor at the muscle does not see it.
 """
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -122,6 +122,7 @@ EFFECT = Effect(
         ),
         Twin("viscous_damping", "force sensors on both sides of the guide"),
     ),
+    prior=Prior(0.15, "only rigs with a guide have it"),
     references=(Source("Coulomb and viscous friction of a linear guide", "M"),),
     examples=(
         Example(

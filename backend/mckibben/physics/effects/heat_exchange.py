@@ -6,7 +6,7 @@ stays at ambient temperature.
 """
 
 from mckibben.physics import gas
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -61,6 +61,7 @@ EFFECT = Effect(
         Twin("creep", "log the pressure: creep changes the length, not the pressure"),
         Twin("flow_coefficient", "filling and venting: a conductance leaves no drift afterwards"),
     ),
+    prior=Prior(0.5, "the wall always takes heat from compressed air"),
     references=(
         Source("first law of a chamber with flow", "D"),
         Source("Richer & Hurmuzlu, J. Dyn. Syst. Meas. Control 122 (2000) 416", "M"),

@@ -10,7 +10,7 @@ With :math:`p_r` both laws pass the same at 20 degC from 4 to 1 bar (absolute), 
 """
 
 from mckibben.physics import gas
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -108,6 +108,7 @@ EFFECT = Effect(
         Twin("creep", "log the pressure: it falls with a leak and stays with creep"),
         Twin("valve_deadband", "close off the muscle by a tap instead of the valve"),
     ),
+    prior=Prior(0.15, "tight fittings are the rule"),
     references=(Source("ISO 6358", "M"), _POISEUILLE),
     examples=(
         Example(

@@ -3,7 +3,7 @@ r"""Zero error of the length, :math:`L_{read} = L + o_L`.
 A rest length that differs from the name plate, or an unrecorded pretension, has the same effect.
 """
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 from mckibben.physics.slots import Reading
@@ -53,6 +53,7 @@ EFFECT = Effect(
         Twin("rig_compliance", "replace the muscle by a rigid rod"),
         Twin("braid_stiffening", "several pressures: the braid's share does not grow with pressure"),
     ),
+    prior=Prior(0.3, "the zero of a stroke is often taken by hand"),
     references=(Source("definition of a zero error", "D"),),
     examples=(
         Example(

@@ -5,7 +5,7 @@ The braid makes the wall stiffer than its rubber: for small strain of a tube of 
 times :math:`E A_w/L_0`. Real muscles follow a straight line over the first 5 % of contraction only.
 """
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
@@ -58,6 +58,7 @@ EFFECT = Effect(
         Twin("end_caps", "several pressures: the share of the ends grows with pressure"),
         Twin("creep", "two speeds: elasticity has no rate"),
     ),
+    prior=Prior(0.2, "a straight-line summary of what rubber does; the bladder itself is seldom linear"),
     references=(
         Source("Reynolds et al., Ann. Biomed. Eng. 31 (2003) 310", "M"),
         Source("Martens & Boblan, Actuators 6(4):33 (2017), doi 10.3390/act6040033", "S2"),

@@ -1,6 +1,6 @@
 r"""The load differs from the stated one by a factor, :math:`M' = f_M M,\ F_{ext}' = f_M F_{ext}`."""
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -47,6 +47,7 @@ EFFECT = Effect(
         Twin("force_scale", "dead weights on the force sensor"),
         Twin("effectiveness", "weigh the load"),
     ),
+    prior=Prior(0.05, "a mass is easily weighed"),
     references=(Source("definition of a scale error", "D"),),
     examples=(Example("slot:load_factor", 0.9, 1e-12, _DEFINITION, {"factor": 0.9}, {}, {}),),
 )

@@ -13,7 +13,7 @@ One stroke explains both measured effects of the length: the free contraction (H
 
 from collections.abc import Callable
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
@@ -89,6 +89,7 @@ EFFECT = Effect(
             "contraction_factor", "the blocked force of muscles of several lengths: a factor leaves it alone"
         ),
     ),
+    prior=Prior(0.3, "clamped ends often lose some millimetres, more on short muscles"),
     references=(_HUNT, _BOLEN),
     examples=(
         Example(

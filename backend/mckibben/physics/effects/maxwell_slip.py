@@ -11,7 +11,7 @@ elastic below 0.9, never passes the limit, and its rate has no jump.
 """
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
@@ -121,6 +121,7 @@ EFFECT = Effect(
         Twin("bladder_elasticity", "both directions: the elastic force retraces, friction changes sign"),
         Twin("coulomb_friction", "small amplitudes: the Coulomb loop keeps its full width"),
     ),
+    prior=Prior(0.3, "measured loops within loops often follow it"),
     references=(_MINH,),
     examples=(
         Example(

@@ -1,6 +1,6 @@
 r"""Moving mass without weight on the muscle, :math:`(M + M_x)\,\ddot s = \dots`: pulleys, carriage."""
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -47,6 +47,7 @@ EFFECT = Effect(
         Twin("sensor_lag", "a second mass: the ringing moves, a filter stays"),
         Twin("dead_volume", "a second mass: the ringing moves with the root of the mass"),
     ),
+    prior=Prior(0.4, "clamps, hooks and rods move with the load and are seldom weighed"),
     references=(Source("Newton's second law", "D"),),
     examples=(Example("slot:inertia", 1.5, 1e-12, _DEFINITION, {"mass": 1.5}, {}, {}),),
 )

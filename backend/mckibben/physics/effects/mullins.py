@@ -10,7 +10,7 @@ in hours or days.
 """
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
@@ -82,6 +82,7 @@ EFFECT = Effect(
         Twin("temperature", "let the muscle cool: heating returns with work, the first-cycle loss does not"),
         Twin("bladder_elasticity", "compare the first cycle with the third"),
     ),
+    prior=Prior(0.15, "it shows only before the rubber is run in"),
     references=(_OGDEN, Source("Mullins, Rubber Chem. Technol. 42 (1969) 339", "M")),
     examples=(
         Example(

@@ -1,7 +1,7 @@
 r"""Coulomb friction in proportion to pressure: the gas presses the threads together."""
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -53,6 +53,7 @@ EFFECT = Effect(
             "force against pressure at constant length: only a pressure-driven loop shows",
         ),
     ),
+    prior=Prior(0.4, "threads are pressed together by the pressure, so friction often grows with it"),
     references=(
         Source("Chou & Hannaford, IEEE Trans. Robotics Autom. 12 (1996) 90", "M"),
         Source("Tondu, J. Intell. Mater. Syst. Struct. 23 (2012) 225", "M"),

@@ -10,7 +10,7 @@ the effective area A of the ideal braid in force: a = 1.
 """
 
 from mckibben.physics import ideal, ops
-from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
@@ -98,6 +98,7 @@ EFFECT = Effect(
         Twin("sensor_lag", "two rates of the pressure ramp: a lag widens the loop, hysteresis does not"),
         Twin("time_skew", "two rates of the pressure ramp: a skew widens the loop, hysteresis does not"),
     ),
+    prior=Prior(0.2, "seen where pressure is swept at a fixed length"),
     references=(
         Source("Minh et al., IEEE/ASME AIM (2010), isometric force-pressure loops", "M"),
         Source("Lin, Lin, Yu & Chen, Control Eng. Pract. 40 (2015) 35", "M"),

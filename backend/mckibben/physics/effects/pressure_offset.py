@@ -4,7 +4,7 @@ Gauge pressure read as absolute, or the weather with an absolute sensor, gives s
 the force by 90 N for a 10 mm and 265 N for a 20 mm muscle.
 """
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 from mckibben.physics.slots import Reading
@@ -56,6 +56,7 @@ EFFECT = Effect(
         Twin("force_offset", "lengths near the zero-force length: there a pressure offset vanishes"),
         Twin("bladder_elasticity", "vent and read; the bladder's share grows with contraction"),
     ),
+    prior=Prior(0.2, "a zero error above the accuracy of the sensor is an error of the set-up"),
     references=(Source("definition of a zero error", "D"),),
     examples=(
         Example(

@@ -1,6 +1,6 @@
 r"""Scale error of the pressure sensor: :math:`P_{read} = s_P P`."""
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 from mckibben.physics.slots import Reading
@@ -48,6 +48,7 @@ EFFECT = Effect(
         Twin("force_scale", "a pressure calibrator and dead weights: two independent calibrations"),
         Twin("thread_extensibility", "diameter against pressure at constant length"),
     ),
+    prior=Prior(0.1, "a scale error above the accuracy of the sensor is a wrong calibration"),
     references=(Source("definition of a scale error", "D"),),
     examples=(
         Example(

@@ -3,7 +3,7 @@ r"""Prestress: a constant tension at every length and pressure; bladder and brai
 The tension belongs to the elastomer, so it changes with the temperature of the wall.
 """
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -58,6 +58,7 @@ EFFECT = Effect(
             "lengths near the nominal length: there the prestress acts, the bladder does not",
         ),
     ),
+    prior=Prior(0.5, "bladder and braid are seldom clamped at exactly the same length"),
     references=(Source("Martens & Boblan, Actuators 6(4):33 (2017), doi 10.3390/act6040033", "S2"),),
     examples=(
         Example(

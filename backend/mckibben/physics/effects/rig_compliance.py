@@ -4,7 +4,7 @@ The length of the muscle depends on the force, so this effect only states the co
 for force and length together.
 """
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -51,6 +51,7 @@ EFFECT = Effect(
         Twin("length_offset", "replace the muscle by a rigid rod"),
         Twin("braid_stiffening", "pull without pressure, measured on the fittings of the muscle"),
     ),
+    prior=Prior(0.3, "frames, clamps and load cells give way a little"),
     references=(Source("springs in series", "D"),),
     examples=(
         Example(

@@ -7,7 +7,7 @@ A stage below 10 microseconds is bypassed. A lag causes loops that look like hys
 """
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -156,6 +156,7 @@ EFFECT = Effect(
         Twin("coulomb_friction", "very slow loops: the false loop vanishes"),
         Twin("spool_lag", "a second, faster pressure sensor"),
     ),
+    prior=Prior(0.2, "amplifiers filter, often without saying so"),
     references=(Source("low-pass filters of first and second order", "D"),),
     examples=(
         _rate_example(0, 1e4, "(200 - 150) N / 5 ms", force_time=0.005),

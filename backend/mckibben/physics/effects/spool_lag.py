@@ -6,7 +6,7 @@ A natural frequency of 100 Hz is :math:`\tau = 1.6` ms. A lag below 10 microseco
 """
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -84,6 +84,7 @@ EFFECT = Effect(
         Twin("tube_resistance", "a pressure sensor at the port of the valve"),
         Twin("sensor_lag", "a second, faster pressure sensor"),
     ),
+    prior=Prior(0.3, "a proportional spool follows its command with its own dynamics"),
     references=(_DYNAMICS,),
     examples=(
         Example("slot:opening", 0.2, 1e-12, _BY_HAND, {"time": 0.002}, {}, {"opening": 0.5, "position": 0.2}),

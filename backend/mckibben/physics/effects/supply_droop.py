@@ -10,7 +10,7 @@ regulator, and goes with its square root (m = 0.5) for an orifice or a long line
 """
 
 from mckibben.physics import gas, ops
-from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -97,6 +97,7 @@ EFFECT = Effect(
         Twin("flow_coefficient", "log the supply pressure"),
         Twin("exhaust_restriction", "filling and venting: a droop slows filling alone"),
     ),
+    prior=Prior(0.25, "small regulators and lines let the supply fall while they deliver"),
     references=(Source("mass balance of a reservoir behind a regulator", "D"),),
     examples=(
         Example(

@@ -4,7 +4,7 @@ Ideal rubber stiffens when warm, :math:`\beta = 1/T_0`; filled rubber often soft
 fitted. The temperature is that of the wall, which a working muscle heats over minutes.
 """
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -64,6 +64,7 @@ EFFECT = Effect(
         Twin("bladder_elasticity", "the same test at two temperatures"),
         Twin("force_offset", "read the force sensor with the muscle removed, cold and warm"),
     ),
+    prior=Prior(0.1, "it needs a change of temperature of tens of kelvin"),
     references=(Source("Andrikopoulos, Nikolakopoulos & Manesis, thermal studies of PAMs (2014-16)", "S2"),),
     examples=(
         Example(

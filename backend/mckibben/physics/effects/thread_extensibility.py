@@ -11,7 +11,7 @@ closed path in P and L, with the volume of the stretched braid.
 
 from mckibben.physics import ops
 from mckibben.physics.braid import Braid
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -68,6 +68,7 @@ EFFECT = Effect(
         Twin("pressure_scale", "a pressure calibrator at several pressures"),
         Twin("creep", "hold the pressure: the stretch of the threads does not increase"),
     ),
+    prior=Prior(0.2, "aramid and polyester threads stretch little at usual forces"),
     references=(_DAVIS,),
     examples=(
         Example(

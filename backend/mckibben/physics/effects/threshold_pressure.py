@@ -6,7 +6,7 @@ lumped: force and gas work balance only while the pressure stays above the thres
 """
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -58,6 +58,7 @@ EFFECT = Effect(
         Twin("effectiveness", "force against pressure: the intercept changes, or the slope"),
         Twin("prestress", "lengths near the zero-force length: there the threshold vanishes"),
     ),
+    prior=Prior(0.4, "most bladders need some pressure before they touch the braid"),
     references=(
         Source("Colbrunn, Nelson & Quinn, IEEE/RSJ IROS (2001)", "M"),
         Source("Tondu, J. Intell. Mater. Syst. Struct. 23 (2012) 225", "M"),

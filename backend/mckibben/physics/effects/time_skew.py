@@ -4,7 +4,7 @@ Sequential sampling, separate recorders or digital filters shift a channel in ti
 The loop area between force and length changes sign with :math:`\delta`, which no friction does.
 """
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -51,6 +51,7 @@ EFFECT = Effect(
         Twin("viscous_damping", "a tap on the rig that every channel records"),
         Twin("valve_delay", "a tap on the rig that every channel records"),
     ),
+    prior=Prior(0.1, "channels of one logger are sampled together"),
     references=(Source("definition of a skew", "D"),),
     examples=(Example("slot:skew", -0.01, 1e-12, _DEFINITION, {"delay": -0.01}, {}, {}),),
 )

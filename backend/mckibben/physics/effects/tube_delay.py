@@ -1,6 +1,6 @@
 r"""Pressure travels along the tube with the speed of sound, :math:`t_t = f\,l/c_s`; 2.9 ms per metre."""
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -49,6 +49,7 @@ EFFECT = Effect(
         Twin("valve_delay", "a pressure sensor at the port of the valve, or two lengths of the tube"),
         Twin("tube_resistance", "a small step: the delay remains, the pressure difference vanishes"),
     ),
+    prior=Prior(0.15, "a wave takes 3 ms per metre of tube"),
     references=(Source("Richer & Hurmuzlu, J. Dyn. Syst. Meas. Control 122 (2000) 416", "M"),),
     examples=(
         Example(

@@ -3,7 +3,7 @@ r"""A lower conductance of the tube than calculated, :math:`C_t' = f_t\,C_t`: be
 It acts on drives with a tube; the conductance of the straight tube is that of `mckibben.physics.gas`.
 """
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -50,6 +50,7 @@ EFFECT = Effect(
         Twin("tube_delay", "a small step: the delay remains, the pressure difference vanishes"),
         Twin("dead_volume", "a second pressure sensor at the valve"),
     ),
+    prior=Prior(0.4, "every tube throttles, and its length is seldom stated exactly"),
     references=(Source("Beater, Pneumatic Drives (2007)", "M"),),
     examples=(
         Example(

@@ -6,7 +6,7 @@ Full command is still full opening, at which the conductance of the data sheet i
 """
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -54,6 +54,7 @@ EFFECT = Effect(
         Twin("threshold_pressure", "log the pressure: in a deadband it stands still"),
         Twin("valve_hysteresis", "a slow command up and down: a deadband has no loop"),
     ),
+    prior=Prior(0.25, "spools overlap their ports unless they are lapped"),
     references=(_RANGE,),
     examples=(
         Example("slot:opening", -0.6, 1e-12, _BY_HAND, {"half_width": 0.05}, {}, {"opening": -0.62}),

@@ -3,7 +3,7 @@ r"""Dead time of the valve: nothing moves until coil, pilot and electronics have
 Energising and releasing usually take different times. A dead time shifts the motion and changes no rise time.
 """
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -61,6 +61,7 @@ EFFECT = Effect(
         Twin("spool_lag", "steps of two sizes: a lag rounds the start of the pressure, a dead time does not"),
         Twin("time_skew", "compare with a second channel of the same recorder"),
     ),
+    prior=Prior(0.4, "every solenoid needs some milliseconds"),
     references=(_PAPER,),
     examples=(
         Example(

@@ -7,7 +7,7 @@ command.
 """
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, StateVariable, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -65,6 +65,7 @@ EFFECT = Effect(
         Twin("valve_deadband", "a slow command up and down: a deadband has no loop"),
         Twin("coulomb_friction", "plot the stroke over the measured pressure, not over the command"),
     ),
+    prior=Prior(0.1, "the position of most spools is controlled"),
     references=(_RANGE, Source("Krasnosel'skii & Pokrovskii, Systems with Hysteresis (1989)", "M")),
     examples=(
         Example(

@@ -11,7 +11,7 @@ Reynolds' hand-made muscle: 1010 N s/m + 6.91e-3 N s/(m Pa) on shortening, a ten
 """
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
@@ -125,6 +125,7 @@ EFFECT = Effect(
         Twin("time_skew", "swap the channels, or a tap on the rig that every channel records"),
         Twin("creep", "a fast step: creep goes on for seconds after the motion has stopped"),
     ),
+    prior=Prior(0.5, "rubber and braid resist every fast motion"),
     references=(
         _REYNOLDS,
         Source("Serres, Reynolds et al., Comput. Methods Biomech. Biomed. Eng. 12 (2009) 423", "M"),

@@ -11,7 +11,7 @@ one, and the correction is exactly zero. A muscle described by its braid diamete
 from collections.abc import Callable
 
 from mckibben.physics import ops
-from mckibben.physics.effect import Effect, Example, Signature, Twin
+from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 from mckibben.physics.slots import Shape
@@ -65,6 +65,7 @@ EFFECT = Effect(
         Twin("force_scale", "dead weights on the force sensor"),
         Twin("pressure_scale", "a pressure calibrator"),
     ),
+    prior=Prior(0.3, "every wall takes room, but the stated diameter often counts it already"),
     references=(_CHOU,),
     examples=(
         Example("force_change", -34.390, 2e-5, _CLOSED_FORM, {"thickness": 0.5e-3}, _SIZE_10, _BLOCKED),

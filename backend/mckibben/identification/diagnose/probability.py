@@ -1,0 +1,120 @@
+r"""Probability that an effect is missing, from all models that a search visited.
+
+The weight of a visited model M is its prior times its evidence,
+
+.. math:: w(M) \propto \prod_{e \in M} \frac{p_e}{1-p_e}\; e^{-S(M)/2}
+
+with the prior :math:`p_e` of each added effect and the score S of
+`mckibben.identification.diagnose.score`, whose difference is -2 times a log likelihood on groups left out.
+The weight of an effect, or of a group of effects that the data cannot tell apart, is the share of the models
+that hold it. Models of the search are never exact: an effect of a slightly wrong form lets another one in
+that repairs it, with overwhelming weight. `calibrated` allows for that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mckibben.identification.diagnose.score import score
+from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.physics.effect import Effect
+
+
+@dataclass(frozen=True)
+class ModelWeights:
+    """Weights of the visited models by the effects that they add to the start model; they sum to 1."""
+
+    weights: Mapping[frozenset[str], float]
+
+    def share(self, effects: Collection[str]) -> float:
+        """Share of the models that hold at least one of the effects."""
+        wanted = set(effects)
+        return float(sum(weight for added, weight in self.weights.items() if added & wanted))
+
+
+def model_weights(
+    models: Iterable[FittedModel], root: FittedModel, *, rows: float, noise: float | None
+) -> ModelWeights:
+    """Weights of models, one for each set of effects: the best of those that differ in freed constants.
+
+    Args:
+        models: the visited models; those without all effects of the start model do not count.
+        root: the fitted start model.
+        rows: effective number of rows, the same for all.
+        noise: of the scaled residual.
+    """
+    start = frozenset(root.fit_model.ids)
+    logarithms: dict[frozenset[str], float] = {}
+    for model in (root, *models):
+        present = frozenset(model.fit_model.ids)
+        if not start <= present or not np.isfinite(model.mean_square):
+            continue
+        added = [effect for effect in model.fit_model.effects if effect.id not in start]
+        value = sum(map(_log_odds, added)) - 0.5 * score(model, rows=rows, noise=noise)
+        key = present - start
+        logarithms[key] = max(value, logarithms.get(key, -np.inf))
+    highest = max(logarithms.values())
+    powers = {added: float(np.exp(value - highest)) for added, value in logarithms.items()}
+    total = sum(powers.values())
+    return ModelWeights({added: power / total for added, power in powers.items()})
+
+
+def _log_odds(effect: Effect) -> float:
+    return float(np.log(effect.prior.share / (1.0 - effect.prior.share)))
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What speaks for one effect of the best model.
+
+    Attributes:
+        effect: its id.
+        group: it and the effects that the data cannot tell from it.
+        share: of the visited models, by weight, that hold one of the group.
+        size: what the best model loses without it, in standard deviations of the noise.
+        part: the same as a share of all that the best model explains.
+        excess: error of the best model over the noise.
+    """
+
+    effect: str
+    group: tuple[str, ...]
+    share: float
+    size: float
+    part: float
+    excess: float
+
+
+def evidence(
+    effect: str,
+    group: Sequence[str],
+    *,
+    weights: ModelWeights,
+    without: FittedModel,
+    best: FittedModel,
+    root: FittedModel,
+    noise: float,
+) -> Evidence:
+    """The evidence for an effect of the best model.
+
+    Args:
+        effect: its id.
+        group: it and its twins.
+        weights: of the visited models.
+        without: the best model without it, refitted.
+        best: the best model.
+        root: the fitted start model.
+        noise: of the scaled residual.
+    """
+    lost = max(without.mean_square - best.mean_square, 0.0)
+    explained = max(root.mean_square - best.mean_square, lost, 1e-300)
+    return Evidence(
+        effect=effect,
+        group=tuple(group),
+        share=weights.share(group),
+        size=float(np.sqrt(lost)) / noise,
+        part=float(np.sqrt(lost / explained)),
+        excess=best.rmse / noise,
+    )
