@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -194,6 +195,7 @@ def _tried(
         known={},
         off_values={},
         refitted_keys=set(),
+        known_gains=WeakKeyDictionary(),
         estimate=lambda fitted: noise_of(predictor, fitted.residual, _scaled(stated_noise, scale))[0],
     )
     fitted = own.fit(first, root.freed)

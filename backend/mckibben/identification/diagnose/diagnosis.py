@@ -16,7 +16,7 @@ from mckibben.identification.diagnose.reason import ResidualTraits, traits_of, w
 from mckibben.identification.diagnose.score import effective_rows, score
 from mckibben.identification.diagnose.search import search
 from mckibben.identification.diagnose.turned import turned_constants
-from mckibben.identification.diagnose.twins import Alternative, alternatives, same, same_predictions
+from mckibben.identification.diagnose.twins import Alternative, likeliest, same, same_predictions
 from mckibben.identification.diagnose.verdict import (
     Interval,
     Status,
@@ -262,10 +262,11 @@ def _diagnose(
     full_scale = float(np.max(np.abs(predictor.measured / predictor.scale)))
     level = max(fitter.noise or best.rmse, _DIGITS * full_scale)
     progress.share, progress.end = 0.85, 0.95
+    start_names = set(root.fit_model.ids)
+    added = tuple(effect for effect in best.fit_model.ids if effect not in start_names)
+    best, exchangeable = likeliest(fitter, best, added, level)
     path = _path(fitter, start, root, best, gauge_zero)
     added = tuple(step.added for step in path if step.added)
-    proven = () if gauge_zero is None else (gauge_zero.effect.id,)
-    exchangeable = tuple(alternatives(fitter, best, [name for name in added if name not in proven], level))
     fit = _final_fit(predictor, best)
     rows = effective_rows(best.residual, predictor.sweeps, predictor.folds)
     weights = model_weights(fitter.known.values(), root, rows=rows, noise=fitter.noise)
@@ -325,7 +326,7 @@ def _diagnose(
         fit=fit,
         status=status,
         added=added,
-        alternatives=exchangeable,
+        alternatives=tuple(exchangeable),
         structure=remaining,
         term=term,
         proposals=tuple(proposals(best, exchangeable, catalogue, level, predictor)),

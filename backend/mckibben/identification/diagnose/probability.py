@@ -52,14 +52,18 @@ def model_weights(
         present = frozenset(model.fit_model.ids)
         if not start <= present or not np.isfinite(model.mean_square):
             continue
-        added = [effect for effect in model.fit_model.effects if effect.id not in start]
-        value = sum(map(_log_odds, added)) - 0.5 * score(model, rows=rows, noise=noise)
+        value = log_weight(model, rows=rows, noise=noise)
         key = present - start
         logarithms[key] = max(value, logarithms.get(key, -np.inf))
     highest = max(logarithms.values())
     powers = {added: float(np.exp(value - highest)) for added, value in logarithms.items()}
     total = sum(powers.values())
     return ModelWeights({added: power / total for added, power in powers.items()})
+
+
+def log_weight(model: FittedModel, *, rows: float, noise: float | None) -> float:
+    """Logarithm of a model's weight, up to a constant: prior odds of its effects and evidence."""
+    return sum(map(_log_odds, model.fit_model.effects)) - 0.5 * score(model, rows=rows, noise=noise)
 
 
 def _log_odds(effect: Effect) -> float:

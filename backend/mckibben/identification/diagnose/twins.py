@@ -7,16 +7,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mckibben.identification.diagnose.probability import log_weight
+from mckibben.identification.diagnose.score import effective_rows
 from mckibben.identification.diagnose.search import exchanged
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
+from mckibben.physics.effect import Effect
 
 #: Fitted predictions that differ by less than this share of the noise count as the same. An inexact
 #: functional form of a correct effect causes differences of this size.
 SAME = 0.5
 _COSINE = 0.99  # between sensitivities, above which they count as parallel
 _AS_GOOD = 1.05  # largest rmse of an exchange with parallel sensitivity, over that of the best model
-_TRIED = 8  # exchanges fitted per effect
+_TRIED = 8  # exchanges always fitted per effect
+_PROMISE = 0.3  # first-order gain, as a share of the largest one, from which further ones are fitted
+#: Difference of -2 log likelihood below which two models count as equally likely: three standard deviations.
+UNDECIDED = 9.0
 
 
 @dataclass(frozen=True)
@@ -37,22 +43,64 @@ class Alternative:
 
 
 def alternatives(fitter: Fitter, best: FittedModel, added: Sequence[str], noise: float) -> list[Alternative]:
-    """The effects that predict the same when they replace an added effect and everything is refitted."""
+    """The effects that fit as well when they replace an added effect and everything is refitted.
+
+    Such an effect predicts the same within the noise, or has a parallel sensitivity, or its likelihood does
+    not decide against it.
+    """
     equivalent = []
+    rows = effective_rows(best.residual, fitter.predictor.sweeps, fitter.predictor.folds)
     for effect_id in added:
         less = fitter.dropping(best, effect_id)
         inside = set(best.fit_model.ids)
         others = [effect for effect in fitter.candidates if effect.id not in inside]
         replaced = next(effect for effect in best.fit_model.effects if effect.id == effect_id)
         sensitivity = fitter.changes(less, replaced)
-        for effect in fitter.promising(less, others)[:_TRIED]:
+        for effect in _worth_fitting(fitter, less, others):
             fitted_model = exchanged(fitter, less, effect)
             difference = float(np.sqrt(np.mean((fitted_model.residual - best.residual) ** 2))) / noise
             cosine = _cosine(sensitivity, fitter.changes(less, effect))
             parallel = abs(cosine) > _COSINE and fitted_model.rmse <= _AS_GOOD * best.rmse
-            if difference < SAME or parallel:
+            excess = (fitted_model.mean_square - best.mean_square) / noise**2
+            if difference < SAME or parallel or rows * excess < UNDECIDED:
                 equivalent.append(Alternative(effect_id, effect.id, difference, fitted_model))
     return equivalent
+
+
+def likeliest(
+    fitter: Fitter, best: FittedModel, added: Sequence[str], noise: float
+) -> tuple[FittedModel, list[Alternative]]:
+    """The likeliest of the models that fit as well, and the alternatives to its effects.
+
+    Where an alternative has the larger weight, by prior and evidence, it takes the place of the effect.
+
+    Args:
+        fitter: of the search.
+        best: its best model.
+        added: effects that may be replaced.
+        noise: of the scaled residual.
+    """
+    names = list(added)
+    rows = effective_rows(best.residual, fitter.predictor.sweeps, fitter.predictor.folds)
+    others = alternatives(fitter, best, names, noise)
+    for _ in range(len(names)):
+        plausible = [other for other in others if other.fitted_model.implausible <= best.implausible]
+        weights = [log_weight(o.fitted_model, rows=rows, noise=fitter.noise) for o in plausible]
+        if not weights or max(weights) <= log_weight(best, rows=rows, noise=fitter.noise):
+            break
+        chosen = plausible[int(np.argmax(weights))]
+        best = chosen.fitted_model
+        names = [chosen.effect if name == chosen.of else name for name in names]
+        others = alternatives(fitter, best, names, noise)
+    return best, others
+
+
+def _worth_fitting(fitter: Fitter, less: FittedModel, others: Sequence[Effect]) -> list[Effect]:
+    """Effects in the place of a dropped one whose first-order gain is large, at least the first ones."""
+    gains = fitter.gains(less, others)
+    least = _PROMISE * max(gains.values(), default=0.0)
+    ordered = sorted(others, key=lambda effect: -gains[effect.id])
+    return [effect for place, effect in enumerate(ordered) if place < _TRIED or gains[effect.id] >= least]
 
 
 def same_predictions(fitted_models: Sequence[tuple[str, FittedModel]], noise: float) -> dict[str, list[str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -43,6 +44,7 @@ class Fitter:
         known: the models fitted so far.
         off_values: effect id -> result of `acting`.
         refitted_keys: keys of the models that were fitted from a second start.
+        known_gains: results of `gains`.
     """
 
     predictor: Predictor
@@ -57,6 +59,7 @@ class Fitter:
     known: dict[tuple[frozenset[str], frozenset[str]], FittedModel] = field(default_factory=dict)
     off_values: dict[str, dict[str, float]] = field(default_factory=dict)
     refitted_keys: set[tuple[frozenset[str], frozenset[str]]] = field(default_factory=set)
+    known_gains: WeakKeyDictionary[FittedModel, dict[str, float]] = field(default_factory=WeakKeyDictionary)
 
     def fit(
         self, fit_model: FitModel, freed: frozenset[str] = frozenset(), *, again: bool = False
@@ -139,11 +142,19 @@ class Fitter:
 
     def promising(self, fitted_model: FittedModel, effects: Sequence[Effect]) -> list[Effect]:
         """Effects in the order of their first-order gain, the largest first."""
-        inner = fitted_model.jacobian[:, fitted_model.inner]
-        basis = np.linalg.qr(inner)[0] if inner.shape[1] else np.empty((len(fitted_model.residual), 0))
-        unexplained = fitted_model.residual - basis @ (basis.T @ fitted_model.residual)
-        gains = []
+        gains = self.gains(fitted_model, effects)
+        unexplained = self._unexplained(fitted_model)[1]
+        least = _LEAST_PROMISE * float(unexplained @ unexplained) if self.near_floor(fitted_model) else 0.0
+        order = sorted(effects, key=lambda effect: -gains[effect.id])
+        return [effect for effect in order if gains[effect.id] > least]
+
+    def gains(self, fitted_model: FittedModel, effects: Sequence[Effect]) -> dict[str, float]:
+        """Effect -> first-order reduction of the sum of squares if it is added and all is refitted."""
+        basis, unexplained = self._unexplained(fitted_model)
+        gains = self.known_gains.setdefault(fitted_model, {})
         for effect in effects:
+            if effect.id in gains:
+                continue
             columns = self.changes(fitted_model, effect)
             rest = columns - basis @ (basis.T @ columns)
             size, whole = np.linalg.norm(rest, axis=0), np.linalg.norm(columns, axis=0)
@@ -153,10 +164,15 @@ class Fitter:
                 if np.any(distinct)
                 else unexplained[:0]
             )
-            gains.append(float(np.sum((rest[:, distinct] / size[distinct] @ solution) ** 2)))
-        order = np.argsort(gains)[::-1]
-        least = _LEAST_PROMISE * float(unexplained @ unexplained) if self.near_floor(fitted_model) else 0.0
-        return [effects[index] for index in order if gains[index] > least]
+            gains[effect.id] = float(np.sum((rest[:, distinct] / size[distinct] @ solution) ** 2))
+        return {effect.id: gains[effect.id] for effect in effects}
+
+    @staticmethod
+    def _unexplained(fitted_model: FittedModel) -> tuple[np.ndarray, np.ndarray]:
+        """Orthonormal basis of what the free parameters change, and the residual outside of it."""
+        inner = fitted_model.jacobian[:, fitted_model.inner]
+        basis = np.linalg.qr(inner)[0] if inner.shape[1] else np.empty((len(fitted_model.residual), 0))
+        return basis, fitted_model.residual - basis @ (basis.T @ fitted_model.residual)
 
     def guessed(self, fitted_model: FittedModel, effect: Effect) -> FittedModel:
         """The model with one more effect of the best first-order size; nothing else is refitted."""
