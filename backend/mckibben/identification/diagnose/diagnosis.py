@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from mckibben.identification.diagnose.contest import WrongEntry, contest
+from mckibben.identification.diagnose.corrections import Correction, without_corrections
 from mckibben.identification.diagnose.entries import Statements
 from mckibben.identification.diagnose.gauge_zero import GaugeZero, vented
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment
-from mckibben.identification.diagnose.probability import Evidence, evidence, model_weights
+from mckibben.identification.diagnose.probability import Evidence, loss, model_weights
 from mckibben.identification.diagnose.reason import ResidualTraits, traits_of, why
 from mckibben.identification.diagnose.score import effective_rows, score
 from mckibben.identification.diagnose.search import search
@@ -115,6 +116,8 @@ class Diagnosis:
         not_tried: effects of the catalogue that were not candidates, with the reason.
         context: entries that may be wrong instead, the most convincing first.
         absorbed: reading errors within the stated accuracy that explain a part of the residual.
+        corrections: effects that lower the error but are not called missing.
+        evidence: of each effect of the best model.
     """
 
     predictor: Predictor
@@ -139,6 +142,7 @@ class Diagnosis:
     not_tried: tuple[NotTried, ...] = ()
     context: tuple[WrongEntry, ...] = ()
     absorbed: tuple[AbsorbedError, ...] = ()
+    corrections: tuple[Correction, ...] = ()
     evidence: tuple[Evidence, ...] = ()
 
 
@@ -263,6 +267,8 @@ def _diagnose(
     level = max(fitter.noise or best.rmse, _DIGITS * full_scale)
     progress.share, progress.end = 0.85, 0.95
     start_names = set(root.fit_model.ids)
+    searched = best
+    best, corrections = without_corrections(fitter, best, root, level)
     added = tuple(effect for effect in best.fit_model.ids if effect not in start_names)
     best, exchangeable = likeliest(fitter, best, added, level)
     path = _path(fitter, start, root, best, gauge_zero)
@@ -270,18 +276,11 @@ def _diagnose(
     fit = _final_fit(predictor, best)
     rows = effective_rows(best.residual, predictor.sweeps, predictor.folds)
     weights = model_weights(fitter.known.values(), root, rows=rows, noise=fitter.noise)
-    support = tuple(
-        evidence(
-            name,
-            [name, *(other.effect for other in exchangeable if other.of == name)],
-            weights=weights,
-            without=fitter.dropping(best, name),
-            best=best,
-            root=root,
-            noise=level,
-        )
-        for name in added
-    )
+    support = []
+    for name in added:
+        group = (name, *(other.effect for other in exchangeable if other.of == name))
+        lost = loss(best, fitter.dropping(best, name), root, noise=level)
+        support.append(Evidence(name, group, weights.share(group), lost))
     changing = [
         (effect.id, fitted_model)
         for effect, fitted_model in fitted_singles
@@ -298,7 +297,9 @@ def _diagnose(
     remaining = left_structure(predictor, best.residual, variables)
     context = ()
     if statements is not None:
-        context = contest(statements, fitter=fitter, first=first, root=root, best=best, stated_noise=noise)
+        context = contest(
+            statements, fitter=fitter, first=first, root=root, best=searched, stated_noise=noise
+        )
     doubted = any(entry.stands for entry in context)
     status = status_of(start, best, fitter.noise, added, exchangeable, remaining, full_scale, doubted=doubted)
     term = None
@@ -338,7 +339,8 @@ def _diagnose(
         not_tried=tuple(not_tried),
         context=context,
         absorbed=absorbed_by(predictor, best.fit_model),
-        evidence=support,
+        corrections=corrections,
+        evidence=tuple(support),
     )
 
 

@@ -8,12 +8,13 @@ with the prior :math:`p_e` of each added effect and the score S of
 `mckibben.identification.diagnose.score`, whose difference is -2 times a log likelihood on groups left out.
 The weight of an effect, or of a group of effects that the data cannot tell apart, is the share of the models
 that hold it. Models of the search are never exact: an effect of a slightly wrong form lets another one in
-that repairs it, with overwhelming weight. `calibrated` allows for that.
+that repairs it, with overwhelming weight. `Loss.probability` allows for that: such corrections are small
+beside what the whole model explains.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,6 +22,8 @@ import numpy as np
 from mckibben.identification.diagnose.score import score
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.physics.effect import Effect
+
+_TINY = 1e-12
 
 
 @dataclass(frozen=True)
@@ -70,6 +73,12 @@ def _log_odds(effect: Effect) -> float:
     return float(np.log(effect.prior.share / (1.0 - effect.prior.share)))
 
 
+#: Logistic regression of "the effect is really missing" on the logarithms of its size and part, fitted by
+#: `python -m tests.benchmarks.probabilities` to half of the cases; the other half shows how well it holds.
+_CONSTANT, _BY_SIZE, _BY_PART = 1.0, 3.0, 0.8
+_TINY = 1e-12
+
+
 @dataclass(frozen=True)
 class Evidence:
     """What speaks for one effect of the best model.
@@ -78,47 +87,48 @@ class Evidence:
         effect: its id.
         group: it and the effects that the data cannot tell from it.
         share: of the visited models, by weight, that hold one of the group.
-        size: what the best model loses without it, in standard deviations of the noise.
-        part: the same as a share of all that the best model explains.
-        excess: error of the best model over the noise.
+        loss: what the best model loses without it.
     """
 
     effect: str
     group: tuple[str, ...]
     share: float
+    loss: Loss
+
+    @property
+    def probability(self) -> float:
+        """Probability that one of the group is really missing."""
+        return self.share * self.loss.probability
+
+
+@dataclass(frozen=True)
+class Loss:
+    """What a model loses without one of its effects.
+
+    Attributes:
+        size: root of the added mean square, in standard deviations of the noise.
+        part: the same as a share of all that the model explains.
+    """
+
     size: float
     part: float
-    excess: float
+
+    @property
+    def probability(self) -> float:
+        """Calibrated probability that the effect is missing, not a correction of another one's form."""
+        logit = _CONSTANT + _BY_SIZE * np.log(self.size + _TINY) + _BY_PART * np.log(self.part + _TINY)
+        return float(1.0 / (1.0 + np.exp(-np.clip(logit, -50.0, 50.0))))
 
 
-def evidence(
-    effect: str,
-    group: Sequence[str],
-    *,
-    weights: ModelWeights,
-    without: FittedModel,
-    best: FittedModel,
-    root: FittedModel,
-    noise: float,
-) -> Evidence:
-    """The evidence for an effect of the best model.
+def loss(best: FittedModel, without: FittedModel, root: FittedModel, *, noise: float) -> Loss:
+    """What a model loses without an effect.
 
     Args:
-        effect: its id.
-        group: it and its twins.
-        weights: of the visited models.
-        without: the best model without it, refitted.
-        best: the best model.
+        best: the model.
+        without: the same without the effect, refitted.
         root: the fitted start model.
         noise: of the scaled residual.
     """
     lost = max(without.mean_square - best.mean_square, 0.0)
     explained = max(root.mean_square - best.mean_square, lost, 1e-300)
-    return Evidence(
-        effect=effect,
-        group=tuple(group),
-        share=weights.share(group),
-        size=float(np.sqrt(lost)) / noise,
-        part=float(np.sqrt(lost / explained)),
-        excess=best.rmse / noise,
-    )
+    return Loss(float(np.sqrt(lost)) / noise, float(np.sqrt(lost / explained)))
