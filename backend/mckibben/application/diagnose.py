@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from mckibben.application.compare import ModelDocument
 from mckibben.application.diagnosis_result import (
     Baseline,
     CandidateResult,
+    CorrectionResult,
     DiagnosedModel,
     DiagnosisResult,
     ExperimentProposal,
@@ -34,15 +35,18 @@ from mckibben.application.model_question import ModelQuestion
 from mckibben.application.muscle_summary import geometry_of
 from mckibben.application.saved_model import drive_of_model
 from mckibben.documents.studio import Studio
-from mckibben.identification.diagnose.diagnosis import (
-    FEWEST_VALUES,
-    Diagnosis,
-    SingleAddition,
-)
+from mckibben.identification.diagnose.diagnosis import FEWEST_VALUES, Diagnosis
 from mckibben.identification.diagnose.diagnosis import diagnose as search_effects
 from mckibben.identification.diagnose.next_measurement import declared
+from mckibben.identification.diagnose.steps import SingleAddition
 from mckibben.identification.diagnose.verdict import unexplained_share
-from mckibben.identification.diagnose.words import sentence_of, title_of, where_to_look
+from mckibben.identification.diagnose.words import (
+    applied_reasons,
+    corrections_sentence,
+    sentence_of,
+    title_of,
+    where_to_look,
+)
 from mckibben.identification.fit.comparison import (
     ParameterValue,
     channel_misfits,
@@ -180,7 +184,13 @@ def _result(
         ),
         channels=channel_misfits(predictor, best.residual * predictor.scale),
         where=list(diagnosis.where),
-        candidates=[_candidate(question, candidate, catalogue) for candidate in diagnosis.candidates],
+        candidates=[
+            replace(
+                _candidate(question, candidate, catalogue),
+                probability=diagnosis.probability_of(candidate.effect.id),
+            )
+            for candidate in diagnosis.candidates
+        ],
         path=[
             PathPoint(
                 added=step.added,
@@ -241,6 +251,12 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
         ),
         effects=list(diagnosis.added),
         indistinguishable=groups_of(diagnosis),
+        probabilities={name: item.probability for item in diagnosis.evidence for name in item.group},
+        applied=applied_reasons(diagnosis, catalogue),
+        corrections=[
+            CorrectionResult(item.effect, item.before, item.after, item.probability)
+            for item in diagnosis.corrections
+        ],
         unexplained_share=unexplained_share(
             diagnosis.status, diagnosis.best, diagnosis.noise, diagnosis.structure
         ),
@@ -257,7 +273,8 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
             for text in (
                 *(assumption.sentence for assumption in question.assumptions),
                 questions_of(diagnosis.context, titles),
-                sentence_of(diagnosis, titles),
+                sentence_of(diagnosis, catalogue),
+                corrections_sentence(diagnosis, titles),
             )
             if text
         ),

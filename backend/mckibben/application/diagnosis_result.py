@@ -60,6 +60,7 @@ class CandidateResult:
         freed: further constants that were freed.
         next_measurement: measurement that would separate it from its first twin.
         model: in the form of a request.
+        probability: that it, or one of its twins in the best model, is missing; None while the search runs.
     """
 
     JSON_KEYS: ClassVar = {"score_change": ("score_change", "delta_bic")}  # the old name, for one version
@@ -77,6 +78,20 @@ class CandidateResult:
     freed: list[str]
     next_measurement: str | None
     model: ModelDocument
+    probability: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class CorrectionResult:
+    """An effect that lowers the error, but not by more than an inexact form of another effect explains.
+
+    ``probability``: that it is missing nevertheless.
+    """
+
+    effect: str
+    rmse_before: float
+    rmse_after: float
+    probability: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +146,9 @@ class Verdict:
         title: the status in words.
         effects: the missing effects.
         indistinguishable: groups of effects that the data cannot distinguish.
+        probabilities: effect -> probability that it, or one of its group, is missing; a group shares one.
+        applied: effect of the model with a group -> why this one of its group.
+        corrections: effects that lower the error but are not called missing.
         unexplained_share, unexplained_in: what is left to explain of the residual, and the variables it
             depends on; of an unknown effect at least all above the noise.
         proposed_term: a short formula for it that halves the error of the groups left out.
@@ -143,6 +161,9 @@ class Verdict:
     title: str
     effects: list[str]
     indistinguishable: list[list[str]]
+    probabilities: dict[str, float]
+    applied: dict[str, str]
+    corrections: list[CorrectionResult]
     unexplained_share: float
     unexplained_in: list[str]
     proposed_term: TermProposal | None

@@ -9,11 +9,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mckibben.identification.diagnose.probability import loss
+from mckibben.identification.diagnose.probability import LIKELY, Loss, loss
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
-
-_LIKELY = 0.5  # probability below which an effect is not called missing
 
 
 @dataclass(frozen=True)
@@ -23,13 +21,18 @@ class Correction:
     Attributes:
         effect: its id.
         before, after: error of the model without and with it, scaled as the residual.
-        probability: that it is really missing.
+        loss: what the model loses without it.
     """
 
     effect: str
     before: float
     after: float
-    probability: float
+    loss: Loss
+
+    @property
+    def probability(self) -> float:
+        """Probability that it is missing nevertheless."""
+        return self.loss.probability
 
 
 def without_corrections(
@@ -50,11 +53,9 @@ def without_corrections(
         if len(names) < 2:  # what a single effect explains is not a correction of another one
             return best, tuple(corrections)
         trials = {name: fitter.dropping(best, name) for name in names}
-        chances = {
-            name: loss(best, without, root, noise=noise).probability for name, without in trials.items()
-        }
-        least = min(names, key=chances.__getitem__)
-        if chances[least] >= _LIKELY:
+        losses = {name: loss(best, without, root, noise=noise) for name, without in trials.items()}
+        least = min(names, key=lambda name: losses[name].probability)
+        if losses[least].probability >= LIKELY:
             return best, tuple(corrections)
-        corrections.append(Correction(least, trials[least].rmse, best.rmse, chances[least]))
+        corrections.append(Correction(least, trials[least].rmse, best.rmse, losses[least]))
         best = trials[least]

@@ -10,12 +10,13 @@ import numpy as np
 from mckibben.identification.diagnose.contest import WrongEntry, contest
 from mckibben.identification.diagnose.corrections import Correction, without_corrections
 from mckibben.identification.diagnose.entries import Statements
-from mckibben.identification.diagnose.gauge_zero import GaugeZero, vented
+from mckibben.identification.diagnose.gauge_zero import vented
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment
-from mckibben.identification.diagnose.probability import Evidence, loss, model_weights
-from mckibben.identification.diagnose.reason import ResidualTraits, traits_of, why
-from mckibben.identification.diagnose.score import effective_rows, score
+from mckibben.identification.diagnose.probability import LIKELY, Evidence, ModelWeights, loss, model_weights
+from mckibben.identification.diagnose.reason import traits_of
+from mckibben.identification.diagnose.score import effective_rows
 from mckibben.identification.diagnose.search import search
+from mckibben.identification.diagnose.steps import PathStep, SingleAddition, path_to, single_addition
 from mckibben.identification.diagnose.turned import turned_constants
 from mckibben.identification.diagnose.twins import Alternative, likeliest, same, same_predictions
 from mckibben.identification.diagnose.verdict import (
@@ -46,39 +47,6 @@ from mckibben.simulation.outcome import Outcome, Watch
 #: Fewest values for a diagnosis: with fewer, many single effects fit them exactly.
 FEWEST_VALUES = 6
 _DIGITS = 1e-9  # numerical resolution of noise-free data, share of the largest value
-
-
-@dataclass(frozen=True)
-class SingleAddition:
-    """The start model with one more effect, everything refitted.
-
-    Attributes:
-        effect: the added effect.
-        fitted_model: the fitted model.
-        gain: relative reduction of the rms error.
-        score: change of the score of `mckibben.identification.diagnose.score`; negative is better.
-        twins: candidates whose fitted predictions are the same on these data.
-        why: the reason for or against it, one sentence.
-    """
-
-    effect: Effect
-    fitted_model: FittedModel
-    gain: float
-    score: float
-    twins: tuple[str, ...]
-    why: str
-
-
-@dataclass(frozen=True)
-class PathStep:
-    """One step of the path: the added effect, and the model fitted with it.
-
-    ``refitted``: the start model with its own numbers fitted; effects are credited only with what is left.
-    """
-
-    added: str | None
-    fitted_model: FittedModel
-    refitted: bool = False
 
 
 @dataclass(frozen=True)
@@ -118,6 +86,7 @@ class Diagnosis:
         absorbed: reading errors within the stated accuracy that explain a part of the residual.
         corrections: effects that lower the error but are not called missing.
         evidence: of each effect of the best model.
+        weights: of the models that the search visited.
     """
 
     predictor: Predictor
@@ -144,6 +113,16 @@ class Diagnosis:
     absorbed: tuple[AbsorbedError, ...] = ()
     corrections: tuple[Correction, ...] = ()
     evidence: tuple[Evidence, ...] = ()
+    weights: ModelWeights | None = None
+
+    def probability_of(self, effect: str) -> float:
+        """Probability that an effect, or one that the data cannot tell from it, is missing."""
+        of_group = [item.probability for item in self.evidence if effect in item.group]
+        of_correction = [item.probability for item in self.corrections if item.effect == effect]
+        if of_group:
+            return max(of_group)
+        visited = 0.0 if self.weights is None else self.weights.share([effect])
+        return max([LIKELY * visited, *of_correction])
 
 
 def diagnose(
@@ -256,7 +235,7 @@ def _diagnose(
         progress.share = 0.45 * number / max(len(candidates), 1)
         if effect.id in fitted:
             fitted_singles.append((effect, fitter.adding(root, effect)))
-            on_candidate(_candidate(fitter, root, effect, fitted_singles[-1][1], before, ()))
+            on_candidate(single_addition(fitter, root, effect, fitted_singles[-1][1], before, ()))
         else:
             guesses.append((effect, fitter.guessed(root, effect)))
     progress.share, progress.end = 0.45, 0.85
@@ -271,7 +250,7 @@ def _diagnose(
     best, corrections = without_corrections(fitter, best, root, level)
     added = tuple(effect for effect in best.fit_model.ids if effect not in start_names)
     best, exchangeable = likeliest(fitter, best, added, level)
-    path = _path(fitter, start, root, best, gauge_zero)
+    path = path_to(fitter, start, root, best, gauge_zero)
     added = tuple(step.added for step in path if step.added)
     fit = _final_fit(predictor, best)
     rows = effective_rows(best.residual, predictor.sweeps, predictor.folds)
@@ -289,7 +268,7 @@ def _diagnose(
     alike = same_predictions(changing, level)
     ranked = sorted(
         (
-            _candidate(fitter, root, effect, fitted_model, before, alike.get(effect.id, ()))
+            single_addition(fitter, root, effect, fitted_model, before, alike.get(effect.id, ()))
             for effect, fitted_model in (*fitted_singles, *guesses)
         ),
         key=lambda candidate: candidate.score,
@@ -341,6 +320,7 @@ def _diagnose(
         absorbed=absorbed_by(predictor, best.fit_model),
         corrections=corrections,
         evidence=tuple(support),
+        weights=weights,
     )
 
 
@@ -363,41 +343,6 @@ class _Progress:
         self.share += 0.02 * (self.end - self.share)
         if self._watch.ended(self.share) in (Outcome.CANCELLED, Outcome.TIMED_OUT):
             raise CancelledError
-
-
-def _candidate(
-    fitter: Fitter,
-    root: FittedModel,
-    effect: Effect,
-    fitted_model: FittedModel,
-    before: ResidualTraits,
-    twins: Sequence[str],
-) -> SingleAddition:
-    rows = effective_rows(fitted_model.residual, fitter.predictor.sweeps, fitter.predictor.folds)
-    change = score(fitted_model, rows=rows, noise=fitter.noise) - score(root, rows=rows, noise=fitter.noise)
-    gain = 1.0 - fitted_model.rmse / root.rmse if root.rmse > 0.0 else 0.0
-    return SingleAddition(effect, fitted_model, gain, change, tuple(twins), why(effect, before, gain=gain))
-
-
-def _path(
-    fitter: Fitter, start: FittedModel, root: FittedModel, best: FittedModel, vent: GaugeZero | None
-) -> tuple[PathStep, ...]:
-    steps = [PathStep(None, start)]
-    if vent is not None:
-        steps.append(PathStep(vent.effect.id, root))
-    elif root.free:
-        steps.append(PathStep(None, root, refitted=True))
-    fitted_model, remaining = root, [e for e in best.fit_model.effects if e.id not in set(root.fit_model.ids)]
-    while len(remaining) > 1:
-        trials = [(effect, fitter.adding(fitted_model, effect)) for effect in remaining]
-        effect, fitted_model = min(trials, key=lambda pair: pair[1].rmse)
-        steps.append(PathStep(effect.id, fitted_model))
-        remaining.remove(effect)
-    if remaining:
-        steps.append(PathStep(remaining[0].id, best))
-    elif best is not root:
-        steps.append(PathStep(None, best))  # further constants were freed
-    return tuple(steps)
 
 
 def _final_fit(predictor: Predictor, best: FittedModel) -> FitResult | None:

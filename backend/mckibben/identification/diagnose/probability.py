@@ -73,6 +73,8 @@ def _log_odds(effect: Effect) -> float:
     return float(np.log(effect.prior.share / (1.0 - effect.prior.share)))
 
 
+#: Probability below which an effect is not called missing.
+LIKELY = 0.5
 #: Logistic regression of "the effect is really missing" on the logarithms of its size and part, fitted by
 #: `python -m tests.benchmarks.probabilities` to half of the cases; the other half shows how well it holds.
 _CONSTANT, _BY_SIZE, _BY_PART = 1.0, 3.0, 0.8

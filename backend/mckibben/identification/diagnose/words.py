@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from mckibben.identification.diagnose.diagnosis import Diagnosis
 from mckibben.identification.diagnose.score import AT_FLOOR
 from mckibben.identification.diagnose.verdict import Status, is_force
+from mckibben.physics.effect import Effect
 
 _REFITTED = 0.98  # error over the error before, below which the refit of the start model is mentioned
 _WORTH_TELLING = 0.15  # share of the residual that depends on variables, above which it is mentioned
+_FEW = 3  # alternatives that are listed without grouping them
 _UNKNOWN_NOISE = (
     "The noise cannot be estimated from these data: state it to know whether the error exceeds it."
 )
@@ -39,13 +41,14 @@ def title_of(status: Status, *, added: bool, doubted: bool = False) -> str:
     return _PARTLY if added and status == "unknown_effect" else _TITLES[status]
 
 
-def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
+def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     """The verdict in one to four sentences."""
+    titles = {name: effect.title for name, effect in catalogue.items()}
     scaled = result.predictor.unit == "1"
     unit, scale = _unit_of(result)
     before, after = scale * result.start.rmse, scale * result.best.rmse
     refitted = scale * result.root.rmse
-    names = _joined([titles.get(name, name) for name in result.added])
+    names = _joined([f"{titles.get(name, name)} ({_percent(result, name)})" for name in result.added])
     noise = None if result.noise is None else scale * result.noise
     highest = noise if result.noise_interval is None else scale * result.noise_interval.high
     level = ""
@@ -84,15 +87,74 @@ def sentence_of(result: Diagnosis, titles: Mapping[str, str]) -> str:
         return f"{text} No catalogued effect explains the rest: {rest}. {where_to_look(result)}".rstrip()
     if noise is not None and not at_floor and result.structure.share >= _WORTH_TELLING:
         text += f" Of the rest, {_structured(result)}."
-    if result.status == "ambiguous":
+    if result.status == "ambiguous" and result.alternatives:
         pairs = []
         for added in dict.fromkeys(other.of for other in result.alternatives):
-            others = [
-                titles.get(other.effect, other.effect) for other in result.alternatives if other.of == added
-            ]
-            pairs.append(f"{titles.get(added, added)} from {_joined(others, 'or')}")
+            others = [other.effect for other in result.alternatives if other.of == added]
+            pairs.append(f"{titles.get(added, added)} from {by_mechanism(others, catalogue)}")
         text += f" These data cannot tell {'; nor '.join(pairs)}."
+        text += "".join(
+            f" The model holds {titles.get(name, name)}: {reason}."
+            for name, reason in applied_reasons(result, catalogue).items()
+        )
     return text
+
+
+def by_mechanism(effects: Sequence[str], catalogue: Mapping[str, Effect]) -> str:
+    """Titles of effects as alternatives; more than three are grouped by their family."""
+    known = [catalogue[name] for name in effects if name in catalogue]
+    if len(known) <= _FEW:
+        return _joined([effect.title for effect in known], "or")
+    families: dict[str, list[str]] = {}
+    for effect in known:
+        families.setdefault(effect.family, []).append(effect.title)
+    groups = "; ".join(f"{family}: {', '.join(titles)}" for family, titles in families.items())
+    return f"{len(known)} others ({groups})"
+
+
+def applied_reasons(result: Diagnosis, catalogue: Mapping[str, Effect]) -> dict[str, str]:
+    """Effect of the best model that has alternatives -> why the model holds this one of them."""
+    reasons = {}
+    for item in result.evidence:
+        if len(item.group) < 2 or item.effect not in catalogue:
+            continue
+        others = [catalogue[name] for name in item.group[1:] if name in catalogue]
+        own = catalogue[item.effect].prior
+        likelier = max(others, key=lambda effect: effect.prior.share, default=None)
+        if likelier is None or likelier.prior.share <= own.share:
+            reasons[item.effect] = f"without these data it is the likeliest of them, {own.why}"
+        else:
+            unit, scale = _unit_of(result)
+            errors = {a.effect: a.fitted_model.rmse for a in result.alternatives if a.of == item.effect}
+            here, there = scale * result.best.rmse, scale * errors[likelier.id]
+            reasons[item.effect] = (
+                f"its error of {here:.4g} {unit} is a little lower than the {there:.4g} {unit} of "
+                f"{likelier.title}, which is likelier without these data"
+            )
+    return reasons
+
+
+def corrections_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:
+    """Which effects lower the error and are not called missing; empty without any."""
+    if not result.corrections:
+        return ""
+    unit, scale = _unit_of(result)
+    parts = [
+        f"{titles.get(item.effect, item.effect)} (from {scale * item.before:.3g} to "
+        f"{scale * item.after:.3g} {unit}, {_share(item.probability)})"
+        for item in reversed(result.corrections)
+    ]
+    return f"Not called missing: {_joined(parts)}; a slightly inexact form of the effects above explains as much."
+
+
+def _percent(result: Diagnosis, effect: str) -> str:
+    """Probability of an effect or its group."""
+    return _share(next((item.probability for item in result.evidence if item.effect == effect), 1.0))
+
+
+def _share(probability: float) -> str:
+    percent = 100.0 * probability
+    return "more than 99 %" if percent > 99.0 else "less than 1 %" if percent < 1.0 else f"{percent:.0f} %"
 
 
 def where_to_look(result: Diagnosis) -> str:

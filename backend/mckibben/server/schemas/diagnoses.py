@@ -85,6 +85,18 @@ class Candidate(Strict):
     freed: list[str]
     next_measurement: str | None = Field(description="Experiment that separates it from its first twin.")
     model: ModelJson
+    probability: float | None = Field(
+        description="That it, or one of its twins in the best model, is missing; null while the search runs."
+    )
+
+
+class SmallCorrection(Strict):
+    """An effect that lowers the error, but not by more than an inexact form of another one explains."""
+
+    effect: str
+    rmse_before: float
+    rmse_after: float
+    probability: float = Field(description="That it is missing nevertheless.")
 
 
 class PathStep(Strict):
@@ -133,6 +145,15 @@ class Verdict(Strict):
     title: str = Field(description="The status in words.")
     effects: list[str]
     indistinguishable: list[list[str]]
+    probabilities: dict[str, float] = Field(
+        description="Effect -> probability that it, or one of its group, is missing; a group shares one."
+    )
+    applied: dict[str, str] = Field(
+        description="Effect of the model that data cannot tell from others -> why this one was taken."
+    )
+    corrections: list[SmallCorrection] = Field(
+        description="Effects that lower the error but are not called missing."
+    )
     unexplained_share: float
     unexplained_in: list[str]
     proposed_term: ProposedTerm | None

@@ -1,0 +1,100 @@
+"""The start model with one more effect, and the path of single steps to the best model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mckibben.identification.diagnose.gauge_zero import GaugeZero
+from mckibben.identification.diagnose.reason import ResidualTraits, why
+from mckibben.identification.diagnose.score import effective_rows, score
+from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.fit.fitter import Fitter
+from mckibben.physics.effect import Effect
+
+
+@dataclass(frozen=True)
+class SingleAddition:
+    """The start model with one more effect, everything refitted.
+
+    Attributes:
+        effect: the added effect.
+        fitted_model: the fitted model.
+        gain: relative reduction of the rms error.
+        score: change of the score of `mckibben.identification.diagnose.score`; negative is better.
+        twins: candidates whose fitted predictions are the same on these data.
+        why: the reason for or against it, one sentence.
+    """
+
+    effect: Effect
+    fitted_model: FittedModel
+    gain: float
+    score: float
+    twins: tuple[str, ...]
+    why: str
+
+
+@dataclass(frozen=True)
+class PathStep:
+    """One step of the path: the added effect, and the model fitted with it.
+
+    ``refitted``: the start model with its own numbers fitted; effects are credited only with what is left.
+    """
+
+    added: str | None
+    fitted_model: FittedModel
+    refitted: bool = False
+
+
+def single_addition(
+    fitter: Fitter,
+    root: FittedModel,
+    effect: Effect,
+    fitted_model: FittedModel,
+    before: ResidualTraits,
+    twins: Sequence[str],
+) -> SingleAddition:
+    """A fitted single addition with its gain and reason.
+
+    Args:
+        fitter: of the search.
+        root: the fitted start model.
+        effect: the added effect.
+        fitted_model: the model with it.
+        before: traits of the residual without it.
+        twins: candidates that predict the same.
+    """
+    rows = effective_rows(fitted_model.residual, fitter.predictor.sweeps, fitter.predictor.folds)
+    change = score(fitted_model, rows=rows, noise=fitter.noise) - score(root, rows=rows, noise=fitter.noise)
+    gain = 1.0 - fitted_model.rmse / root.rmse if root.rmse > 0.0 else 0.0
+    return SingleAddition(effect, fitted_model, gain, change, tuple(twins), why(effect, before, gain=gain))
+
+
+def path_to(
+    fitter: Fitter, start: FittedModel, root: FittedModel, best: FittedModel, vent: GaugeZero | None
+) -> tuple[PathStep, ...]:
+    """The path: the start model, its own numbers refitted, then the effect that lowers the error most, ...
+
+    Args:
+        fitter: of the search.
+        start: the start model as given.
+        root: the fitted start model.
+        best: the best model.
+        vent: zero error of the gauge, read from the vented muscle before the search.
+    """
+    steps = [PathStep(None, start)]
+    if vent is not None:
+        steps.append(PathStep(vent.effect.id, root))
+    elif root.free:
+        steps.append(PathStep(None, root, refitted=True))
+    fitted_model, remaining = root, [e for e in best.fit_model.effects if e.id not in set(root.fit_model.ids)]
+    while len(remaining) > 1:
+        trials = [(effect, fitter.adding(fitted_model, effect)) for effect in remaining]
+        effect, fitted_model = min(trials, key=lambda pair: pair[1].rmse)
+        steps.append(PathStep(effect.id, fitted_model))
+        remaining.remove(effect)
+    if remaining:
+        steps.append(PathStep(remaining[0].id, best))
+    elif best is not root:
+        steps.append(PathStep(None, best))  # further constants were freed
+    return tuple(steps)
