@@ -144,7 +144,8 @@ def corrections_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:
         f"{scale * item.after:.3g} {unit}, {_share(item.probability)})"
         for item in reversed(result.corrections)
     ]
-    return f"Not called missing: {_joined(parts)}; a slightly inexact form of the effects above explains as much."
+    inexact = "a slightly inexact form of the effects above explains as much"
+    return f"Not called missing: {_joined(parts)}; {inexact}."
 
 
 def _percent(result: Diagnosis, effect: str) -> str:
