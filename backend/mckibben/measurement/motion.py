@@ -91,6 +91,35 @@ def directions(velocity: Array, sigma: Array, *, starts: tuple[int, ...] = (0,))
     return np.where(passes[run], sign, 0).astype(np.int8)
 
 
+def held_directions(
+    direction: NDArray[np.int8], length: Array, records: NDArray[np.int_], *, least: float
+) -> NDArray[np.int8]:
+    """Direction of each row, where rows at rest keep that of the last motion: dry friction stays as it was.
+
+    Rows before the first motion of a record have 0. Runs of one direction that travel less than ``least``
+    are noise, or a creeping rest.
+
+    Args:
+        direction: of each row, 0 at rest.
+        length: of each row [m].
+        records: label of the uninterrupted record of each row; rows of a record are in order.
+        least: shortest travel of a motion [m].
+    """
+    kept = np.zeros(len(direction), direction.dtype)
+    if not len(direction):
+        return kept
+    breaks = np.flatnonzero((np.diff(direction) != 0) | (np.diff(records) != 0)) + 1
+    last, record = 0, records[0]
+    for begin, end in zip([0, *breaks], [*breaks, len(direction)], strict=True):
+        if records[begin] != record:
+            last, record = 0, records[begin]
+        before = length[begin - 1] if begin and records[begin - 1] == record else length[begin]
+        if direction[begin] and abs(length[end - 1] - before) >= least:
+            last = direction[begin]
+        kept[begin:end] = last
+    return kept
+
+
 def _correlation(value: Array, derived: Rate) -> float:
     known = np.isfinite(derived.sigma)
     a, b = value[known], derived.value[known]

@@ -9,9 +9,10 @@ import numpy as np
 
 from mckibben.identification.diagnose.contest import WrongEntry, contest
 from mckibben.identification.diagnose.corrections import Correction, without_corrections
+from mckibben.identification.diagnose.design import DesignedExperiment, Designer
 from mckibben.identification.diagnose.entries import Statements
 from mckibben.identification.diagnose.gauge_zero import vented
-from mckibben.identification.diagnose.next_measurement import SeparatingExperiment
+from mckibben.identification.diagnose.next_measurement import SeparatingExperiment, next_measurements
 from mckibben.identification.diagnose.probability import LIKELY, Evidence, ModelWeights, loss, model_weights
 from mckibben.identification.diagnose.reason import traits_of
 from mckibben.identification.diagnose.score import effective_rows
@@ -26,7 +27,6 @@ from mckibben.identification.diagnose.verdict import (
     left_structure,
     messages,
     noise_interval,
-    proposals,
     status_of,
 )
 from mckibben.identification.fit.effort import SearchEffort, diagnosis_effort
@@ -80,6 +80,7 @@ class Diagnosis:
         structure: the part of the last residual that a regression still predicts.
         term: a short formula that halves the error of the folds left out; None without one.
         proposals: experiments that would separate the alternatives.
+        designs: for each group of alternatives the experiment of this rig that splits it best.
         messages: notes for the user.
         not_tried: effects of the catalogue that were not candidates, with the reason.
         context: entries that may be wrong instead, the most convincing first.
@@ -107,6 +108,7 @@ class Diagnosis:
     structure: ResidualStructure
     term: Term | None
     proposals: tuple[SeparatingExperiment, ...]
+    designs: tuple[DesignedExperiment, ...] = ()
     messages: tuple[str, ...] = ()
     not_tried: tuple[NotTried, ...] = ()
     context: tuple[WrongEntry, ...] = ()
@@ -280,7 +282,12 @@ def _diagnose(
             statements, fitter=fitter, first=first, root=root, best=searched, stated_noise=noise
         )
     doubted = any(entry.stands for entry in context)
-    status = status_of(start, best, fitter.noise, added, exchangeable, remaining, full_scale, doubted=doubted)
+    # What a correction explains is not an unknown effect.
+    explained = best if searched is best else searched
+    unexplained = remaining if searched is best else left_structure(predictor, searched.residual, variables)
+    status = status_of(
+        start, explained, fitter.noise, added, exchangeable, unexplained, full_scale, doubted=doubted
+    )
     term = None
     if status == "unknown_effect" and is_force(predictor):
         term = proposed_term(
@@ -290,6 +297,8 @@ def _diagnose(
             basis=best.jacobian[:, best.inner],
             weigh=predictor.weighted,
         )
+    designer = Designer.of(predictor, best, level) if exchangeable else Designer((), level)
+    pairs, designs = next_measurements(designer, best, exchangeable, catalogue)
     progress.share = 0.95
     return Diagnosis(
         predictor=predictor,
@@ -309,7 +318,8 @@ def _diagnose(
         alternatives=tuple(exchangeable),
         structure=remaining,
         term=term,
-        proposals=tuple(proposals(best, exchangeable, catalogue, level, predictor)),
+        proposals=tuple(pairs),
+        designs=tuple(designs),
         messages=(
             *([] if gauge_zero is None else [gauge_zero.message]),
             *messages(fitter, best, fit),

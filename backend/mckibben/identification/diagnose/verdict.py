@@ -7,12 +7,6 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from mckibben.identification.diagnose.next_measurement import (
-    SeparatingExperiment,
-    declared,
-    protocols,
-    separation,
-)
 from mckibben.identification.diagnose.score import AT_FLOOR
 from mckibben.identification.diagnose.twins import Alternative
 from mckibben.identification.fit.fitted_model import FittedModel
@@ -20,7 +14,6 @@ from mckibben.identification.fit.fitter import Fitter
 from mckibben.identification.fit.least_squares import FitResult
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.structure import ResidualStructure, structure
-from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import assumption
 
 _FAR = 2.0  # error over noise above which a structured rest is an unknown effect, however much was explained
@@ -135,27 +128,6 @@ def unexplained_share(
 def is_force(predictor: Predictor) -> bool:
     """Whether the force is the only predicted channel, so that a term can be added to it."""
     return [channel.name for channel in predictor.channels] == ["force"]
-
-
-def proposals(
-    best: FittedModel,
-    others: Sequence[Alternative],
-    catalogue: Mapping[str, Effect],
-    noise: float,
-    predictor: Predictor,
-) -> list[SeparatingExperiment]:
-    """Experiments that would separate each added effect from its alternatives."""
-    experiments = []
-    pressure = predictor.inputs.get("pressure")
-    high = float(np.max(pressure)) if pressure is not None else 6e5
-    for other in others:
-        words, difference = "", 0.0
-        if is_force(predictor) and high > 0.0:
-            tests = protocols(best.fit_model, largest_pressure=high)
-            words, difference = separation(best.fit_model, other.fitted_model.fit_model, tests, noise=noise)
-        text = declared(catalogue[other.of], catalogue[other.effect])
-        experiments.append(SeparatingExperiment(other.of, other.effect, text, words, difference))
-    return experiments
 
 
 def _assumptions(best: FittedModel) -> list[str]:

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mckibben.measurement.measurement import FORCE_KINDS, STROKES, Measurement, lengths
-from mckibben.measurement.motion import RecordedMotion, motion_of
+from mckibben.measurement.motion import RecordedMotion, held_directions, motion_of
 from mckibben.measurement.settled import settled
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import ROOM_TEMPERATURE
@@ -32,6 +32,8 @@ _SUDDEN = 4.0  # change of velocity over the changes before and after, above whi
 _NEW_LEVEL = 0.05  # change of the constant quantity from row to row, share of its range
 _FORGOTTEN = 0.15  # travel after which friction no longer depends on the history, share of the swept range
 _PAUSE = 3.0  # time step over the median one, above which the recording paused
+_MOTION = 0.01  # shortest travel of a motion, share of the range of lengths; less is noise
+_PRESCRIBED = ("isobaric", "static")  # kinds in which the length is prescribed and moves
 _FEW = 0.1  # largest share of rows with jumps; above, the velocity is simply noisy
 
 
@@ -200,6 +202,8 @@ def _motion(
         messages += moved.messages
         if not known:
             direction, known = moved.direction, True
+            if stroked and measurement.kind in _PRESCRIBED:
+                direction = _held(measurement, nominal_length, moved.direction)
     elif "velocity" in columns:
         velocity = columns["velocity"]
         if not known:
@@ -208,6 +212,13 @@ def _motion(
         messages.append("the direction of motion is unknown: friction cannot be determined from these rows")
         return velocity, np.zeros(measurement.rows), unsure
     return velocity, np.sign(direction).astype(float), unsure
+
+
+def _held(measurement: Measurement, nominal_length: float, direction: np.ndarray) -> np.ndarray:
+    """Direction with rows at rest in that of the last motion."""
+    length = lengths(measurement, nominal_length)
+    least = _MOTION * float(np.ptp(length[measurement.usable])) if np.any(measurement.usable) else 0.0
+    return held_directions(direction, length, records_of(measurement), least=least)
 
 
 def _pauses(time: np.ndarray, group: np.ndarray) -> np.ndarray:

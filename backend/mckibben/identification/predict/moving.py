@@ -157,6 +157,26 @@ class TransientPredictor(Predictor):
         self._wide: tuple[Effect, ...] = ()
         self._spent: dict[tuple[Effect, ...], float] = {}
 
+    @property
+    def drives(self) -> tuple[Drive, ...]:
+        """The drive of each run: as documented, with the load, supply and command of the run."""
+        return tuple(record.drive for record in self._records)
+
+    def elsewhere(self, measurement: Measurement) -> TransientPredictor:
+        """The same drive and channels, with the noise of these data, for other runs.
+
+        Args:
+            measurement: set points of the runs; its predicted channels are placeholders.
+        """
+        other = TransientPredictor(measurement, self._records[0].drive)
+        other.channels = tuple(
+            replace(there, noise=here.noise, full_scale=here.full_scale)
+            for there, here in zip(other.channels, self.channels, strict=True)
+        )
+        noises = [channel.noise if len(self.channels) > 1 else 1.0 for channel in self.channels]
+        other.scale = np.repeat(noises, len(other.rows))
+        return other
+
     def why_hidden(self, effect: Effect) -> str:
         """Checked by the kinds of the effect; effects on the air flow need a command channel."""
         if self.kind not in effect.kinds:
