@@ -15,7 +15,6 @@ from mckibben.application.diagnosis_result import (
     CorrectionResult,
     DiagnosedModel,
     DiagnosisResult,
-    ExperimentProposal,
     NoiseFloor,
     PathPoint,
     TermCurve,
@@ -33,6 +32,7 @@ from mckibben.application.envelope import beyond, envelope_of
 from mckibben.application.experiment_result import absorbed_message, common_experiment, specimen_results
 from mckibben.application.model_question import ModelQuestion
 from mckibben.application.muscle_summary import geometry_of
+from mckibben.application.next_experiment import next_experiment, next_measurement, proposal
 from mckibben.application.saved_model import drive_of_model
 from mckibben.documents.studio import Studio
 from mckibben.identification.diagnose.diagnosis import FEWEST_VALUES, Diagnosis
@@ -241,7 +241,6 @@ def _model(question: ModelQuestion, fitted: FittedModel) -> ModelDocument:
 
 def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[str, Effect]) -> Verdict:
     titles = {name: effect.title for name, effect in catalogue.items()}
-    nexts = [proposal.sentence(titles) for proposal in diagnosis.proposals]
     return Verdict(
         status=diagnosis.status,
         title=title_of(
@@ -263,11 +262,9 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
         unexplained_in=[name for name, _ in diagnosis.structure.variables],
         proposed_term=_term(question, diagnosis),
         where_to_look=where_to_look(diagnosis) or None,
-        next_measurement="; ".join(nexts[:3]) or None,
-        experiments=[
-            ExperimentProposal([p.first, p.second], p.declared, p.protocol, p.separation)
-            for p in diagnosis.proposals
-        ],
+        next_measurement=next_measurement(diagnosis, titles),
+        experiments=[proposal(pair) for pair in diagnosis.proposals],
+        next_experiments=[next_experiment(design) for design in diagnosis.designs],
         sentence=" ".join(
             text
             for text in (

@@ -15,6 +15,7 @@ from mckibben.application.envelope import MeasuredRange
 from mckibben.application.experiment_result import SpecimenResult
 from mckibben.application.model_question import EffectDocument
 from mckibben.application.muscle_summary import GeometrySummary
+from mckibben.application.next_experiment import ExperimentProposal, NextExperiment
 from mckibben.identification.diagnose.diagnosis import NotTried
 from mckibben.identification.diagnose.verdict import Status
 from mckibben.identification.fit.comparison import ChannelMisfit, Correlation, ParameterTable, ParameterValue
@@ -128,16 +129,6 @@ class TermProposal:
 
 
 @dataclass(frozen=True, slots=True)
-class ExperimentProposal:
-    """An experiment that separates two similar effects; separation: in standard deviations of one reading."""
-
-    pair: list[str]
-    declared: str
-    protocol: str
-    separation: float
-
-
-@dataclass(frozen=True, slots=True)
 class Verdict:
     """Verdict of a diagnosis.
 
@@ -154,6 +145,8 @@ class Verdict:
         proposed_term: a short formula for it that halves the error of the groups left out.
         where_to_look: without a formula, the ranges of these variables with the largest error.
         next_measurement: recommended next measurement.
+        experiments: for each pair of effects that the data cannot distinguish.
+        next_experiments: for each group of them, the experiment that splits it best; the first is the best.
         sentence: the verdict in one to four sentences.
     """
 
@@ -170,6 +163,7 @@ class Verdict:
     where_to_look: str | None
     next_measurement: str | None
     experiments: list[ExperimentProposal]
+    next_experiments: list[NextExperiment]
     sentence: str
 
 

@@ -203,6 +203,12 @@ def diagnose(
     save: Annotated[
         Path | None, typer.Option("--save", metavar="FILE", help="Also write the model found, for --model.")
     ] = None,
+    schedule: Annotated[
+        Path | None,
+        typer.Option(
+            "--schedule", metavar="FILE", help="Also write the set points of the next experiment (CSV)."
+        ),
+    ] = None,
     use: Use = None,
     keep: Keep = None,
     sheet: Sheet = None,
@@ -247,6 +253,7 @@ def diagnose(
         as_json=as_json,
         report=report,
         save=save,
+        schedule=schedule,
     )
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from mckibben.application.diagnose import prepare
 from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.application.next_experiment import first_schedule
 from mckibben.application.saved_model import saved_model
 from mckibben.cli.data import measurements_of
 from mckibben.cli.model import model_question
@@ -24,7 +25,6 @@ from mckibben.cli.output import (
     write_parameters,
     write_table,
 )
-from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import ExperimentValue
 from mckibben.measurement.read import Correction
@@ -45,14 +45,17 @@ def run(
     as_json: bool,
     report: Path | None = None,
     save: Path | None = None,
+    schedule: Path | None = None,
 ) -> None:
-    """Print the diagnosis, and write a report and the model if requested.
+    """Print the diagnosis, and write a report, the model and the next experiment if requested.
 
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
     if save is not None:
         check_folder(save, "--save")
+    if schedule is not None:
+        check_folder(schedule, "--schedule")
     measurements = measurements_of(files, studio, correction, said)
     question = model_question(studio, measurements, model, free=free, noise=noise, strict=correction.strict)
     work = prepare(question, studio)
@@ -63,27 +66,31 @@ def run(
 
         write(report, studio, question, result)
     if save is not None:
-        _save(save, saved_model(question, result, studio))
+        text = saved_model(question, result, studio).to_document()
+        _write_file(
+            save, "--save", "model", json.dumps(text, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+        )
+    if schedule is not None:
+        _write_file(schedule, "--schedule", "set points", first_schedule(result.verdict.next_experiments))
     if as_json:
         write_json(result)
         return
     _write(result)
 
 
-def _save(path: Path, model: SavedModel) -> None:
-    """Write a model, and print its path.
+def _write_file(path: Path, option: str, what: str, text: str) -> None:
+    """Write a file that an option names, and print its path.
 
     Raises:
         InputError: the file cannot be written.
     """
-    text = json.dumps(model.to_document(), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
     try:
         path.write_text(text, encoding="utf-8", newline="\n")
     except OSError as error:
         raise InputError(
-            f"--save {path}: cannot be written: {error.strerror or error}", hint="name a file in a folder"
+            f"{option} {path}: cannot be written: {error.strerror or error}", hint="name a file in a folder"
         ) from error
-    remark(f"model: {path}")
+    remark(f"{what}: {path}")
 
 
 def _write(result: DiagnosisResult) -> None:
@@ -116,9 +123,8 @@ def _write(result: DiagnosisResult) -> None:
     )
     write_parameters(result.parameters)
     remark(result.verdict.sentence)
-    for experiment in result.verdict.experiments:
-        first, second = experiment.pair
-        remark(f"to distinguish {first} from {second}: {experiment.declared or experiment.protocol}")
+    if result.verdict.next_measurement is not None:
+        remark(f"next: {result.verdict.next_measurement}")
     if result.verdict.proposed_term is not None:
         remark(f"proposed term: {result.verdict.proposed_term.formula}")
     for message in result.messages[len(result.assumptions) :]:

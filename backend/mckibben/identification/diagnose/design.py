@@ -61,6 +61,10 @@ class DesignedExperiment:
         """Separation of two effects [sigma]; None if it was not simulated."""
         return next((s.sigma for s in self.separations if {s.first, s.second} == {first, second}), None)
 
+    def decided(self) -> list[tuple[str, str]]:
+        """The pairs that it tells apart at all."""
+        return [(s.first, s.second) for s in self.separations if s.sigma >= 1.0]
+
 
 @dataclass
 class Designer:

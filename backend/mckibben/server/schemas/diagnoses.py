@@ -136,6 +136,35 @@ class Experiment(Strict):
     declared: str
     protocol: str
     separation: float = Field(description="Expected difference, in standard deviations of one reading.")
+    minutes: float | None = Field(description="How long it takes; null without a protocol.")
+    matters: bool = Field(description="Whether the two models predict different results for this rig.")
+    differs_in: str = Field(description="Simulated experiment where the models as they are differ most.")
+    difference: float = Field(description="By how many standard deviations of one reading.")
+
+
+class PairSeparation(Strict):
+    """By how many standard deviations of one reading an experiment tells two effects apart."""
+
+    pair: list[str]
+    separation: float
+
+
+class SetPoints(Strict):
+    """Values of one set point, in its SI unit."""
+
+    unit: str
+    values: Series
+
+
+class NextExperiment(Strict):
+    """The experiment that splits a group of indistinguishable effects best, with its set points."""
+
+    group: list[str] = Field(description="The effects, that of the model first.")
+    protocol: str
+    minutes: float
+    separations: list[PairSeparation]
+    run: list[int] = Field(description="Number of the run of each set point; time starts anew in each.")
+    set_points: dict[str, SetPoints] = Field(description="Linear between the rows.")
 
 
 class Verdict(Strict):
@@ -162,6 +191,9 @@ class Verdict(Strict):
     )
     next_measurement: str | None
     experiments: list[Experiment]
+    next_experiments: list[NextExperiment] = Field(
+        description="For each group of effects the experiment that splits it best, the best first."
+    )
     sentence: str
 
 

@@ -1,0 +1,168 @@
+"""The next experiment of a diagnosis: what it would decide, and its set points as a table a rig can play."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.identification.diagnose.design import DesignedExperiment
+from mckibben.identification.diagnose.diagnosis import Diagnosis
+from mckibben.identification.diagnose.next_measurement import SeparatingExperiment
+from mckibben.physics.errors import InputError
+
+#: Set point -> SI unit, column of the table, factor from SI.
+_COLUMNS: Mapping[str, tuple[str, str, float]] = {
+    "time": ("s", "time_s", 1.0),
+    "pressure": ("Pa", "pressure_bar", 1e-5),
+    "length": ("m", "length_mm", 1e3),
+    "load": ("N", "load_N", 1.0),
+    "command": ("1", "command", 1.0),
+    "mass": ("kg", "load_mass_kg", 1.0),
+    "supply": ("Pa", "supply_pressure_bar", 1e-5),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class ExperimentProposal:
+    """An experiment that separates two similar effects.
+
+    Attributes:
+        pair: the effects, that of the model first.
+        declared: what the catalogue says about the pair.
+        protocol: the simulated experiment of this rig that separates them best.
+        separation: expected difference in standard deviations of one reading, after both models adapted.
+        minutes: how long it takes; None without a protocol.
+        matters: whether the two models as they are predict different results for this rig.
+        differs_in, difference: the simulated experiment where they differ most, and by how much [sigma].
+    """
+
+    pair: list[str]
+    declared: str
+    protocol: str
+    separation: float
+    minutes: float | None
+    matters: bool
+    differs_in: str
+    difference: float
+
+
+@dataclass(frozen=True, slots=True)
+class PairSeparation:
+    """By how many standard deviations of one reading an experiment tells two effects apart."""
+
+    pair: list[str]
+    separation: float
+
+
+@dataclass(frozen=True, slots=True)
+class SetPoints:
+    """Values of one set point, in its SI unit."""
+
+    unit: str
+    values: NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class NextExperiment:
+    """The experiment that splits a group of indistinguishable effects best.
+
+    Attributes:
+        group: the effects, that of the model first.
+        protocol: what to do.
+        minutes: how long it takes, with 30 s to set up each run.
+        separations: of each simulated pair.
+        run: number of the run of each set point; time starts anew in each.
+        set_points: time, and what the rig prescribes, linear between the rows.
+    """
+
+    group: list[str]
+    protocol: str
+    minutes: float
+    separations: list[PairSeparation]
+    run: NDArray[np.int64]
+    set_points: dict[str, SetPoints]
+
+
+def proposal(pair: SeparatingExperiment) -> ExperimentProposal:
+    """An experiment for one pair, as an answer."""
+    return ExperimentProposal(
+        [pair.first, pair.second],
+        pair.declared,
+        pair.protocol,
+        pair.separation,
+        pair.minutes,
+        pair.matters,
+        pair.differs_in,
+        pair.difference,
+    )
+
+
+def next_experiment(design: DesignedExperiment) -> NextExperiment:
+    """A designed experiment as an answer."""
+    return NextExperiment(
+        group=list(design.group),
+        protocol=design.words,
+        minutes=design.minutes,
+        separations=[PairSeparation([s.first, s.second], s.sigma) for s in design.separations],
+        run=design.schedule.run.astype(np.int64),
+        set_points={
+            name: SetPoints(_COLUMNS[name][0], np.asarray(values, dtype=float))
+            for name, values in design.schedule.columns.items()
+        },
+    )
+
+
+def next_measurement(diagnosis: Diagnosis, titles: Mapping[str, str]) -> str | None:
+    """What to measure next, in words: the experiments that split a group, then what is declared."""
+    sentences = []
+    for design in diagnosis.designs:
+        names = {name: titles.get(name, name) for name in design.group}
+        split = [s for s in design.separations if s.sigma >= 1.0]
+        if split:
+            parts = [f"{names[s.first]} from {names[s.second]} by {s.sigma:.1f} sigma" for s in split[:4]]
+            sentences.append(
+                f"{design.words} (about {max(design.minutes, 1.0):.0f} min) separates {'; '.join(parts)}"
+            )
+    told = {frozenset(pair) for d in diagnosis.designs for pair in d.decided()}
+    rest = [p for p in diagnosis.proposals if frozenset((p.first, p.second)) not in told]
+    sentences += [p.sentence(titles) for p in rest if p.declared][: max(3 - len(sentences), 1)]
+    return "; ".join(sentences) or None
+
+
+def schedule_csv(experiment: NextExperiment) -> str:
+    """The set points as text that a rig can play and this program can read.
+
+    Lines before the header say what is done; columns are run, time and the prescribed quantities.
+    """
+    names = list(experiment.set_points)
+    lines = [
+        f"# protocol: {experiment.protocol}",
+        f"# decides between: {', '.join(experiment.group)}",
+        "# set points, linear between the rows; time starts anew in each run",
+        ",".join(["run", *(_COLUMNS[name][1] for name in names)]),
+    ]
+    columns = [experiment.set_points[name].values * _COLUMNS[name][2] for name in names]
+    lines += [
+        ",".join([str(int(run)), *(f"{value:.6g}" for value in row)])
+        for run, *row in zip(experiment.run, *columns, strict=True)
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def first_schedule(experiments: list[NextExperiment]) -> str:
+    """The set points of the first experiment.
+
+    Raises:
+        InputError: there is none, because no effects have to be told apart or the rig cannot do it.
+    """
+    if not experiments:
+        raise InputError(
+            "no experiment was designed: no two effects have to be told apart, or no experiment of this rig "
+            "would do it",
+            field="schedule",
+            hint="leave '--schedule' out",
+        )
+    return schedule_csv(experiments[0])
