@@ -104,6 +104,8 @@ export interface components {
       /** Experiment that separates it from its first twin. */
       next_measurement: string | null;
       model: components["schemas"]["ModelJson"];
+      /** That it, or one of its twins in the best model, is missing; null while the search runs. */
+      probability: number | null;
     };
     /** One used column of a measurement. */
     Channel: {
@@ -845,6 +847,14 @@ export interface components {
       protocol: string;
       /** Expected difference, in standard deviations of one reading. */
       separation: number;
+      /** How long it takes; null without a protocol. */
+      minutes: number | null;
+      /** Whether the two models predict different results for this rig. */
+      matters: boolean;
+      /** Simulated experiment where the models as they are differ most. */
+      differs_in: string;
+      /** By how many standard deviations of one reading. */
+      difference: number;
     };
     /** What is said about the experiment of each measurement, and what is open. */
     ExperimentAnswer: {
@@ -1506,6 +1516,18 @@ export interface components {
       /** Id of the measurement for comparisons and diagnoses. */
       measurement: string;
     };
+    /** The experiment that splits a group of indistinguishable effects best, with its set points. */
+    NextExperiment: {
+      /** The effects, that of the model first. */
+      group: string[];
+      protocol: string;
+      minutes: number;
+      separations: components["schemas"]["PairSeparation"][];
+      /** Number of the run of each set point; time starts anew in each. */
+      run: number[];
+      /** Linear between the rows. */
+      set_points: { [key: string]: components["schemas"]["SetPoints"] };
+    };
     /** The error due to noise; a smaller one cannot be reached. */
     NoiseFloor: {
       rmse: number | null;
@@ -1598,6 +1620,11 @@ export interface components {
       inertia?: number | string;
       /** Radius of the pulley. Default: eight radii from 10 to 120 mm are tried. [m] */
       pulley_radius?: number | string | null;
+    };
+    /** By how many standard deviations of one reading an experiment tells two effects apart. */
+    PairSeparation: {
+      pair: string[];
+      separation: number;
     };
     /** Published figures of a drive. Attributes: figure: number of the figure. figures: "extend.rise_time" -> value; names of the timing table, or explained in the description. tolerance: permitted relative deviation of a figure, by the same names. excluded: reason why a figure is not compared, by the same names. */
     PaperFigures: {
@@ -1975,6 +2002,11 @@ export interface components {
       /** Mean speed of each level, ascending [SI unit of the signal per s]; empty without time. */
       speeds: (number | null)[];
     };
+    /** Values of one set point, in its SI unit. */
+    SetPoints: {
+      unit: string;
+      values: (number | null)[];
+    };
     /** How the effect shows in the residual. */
     Signature: {
       /** In words. */
@@ -2146,6 +2178,14 @@ export interface components {
       rows: number;
       /** Where the first of them is. */
       first: string;
+    };
+    /** An effect that lowers the error, but not by more than an inexact form of another one explains. */
+    SmallCorrection: {
+      effect: string;
+      rmse_before: number;
+      rmse_after: number;
+      /** That it is missing nevertheless. */
+      probability: number;
     };
     /** Source of a figure, and its grade. */
     SourceText: {
@@ -2446,6 +2486,12 @@ export interface components {
       title: string;
       effects: string[];
       indistinguishable: string[][];
+      /** Effect -> probability that it, or one of its group, is missing; a group shares one. */
+      probabilities: { [key: string]: number };
+      /** Effect of the model that data cannot tell from others -> why this one was taken. */
+      applied: { [key: string]: string };
+      /** Effects that lower the error but are not called missing. */
+      corrections: components["schemas"]["SmallCorrection"][];
       unexplained_share: number;
       unexplained_in: string[];
       proposed_term: components["schemas"]["ProposedTerm"] | null;
@@ -2453,6 +2499,8 @@ export interface components {
       where_to_look: string | null;
       next_measurement: string | null;
       experiments: components["schemas"]["Experiment"][];
+      /** For each group of effects the experiment that splits it best, the best first. */
+      next_experiments: components["schemas"]["NextExperiment"][];
       sentence: string;
     };
     /** Whether the residual looks like noise. */

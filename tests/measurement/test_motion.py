@@ -8,7 +8,7 @@ from scipy.signal import savgol_coeffs
 
 from mckibben.measurement.derivative import noise_of, rates, rounding_step, running_mean
 from mckibben.measurement.measurement import build
-from mckibben.measurement.motion import directions, motion_of
+from mckibben.measurement.motion import directions, held_directions, motion_of
 from mckibben.physics.errors import InputError
 
 RUNS = 40
@@ -156,3 +156,17 @@ def test_rates_need_time_and_stroke() -> None:
 def test_what_is_held_exactly_has_no_rate(held: float) -> None:
     rate = rates(np.linspace(0.0, 2.0, 81), np.full(81, held))
     assert not rate.value.any()
+
+
+def test_a_muscle_at_rest_keeps_the_direction_of_its_last_motion() -> None:
+    """Rest, contraction by 10, rest with a flicker of 0.1, extension by 5, then a new record at rest."""
+    direction = np.array([0, -1, -1, 0, 1, 0, 1, 1, 0, 0], dtype=np.int8)
+    length = np.array([100.0, 95.0, 90.0, 90.0, 90.1, 90.1, 93.0, 95.0, 95.0, 95.0])
+    records = np.array([0, 0, 0, 0, 0, 0, 0, 0, 0, 1])
+    kept = held_directions(direction, length, records, least=1.0)
+    assert list(kept) == [0, -1, -1, -1, -1, -1, 1, 1, 1, 0]
+
+
+def test_no_rows_have_no_direction() -> None:
+    nothing = np.zeros(0, dtype=np.int8)
+    assert len(held_directions(nothing, np.zeros(0), np.zeros(0, int), least=1.0)) == 0

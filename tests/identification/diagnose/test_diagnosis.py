@@ -249,8 +249,8 @@ def test_a_freed_braid_angle_leaves_nothing_missing():
     assert freed.added == ()
     assert freed.status == "adequate"
     assert [step.refitted for step in freed.path] == [False, True]
-    assert sentence_of(freed, {}).startswith("Nothing is missing: the error of ")
-    assert "with the numbers of the model refitted; before" in sentence_of(freed, {})
+    assert sentence_of(freed, CATALOGUE).startswith("Nothing is missing: the error of ")
+    assert "with the numbers of the model refitted; before" in sentence_of(freed, CATALOGUE)
 
 
 def test_an_error_is_not_called_noise_where_the_noise_is_not_known():

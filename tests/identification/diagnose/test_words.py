@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from mckibben.identification.diagnose.verdict import Interval
-from mckibben.identification.diagnose.words import sentence_of, title_of
+from mckibben.identification.diagnose.words import (
+    applied_reasons,
+    by_mechanism,
+    corrections_sentence,
+    sentence_of,
+    title_of,
+)
 from mckibben.identification.residual.structure import ResidualStructure
+from mckibben.physics.catalogue import default_catalogue
 
+BUILT_IN = default_catalogue()
 TITLES = {"creep": "Creep", "leak": "Leak"}
+CATALOGUE = {name: replace(BUILT_IN[name], title=title) for name, title in TITLES.items()}
 
 
 def result(
@@ -31,6 +41,15 @@ def result(
         context=(SimpleNamespace(stands=True),) if doubted else (),
         alternatives=alternatives,
         term=term,
+        evidence=tuple(
+            SimpleNamespace(
+                effect=name,
+                group=(name, *(other.effect for other in alternatives if other.of == name)),
+                probability=0.97,
+            )
+            for name in added
+        ),
+        corrections=(),
         left_where=(
             SimpleNamespace(over="load", worst="load 1 to 2 N", rmse=99.0),
             SimpleNamespace(over="time", worst="time 3.00 to 4.00 s", rmse=11.0 * after / 10.0),
@@ -49,17 +68,19 @@ SENTENCES = {
     ),
     "No catalogued effect lowers the error of 5 N. The noise cannot be estimated from these data: "
     "state it to know whether the error exceeds it.": result("adequate", 5.0, 5.0, noise=None),
-    "Missing: Creep. With it the error falls from 40 to 2.1 N, the noise of the data (2 N).": result(
+    "Missing: Creep (97 %). With it the error falls from 40 to 2.1 N, the noise of the data (2 N).": result(
         "missing_effects", 40.0, 2.1, "creep"
     ),
-    "Missing: Creep and Leak. With them the error falls from 4 to 1.02 times the noise.": result(
+    "Missing: Creep (97 %) and Leak (97 %). With them the error falls from 4 to 1.02 times the noise.": result(
         "missing_effects", 4.0, 1.02, "creep", "leak", unit="1", noise=1.0
     ),
-    "Missing: Creep. With it the error falls from 40 to 3 mm; the noise is 2 mm. Of the rest, 40 % depends "
+    "Missing: Creep (97 %). "
+    "With it the error falls from 40 to 3 mm; the noise is 2 mm. Of the rest, 40 % depends "
     "on pressure and time.": result(
         "missing_effects", 0.040, 0.003, "creep", unit="m", noise=2e-3, share=0.4
     ),
-    "Missing: Creep. With it the error falls from 40 to 9 N; the noise is 2 N. No catalogued effect explains "
+    "Missing: Creep (97 %). "
+    "With it the error falls from 40 to 9 N; the noise is 2 N. No catalogued effect explains "
     "the rest: it depends on no measured variable; repeat the run to see whether it recurs.": result(
         "unknown_effect", 40.0, 9.0, "creep"
     ),
@@ -69,12 +90,14 @@ SENTENCES = {
     "No catalogued effect explains the error of 40 N: 90 % of it depends on pressure and time.": result(
         "unknown_effect", 40.0, 40.0, share=0.9, term=object()
     ),
-    "Missing: Creep. With it the error falls from 40 to 10 mm; the noise is 2 mm. No catalogued effect "
+    "Missing: Creep (97 %). "
+    "With it the error falls from 40 to 10 mm; the noise is 2 mm. No catalogued effect "
     "explains the rest: 90 % of it depends on pressure and time. No formula is proposed; look where it is "
     "largest: pressure 5.00 to 6.00 bar (13 mm) and time 3.00 to 4.00 s (11 mm).": result(
         "unknown_effect", 0.040, 0.010, "creep", unit="m", noise=2e-3, share=0.9
     ),
-    "Missing: Creep. The model's own numbers, refitted, lower the error from 40 to 15 N; with it the error "
+    "Missing: Creep (97 %). "
+    "The model's own numbers, refitted, lower the error from 40 to 15 N; with it the error "
     "falls to 2.1 N, the noise of the data (2 N).": result(
         "missing_effects", 40.0, 2.1, "creep", refitted=15.0
     ),
@@ -83,8 +106,10 @@ SENTENCES = {
     "With the entries as stated no catalogued effect explains the error of 40 N.": result(
         "ambiguous", 40.0, 40.0, doubted=True
     ),
-    "Missing: Creep. With it the error falls from 40 to 2.1 N, the noise of the data (2 N). These data "
-    "cannot tell Creep from Leak.": result(
+    "Missing: Creep (97 %). "
+    "With it the error falls from 40 to 2.1 N, the noise of the data (2 N). These data "
+    "cannot tell Creep from Leak. The model holds Creep: without these data it is the likeliest of them, "
+    "every rubber relaxes when it is held.": result(
         "ambiguous", 40.0, 2.1, "creep", alternatives=(SimpleNamespace(of="creep", effect="leak"),)
     ),
 }
@@ -92,7 +117,7 @@ SENTENCES = {
 
 @pytest.mark.parametrize("sentence", SENTENCES)
 def test_a_verdict_in_words(sentence: str) -> None:
-    assert sentence_of(SENTENCES[sentence], TITLES) == sentence
+    assert sentence_of(SENTENCES[sentence], CATALOGUE) == sentence
 
 
 @pytest.mark.parametrize(
@@ -106,3 +131,31 @@ def test_a_verdict_in_words(sentence: str) -> None:
 )
 def test_a_status_has_a_title(status: str, added: bool, title: str) -> None:
     assert title_of(status, added=added) == title
+
+
+def test_the_applied_effect_has_a_reason_from_the_data_where_another_is_likelier_beforehand() -> None:
+    other = SimpleNamespace(of="leak", effect="creep", fitted_model=SimpleNamespace(rmse=2.3))
+    found = result("ambiguous", 40.0, 2.1, "leak", alternatives=(other,))
+    reasons = applied_reasons(found, CATALOGUE)
+    assert reasons == {
+        "leak": "its error of 2.1 N is a little lower than the 2.3 N of Creep, which is likelier without "
+        "these data"
+    }
+
+
+def test_a_correction_is_said_with_its_errors_and_probability() -> None:
+    found = result("missing_effects", 40.0, 2.1, "creep")
+    found.corrections = (SimpleNamespace(effect="leak", before=2.1, after=1.9, probability=0.12),)
+    assert corrections_sentence(found, TITLES) == (
+        "Not called missing: Leak (from 2.1 to 1.9 N, 12 %); a slightly inexact form of the effects above "
+        "explains as much."
+    )
+    assert corrections_sentence(result("adequate", 2.0, 2.0), TITLES) == ""
+
+
+def test_many_alternatives_are_grouped_by_family() -> None:
+    names = ["creep", "mullins", "prestress", "force_offset"]
+    text = by_mechanism(names, BUILT_IN)
+    elastomer = ", ".join(BUILT_IN[name].title for name in names[:3])
+    assert text == f"4 others (elastomer: {elastomer}; sensor: {BUILT_IN['force_offset'].title})"
+    assert by_mechanism(names[:2], BUILT_IN) == f"{BUILT_IN['creep'].title} or {BUILT_IN['mullins'].title}"

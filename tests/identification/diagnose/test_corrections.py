@@ -1,0 +1,56 @@
+"""Effects that only correct the form of another: which of them are left out, and what is said of it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mckibben.identification.diagnose.corrections import without_corrections
+from tests.identification.diagnose.test_diagnosis import diagnosis
+from tests.identification.diagnose.test_probability import fitted
+from tests.identification.synthetic import cycles
+
+
+class Dropping:
+    """Stands for a fitter: the models without each effect are given."""
+
+    def __init__(self, **without: object) -> None:
+        self.without = without
+
+    def dropping(self, model: object, effect: str) -> object:
+        return self.without[f"{effect}_of_{len(model.fit_model.ids)}"]  # type: ignore[attr-defined]
+
+
+def test_the_least_likely_goes_first_and_what_remains_is_judged_again() -> None:
+    root = fitted(20.0)
+    best = fitted(1.0, "prestress", "creep", "mullins")
+    without_creep = fitted(1.1, "prestress", "mullins")
+    fitter = Dropping(
+        creep_of_3=without_creep,
+        prestress_of_3=fitted(1.3, "creep", "mullins"),
+        mullins_of_3=fitted(1.2, "prestress", "creep"),
+        # Without creep the other two are needed.
+        prestress_of_2=fitted(9.0, "mullins"),
+        mullins_of_2=fitted(8.0, "prestress"),
+    )
+    kept, corrections = without_corrections(fitter, best, root, 1.0)  # type: ignore[arg-type]
+    assert kept is without_creep
+    assert [item.effect for item in corrections] == ["creep"]
+    assert (corrections[0].before, corrections[0].after) == pytest.approx((1.1, 1.0))
+
+
+def test_a_single_effect_is_never_a_correction() -> None:
+    best = fitted(1.0, "prestress")
+    assert without_corrections(Dropping(), best, fitted(1.01), 1.0) == (best, ())  # type: ignore[arg-type]
+
+
+def test_what_is_left_out_is_said_and_the_error_stays_near_the_noise() -> None:
+    found = diagnosis(cycles(noise=1.0, each=30, prestress=40.0))
+    assert found.best.rmse < 1.2
+    for item in found.corrections:
+        assert item.effect not in found.added
+        assert item.before > item.after
+        assert 0.0 <= found.probability_of(item.effect) < 0.25
+    assert found.probability_of(found.added[0]) > 0.9
+    assert all(0.0 <= found.probability_of(c.effect.id) <= 1.0 for c in found.candidates)
+    assert np.isclose(found.probability_of("prestress"), found.probability_of("force_offset"))

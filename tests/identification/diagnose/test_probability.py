@@ -1,0 +1,89 @@
+"""Weights of models against sums written here, and the calibrated probability of an effect."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import exp, log, sqrt
+
+import numpy as np
+import pytest
+
+from mckibben.identification.diagnose.probability import LIKELY, Evidence, Loss, loss, model_weights
+from mckibben.identification.diagnose.score import score
+from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.predict.fit_model import FitModel
+from mckibben.physics.effect import Prior
+from tests.identification.synthetic import CATALOGUE, MUSCLE
+
+ROWS = 60.0
+
+
+def fitted(size: float, *effects: str, shares: dict[str, float] | None = None) -> FittedModel:
+    """A model whose residual alternates between plus and minus ``size``."""
+    priors = {name: (shares or {}).get(name, 0.5) for name in effects}
+    chosen = tuple(replace(CATALOGUE[name], prior=Prior(share, "-")) for name, share in priors.items())
+    values = {name: CATALOGUE[name].defaults for name in effects}
+    residual = size * np.where(np.arange(60) % 2, 1.0, -1.0)
+    folds = (np.repeat(np.arange(6), 10),)
+    return FittedModel(FitModel(MUSCLE, chosen, values), (), frozenset(), residual, np.empty((60, 0)), folds)
+
+
+def test_weights_are_prior_odds_times_evidence() -> None:
+    root = fitted(3.0)
+    first = fitted(1.0, "prestress", shares={"prestress": 0.8})
+    second = fitted(1.1, "force_offset", shares={"force_offset": 0.2})
+    both = fitted(1.0, "prestress", "force_offset", shares={"prestress": 0.8, "force_offset": 0.2})
+    weights = model_weights([first, second, both], root, rows=ROWS, noise=1.0)
+    # Without free parameters S = n ln h, but for the 0.01 per step that ties go by; so exp(-S/2) = h^(-n/2).
+    h = {"root": 9.0, "first": 1.0, "second": 1.21, "both": 1.0}
+    odds = {"root": 1.0, "first": 4.0, "second": 0.25, "both": 1.0}
+    raw = {name: odds[name] * h[name] ** (-ROWS / 2.0) for name in h}
+    share = (raw["first"] + raw["both"]) / sum(raw.values())
+    assert weights.share(["prestress"]) == pytest.approx(share, rel=0.02)
+    assert weights.share(["prestress", "force_offset"]) == pytest.approx(1.0)
+    assert weights.share(["creep"]) == 0.0
+
+
+def test_of_models_that_differ_in_freed_constants_the_best_counts() -> None:
+    root, good = fitted(2.0), fitted(1.0, "prestress")
+    worse = replace(fitted(1.5, "prestress"), freed=frozenset({"prestress.force"}))
+    alone = model_weights([good], root, rows=ROWS, noise=1.0)
+    together = model_weights([worse, good, worse], root, rows=ROWS, noise=1.0)
+    assert together.weights == pytest.approx(alone.weights)
+
+
+def test_models_without_the_effects_of_the_start_do_not_count() -> None:
+    root, less = fitted(2.0, "creep"), fitted(0.1)
+    weights = model_weights([less, fitted(1.0, "creep", "prestress")], root, rows=ROWS, noise=1.0)
+    assert weights.share(["prestress"]) == pytest.approx(1.0)
+    assert score(less, rows=ROWS, noise=1.0) < score(root, rows=ROWS, noise=1.0)
+
+
+def test_a_loss_is_measured_in_noise_and_as_a_part_of_what_is_explained() -> None:
+    found = loss(fitted(1.0, "prestress", "creep"), fitted(3.0, "creep"), fitted(5.0), noise=2.0)
+    assert found.size == pytest.approx(sqrt(9.0 - 1.0) / 2.0)
+    assert found.part == pytest.approx(sqrt((9.0 - 1.0) / (25.0 - 1.0)))
+    none = loss(fitted(1.0), fitted(0.9), fitted(1.0), noise=1.0)
+    assert none.size == 0.0
+    assert none.probability < 1e-6
+
+
+def test_a_large_effect_is_likely_and_a_small_correction_is_not() -> None:
+    """Sizes as they occur in `tests.truth`: an effect of 20 times the noise, and 3 % of it at the noise."""
+    assert Loss(20.0, 1.0).probability > 0.99
+    assert Loss(0.6, 0.03).probability < LIKELY
+    sizes = np.geomspace(0.1, 10.0, 9)
+    assert np.all(np.diff([Loss(size, 0.1).probability for size in sizes]) > 0.0)
+    assert np.all(np.diff([Loss(2.0, part).probability for part in sizes / 10.0]) > 0.0)
+
+
+def test_a_group_shares_one_probability() -> None:
+    found = Evidence("prestress", ("prestress", "force_offset"), 0.9, Loss(20.0, 1.0))
+    assert found.probability == pytest.approx(0.9 * Loss(20.0, 1.0).probability)
+
+
+def test_the_weight_of_evidence_is_half_the_score() -> None:
+    root, one = fitted(1.0), fitted(exp(-0.05), "prestress")
+    weights = model_weights([one], root, rows=ROWS, noise=0.1)
+    share = weights.share(["prestress"])
+    assert log(share / (1.0 - share)) == pytest.approx(0.05 * ROWS, abs=0.02)
