@@ -71,7 +71,8 @@ SENTENCES = {
     "Missing: Creep (97 %). With it the error falls from 40 to 2.1 N, the noise of the data (2 N).": result(
         "missing_effects", 40.0, 2.1, "creep"
     ),
-    "Missing: Creep (97 %) and Leak (97 %). With them the error falls from 4 to 1.02 times the noise.": result(
+    "Missing: Creep (97 %) and Leak (97 %). "
+    "With them the error falls from 4 to 1.02 times the noise.": result(
         "missing_effects", 4.0, 1.02, "creep", "leak", unit="1", noise=1.0
     ),
     "Missing: Creep (97 %). "
