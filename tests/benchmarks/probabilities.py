@@ -132,7 +132,7 @@ def main() -> None:
     )
     say(f"even recipes, {len(even)} events; probabilities as the program states them")
     for low, high in pairwise(_BINS):
-        inside = [e for e in even if low <= e.probability < high or (high == 1.0 and e.probability == 1.0)]
+        inside = [e for e in even if low <= e.probability < high or e.probability == high == 1.0]
         share = f"{100.0 * sum(e.true for e in inside) / len(inside):.0f} % true" if inside else "-"
         say(f"  {100 * low:3.0f} to {100 * high:3.0f} %: {len(inside):4d}  {share}")
     brier = float(np.mean([(e.probability - e.true) ** 2 for e in even])) if even else float("nan")

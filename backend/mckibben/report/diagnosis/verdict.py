@@ -113,6 +113,7 @@ def candidates_section(material: DiagnosisMaterial, diagnosis: DiagnosisResult) 
             c.title,
             figure(c.rmse, scale, 3),
             percent(c.gain_percent / 100.0),
+            "–" if c.probability is None else percent(c.probability),
             _twins([material.title_of(name) for name in c.twins]),
             c.why,
         ]
@@ -120,7 +121,7 @@ def candidates_section(material: DiagnosisMaterial, diagnosis: DiagnosisResult) 
     ]
     columns = [
         Head("Effect"), Head("RMS error with this effect alone", number=True), Head("Gain", number=True),
-        Head("Indistinguishable from"), Head("Why"),
+        Head("Missing with probability", number=True), Head("Indistinguishable from"), Head("Why"),
     ]  # fmt: skip
     rest = len(diagnosis.candidates) - len(useful)
     parts: list[Child] = [heading("One effect alone, everything refitted")]
@@ -146,7 +147,7 @@ def candidates_section(material: DiagnosisMaterial, diagnosis: DiagnosisResult) 
         parts.append(heading("Experiments that would distinguish them"))
         columns = [
             Head("Pair"), Head("Suggested in the catalogue"), Head("Best simulated experiment"),
-            Head("Separation", number=True),
+            Head("Separation", number=True), Head("Minutes", number=True),
         ]  # fmt: skip
         experiments = [
             [
@@ -154,6 +155,7 @@ def candidates_section(material: DiagnosisMaterial, diagnosis: DiagnosisResult) 
                 item.declared or "–",
                 item.protocol or "–",
                 figure(item.separation, Scale("σ"), 2),
+                "–" if item.minutes is None else plain(max(item.minutes, 1.0), 2),
             ]
             for item in verdict.experiments
         ]
