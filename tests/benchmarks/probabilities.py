@@ -127,9 +127,8 @@ def main() -> None:
     odd = [event for event in events if order[event.case] % 2]
     even = [event for event in events if not order[event.case] % 2]
     constant, by_size, by_part = regression(odd)
-    say(
-        f"odd recipes, {len(odd)} events: logit = {constant:.2f} + {by_size:.2f} ln size + {by_part:.2f} ln part"
-    )
+    logit = f"{constant:.2f} + {by_size:.2f} ln size + {by_part:.2f} ln part"
+    say(f"odd recipes, {len(odd)} events: logit = {logit}")
     say(f"even recipes, {len(even)} events; probabilities as the program states them")
     for low, high in pairwise(_BINS):
         inside = [e for e in even if low <= e.probability < high or e.probability == high == 1.0]
