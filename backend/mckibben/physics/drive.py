@@ -179,7 +179,8 @@ class DriveModel:
             "guide", values, {"stroke": stroke, "speed": speed, "direction": sign_of(velocity=speed)}
         )
         lever = c["lever_ratio"]
-        resisting = factor * (c["mass"] * c["gravity"] + external) + guide
+        hung = model.sum("hung_mass", values, {}) * c["gravity"]
+        resisting = factor * (c["mass"] * c["gravity"] + external) + hung + guide
         return lever**2 * pull - lever * resisting - c["spring"] * stroke, inertia
 
     def _values(self, model: Model, states: Mapping[str, Value]) -> dict[str, dict[str, Value]]:

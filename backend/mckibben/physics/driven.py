@@ -126,7 +126,8 @@ def _equations(
         guide = model.sum("guide", values, {"stroke": stroke, "speed": speed, "direction": -direction})
         external = u["external_force"] + u["external_force_slope"] * passed
         lever = c["lever_ratio"]
-        resisting = factor * (c["mass"] * c["gravity"] + external) + guide
+        hung = model.sum("hung_mass", values, {}) * c["gravity"]
+        resisting = factor * (c["mass"] * c["gravity"] + external) + hung + guide
         net = lever**2 * force - lever * resisting - c["spring"] * stroke
         switches = stop_switches(constants=c, stroke=stroke, net_force=net)
         rates["stroke"] = speed

@@ -109,6 +109,7 @@ SLOTS: dict[str, Slot] = {
     "tube_conductance": Slot("sonic conductance of the tube [m^3/(s Pa)]", ("conductance",), "chain"),
     "supply": Slot("absolute supply pressure at the valve [Pa]", ("supply_pressure",), "chain"),
     "inertia": Slot("mass that moves with the load [kg]", ("muscle",), "sum"),
+    "hung_mass": Slot("mass whose weight acts on the load besides its own [kg]", (), "sum"),
     "load_factor": Slot("multiplies mass and force of the load [-]", (), "product"),
     "guide": Slot("force of the guide against the motion [N]", ("stroke", "speed", "direction"), "sum"),
     "drive_rates": Slot("rates of the effect's states in the drive, in their order", _DRIVE, "concatenate"),
