@@ -14,7 +14,6 @@ from typing import Annotated
 import typer
 
 from mckibben import __version__
-from mckibben.cli.located import located
 from mckibben.cli.options import (
     AsJson,
     DataFiles,
@@ -43,6 +42,7 @@ from mckibben.cli.reading import (
     Supply,
     file_options,
 )
+from mckibben.documents.located import one_line
 from mckibben.physics.errors import InputError
 
 __all__ = ["app", "main"]
@@ -334,12 +334,6 @@ def size(
         raise InputError(f"{option} belongs to a report, and none is requested", hint="--report FILE")
     wanted = None if report is None else Wanted(report, proposal or 1, title)
     run(open_studio(presets, effects, data), task=task, as_json=as_json, report=wanted)
-
-
-def one_line(error: InputError) -> str:
-    """Where, what is wrong, what would be right, in one line."""
-    hint = "" if not error.hint else f" ({error.hint.rstrip('.')})"
-    return " ".join(f"{located(error.field, error.message)}{hint}".split())
 
 
 def _fail(message: str, code: int = _BAD_INPUT) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from mckibben.application.compare import ComparisonResult, compare
-from mckibben.cli.data import measurements_of
+from mckibben.application.measurement_files import measurements_of
 from mckibben.cli.model import model_question
 from mckibben.cli.options import ModelOptions
 from mckibben.cli.output import (

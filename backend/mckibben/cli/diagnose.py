@@ -8,8 +8,8 @@ from pathlib import Path
 
 from mckibben.application.diagnose import prepare
 from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.application.measurement_files import measurements_of
 from mckibben.application.saved_model import saved_model
-from mckibben.cli.data import measurements_of
 from mckibben.cli.model import model_question
 from mckibben.cli.options import ModelOptions
 from mckibben.cli.output import (

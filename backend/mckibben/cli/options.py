@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Annotated, cast
 
 import typer
 
-from mckibben.cli.drive_file import drive_document, saved_model
-from mckibben.cli.located import at_file
+from mckibben.documents.located import at_file
+from mckibben.documents.model_files import drive_document, saved_model
 from mckibben.physics.errors import InputError, did_you_mean
 
 if TYPE_CHECKING:

@@ -119,7 +119,7 @@ def _said(
     accuracy: str | None,
     experiment: Sequence[str] | None,
 ) -> Mapping[str, ExperimentValue]:
-    from mckibben.cli.data import said_values
+    from mckibben.application.measurement_files import said_values
     from mckibben.documents.experiment import ExperimentInput
 
     given: dict[str, str] = {}

@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 
 from mckibben.application.simulate import SimulationQuestion, SimulationResult, simulate
-from mckibben.cli.located import located
 from mckibben.cli.output import figure, remark, write_json, write_table
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_files import preset_document, read_document
 from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
+from mckibben.documents.located import located
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.presets import DrivePreset

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mckibben.application.size import Searched, SizingResult, prepare_search, sizing_question
-from mckibben.cli.located import located
 from mckibben.cli.output import figure, remark, write_json, write_table
+from mckibben.documents.located import located
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.physics.errors import InputError

@@ -1,4 +1,4 @@
-"""Measurements named on the command line, each with what is said about its experiment."""
+"""Measurement files named by the user, each with what is said about its experiment."""
 
 from __future__ import annotations
 

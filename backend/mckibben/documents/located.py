@@ -1,4 +1,4 @@
-"""Errors of the command line with the file and the field that they are about."""
+"""Errors with the file and the field that they are about, in one line."""
 
 from __future__ import annotations
 
@@ -19,3 +19,9 @@ def located(field: str | None, message: str) -> str:
     ):
         return message
     return f"{field}: {message}"
+
+
+def one_line(error: InputError) -> str:
+    """Where, what is wrong, what would be right, in one line."""
+    hint = "" if not error.hint else f" ({error.hint.rstrip('.')})"
+    return " ".join(f"{located(error.field, error.message)}{hint}".split())
