@@ -40,7 +40,6 @@ from mckibben.cli.reading import (
     Sheet,
     Strict,
     Supply,
-    file_options,
 )
 from mckibben.documents.located import one_line
 from mckibben.physics.errors import InputError
@@ -155,6 +154,7 @@ def compare(
     data: DataFolder = None,
 ) -> None:
     """Compare a model with measurements: the error in numbers, with or without a fit."""
+    from mckibben.application.file_options import file_options
     from mckibben.cli.compare import run
     from mckibben.cli.options import open_studio
 
@@ -221,6 +221,7 @@ def diagnose(
     data: DataFolder = None,
 ) -> None:
     """Which physical effect a model of measurements is missing, and what the data cannot distinguish."""
+    from mckibben.application.file_options import file_options
     from mckibben.cli.diagnose import run
     from mckibben.cli.options import open_studio
 
@@ -269,6 +270,7 @@ def convert(
     strict: Strict = False,
 ) -> None:
     """A measurement file as the canonical CSV, with its conditions and where they stand."""
+    from mckibben.application.file_options import file_options
     from mckibben.cli.convert import run
 
     options = file_options(
