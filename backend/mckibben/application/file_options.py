@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from mckibben.application.measurement_files import said_values
+from mckibben.application.measurement_files import OPTION, said_values
 from mckibben.documents.experiment import ExperimentInput
 from mckibben.measurement.experiment import ExperimentValue
 from mckibben.measurement.read import Correction, spoken_correction
@@ -34,14 +34,21 @@ def file_options(
     head: int | None,
     columns: Sequence[str] | None,
     ignored: Sequence[str] | None,
-    rest_length: str | None,
-    load: str | None,
-    supply: str | None,
+    rest_length: str | float | None,
+    load: str | float | None,
+    supply: str | float | None,
     accuracy: str | None,
-    experiment: Sequence[str] | None,
+    experiment: Sequence[str] | Mapping[str, object] | None,
     strict: bool,
+    prefix: str = OPTION,
 ) -> FileOptions:
     """What these options say about the files and their experiment.
+
+    Args:
+        sheet, head, columns, ignored, rest_length, load, supply, strict: see `spoken_correction`.
+        accuracy: standard deviation by channel in words.
+        experiment: further fields, as "field=value" or field -> value.
+        prefix: of the names in messages, `OPTION` or `ARGUMENT`.
 
     Raises:
         InputError: names the option, what is wrong and what would be right.
@@ -55,8 +62,12 @@ def file_options(
         load=load,
         supply=supply,
         strict=strict,
+        prefix=prefix,
     )
-    said = _said(rest_length=rest_length, load=load, supply=supply, accuracy=accuracy, experiment=experiment)
+    options = {"rest_length": rest_length, "load": load, "supply": supply, "accuracy": accuracy}
+    given = _experiment(experiment or (), prefix)
+    given |= {name: value for name, value in options.items() if value is not None}
+    said = said_values(given, prefix)
     conditions = dict(correction.conditions)
     conditions |= {name: said[name].value for name in _CONDITIONS if name in said}
     if accuracy is not None:
@@ -64,27 +75,27 @@ def file_options(
     return FileOptions(replace(correction, conditions=conditions), said)
 
 
-def _said(
-    *,
-    rest_length: str | None,
-    load: str | None,
-    supply: str | None,
-    accuracy: str | None,
-    experiment: Sequence[str] | None,
-) -> Mapping[str, ExperimentValue]:
-    given: dict[str, str] = {}
-    for text in experiment or ():
+def _experiment(stated: Sequence[str] | Mapping[str, object], prefix: str) -> dict[str, object]:
+    """Field -> value of the further fields."""
+    if isinstance(stated, Mapping):
+        for name in stated:
+            _check_field(str(name), f"{prefix}experiment {name!r}")
+        return dict(stated)
+    given: dict[str, object] = {}
+    for text in stated:
+        where = f"{prefix}experiment {text!r}"
         name, separator, value = (part.strip() for part in text.partition("="))
         if not separator or not value:
             raise InputError(
-                f"--experiment {text!r}: is not 'field=value'", hint='e.g. --experiment "force_zero=2.5 N"'
+                f"{where}: is not 'field=value'", hint=f'e.g. {prefix}experiment "force_zero=2.5 N"'
             )
-        if name not in ExperimentInput.model_fields:
-            raise InputError(
-                f"--experiment {text!r}: there is no field '{name}'",
-                hint=did_you_mean(name, ExperimentInput.model_fields),
-            )
+        _check_field(name, where)
         given[name] = value
-    options = {"rest_length": rest_length, "load": load, "supply": supply, "accuracy": accuracy}
-    given |= {name: value for name, value in options.items() if value is not None}
-    return said_values(given, "--")
+    return given
+
+
+def _check_field(name: str, where: str) -> None:
+    if name not in ExperimentInput.model_fields:
+        raise InputError(
+            f"{where}: there is no field '{name}'", hint=did_you_mean(name, ExperimentInput.model_fields)
+        )
