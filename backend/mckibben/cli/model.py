@@ -10,11 +10,12 @@ from mckibben.application.doubts import deciding
 from mckibben.application.envelope import MeasuredRange
 from mckibben.application.experiment import SaidMeasurement, SaidModel
 from mckibben.application.model_question import ModelQuestion, question_of
-from mckibben.cli.options import ModelOptions, is_file, start_model, stated_model
+from mckibben.cli.options import ModelOptions, start_model, stated_model
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.located import at_file
 from mckibben.documents.model_files import drive_document, saved_model
+from mckibben.documents.muscle_files import is_file
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio

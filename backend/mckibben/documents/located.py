@@ -6,8 +6,9 @@ from mckibben.physics.errors import InputError
 
 
 def at_file(source: str, field: str | None, message: str, hint: str | None) -> InputError:
-    """The error with the name of the file in front."""
-    return InputError(f"{source}: {located(field, message).removesuffix('.')}", hint=hint)
+    """The error with the name of the file in front; "" for none."""
+    text = located(field, message).removesuffix(".")
+    return InputError(f"{source}: {text}" if source else text, hint=hint)
 
 
 def located(field: str | None, message: str) -> str:
