@@ -28,7 +28,7 @@ from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
 from mckibben.simulation.drive.controlled import simulate_controlled
-from mckibben.simulation.drive.transient import Run
+from mckibben.simulation.drive.transient import Run, segments_of
 from mckibben.simulation.drive.transient import simulate as run_by_command
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.statics.limits import FlagCode, LimitFlag
@@ -48,6 +48,7 @@ from mckibben.simulation.timing.tracking import Tracking
 Array = np.ndarray
 
 POINTS = 2001
+_FEW_SEGMENTS = 20  # of a command; LSODA needs less than the 0.6 s that loading the kernel takes
 _SLACK = 1e-6  # m; a muscle longer than its fittings are apart by more than this hangs slack
 # Field of the document for each limit.
 _FIELDS = {FlagCode.OVER_PRESSURE: "supply.pressure", FlagCode.OVER_FORCE_LIMIT: "load"}
@@ -216,6 +217,11 @@ def simulate(question: SimulationQuestion, watch: Watch | None = None) -> Simula
         InputError: the rows do not lie within the run, or there is no equilibrium to start from.
     """
     return prepare(question)(watch or Watch())
+
+
+def single_run_engine(annotated: AnnotatedDrive) -> str:
+    """The engine for a single run: loading the kernel takes longer than LSODA for a few segments."""
+    return "lsoda" if len(segments_of(annotated.drive)[0]) <= _FEW_SEGMENTS else "rodas"
 
 
 def run_drive(annotated: AnnotatedDrive, grid: Grid, watch: Watch | None = None, engine: str = "auto") -> Run:

@@ -1,4 +1,4 @@
-"""The question of a comparison or diagnosis from a stated model: what is freed, and what a saved model adds."""
+"""The question of a comparison or diagnosis from a stated model, with what a saved model adds to it."""
 
 from __future__ import annotations
 
