@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from datetime import UTC, datetime
 from typing import Any
 
-from mckibben import __version__
 from mckibben.application.diagnosis_result import DiagnosisResult
 from mckibben.application.experiment_result import SpecimenResult
 from mckibben.application.model_question import ModelQuestion
@@ -15,6 +15,7 @@ from mckibben.documents.studio import Studio
 from mckibben.identification.predict.fit_model import LOAD, FitModel
 from mckibben.measurement.experiment import place_of, shown_value, title_of
 from mckibben.physics.muscle import GEOMETRY, Muscle, assumption
+from mckibben.version import __version__
 
 #: Condition of a measurement that takes precedence over the drive, and where a drive document has it.
 _CONDITIONS = (
@@ -106,6 +107,11 @@ def saved_model(question: ModelQuestion, result: DiagnosisResult, studio: Studio
     if result.model.drive is not None:
         document["drive"] = result.model.drive
     return read_saved_model(document, "the model")
+
+
+def model_text(model: SavedModel) -> str:
+    """The content of the file of a saved model."""
+    return json.dumps(model.to_document(), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def _assumed(question: ModelQuestion, result: DiagnosisResult, muscle: Muscle) -> list[str]:

@@ -13,7 +13,6 @@ from typing import Annotated
 
 import typer
 
-from mckibben import __version__
 from mckibben.cli.options import (
     AsJson,
     DataFiles,
@@ -43,6 +42,7 @@ from mckibben.cli.reading import (
 )
 from mckibben.documents.located import one_line
 from mckibben.physics.errors import InputError
+from mckibben.version import __version__
 
 __all__ = ["app", "main"]
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from mckibben.application.diagnose import prepare
 from mckibben.application.measurement_files import measurements_of
-from mckibben.application.saved_model import saved_model
+from mckibben.application.saved_model import model_text, saved_model
 from mckibben.cli.model import model_question
 from mckibben.cli.options import ModelOptions
 from mckibben.cli.output import check_folder, progress, remark, write_json, write_summary
@@ -63,9 +62,8 @@ def _save(path: Path, model: SavedModel) -> None:
     Raises:
         InputError: the file cannot be written.
     """
-    text = json.dumps(model.to_document(), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
     try:
-        path.write_text(text, encoding="utf-8", newline="\n")
+        path.write_text(model_text(model), encoding="utf-8", newline="\n")
     except OSError as error:
         raise InputError(
             f"--save {path}: cannot be written: {error.strerror or error}", hint="name a file in a folder"

@@ -132,14 +132,15 @@ def folders(presets: Path | None, effects: Sequence[Path] | None, data: Path | N
 
 def open_studio(presets: Path | None, effects: Sequence[Path] | None, data: Path | None) -> Studio:
     """Presets and effects for a command that runs without a server."""
-    from mckibben.cli.problems import tell_problems
     from mckibben.documents.studio import Studio
+    from mckibben.documents.unused_files import unused_files
     from mckibben.resources import presets_folder
 
     chosen = folders(presets, effects, data)
     with redirect_stdout(sys.stderr):  # what an effect file prints when it is loaded is no answer
         studio = Studio(presets=presets_folder(), user_presets=chosen.user_presets, effects=chosen.effects)
-    tell_problems(studio, chosen.user_presets)
+    for sentence in unused_files(studio, chosen.user_presets):
+        typer.echo(sentence, err=True)
     return studio
 
 
