@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -80,7 +81,7 @@ def _inputs_of(comparison: Comparison) -> _Inputs:
     )
 
 
-def rows_of(comparison: Comparison) -> dict[str, NDArray]:
+def rows_of(comparison: Comparison) -> dict[str, NDArray[Any]]:
     """All compared rows as columns, SI; those of several predicted channels one below the other.
 
     Columns: channel (text), group (number), time where there is one, pressure, length, contraction, velocity,
@@ -90,7 +91,7 @@ def rows_of(comparison: Comparison) -> dict[str, NDArray]:
     channel = np.empty(len(predictor.measured), dtype=object)
     for each in predictor.channels:
         channel[each.rows] = each.name
-    columns: dict[str, NDArray] = {"channel": channel, "group": np.asarray(predictor.groups)}
+    columns: dict[str, NDArray[Any]] = {"channel": channel, "group": np.asarray(predictor.groups)}
     if known.time is not None:
         columns["time"] = known.time
     return columns | {

@@ -40,6 +40,8 @@ from mckibben.simulation.statics.characteristics import (
 )
 from mckibben.simulation.statics.model import StaticModel
 
+#: Gauge pressures of curves where none are stated [Pa].
+DEFAULT_PRESSURES = (1e5, 2e5, 3e5, 4e5, 5e5, 6e5)
 _OVER_PRESSURE_POINTS = 81
 _MAX_PRESSURES = 12  # of a family of curves
 _SHORTEST = 0.05  # shortest length accepted, share of the nominal length; no muscle contracts so far
@@ -62,7 +64,7 @@ class CurvesQuestion:
     """
 
     start: StartModel
-    pressures: tuple[float, ...] = (1e5, 2e5, 3e5, 4e5, 5e5, 6e5)
+    pressures: tuple[float, ...] = DEFAULT_PRESSURES
     points: int = 200
     unclipped: bool = False
     contraction_from: float | None = None

@@ -11,7 +11,7 @@ from mckibben.documents.located import at_file
 from mckibben.physics.errors import InputError
 
 if TYPE_CHECKING:
-    from mckibben.documents.start_model import StartModel
+    from mckibben.documents.start_model import PresetFacts, StartModel
     from mckibben.documents.studio import Studio
 
 #: Effect id -> parameter -> SI number, or text with a unit.
@@ -47,15 +47,35 @@ def is_file(muscle: str, studio: Studio) -> bool:
 def start_of_file(
     studio: Studio, path: Path, effects: Effects | NamedEffects | None, rest_length: float | None
 ) -> StartModel:
-    """A muscle by geometry, or a whole preset file."""
-    from mckibben.documents.start_model import StatedMuscle, preset_facts, start_model
+    """A muscle by geometry, or a whole preset file.
+
+    Raises:
+        InputError: names the file and field, what is wrong and what would be right.
+    """
+    from mckibben.documents.start_model import PresetFacts
+
+    content = preset_of_file(path, studio)
+    if not isinstance(content, PresetFacts):
+        return start_of_input(studio, with_length(content, rest_length), effects, str(path))
+    if isinstance(effects, NamedEffects):
+        effects = effects.of(content.effects)
+    return start_of_input(studio, {}, effects, str(path), facts=content)
+
+
+def preset_of_file(path: Path, studio: Studio) -> PresetFacts | object:
+    """The facts of a muscle preset in a file, or the content of a file that holds something else.
+
+    Raises:
+        InputError: names the file and field, what is wrong and what would be right.
+    """
+    from mckibben.documents.start_model import preset_facts
     from mckibben.presets import MusclePreset
     from mckibben.presets.reading import BadDocumentError, parse, read_file
 
     try:
         document = read_file(path, follow_links=True)
         if not isinstance(document, dict) or "kind" not in document:
-            return start_of_input(studio, with_length(document, rest_length), effects, str(path))
+            return document
         preset = parse(MusclePreset, document, studio.effect_table)
     except BadDocumentError as bad:
         finding = bad.findings[0]
@@ -63,13 +83,7 @@ def start_of_file(
         raise InputError(f"{where}: {finding.message}", hint=finding.hint) from bad
     assert isinstance(preset, MusclePreset)  # noqa: S101 - parsed as one
     preset.adopt("user", studio.effect_table)
-    facts = preset_facts(preset, studio.catalogue)
-    if isinstance(effects, NamedEffects):
-        effects = effects.of(facts.effects)
-    try:
-        return _usable(studio, start_model(StatedMuscle(), effects, preset=facts, catalogue=studio.catalogue))
-    except InputError as error:
-        raise at_file(str(path), error.field, error.message, error.hint) from error
+    return preset_facts(preset, studio.catalogue)
 
 
 def _usable(studio: Studio, start: StartModel) -> StartModel:
@@ -79,7 +93,12 @@ def _usable(studio: Studio, start: StartModel) -> StartModel:
 
 
 def start_of_input(
-    studio: Studio, document: object, effects: Effects | NamedEffects | None, source: str
+    studio: Studio,
+    document: object,
+    effects: Effects | NamedEffects | None,
+    source: str,
+    *,
+    facts: PresetFacts | None = None,
 ) -> StartModel:
     """A muscle of a document with chosen effects.
 
@@ -88,6 +107,7 @@ def start_of_input(
         document: the muscle as JSON.
         effects: {} is the ideal model, None the effects of the preset.
         source: where the document stands, for messages; "" for nowhere.
+        facts: of a preset that no folder has.
 
     Raises:
         InputError: names source and field, what is wrong and what would be right.
@@ -97,12 +117,15 @@ def start_of_input(
     from mckibben.documents.convert import stated_muscle
     from mckibben.documents.muscle import MuscleInput
     from mckibben.documents.problems import first_problem
+    from mckibben.documents.start_model import start_model
 
     try:
         muscle = stated_muscle(MuscleInput.model_validate(document))
         if isinstance(effects, NamedEffects):
             effects = effects.of({} if muscle.preset is None else studio.facts(muscle.preset).effects)
-        return _usable(studio, studio.start_model(muscle, effects))
+        if facts is None:
+            return _usable(studio, studio.start_model(muscle, effects))
+        return _usable(studio, start_model(muscle, effects, preset=facts, catalogue=studio.catalogue))
     except ValidationError as error:
         problem = first_problem(error.errors(), MuscleInput, document, "the muscle")
         raise at_file(source, problem.field, problem.message, problem.hint) from error

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
-from mckibben.physics.errors import InputError
+from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.presets import TaskPreset
 from mckibben.presets.reading import parse, read_file
 
@@ -48,3 +48,20 @@ def read_task(document: object) -> SizingTask:
         raise InputError(
             problem.message, field=problem.field, hint=problem.hint, code=problem.code
         ) from error
+
+
+def named_task(name: str, studio: Studio) -> SizingTask:
+    """The task of a file, of a preset file, or of a preset.
+
+    Raises:
+        BadDocumentError: the file cannot be read, or its preset is not valid.
+        InputError: what is wrong, with ``field`` the path in the document.
+    """
+    known = [preset.id for preset in studio.library.list("tasks")]
+    if name in known or not (Path(name).exists() or name.lower().endswith(".json")):
+        if name not in known:
+            raise InputError("there is no such file and no such task preset", hint=did_you_mean(name, known))
+        preset = studio.library.get("tasks", name)
+        assert isinstance(preset, TaskPreset)  # noqa: S101 - of its folder
+        return read_task(preset.document)
+    return read_task_file(Path(name), studio)

@@ -1,6 +1,6 @@
 """The one exception of the Python door: the sentence that the command line prints for bad input."""
 
-# pyright: strict
+# pyright: strict, reportMissingTypeStubs=false
 
 from __future__ import annotations
 

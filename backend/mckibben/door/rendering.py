@@ -1,6 +1,6 @@
 """Summaries as plain text and as a cell of a notebook."""
 
-# pyright: strict
+# pyright: strict, reportMissingTypeStubs=false
 
 from __future__ import annotations
 
@@ -33,7 +33,9 @@ def _table_text(table: Table) -> str:
     widths = [max(len(row[index]) for row in rows) for index in range(len(table.columns))]
     lines = [_line(row, widths) for row in rows]
     rule = "─" * (sum(widths) + 2 * (len(widths) - 1))
-    return "\n".join([table.title, f"  {lines[0]}".rstrip(), f"  {rule}", *(f"  {line}" for line in lines[1:]), ""])
+    return "\n".join(
+        [table.title, f"  {lines[0]}".rstrip(), f"  {rule}", *(f"  {line}" for line in lines[1:]), ""]
+    )
 
 
 def _line(cells: Sequence[str], widths: Sequence[int]) -> str:
@@ -58,7 +60,9 @@ def notebook_cell(title: str, lead: Sequence[str], summary: Summary) -> str:
         tag(
             "div",
             tag("div", tag("b", title)),
-            tag("div", *(tag("p", text, style="margin:2px 0") for text in lead), style=_LEAD) if lead else None,
+            tag("div", *(tag("p", text, style="margin:2px 0") for text in lead), style=_LEAD)
+            if lead
+            else None,
             [_table_html(table) for table in shown],
             _folded("Experiment", [_table_html(table) for table in aside]) if aside else None,
             _folded("Remarks", [tag("ul", *(tag("li", text) for text in remarks))]) if remarks else None,

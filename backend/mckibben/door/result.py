@@ -1,6 +1,6 @@
 """What all results of the Python door have: text, HTML, a dictionary, a frame, a figure, files."""
 
-# pyright: strict
+# pyright: strict, reportMissingTypeStubs=false
 
 from __future__ import annotations
 

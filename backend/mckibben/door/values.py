@@ -1,6 +1,6 @@
 """Arguments of the Python door in SI: numbers, texts with units, sequences and arrays of both."""
 
-# pyright: strict
+# pyright: strict, reportMissingTypeStubs=false
 
 from __future__ import annotations
 

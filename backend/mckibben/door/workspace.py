@@ -1,6 +1,6 @@
 """Presets and effects of the session: those of the program, and those in the user's own folders."""
 
-# pyright: strict
+# pyright: strict, reportMissingTypeStubs=false
 
 from __future__ import annotations
 
