@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from mckibben.door.drive import Drive
     from mckibben.door.listing import effects, presets
     from mckibben.door.measurement import Measurement, read
-    from mckibben.door.model import Model, load
+    from mckibben.door.model import Model
+    from mckibben.door.model_files import load
     from mckibben.door.problem import Problem
     from mckibben.door.sizing import size
     from mckibben.door.workspace import use_effects, use_presets
@@ -29,21 +30,25 @@ __all__ = [
 ]  # fmt: skip
 
 _MODULES = {
-    "Drive": "drive", "Measurement": "measurement", "Model": "model", "Problem": "problem",
-    "effects": "listing", "load": "model", "presets": "listing", "read": "measurement", "size": "sizing",
-    "use_effects": "workspace", "use_presets": "workspace",
-}  # fmt: skip
+    "Drive": "drive",
+    "Measurement": "measurement",
+    "Model": "model",
+    "Problem": "problem",
+    "effects": "listing",
+    "load": "model_files",
+    "presets": "listing",
+    "read": "measurement",
+    "size": "sizing",
+    "use_effects": "workspace",
+    "use_presets": "workspace",
+}
 
 
-def __getattr__(name: str) -> object:
-    # Imported when it is first used: the command line and the server do without.
+def _public(name: str) -> object:
+    """A public name, imported when it is first used: the command line and the server do without."""
     if name not in _MODULES:
         raise AttributeError(f"module 'mckibben' has no attribute '{name}'")
     return getattr(import_module(f"mckibben.door.{_MODULES[name]}"), name)
-
-
-def __dir__() -> list[str]:
-    return sorted(__all__)
 
 
 class _Package(ModuleType):
@@ -51,11 +56,16 @@ class _Package(ModuleType):
 
     @property
     def presets(self) -> object:
-        return __getattr__("presets")
+        return _public("presets")
 
     @presets.setter
     def presets(self, subpackage: ModuleType) -> None:
         """The import of the subpackage sets its name here, which is the function's."""
 
+    def __dir__(self) -> list[str]:
+        return sorted(__all__)
+
 
 sys.modules[__name__].__class__ = _Package
+if not TYPE_CHECKING:  # else a misspelt name would be an object for type checkers
+    __getattr__ = _public

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
@@ -18,6 +18,8 @@ from mckibben.application.diagnosis_result import (
     Verdict,
 )
 from mckibben.application.doubts import DoubtfulEntry
+from mckibben.application.model_question import ModelQuestion
+from mckibben.documents.studio import Studio
 from mckibben.door.comparison import Parameters, parameters_of
 from mckibben.door.frames import frame_of_rows
 from mckibben.door.result import Result
@@ -34,15 +36,18 @@ if TYPE_CHECKING:
 class Diagnosis(Result):
     """The missing effects of a model with the evidence, from `Model.diagnose`; SI."""
 
-    __slots__ = ("_model", "_name", "_report", "_result")
+    __slots__ = ("_model", "_name", "_question", "_result", "_studio")
 
     _result: DiagnosisResult
     _model: Model
     _name: str
-    _report: Callable[[], str]
+    _question: ModelQuestion
+    _studio: Studio
 
-    def __init__(self, result: DiagnosisResult, model: Model, name: str, report: Callable[[], str]) -> None:
-        self._set(_result=result, _model=model, _name=name, _report=report)
+    def __init__(
+        self, result: DiagnosisResult, model: Model, name: str, question: ModelQuestion, of: Studio
+    ) -> None:
+        self._set(_result=result, _model=model, _name=name, _question=question, _studio=of)
 
     @property
     def sentence(self) -> str:
@@ -152,8 +157,11 @@ class Diagnosis(Result):
         return diagnosis_figure(self._result, f"{self._name}: {self._result.verdict.title}")
 
     def _files(self, path: Path) -> str:
+        """Also ``.html``: the report of ``mckibben diagnose --report``."""
         if path.suffix.lower() in (".html", ".htm"):
-            return self._report()
+            from mckibben.report.diagnosis.gather import ReportOptions, report_of
+
+            return report_of(self._question, self._studio, ReportOptions(), self._result)
         return super()._files(path)
 
     def _answer(self) -> object:

@@ -13,7 +13,8 @@ from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_files import named_document, preset_document, read_document
 from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
 from mckibben.documents.studio import Studio
-from mckibben.door.model import Model, model_of_document
+from mckibben.door.model import Model
+from mckibben.door.model_files import model_of_document
 from mckibben.door.problem import reported
 from mckibben.door.rendering import notebook_cell, plain_text
 from mckibben.door.result import Frozen, write_file
@@ -87,7 +88,8 @@ class Drive(Frozen):
         drive_of(document, of, measured=document.command is None and document.controller is None)
 
     @classmethod
-    def _of(cls, document: DriveDocument, name: str, of: Studio) -> Drive:
+    def of(cls, document: DriveDocument, name: str, of: Studio) -> Drive:
+        """The drive of a checked document, for the rest of the door."""
         drive = cls.__new__(cls)
         drive._make(document, name, of)
         return drive
@@ -100,7 +102,7 @@ class Drive(Frozen):
         Raises:
             Problem: an unknown preset, with the nearest match.
         """
-        return cls._of(preset_document(id, studio()), id, studio())
+        return cls.of(preset_document(id, studio()), id, studio())
 
     @classmethod
     @reported
@@ -113,7 +115,7 @@ class Drive(Frozen):
         name = fspath(path)
         document = named_document(name, studio())
         try:
-            return cls._of(document, name, studio())
+            return cls.of(document, name, studio())
         except InputError as error:
             raise InputError(f"{name}: {error.message}", field=error.field, hint=error.hint) from error
 
@@ -141,7 +143,7 @@ class Drive(Frozen):
         """
         known = {**self.document, **_document_of(parts)}
         document = {name: value for name, value in known.items() if value is not None}
-        return Drive._of(read_document(document, "the drive"), self._name, studio())
+        return Drive.of(read_document(document, "the drive"), self._name, studio())
 
     @reported
     def run(
@@ -202,11 +204,6 @@ class Drive(Frozen):
 
     def _repr_html_(self) -> str:
         return notebook_cell(f"Drive {self._name}", (), self._summary())
-
-
-def drive_of_document(document: DriveDocument, name: str, of: Studio) -> Drive:
-    """The drive of a checked document."""
-    return Drive._of(document, name, of)  # pyright: ignore[reportPrivateUsage]
 
 
 def _document_of(parts: Mapping[str, Any]) -> dict[str, Any]:

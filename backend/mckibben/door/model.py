@@ -5,8 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from os import PathLike, fspath
-from pathlib import Path
+from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from mckibben.application.compare import compared_whole
@@ -24,15 +23,13 @@ from mckibben.door.problem import reported
 from mckibben.door.questions import (
     Data,
     StatedModel,
-    measurements_in,
-    names_in,
     question_of,
     watch_of,
 )
 from mckibben.door.rendering import notebook_cell, plain_text
 from mckibben.door.result import Frozen, write_file
 from mckibben.door.statics import at_least_two, force_of, optional_number, pressures_in
-from mckibben.door.values import FloatArray, Quantities, Quantity, names_of, number_of
+from mckibben.door.values import FloatArray, Quantities, Quantity
 from mckibben.door.workspace import studio
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.report.summary import Summary
@@ -107,7 +104,8 @@ class Model(Frozen):
         stated.sample(of)
 
     @classmethod
-    def _of(cls, stated: StatedModel, of: Studio) -> Model:
+    def of(cls, stated: StatedModel, of: Studio) -> Model:
+        """The model of documents, for the rest of the door."""
         model = cls.__new__(cls)
         model._make(stated, of)
         return model
@@ -134,7 +132,7 @@ class Model(Frozen):
         muscle: dict[str, object] = {"preset": id}
         if length is not None:
             muscle["nominal_length"] = length
-        return cls._of(StatedModel(muscle, None if effects is None else _copied(effects)), studio())
+        return cls.of(StatedModel(muscle, None if effects is None else _copied(effects)), studio())
 
     # --- what it is
 
@@ -152,11 +150,6 @@ class Model(Frozen):
     def document(self) -> dict[str, Any]:
         """The model as the JSON document that `save` writes."""
         return self._saved().to_document()
-
-    @property
-    def stated(self) -> StatedModel:
-        """The model as the documents of the program."""
-        return self._stated
 
     @property
     def _sample(self) -> StartModel:
@@ -211,7 +204,7 @@ class Model(Frozen):
         Raises:
             Problem: an unknown or impossible dimension.
         """
-        return Model._of(self._stated.changed(muscle={**self._stated.muscle, **dimensions}), studio())
+        return Model.of(self._stated.changed(muscle={**self._stated.muscle, **dimensions}), studio())
 
     def _effect_documents(self) -> dict[str, dict[str, float | str]]:
         sample = self._sample
@@ -219,7 +212,7 @@ class Model(Frozen):
         return {name: {**values, **stated.get(name, {})} for name, values in sample.effects.items()}
 
     def _with_effects(self, effects: dict[str, dict[str, float | str]]) -> Model:
-        return Model._of(self._stated.changed(effects=effects), studio())
+        return Model.of(self._stated.changed(effects=effects), studio())
 
     # --- statics
 
@@ -325,17 +318,16 @@ class Model(Frozen):
         Raises:
             Problem: names the file or argument, what is wrong and what would be right.
         """
-        measurements = measurements_in(data)
-        question = question_of(
-            self._stated, self._studio, measurements, free=names_of(free), use=names_of(use),
-            keep=names_of(keep), drive=None if drive is None else drive.parsed, strict=strict, refit=fit,
+        question, names = question_of(
+            self._stated, self._studio, data, free=free, use=use, keep=keep,
+            drive=None if drive is None else drive.parsed, strict=strict, refit=fit,
         )  # fmt: skip
         compared = compared_whole(question, fit=fit)
         model = self
         if compared.comparison.fit is not None:
             saved = fitted_model(question, compared, self._studio)
-            model = Model._of(StatedModel.of_saved(saved, "the fitted model"), self._studio)
-        return Comparison(compared, model, names_in(measurements))
+            model = Model.of(StatedModel.of_saved(saved, "the fitted model"), self._studio)
+        return Comparison(compared, model, names)
 
     @reported
     def diagnose(
@@ -360,25 +352,14 @@ class Model(Frozen):
         Raises:
             Problem: names the file or argument, what is wrong and what would be right.
         """
-        if noise is not None and not 0.0 < number_of(noise, "1", "noise") < float("inf"):
-            raise InputError(
-                "noise: is a standard deviation above 0", hint="leave it out to have it estimated"
-            )
-        measurements = measurements_in(data)
-        question = question_of(
-            self._stated, self._studio, measurements, free=names_of(free), use=names_of(use),
-            keep=names_of(keep), drive=None if drive is None else drive.parsed, strict=strict, noise=noise,
+        question, names = question_of(
+            self._stated, self._studio, data, free=free, use=use, keep=keep,
+            drive=None if drive is None else drive.parsed, strict=strict, noise=noise,
         )  # fmt: skip
         result = prepare(question, self._studio)(watch_of(progress))
         saved = saved_model(question, result, self._studio)
-        model = Model._of(StatedModel.of_saved(saved, "the diagnosed model"), self._studio)
-
-        def report() -> str:
-            from mckibben.report.diagnosis.gather import ReportOptions, report_of
-
-            return report_of(question, self._studio, ReportOptions(), result)
-
-        return Diagnosis(result, model, names_in(measurements), report)
+        model = Model.of(StatedModel.of_saved(saved, "the diagnosed model"), self._studio)
+        return Diagnosis(result, model, names, question, self._studio)
 
     # --- files and text
 
@@ -417,25 +398,6 @@ class Model(Frozen):
 
     def __hash__(self) -> int:
         return hash(model_text(self._saved()))
-
-
-@reported
-def load(path: str | PathLike[str]) -> Model:
-    """The model in a JSON file.
-
-    It may be what `Model.save` or ``mckibben diagnose --save`` wrote, a muscle by its geometry, a muscle
-    preset, or a drive document, of which muscle and effects are taken.
-
-    Raises:
-        Problem: names the file, the field, what is wrong and what would be right.
-    """
-    of = studio()
-    return Model._of(StatedModel.of_file(Path(fspath(path)), of), of)  # pyright: ignore[reportPrivateUsage]
-
-
-def model_of_document(document: Mapping[str, object], of: Studio) -> Model:
-    """The model of muscle and effects of a drive document."""
-    return Model._of(StatedModel.of_parts(document, ""), of)  # pyright: ignore[reportPrivateUsage]
 
 
 def _copied(effects: Mapping[str, Mapping[str, float | str]]) -> dict[str, dict[str, float | str]]:

@@ -37,6 +37,9 @@ class Problem(ValueError):  # noqa: N818 - the word for users
         self.code = code
 
 
+Problem.__module__ = "mckibben"  # as users know it, in tracebacks
+
+
 def reported(function: Callable[P, R]) -> Callable[P, R]:
     """The function with `Problem` instead of the errors of the use cases, without their traceback."""
 

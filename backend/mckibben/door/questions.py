@@ -22,6 +22,7 @@ from mckibben.documents.saved_model import SavedModel, read_saved_model
 from mckibben.documents.start_model import PresetFacts, StartModel
 from mckibben.documents.studio import Studio
 from mckibben.door.measurement import Measurement, read
+from mckibben.door.values import names_of, number_of
 from mckibben.measurement.experiment import ExperimentValue
 from mckibben.physics.custom import TERM
 from mckibben.physics.errors import InputError
@@ -201,41 +202,45 @@ def _is_saved(content: object) -> bool:
 def question_of(
     model: StatedModel,
     studio: Studio,
-    measurements: Sequence[Measurement],
+    data: Data,
     *,
-    free: Sequence[str] = (),
-    use: Sequence[str] = (),
-    keep: Sequence[str] = (),
+    free: str | Sequence[str] = (),
+    use: str | Sequence[str] = (),
+    keep: str | Sequence[str] = (),
     drive: DriveDocument | None = None,
     noise: float | None = None,
     strict: bool = False,
     refit: bool = True,
-) -> ModelQuestion:
-    """The question of a comparison or diagnosis; arguments as in `stated_question`.
+) -> tuple[ModelQuestion, str]:
+    """The question of a comparison or diagnosis, and names of the data; arguments as in `stated_question`.
 
     Raises:
         InputError: as there.
     """
+    if noise is not None and not number_of(noise, "1", "noise") > 0.0:
+        raise InputError("noise: is a standard deviation above 0", hint="leave it out to have it estimated")
+    measurements = _measurements_in(data)
     saved = None
     if model.saved is not None:
         kept = frozenset(model.saved.effects) & frozenset(model.sample(studio).effects)
         saved = SavedStart(model.saved, model.source, kept)
-    return stated_question(
+    question = stated_question(
         model.said(studio, drive),
         [measurement.said for measurement in measurements],
         studio,
         saved=saved,
-        free=free,
+        free=names_of(free),
         noise=noise,
         strict=strict,
         refit=refit,
-        use=use,
-        keep=keep,
+        use=names_of(use),
+        keep=names_of(keep),
         prefix=ARGUMENT,
     )
+    return question, ", ".join(measurement.name for measurement in measurements)
 
 
-def measurements_in(data: Data) -> list[Measurement]:
+def _measurements_in(data: Data) -> list[Measurement]:
     """One measurement or several; files are read.
 
     Raises:
@@ -252,11 +257,6 @@ def measurements_in(data: Data) -> list[Measurement]:
     if not found:
         raise InputError("there is no measurement", hint="at least one")
     return found
-
-
-def names_in(measurements: Sequence[Measurement]) -> str:
-    """Their names."""
-    return ", ".join(measurement.name for measurement in measurements)
 
 
 def watch_of(progress: Callable[[float], object] | None) -> Watch:

@@ -21,7 +21,7 @@ from mckibben.documents.located import at_file
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.documents.task_files import named_task, read_task
-from mckibben.door.drive import Drive, drive_of_document
+from mckibben.door.drive import Drive
 from mckibben.door.frames import frame_of_rows
 from mckibben.door.problem import reported
 from mckibben.door.result import Frozen, Result, write_file
@@ -137,7 +137,7 @@ class Sizing(Result):
     def proposals(self) -> Sequence[Proposal]:
         """The drives, the best first; empty if no drive of the catalogue fulfils the task."""
         return tuple(
-            Proposal(item, drive_of_document(item.drive, f"{item.muscle}, proposal {rank}", self._studio))
+            Proposal(item, Drive.of(item.drive, f"{item.muscle}, proposal {rank}", self._studio))
             for rank, item in enumerate(self._result.proposals, 1)
         )
 
