@@ -155,10 +155,6 @@ class Model(Frozen):
     def _sample(self) -> StartModel:
         return self._stated.sample(self._studio)
 
-    @reported
-    def _start(self) -> StartModel:
-        return self._stated.start(self._studio)
-
     # --- other models
 
     @reported
@@ -246,8 +242,8 @@ class Model(Frozen):
         [1545.2, 1052.5]
         """
         return force_of(
-            self._start(), self._studio, pressure=pressure, contraction=contraction, length=length,
-            direction=direction, unclipped=unclipped,
+            self._stated.start(self._studio), self._studio, pressure=pressure, contraction=contraction,
+            length=length, direction=direction, unclipped=unclipped,
         )  # fmt: skip
 
     @reported
@@ -276,7 +272,7 @@ class Model(Frozen):
             Problem: a pressure or range that cannot be used, a muscle without a length.
         """
         question = CurvesQuestion(
-            self._start(),
+            self._stated.start(self._studio),
             DEFAULT_PRESSURES if pressure is None else pressures_in(pressure),
             at_least_two(points),
             unclipped,
