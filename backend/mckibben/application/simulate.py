@@ -30,6 +30,7 @@ from mckibben.physics.model import Model
 from mckibben.simulation.drive.controlled import simulate_controlled
 from mckibben.simulation.drive.transient import Run, segments_of
 from mckibben.simulation.drive.transient import simulate as run_by_command
+from mckibben.simulation.integrate.engine import engine_by_size
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.statics.limits import FlagCode, LimitFlag
 from mckibben.simulation.timing.of_run import (
@@ -48,7 +49,6 @@ from mckibben.simulation.timing.tracking import Tracking
 Array = np.ndarray
 
 POINTS = 2001
-_FEW_SEGMENTS = 20  # of a command; LSODA needs less than the 0.6 s that loading the kernel takes
 _SLACK = 1e-6  # m; a muscle longer than its fittings are apart by more than this hangs slack
 # Field of the document for each limit.
 _FIELDS = {FlagCode.OVER_PRESSURE: "supply.pressure", FlagCode.OVER_FORCE_LIMIT: "load"}
@@ -221,7 +221,7 @@ def simulate(question: SimulationQuestion, watch: Watch | None = None) -> Simula
 
 def single_run_engine(annotated: AnnotatedDrive) -> str:
     """The engine for a single run: loading the kernel takes longer than LSODA for a few segments."""
-    return "lsoda" if len(segments_of(annotated.drive)[0]) <= _FEW_SEGMENTS else "rodas"
+    return engine_by_size(len(segments_of(annotated.drive)[0]))
 
 
 def run_drive(annotated: AnnotatedDrive, grid: Grid, watch: Watch | None = None, engine: str = "auto") -> Run:
