@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from os import PathLike, fspath
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 from mckibben.application.simulate import POINTS, SimulationQuestion, prepare, single_run_engine
 from mckibben.documents.drive import DriveDocument
@@ -22,6 +22,7 @@ from mckibben.door.run import Run
 from mckibben.door.values import Quantity, number_of
 from mckibben.door.workspace import studio
 from mckibben.physics.errors import InputError
+from mckibben.presets import FittingPreset, TubePreset, ValvePreset
 from mckibben.report.summary import Summary
 from mckibben.report.summary.drive import document_text, summary_of
 from mckibben.simulation.outcome import Watch
@@ -37,13 +38,15 @@ class Drive(Frozen):
     """A drive; each argument is a part of the drive document. Drives do not change; `changed` makes another.
 
     Args:
-        muscle: a `Model`, the id of a preset ("DMSP-20", "DMSP-20:300mm"), or a document.
+        muscle: a `Model`, the id of a preset ("DMSP-20", "DMSP-20:300mm"), or a document. To the effects of
+            a model come those of the presets of valve, tube and fittings; a model that was fitted or loaded
+            from a saved one has them all already.
         valve: id of a preset, or a document with its conductances.
         supply: gauge pressure, "6 bar".
         command: ``{"shape": "pulse", "on": "0 s", "off": "2 s"}``; also step, square, triangle, ramp, sine,
             chirp, random, table.
         controller: ``{"kp": 2.0, "ki": 10.0, "reference": {...}}`` instead of a command.
-        effects: instead of those of the muscle.
+        effects: all effects of the drive, instead of those of muscle and parts.
         load: ``{"mass": "10 kg", "arrangement": "hanging"}``.
         tube: id of a preset, or ``{"inside_diameter": "4 mm", "length": "1 m"}``; None = none.
         duration: of a run, "4 s".
@@ -211,9 +214,7 @@ def _document_of(parts: Mapping[str, Any]) -> dict[str, Any]:
     document = dict(parts)
     muscle = document.get("muscle")
     if isinstance(muscle, Model):
-        own = muscle.document
-        document["muscle"] = own["muscle"]
-        document.setdefault("effects", own["effects"])
+        document["muscle"] = muscle.document["muscle"]
     elif isinstance(muscle, str):
         name, separator, length = muscle.partition(":")
         document["muscle"] = {"preset": name, **({"nominal_length": length} if separator else {})}
@@ -222,7 +223,25 @@ def _document_of(parts: Mapping[str, Any]) -> dict[str, Any]:
             document[name] = {"preset": document[name]}
     if isinstance(document.get("supply"), str | int | float):
         document["supply"] = {"pressure": document["supply"]}
+    if isinstance(muscle, Model) and "effects" not in document and not muscle.has_preset_effects:
+        own = muscle.document["effects"]
+        document["effects"] = own if muscle.is_saved else {**_effects_of_parts(document), **own}
     return document
+
+
+def _effects_of_parts(document: Mapping[str, Any]) -> dict[str, dict[str, float]]:
+    """Default effects of the presets of valve, tube and fittings."""
+    library = studio().library
+    named: list[tuple[str, object]] = [("fittings", name) for name in document.get("fittings") or ()]
+    for kind, part in (("valves", document.get("valve")), ("tubes", document.get("tube"))):
+        if isinstance(part, Mapping):
+            named.append((kind, cast("Mapping[str, object]", part).get("preset")))
+    effects: dict[str, dict[str, float]] = {}
+    for kind, name in named:
+        preset = library.get(kind, name) if isinstance(name, str) else None
+        if isinstance(preset, ValvePreset | TubePreset | FittingPreset):
+            effects |= preset.effect_values()
+    return effects
 
 
 def _teller(progress: Callable[[float], object]) -> Callable[[float], None]:

@@ -134,8 +134,6 @@ class Model(Frozen):
             muscle["nominal_length"] = length
         return cls.of(StatedModel(muscle, None if effects is None else _copied(effects)), studio())
 
-    # --- what it is
-
     @property
     def geometry(self) -> GeometrySummary:
         """Dimensions at rest, SI."""
@@ -152,10 +150,18 @@ class Model(Frozen):
         return self._saved().to_document()
 
     @property
+    def has_preset_effects(self) -> bool:
+        """Whether its effects are those of its preset, untouched."""
+        return self._stated.effects is None
+
+    @property
+    def is_saved(self) -> bool:
+        """Whether it was fitted to measurements, or loaded from a saved model."""
+        return self._stated.saved is not None
+
+    @property
     def _sample(self) -> StartModel:
         return self._stated.sample(self._studio)
-
-    # --- other models
 
     @reported
     def with_effect(self, effect: str, /, **parameters: Quantity) -> Model:
@@ -209,8 +215,6 @@ class Model(Frozen):
 
     def _with_effects(self, effects: dict[str, dict[str, float | str]]) -> Model:
         return Model.of(self._stated.changed(effects=effects), studio())
-
-    # --- statics
 
     @reported
     def force(
@@ -287,8 +291,6 @@ class Model(Frozen):
         """Force over contraction at some pressures; a Plotly figure."""
         return self.curves(pressure).plot()
 
-    # --- measurements
-
     @reported
     def compare(
         self,
@@ -356,8 +358,6 @@ class Model(Frozen):
         saved = saved_model(question, result, self._studio)
         model = Model.of(StatedModel.of_saved(saved, "the diagnosed model"), self._studio)
         return Diagnosis(result, model, names, question, self._studio)
-
-    # --- files and text
 
     @reported
     def save(self, path: str | PathLike[str]) -> None:

@@ -41,7 +41,8 @@ def array_of(value: Quantities, unit: str, name: str, reference: Reference | Non
     if values.dtype.kind in "fiu":
         numbers = values.astype(np.float64)
     else:
-        flat: list[Any] = values.ravel().tolist()
+        # Texts beside numbers: numpy would make texts of all.
+        flat: list[Any] = np.asarray(value, dtype=object).ravel().tolist()
         numbers = np.array([_number(item, unit, name, reference) for item in flat], dtype=np.float64)
         numbers = numbers.reshape(values.shape)
     if not np.all(np.isfinite(numbers)):

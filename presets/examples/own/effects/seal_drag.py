@@ -18,15 +18,9 @@ EFFECT = Effect(
     equation=r"F = F_0 - F_s",
     parameters=(
         Parameter(
-            "drag",
-            "F_s",
-            "N",
-            default=5.0,
-            lower=0.0,
-            upper=50.0,
-            off=0.0,
-            source=ESTIMATE,
-            description="Force of the seal.",
+            "drag", "F_s", "N",
+            default=5.0, lower=0.0, upper=50.0, off=0.0,
+            source=ESTIMATE, description="Force of the seal.",
         ),
     ),
     slots={"tension": tension},
