@@ -243,7 +243,7 @@ class Model(Frozen):
 
         >>> muscle = Model(inside_diameter="20 mm", braid_angle="25 deg", nominal_length="300 mm")
         >>> muscle.force(pressure="6 bar", contraction=["0 %", "10 %"]).round(1).tolist()
-        [1545.2, 1052.5]
+        [1545.3, 1051.1]
         """
         return force_of(
             self._stated.start(self._studio), self._studio, pressure=pressure, contraction=contraction,

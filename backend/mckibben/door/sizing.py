@@ -236,4 +236,6 @@ def _search(document: SizingTask, of: Studio, progress: Callable[[float], object
         if progress is not None:
             progress(share)
 
-    return prepare_search(sizing_question(document, of))(Watch(progress=None if progress is None else tell))
+    # No time limit: whoever calls can interrupt, and the first search on a computer compiles for a while.
+    watch = Watch(progress=None if progress is None else tell, time_limit=float("inf"))
+    return prepare_search(sizing_question(document, of))(watch)
