@@ -34,4 +34,4 @@ def test_the_script_runs_where_only_its_data_are(tmp_path: Path) -> None:
     words = line.split()
     assert float(words[3]) < 0.1 * float(words[0])  # the error falls to that of the readings
     assert done.stdout.rstrip().endswith("True")
-    assert {path.name for path in tmp_path.glob("*.*")} >= {"model.json", "curves.html"}
+    assert {path.name for path in tmp_path.glob("*.*")} >= {"model.json", "curves.csv"}
