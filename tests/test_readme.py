@@ -18,7 +18,8 @@ README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 @pytest.fixture
 def example_folder(tmp_path: Path) -> Path:
-    (example,) = re.findall(r"```python\n(.*?)```", README, flags=re.DOTALL)
+    blocks = re.findall(r"```python\n(.*?)```", README, flags=re.DOTALL)
+    (example,) = (block for block in blocks if "EFFECT = Effect(" in block)
     (tmp_path / "seal_drag.py").write_text(example, encoding="utf-8")
     return tmp_path
 

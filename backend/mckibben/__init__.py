@@ -1,7 +1,71 @@
-"""mckibben: a design studio for pneumatic-muscle drives.
+"""mckibben: a design studio for pneumatic-muscle drives, and a library.
 
-Layers, each importing only those to its left:
-``physics <- presets <- simulation <- identification <- api, cli``.
+``import mckibben as mk``: models (`Model`), measurements (`read`, `Measurement`), drives (`Drive`), sizing
+(`size`), and what there is (`presets`, `effects`). Numbers are SI, texts have a unit, pressures are gauge;
+bad input raises `Problem`. `__all__` is all that is public; the modules below are how it works, and change.
 """
 
-__version__ = "0.1.0"
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+from types import ModuleType
+from typing import TYPE_CHECKING
+
+from mckibben.version import __version__
+
+if TYPE_CHECKING:
+    from mckibben.door.drive import Drive
+    from mckibben.door.listing import effects, presets
+    from mckibben.door.measurement import Measurement, read
+    from mckibben.door.model import Model
+    from mckibben.door.model_files import load
+    from mckibben.door.problem import Problem
+    from mckibben.door.sizing import size
+    from mckibben.door.workspace import use_effects, use_presets
+
+__all__ = [
+    "Drive", "Measurement", "Model", "Problem", "__version__", "effects", "load", "presets", "read", "size",
+    "use_effects", "use_presets",
+]  # fmt: skip
+
+_MODULES = {
+    "Drive": "drive",
+    "Measurement": "measurement",
+    "Model": "model",
+    "Problem": "problem",
+    "effects": "listing",
+    "load": "model_files",
+    "presets": "listing",
+    "read": "measurement",
+    "size": "sizing",
+    "use_effects": "workspace",
+    "use_presets": "workspace",
+}
+
+
+def _public(name: str) -> object:
+    """A public name, imported when it is first used: the command line and the server do without."""
+    if name not in _MODULES:
+        raise AttributeError(f"module 'mckibben' has no attribute '{name}'")
+    return getattr(import_module(f"mckibben.door.{_MODULES[name]}"), name)
+
+
+class _Package(ModuleType):
+    """The package, of which ``presets`` is the function, although a subpackage has the same name."""
+
+    @property
+    def presets(self) -> object:
+        return _public("presets")
+
+    @presets.setter
+    def presets(self, subpackage: ModuleType) -> None:
+        """The import of the subpackage sets its name here, which is the function's."""
+
+    def __dir__(self) -> list[str]:
+        return sorted(__all__)
+
+
+sys.modules[__name__].__class__ = _Package
+if not TYPE_CHECKING:  # else a misspelt name would be an object for type checkers
+    __getattr__ = _public

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mckibben.application.next_experiment import first_schedule, next_experiment, schedule_csv
+from mckibben.application.next_experiment import next_experiment, schedule_csv
 from mckibben.identification.diagnose.design import DesignedExperiment, Separation
 from mckibben.identification.diagnose.protocol import Schedule
 from mckibben.measurement.read import read_measurement
-from mckibben.physics.errors import InputError
 
 DESIGN = DesignedExperiment(
     group=("coulomb_friction", "viscous_damping"),
@@ -52,8 +51,3 @@ def test_the_table_can_be_read_back() -> None:
     assert back["pressure"] == pytest.approx(np.full(6, 3e5))
     assert back["length"] == pytest.approx(DESIGN.schedule.columns["length"])
     assert back["time"][:3] == pytest.approx([0.0, 2.0, 4.0])
-
-
-def test_without_an_experiment_there_is_no_schedule() -> None:
-    with pytest.raises(InputError, match="no experiment was designed"):
-        first_schedule([])

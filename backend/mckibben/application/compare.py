@@ -14,7 +14,7 @@ from mckibben.application.compared_series import (
     series_of,
 )
 from mckibben.application.doubts import with_accepted
-from mckibben.application.envelope import beyond, envelope_of
+from mckibben.application.envelope import MeasuredRange, beyond, envelope_of
 from mckibben.application.experiment_result import (
     SpecimenResult,
     absorbed_message,
@@ -133,7 +133,27 @@ class ComparisonResult:
     absorbed: list[AbsorbedError]
 
 
+@dataclass(frozen=True, slots=True)
+class Compared:
+    """The result with what it was made from.
+
+    Attributes:
+        result: the answer.
+        comparison: the compared model and all rows.
+        envelope: quantity -> range in which the data lie.
+    """
+
+    result: ComparisonResult
+    comparison: Comparison
+    envelope: dict[str, MeasuredRange]
+
+
 def compare(question: ModelQuestion, *, fit: bool = False) -> ComparisonResult:
+    """Compare a model with measurements; see `compared_whole`."""
+    return compared_whole(question, fit=fit).result
+
+
+def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
     """Compare a model with measurements.
 
     Args:
@@ -174,7 +194,7 @@ def compare(question: ModelQuestion, *, fit: bool = False) -> ComparisonResult:
     variables = variables_of(predictor, comparison.fit_model)
     where = profiles(residual, variables, predictor.folds[0])
     white = whiteness(residual, predictor.sweeps)
-    return ComparisonResult(
+    result = ComparisonResult(
         kind=predictor.kind,
         rows=comparison.rows + left_out,
         rows_used=predictor.rows_used,
@@ -208,6 +228,7 @@ def compare(question: ModelQuestion, *, fit: bool = False) -> ComparisonResult:
         specimens=specimen_results(question, predictor, residual),
         absorbed=list(comparison.absorbed),
     )
+    return Compared(result, comparison, data)
 
 
 def _loops(comparison: Comparison, residual: Array) -> list[ResidualLoop]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,8 +48,19 @@ class ComparedSeries:
     residual: Array
 
 
-def series_of(comparison: Comparison, use: str) -> tuple[list[ComparedSeries], bool]:
-    """One curve per channel and group of rows, thinned for the screen; and whether any was thinned."""
+@dataclass(frozen=True, slots=True)
+class _Inputs:
+    """What is known of each value of a comparison, SI, shape (values,); NaN where not known."""
+
+    time: Array | None
+    length: Array
+    contraction: Array
+    pressure: Array
+    velocity: Array
+    direction: Array
+
+
+def _inputs_of(comparison: Comparison) -> _Inputs:
     predictor = comparison.predictor
     inputs = predictor.inputs
     count = len(predictor.measured)
@@ -59,8 +71,44 @@ def series_of(comparison: Comparison, use: str) -> tuple[list[ComparedSeries], b
         length = predictor.measured
     elif "displacement" in inputs:
         length = rest - inputs["displacement"]
-    pressure = inputs.get("pressure", unknown)
-    place = np.arange(count)
+    return _Inputs(
+        time=inputs.get("time"),
+        length=length,
+        contraction=1.0 - length / rest,
+        pressure=inputs.get("pressure", unknown),
+        velocity=inputs.get("velocity", unknown),
+        direction=inputs.get("direction", unknown),
+    )
+
+
+def rows_of(comparison: Comparison) -> dict[str, NDArray[Any]]:
+    """All compared rows as columns, SI; those of several predicted channels one below the other.
+
+    Columns: channel (text), group (number), time where there is one, pressure, length, contraction, velocity,
+    measured, predicted, residual (measured minus predicted).
+    """
+    predictor, known = comparison.predictor, _inputs_of(comparison)
+    channel = np.empty(len(predictor.measured), dtype=object)
+    for each in predictor.channels:
+        channel[each.rows] = each.name
+    columns: dict[str, NDArray[Any]] = {"channel": channel, "group": np.asarray(predictor.groups)}
+    if known.time is not None:
+        columns["time"] = known.time
+    return columns | {
+        "pressure": known.pressure,
+        "length": known.length,
+        "contraction": known.contraction,
+        "velocity": known.velocity,
+        "measured": predictor.measured,
+        "predicted": comparison.predicted,
+        "residual": comparison.residual,
+    }
+
+
+def series_of(comparison: Comparison, use: str) -> tuple[list[ComparedSeries], bool]:
+    """One curve per channel and group of rows, thinned for the screen; and whether any was thinned."""
+    predictor, known = comparison.predictor, _inputs_of(comparison)
+    place = np.arange(len(predictor.measured))
     series: list[ComparedSeries] = []
     thinned = False
     for channel in predictor.channels:
@@ -70,8 +118,9 @@ def series_of(comparison: Comparison, use: str) -> tuple[list[ComparedSeries], b
             labels, thinned = labels[:MAX_SERIES], True
         for number, label in enumerate(labels, 1):
             rows = inside[predictor.groups[inside] == label]
-            level = _constant_level(pressure[rows])
-            name = _label(number, level, _constant_level(length[rows]), timed=predictor.kind == "transient")
+            level = _constant_level(known.pressure[rows])
+            length = _constant_level(known.length[rows])
+            name = _label(number, level, length, timed=predictor.kind == "transient")
             if len(rows) > MAX_POINTS_PER_SERIES:
                 rows, thinned = rows[np.linspace(0, len(rows) - 1, MAX_POINTS_PER_SERIES).astype(int)], True
             series.append(
@@ -81,12 +130,12 @@ def series_of(comparison: Comparison, use: str) -> tuple[list[ComparedSeries], b
                     unit=channel.unit,
                     use=use,
                     pressure=level,
-                    time=inputs["time"][rows] if "time" in inputs else None,
-                    contraction=1.0 - length[rows] / rest[rows],
-                    length=length[rows],
-                    x_pressure=pressure[rows],
-                    velocity=inputs.get("velocity", unknown)[rows],
-                    direction=inputs.get("direction", unknown)[rows],
+                    time=None if known.time is None else known.time[rows],
+                    contraction=known.contraction[rows],
+                    length=known.length[rows],
+                    x_pressure=known.pressure[rows],
+                    velocity=known.velocity[rows],
+                    direction=known.direction[rows],
                     measured=predictor.measured[rows],
                     predicted=comparison.predicted[rows],
                     residual=comparison.residual[rows],

@@ -11,7 +11,7 @@ from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS
 
 #: Channel -> header; the numbers are SI, so that they are exactly those that were read.
-_HEADERS = {
+CHANNEL_HEADERS = {
     "time": "time_s", "pressure": "pressure_Pa", "force": "force_N", "length": "length_m",
     "contraction": "contraction_1", "displacement": "displacement_m", "diameter": "diameter_m",
     "velocity": "velocity_m/s", "command": "command_1", "temperature": "temperature_K",
@@ -40,13 +40,13 @@ def converted(measurement: Measurement) -> ConvertedFile:
     Rows that could not be read are not in it. Lines that begin with ``#`` hold the conditions, and for every
     channel the column and unit it was read from.
     """
-    columns = [name for name in _HEADERS if name in measurement.columns]
+    columns = [name for name in CHANNEL_HEADERS if name in measurement.columns]
     origins = {channel.name: channel for channel in measurement.channels}
     if "group" not in origins:
         columns.remove("group")  # found from the values, again when the file is read
     lines = [
         *_comments(measurement),
-        ",".join([*(_HEADERS[name] for name in columns), *_slack_header(measurement)]),
+        ",".join([*(CHANNEL_HEADERS[name] for name in columns), *_slack_header(measurement)]),
     ]
     values = [measurement.columns[name].tolist() for name in columns]
     if _slack_header(measurement):

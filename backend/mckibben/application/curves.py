@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -19,6 +19,7 @@ from mckibben.application.operating_limits import load_notices, pressure_notices
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
+from mckibben.physics.units import si
 from mckibben.simulation.statics.characteristics import (
     FILLING,
     VENTING,
@@ -39,7 +40,10 @@ from mckibben.simulation.statics.characteristics import (
 )
 from mckibben.simulation.statics.model import StaticModel
 
+#: Gauge pressures of curves where none are stated [Pa].
+DEFAULT_PRESSURES = (1e5, 2e5, 3e5, 4e5, 5e5, 6e5)
 _OVER_PRESSURE_POINTS = 81
+_MAX_PRESSURES = 12  # of a family of curves
 _SHORTEST = 0.05  # shortest length accepted, share of the nominal length; no muscle contracts so far
 
 
@@ -60,7 +64,7 @@ class CurvesQuestion:
     """
 
     start: StartModel
-    pressures: tuple[float, ...] = (1e5, 2e5, 3e5, 4e5, 5e5, 6e5)
+    pressures: tuple[float, ...] = DEFAULT_PRESSURES
     points: int = 200
     unclipped: bool = False
     contraction_from: float | None = None
@@ -158,6 +162,31 @@ class CurvesResult:
     over_pressure: OverPressure | None
     operating_points: list[OperatingPoint]
     flags: list[Notice]
+
+
+def pressures_of(values: Sequence[str | float], where: str) -> tuple[float, ...]:
+    """The gauge pressures of curves [Pa], from numbers in Pa or texts with a unit.
+
+    Args:
+        values: at least one.
+        where: option or argument that states them, for messages.
+
+    Raises:
+        InputError: a value that is no pressure, or too many.
+    """
+    if not 0 < len(values) <= _MAX_PRESSURES:
+        raise InputError(f"{where}: {len(values)} pressures, at most {_MAX_PRESSURES} are possible")
+    pressures = []
+    for value in values:
+        part = value.strip() if isinstance(value, str) else value
+        try:
+            pressure = si(part, "Pa", reference="gauge")
+        except InputError as error:
+            raise InputError(f"{where}: {error.message}", hint=f'e.g. {where} "1 bar,3 bar"') from error
+        if not 0.0 <= pressure <= 1e8:
+            raise InputError(f"{where}: {part} is not between 0 and 1000 bar", hint="gauge pressures")
+        pressures.append(pressure)
+    return tuple(pressures)
 
 
 def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:

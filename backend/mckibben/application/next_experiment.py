@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from mckibben.identification.diagnose.design import DesignedExperiment
 from mckibben.identification.diagnose.diagnosis import Diagnosis
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment
-from mckibben.physics.errors import InputError
 
 #: Set point -> SI unit, column of the table, factor from SI.
 _COLUMNS: Mapping[str, tuple[str, str, float]] = {
@@ -23,6 +22,10 @@ _COLUMNS: Mapping[str, tuple[str, str, float]] = {
     "mass": ("kg", "load_mass_kg", 1.0),
     "supply": ("Pa", "supply_pressure_bar", 1e-5),
 }
+
+
+#: Why there may be none.
+NO_EXPERIMENT = "no two effects have to be told apart, or no experiment of this rig would do it"
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,19 +153,3 @@ def schedule_csv(experiment: NextExperiment) -> str:
         for run, *row in zip(experiment.run, *columns, strict=True)
     ]
     return "\n".join(lines) + "\n"
-
-
-def first_schedule(experiments: list[NextExperiment]) -> str:
-    """The set points of the first experiment.
-
-    Raises:
-        InputError: there is none, because no effects have to be told apart or the rig cannot do it.
-    """
-    if not experiments:
-        raise InputError(
-            "no experiment was designed: no two effects have to be told apart, or no experiment of this rig "
-            "would do it",
-            field="schedule",
-            hint="leave '--schedule' out",
-        )
-    return schedule_csv(experiments[0])

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Iterable, Mapping, Sequence
 from datetime import UTC, datetime
 from typing import Any
 
-from mckibben import __version__
+from mckibben.application.compare import Compared, ComparisonResult
 from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.application.envelope import MeasuredRange
 from mckibben.application.experiment_result import SpecimenResult
 from mckibben.application.model_question import ModelQuestion
 from mckibben.application.specimens import Specimen
@@ -15,6 +18,7 @@ from mckibben.documents.studio import Studio
 from mckibben.identification.predict.fit_model import LOAD, FitModel
 from mckibben.measurement.experiment import place_of, shown_value, title_of
 from mckibben.physics.muscle import GEOMETRY, Muscle, assumption
+from mckibben.version import __version__
 
 #: Condition of a measurement that takes precedence over the drive, and where a drive document has it.
 _CONDITIONS = (
@@ -81,6 +85,55 @@ def saved_model(question: ModelQuestion, result: DiagnosisResult, studio: Studio
     Raises:
         InputError: a fitted value lies outside what a document may state.
     """
+    last = result.path[-1]
+    return _saved(
+        question,
+        result,
+        studio,
+        freed=result.freed,
+        envelope=result.envelope,
+        drive=result.model.drive,
+        verdict=result.verdict.title,
+        error=(last.rmse, last.holdout_rmse, result.noise_floor.rmse),
+    )
+
+
+def fitted_model(question: ModelQuestion, compared: Compared, studio: Studio) -> SavedModel:
+    """The fitted model of a comparison as a document that stands alone.
+
+    Args:
+        question: of the comparison.
+        compared: the comparison, with a fit.
+        studio: presets.
+
+    Raises:
+        InputError: a fitted value lies outside what a document may state.
+    """
+    result = compared.result
+    return _saved(
+        question,
+        result,
+        studio,
+        freed=question.freed,
+        envelope=compared.envelope,
+        drive=drive_of_model(question, compared.comparison.fit_model, studio),
+        verdict="fitted, not diagnosed",
+        error=(result.rmse, result.holdout_rmse, result.noise_floor),
+    )
+
+
+def _saved(
+    question: ModelQuestion,
+    result: DiagnosisResult | ComparisonResult,
+    studio: Studio,
+    *,
+    freed: Sequence[str],
+    envelope: Mapping[str, MeasuredRange],
+    drive: Mapping[str, object] | None,
+    verdict: str,
+    error: tuple[float, float | None, float | None],
+) -> SavedModel:
+    """The document; ``error``: rmse, hold-out rmse, noise."""
     of_geometry = result.parameters.get("geometry", {})
     # The summary has every dimension of the fitted muscle.
     fitted = Muscle(*(float(getattr(result.geometry, name)) for name in GEOMETRY))
@@ -92,23 +145,39 @@ def saved_model(question: ModelQuestion, result: DiagnosisResult, studio: Studio
         "kind": "model",
         "muscle": muscle,
         "effects": result.model.effects,
-        "freed": list(result.freed),
+        "freed": list(freed),
         "free": [name for name in of_geometry if name in GEOMETRY],
         "envelope": {
             name: {"least": found.least, "most": found.most, "unit": found.unit}
-            for name, found in result.envelope.items()
+            for name, found in envelope.items()
         },
-        "assumed": _assumed(question, result, fitted),
-        "origin": _origin(question, result),
+        "assumed": _assumed(question, result.model.effects, drive, fitted),
+        "origin": {
+            "program": f"mckibben {__version__}",
+            "made": datetime.now(UTC).isoformat(timespec="seconds"),
+            "kind": result.kind,
+            "predicted": result.predicted,
+            "verdict": verdict,
+            "error": dict(zip(("rmse", "holdout_rmse", "noise"), error, strict=True)) | {"unit": result.unit},
+            "files": [
+                _file(specimen, shown)
+                for specimen, shown in zip(question.specimens.each, result.specimens, strict=True)
+            ],
+        },
     }
     if LOAD in of_geometry and question.predictor.unknown_load is not None:
         document["load_force"] = of_geometry[LOAD].value
-    if result.model.drive is not None:
-        document["drive"] = result.model.drive
+    if drive is not None:
+        document["drive"] = drive
     return read_saved_model(document, "the model")
 
 
-def _assumed(question: ModelQuestion, result: DiagnosisResult, muscle: Muscle) -> list[str]:
+def model_text(model: SavedModel) -> str:
+    """The content of the file of a saved model."""
+    return json.dumps(model.to_document(), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _assumed(question: ModelQuestion, effects: Iterable[str], document: object, muscle: Muscle) -> list[str]:
     """What nobody said: of the experiments, of the muscle, and which drive is shown."""
     specimens, start = question.specimens, question.start
     assumed = [
@@ -119,32 +188,12 @@ def _assumed(question: ModelQuestion, result: DiagnosisResult, muscle: Muscle) -
     drive, known = specimens.each[0].drive, start.catalogue
     if drive is not None and drive.tube is None and drive.assumed_tube is not None:
         tube = drive.assumed_tube
-        if any(name in known and known[name].of_tube for name in result.model.effects):
+        if any(name in known and known[name].of_tube for name in effects):
             size = f"{1e3 * tube.inside_diameter:.3g} mm bore and {tube.length:.3g} m length"
             assumed.append(f"a tube of {size}, because an effect acts on it")
-    if result.model.drive is not None and specimens.several:
+    if document is not None and specimens.several:
         assumed.append(f"the drive is that of {specimens.each[0].name}, the first of the measurements")
     return assumed
-
-
-def _origin(question: ModelQuestion, result: DiagnosisResult) -> dict[str, Any]:
-    return {
-        "program": f"mckibben {__version__}",
-        "made": datetime.now(UTC).isoformat(timespec="seconds"),
-        "kind": result.kind,
-        "predicted": result.predicted,
-        "verdict": result.verdict.title,
-        "error": {
-            "rmse": result.path[-1].rmse,
-            "holdout_rmse": result.path[-1].holdout_rmse,
-            "noise": result.noise_floor.rmse,
-            "unit": result.unit,
-        },
-        "files": [
-            _file(specimen, shown)
-            for specimen, shown in zip(question.specimens.each, result.specimens, strict=True)
-        ],
-    }
 
 
 def _file(specimen: Specimen, shown: SpecimenResult) -> dict[str, Any]:

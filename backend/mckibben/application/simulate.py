@@ -28,8 +28,9 @@ from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
 from mckibben.simulation.drive.controlled import simulate_controlled
-from mckibben.simulation.drive.transient import Run
+from mckibben.simulation.drive.transient import Run, segments_of
 from mckibben.simulation.drive.transient import simulate as run_by_command
+from mckibben.simulation.integrate.engine import engine_by_size
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.statics.limits import FlagCode, LimitFlag
 from mckibben.simulation.timing.of_run import (
@@ -216,6 +217,11 @@ def simulate(question: SimulationQuestion, watch: Watch | None = None) -> Simula
         InputError: the rows do not lie within the run, or there is no equilibrium to start from.
     """
     return prepare(question)(watch or Watch())
+
+
+def single_run_engine(annotated: AnnotatedDrive) -> str:
+    """The engine for a single run: loading the kernel takes longer than LSODA for a few segments."""
+    return engine_by_size(len(segments_of(annotated.drive)[0]))
 
 
 def run_drive(annotated: AnnotatedDrive, grid: Grid, watch: Watch | None = None, engine: str = "auto") -> Run:

@@ -13,8 +13,6 @@ from typing import Annotated
 
 import typer
 
-from mckibben import __version__
-from mckibben.cli.located import located
 from mckibben.cli.options import (
     AsJson,
     DataFiles,
@@ -41,9 +39,10 @@ from mckibben.cli.reading import (
     Sheet,
     Strict,
     Supply,
-    file_options,
 )
+from mckibben.documents.located import one_line
 from mckibben.physics.errors import InputError
+from mckibben.version import __version__
 
 __all__ = ["app", "main"]
 
@@ -155,6 +154,7 @@ def compare(
     data: DataFolder = None,
 ) -> None:
     """Compare a model with measurements: the error in numbers, with or without a fit."""
+    from mckibben.application.file_options import file_options
     from mckibben.cli.compare import run
     from mckibben.cli.options import open_studio
 
@@ -227,6 +227,7 @@ def diagnose(
     data: DataFolder = None,
 ) -> None:
     """Which physical effect a model of measurements is missing, and what the data cannot distinguish."""
+    from mckibben.application.file_options import file_options
     from mckibben.cli.diagnose import run
     from mckibben.cli.options import open_studio
 
@@ -276,6 +277,7 @@ def convert(
     strict: Strict = False,
 ) -> None:
     """A measurement file as the canonical CSV, with its conditions and where they stand."""
+    from mckibben.application.file_options import file_options
     from mckibben.cli.convert import run
 
     options = file_options(
@@ -341,12 +343,6 @@ def size(
         raise InputError(f"{option} belongs to a report, and none is requested", hint="--report FILE")
     wanted = None if report is None else Wanted(report, proposal or 1, title)
     run(open_studio(presets, effects, data), task=task, as_json=as_json, report=wanted)
-
-
-def one_line(error: InputError) -> str:
-    """Where, what is wrong, what would be right, in one line."""
-    hint = "" if not error.hint else f" ({error.hint.rstrip('.')})"
-    return " ".join(f"{located(error.field, error.message)}{hint}".split())
 
 
 def _fail(message: str, code: int = _BAD_INPUT) -> int:

@@ -7,7 +7,7 @@ from pathlib import Path
 import typer
 
 from mckibben.application.convert import converted
-from mckibben.cli.data import read_file
+from mckibben.application.measurement_files import read_file
 from mckibben.cli.output import remark
 from mckibben.measurement.read import Correction
 from mckibben.physics.errors import InputError

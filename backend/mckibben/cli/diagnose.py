@@ -2,35 +2,21 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from mckibben.application.diagnose import prepare
-from mckibben.application.diagnosis_result import DiagnosisResult
-from mckibben.application.next_experiment import first_schedule
+from mckibben.application.measurement_files import measurements_of
+from mckibben.application.next_experiment import NO_EXPERIMENT, schedule_csv
 from mckibben.application.saved_model import saved_model
-from mckibben.cli.data import measurements_of
 from mckibben.cli.model import model_question
 from mckibben.cli.options import ModelOptions
-from mckibben.cli.output import (
-    check_folder,
-    error_unit,
-    figure,
-    progress,
-    remark,
-    rows_of,
-    write_experiment,
-    write_json,
-    write_parameters,
-    write_table,
-)
+from mckibben.cli.output import check_folder, progress, remark, write_json, write_summary
 from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import ExperimentValue
 from mckibben.measurement.read import Correction
 from mckibben.physics.errors import InputError
-
-_SHOWN = 8  # most candidates listed
+from mckibben.report.summary.diagnosis import summary_of
 
 
 def run(
@@ -66,16 +52,17 @@ def run(
 
         write(report, studio, question, result)
     if save is not None:
-        text = saved_model(question, result, studio).to_document()
-        _write_file(
-            save, "--save", "model", json.dumps(text, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-        )
+        _write_file(save, "--save", "model", model_text(saved_model(question, result, studio)))
     if schedule is not None:
-        _write_file(schedule, "--schedule", "set points", first_schedule(result.verdict.next_experiments))
+        designed = result.verdict.next_experiments
+        if designed:
+            _write_file(schedule, "--schedule", "set points", schedule_csv(designed[0]))
+        else:
+            remark(f"--schedule {schedule}: not written, because {NO_EXPERIMENT}")
     if as_json:
         write_json(result)
         return
-    _write(result)
+    write_summary(summary_of(result))
 
 
 def _write_file(path: Path, option: str, what: str, text: str) -> None:
@@ -91,46 +78,3 @@ def _write_file(path: Path, option: str, what: str, text: str) -> None:
             f"{option} {path}: cannot be written: {error.strerror or error}", hint="name a file in a folder"
         ) from error
     remark(f"{what}: {path}")
-
-
-def _write(result: DiagnosisResult) -> None:
-    unit, scale = error_unit(result.unit)
-    for assumption in result.assumptions:
-        remark(assumption)
-    write_experiment(result.specimens)
-
-    def shown(value: float | None) -> str:
-        return figure(None if value is None else value * scale, unit=f" {unit}")
-
-    rows = [
-        [
-            step.added or ("start model" if number == 0 else "refitted"),
-            shown(step.rmse),
-            shown(step.holdout_rmse),
-        ]
-        for number, step in enumerate(result.path)
-    ]
-    rows.append(["noise floor", shown(result.noise_floor.rmse), result.noise_floor.how])
-    title = f"Error of the predicted {result.predicted} ({result.kind}, {rows_of(result)})"
-    write_table(title, ["after adding", "RMS error", "left-out groups"], rows)
-    write_table(
-        "One effect alone",
-        ["effect", "RMS error", "gain", "indistinguishable from"],
-        [
-            [c.effect, shown(c.rmse), f"{c.gain_percent:.1f} %", ", ".join(c.twins)]
-            for c in result.candidates[:_SHOWN]
-        ],
-    )
-    write_parameters(result.parameters)
-    remark(result.verdict.sentence)
-    if result.verdict.next_measurement is not None:
-        remark(f"next: {result.verdict.next_measurement}")
-    if result.verdict.proposed_term is not None:
-        remark(f"proposed term: {result.verdict.proposed_term.formula}")
-    for message in result.messages[len(result.assumptions) :]:
-        remark(message)
-    reasons: dict[str, list[str]] = {}
-    for item in result.not_tried:
-        reasons.setdefault(item.why, []).append(item.effect)
-    for why, hidden in reasons.items():
-        remark(f"not tried: {', '.join(hidden)} ({why})")

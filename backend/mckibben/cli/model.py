@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
-from mckibben.application.doubts import deciding
-from mckibben.application.envelope import MeasuredRange
 from mckibben.application.experiment import SaidMeasurement, SaidModel
-from mckibben.application.model_question import ModelQuestion, question_of
-from mckibben.cli.drive_file import drive_document, saved_model
-from mckibben.cli.located import at_file
-from mckibben.cli.options import ModelOptions, is_file, start_model, stated_model
+from mckibben.application.model_question import ModelQuestion
+from mckibben.application.stated_question import SavedStart, stated_question
+from mckibben.cli.options import ModelOptions, start_model, stated_model
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_files import read_document
+from mckibben.documents.located import at_file
+from mckibben.documents.model_files import drive_document, saved_model
+from mckibben.documents.muscle_files import is_file
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import ExperimentValue
-from mckibben.physics.errors import InputError, did_you_mean
-from mckibben.physics.muscle import GEOMETRY
+from mckibben.physics.errors import InputError
 from mckibben.physics.units import si
 
 
@@ -40,93 +38,34 @@ def model_question(
         studio: presets and effects.
         measurements: the data.
         options: the model.
-        free: geometry, and constants as "effect.parameter", that fits may change as well.
-        noise: standard deviation of the predicted channel [SI], if known.
-        strict: refuse instead of assuming.
-        refit: whether the numbers of a saved model are fitted again; what was freed for it is freed again.
+        free, noise, strict, refit: see `stated_question`.
 
     Raises:
         InputError: names the file or option, what is wrong and what would be right.
     """
-    saved = saved_model(options.model) if options.model else None
-    geometry, constants = _freed(free, studio, saved)
-    if saved is not None and refit:
-        geometry += tuple(name for name in saved.free if name not in geometry)
-        kept = _effects_of(options, saved)
-        constants += tuple(
-            name for name in saved.freed if name not in constants and name.partition(".")[0] in kept
-        )
-    try:
-        question = question_of(
-            said_model(studio, options),
-            measurements,
-            studio,
-            free=geometry,
-            freed=constants,
-            noise=noise,
-            strict=strict,
-        )
-    except InputError as error:
-        if (error.field or "").startswith("freed."):  # those of the options are known
-            raise at_file(options.model, error.field, error.message, error.hint) from error
-        raise
-    for name in constants:
-        effect = name.partition(".")[0]
-        if effect not in question.start.effects:
-            raise InputError(
-                f"--free {name}: the start model has no effect {effect}", hint=f"add --effect {effect}"
-            )
-    if saved is not None:
-        question = _of_saved(question, saved, options.model)
-    try:
-        return deciding(question, use=options.use, keep=options.keep)
-    except InputError as error:
-        if error.field in ("use", "keep"):
-            raise InputError(f"--{error.field}: {error.message}", hint=error.hint) from error
-        raise
+    saved = None
+    if options.model:
+        document = saved_model(options.model)
+        saved = SavedStart(document, options.model, _effects_of(options, document))
+    return stated_question(
+        said_model(studio, options),
+        measurements,
+        studio,
+        saved=saved,
+        free=free,
+        noise=noise,
+        strict=strict,
+        refit=refit,
+        use=options.use,
+        keep=options.keep,
+    )
 
 
-def _freed(
-    names: Sequence[str], studio: Studio, saved: SavedModel | None
-) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Geometry and constants of ``--free``.
-
-    Raises:
-        InputError: no such geometry or constant.
-    """
-    constants = [f"{effect.id}.{p.name}" for effect in studio.catalogue.values() for p in effect.parameters]
-    if saved is not None:
-        constants += [f"{effect}.{name}" for effect, values in saved.effects.items() for name in values]
-    for name in names:
-        if "." in name and name not in constants:
-            similar = [each for each in constants if each.startswith(name.partition(".")[0])] or constants
-            raise InputError(f"--free {name}: there is no such constant", hint=did_you_mean(name, similar))
-        if "." not in name and name not in GEOMETRY:
-            raise InputError(f"--free {name}: there is no such geometry", hint=did_you_mean(name, GEOMETRY))
-    unique = tuple(dict.fromkeys(names))
-    return tuple(name for name in unique if "." not in name), tuple(name for name in unique if "." in name)
-
-
-def _effects_of(options: ModelOptions, saved: SavedModel) -> set[str]:
+def _effects_of(options: ModelOptions, saved: SavedModel) -> frozenset[str]:
     """Ids of the effects that the options leave of a saved model."""
     if options.ideal:
-        return set()
-    return set(saved.effects) & set(options.effects or saved.effects)
-
-
-def _of_saved(question: ModelQuestion, saved: SavedModel, path: str) -> ModelQuestion:
-    """The question with what a saved model says of its data: where it was measured, and what was assumed."""
-    remarks = question.remarks
-    if saved.assumed:
-        remarks += (f"{path}: the model was fitted assuming {'; '.join(saved.assumed)}",)
-    load = 0.0
-    if saved.load_force is not None and question.predictor.unknown_load is not None:
-        load = saved.load_force
-        remarks += (f"the load is not stated: {load:.4g} N is taken, which the model's own data showed",)
-    ranges = {
-        name: MeasuredRange(found.least, found.most, found.unit) for name, found in saved.envelope.items()
-    }
-    return replace(question, envelope=ranges, load_force=load, remarks=remarks)
+        return frozenset()
+    return frozenset(saved.effects) & frozenset(options.effects or saved.effects)
 
 
 def said_model(studio: Studio, options: ModelOptions) -> SaidModel:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,8 +11,15 @@ from typing import TYPE_CHECKING, Annotated, cast
 
 import typer
 
-from mckibben.cli.drive_file import drive_document, saved_model
-from mckibben.cli.located import at_file
+from mckibben.documents.model_files import drive_document, saved_model
+from mckibben.documents.muscle_files import (
+    Effects,
+    NamedEffects,
+    is_file,
+    start_of_file,
+    start_of_input,
+    with_length,
+)
 from mckibben.physics.errors import InputError, did_you_mean
 
 if TYPE_CHECKING:
@@ -73,9 +80,6 @@ DataFolder = Annotated[
 ]
 
 
-Effects = dict[str, dict[str, float | str]]
-
-
 @dataclass(frozen=True, slots=True)
 class ModelOptions:
     """The options that name a model.
@@ -128,14 +132,15 @@ def folders(presets: Path | None, effects: Sequence[Path] | None, data: Path | N
 
 def open_studio(presets: Path | None, effects: Sequence[Path] | None, data: Path | None) -> Studio:
     """Presets and effects for a command that runs without a server."""
-    from mckibben.cli.problems import tell_problems
     from mckibben.documents.studio import Studio
+    from mckibben.documents.unused_files import unused_files
     from mckibben.resources import presets_folder
 
     chosen = folders(presets, effects, data)
     with redirect_stdout(sys.stderr):  # what an effect file prints when it is loaded is no answer
         studio = Studio(presets=presets_folder(), user_presets=chosen.user_presets, effects=chosen.effects)
-    tell_problems(studio, chosen.user_presets)
+    for sentence in unused_files(studio, chosen.user_presets):
+        typer.echo(sentence, err=True)
     return studio
 
 
@@ -160,17 +165,17 @@ def start_model(
             )
     chosen = _chosen(options, stated)
     if not options.muscle and "muscle" in document:
-        return _start_of_input(studio, _with_length(document["muscle"], rest_length), chosen, source)
+        return start_of_input(studio, with_length(document["muscle"], rest_length), chosen, source)
     muscle = options.muscle or named
     name, separator, length = muscle.partition(":")
     if not name:
         raise InputError("--muscle is missing", hint="e.g. --muscle DMSP-20:300mm")
     if is_file(muscle, studio):
-        return _start_of_file(studio, Path(muscle), chosen, rest_length)
+        return start_of_file(studio, Path(muscle), chosen, rest_length)
     by_preset: dict[str, object] = {"preset": name}
     if separator:
         by_preset["nominal_length"] = length
-    return _start_of_input(studio, _with_length(by_preset, rest_length), chosen, f"--muscle {muscle}")
+    return start_of_input(studio, with_length(by_preset, rest_length), chosen, f"--muscle {muscle}")
 
 
 def stated_model(options: ModelOptions) -> tuple[dict[str, object], str]:
@@ -185,93 +190,10 @@ def stated_model(options: ModelOptions) -> tuple[dict[str, object], str]:
     return (drive_document(options.drive) if options.drive else {}), options.drive
 
 
-@dataclass(frozen=True, slots=True)
-class _Named:
-    """Effects of ``--effect``: with the numbers of the document or preset where it has them."""
-
-    ids: tuple[str, ...]
-
-    def of(self, stated: Mapping[str, Mapping[str, float | str]]) -> Effects:
-        """The effects with what is stated of each; what is not takes its default."""
-        return {name: dict(stated.get(name, {})) for name in self.ids}
-
-
-def _chosen(options: ModelOptions, stated: Effects | None) -> Effects | _Named | None:
+def _chosen(options: ModelOptions, stated: Effects | None) -> Effects | NamedEffects | None:
     """Effects of the options; None are those of the preset, named ones get the numbers of the preset."""
     if options.ideal:
         return {}
     if stated is None:
-        return _Named(tuple(options.effects)) if options.effects else None
-    return _Named(tuple(options.effects)).of(stated) if options.effects else stated
-
-
-def _with_length(document: object, rest_length: float | None) -> object:
-    """A muscle of a document, with this length where it has none."""
-    if not isinstance(document, dict) or rest_length is None or "nominal_length" in document:
-        return document
-    return {**document, "nominal_length": rest_length}
-
-
-def is_file(muscle: str, studio: Studio) -> bool:
-    """Whether it names a JSON file; a preset id with a slash, or a file named like a preset, does not."""
-    if muscle.lower().endswith(".json"):
-        return True
-    known = {preset.id.lower() for preset in studio.library.list("muscles")}
-    return muscle.partition(":")[0].lower() not in known and Path(muscle).exists()
-
-
-def _start_of_file(
-    studio: Studio, path: Path, effects: Effects | _Named | None, rest_length: float | None
-) -> StartModel:
-    """A muscle by geometry, or a whole preset file."""
-    from mckibben.documents.start_model import StatedMuscle, preset_facts, start_model
-    from mckibben.presets import MusclePreset
-    from mckibben.presets.reading import BadDocumentError, parse, read_file
-
-    try:
-        document = read_file(path, follow_links=True)
-        if not isinstance(document, dict) or "kind" not in document:
-            return _start_of_input(studio, _with_length(document, rest_length), effects, str(path))
-        preset = parse(MusclePreset, document, studio.effect_table)
-    except BadDocumentError as bad:
-        finding = bad.findings[0]
-        where = f"{path}: {finding.field}" if finding.field else str(path)
-        raise InputError(f"{where}: {finding.message}", hint=finding.hint) from bad
-    assert isinstance(preset, MusclePreset)  # noqa: S101 - parsed as one
-    preset.adopt("user", studio.effect_table)
-    facts = preset_facts(preset, studio.catalogue)
-    if isinstance(effects, _Named):
-        effects = effects.of(facts.effects)
-    try:
-        return _usable(studio, start_model(StatedMuscle(), effects, preset=facts, catalogue=studio.catalogue))
-    except InputError as error:
-        raise at_file(str(path), error.field, error.message, error.hint) from error
-
-
-def _usable(studio: Studio, start: StartModel) -> StartModel:
-    """The same, after checking that a model can be built; here an error can name the file."""
-    studio.static_model(start)
-    return start
-
-
-def _start_of_input(
-    studio: Studio, document: object, effects: Effects | _Named | None, source: str
-) -> StartModel:
-    from pydantic import ValidationError
-
-    from mckibben.documents.convert import stated_muscle
-    from mckibben.documents.muscle import MuscleInput
-    from mckibben.documents.problems import first_problem
-
-    try:
-        muscle = stated_muscle(MuscleInput.model_validate(document))
-        if isinstance(effects, _Named):
-            effects = effects.of({} if muscle.preset is None else studio.facts(muscle.preset).effects)
-        return _usable(studio, studio.start_model(muscle, effects))
-    except ValidationError as error:
-        problem = first_problem(error.errors(), MuscleInput, document, "the muscle")
-        raise at_file(source, problem.field, problem.message, problem.hint) from error
-    except InputError as error:
-        raise at_file(
-            source, (error.field or "").removeprefix("muscle."), error.message, error.hint
-        ) from error
+        return NamedEffects(tuple(options.effects)) if options.effects else None
+    return NamedEffects(tuple(options.effects)).of(stated) if options.effects else stated

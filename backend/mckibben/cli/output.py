@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
 
 import typer
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
-from rich.table import Table
+from rich.table import Table as RichTable
 
 from mckibben.application.json_text import to_json
-from mckibben.identification.fit.comparison import ParameterTable
 from mckibben.physics.errors import InputError
+from mckibben.report.summary import Summary, Table
 from mckibben.simulation.outcome import Watch
-
-if TYPE_CHECKING:
-    from mckibben.application.experiment_result import SpecimenResult
 
 
 def write_json(answer: object) -> None:
@@ -42,18 +38,27 @@ def check_folder(path: Path, option: str) -> None:
         raise InputError(f"{option} {path}: there is no folder {path.parent}", hint="name an existing folder")
 
 
-def write_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+def write_summary(summary: Summary) -> None:
+    """The tables on stdout, the sentences on stderr."""
+    for part in summary:
+        if isinstance(part, str):
+            remark(part)
+        else:
+            _write_table(part)
+
+
+def _write_table(content: Table) -> None:
     """A table of right-aligned figures; the first column is left-aligned."""
-    table = Table(box=SIMPLE_HEAD)
-    for index, column in enumerate(columns):
+    table = RichTable(box=SIMPLE_HEAD)
+    for index, column in enumerate(content.columns):
         table.add_column(column, justify="left" if index == 0 else "right", no_wrap=True)
-    for row in rows:
+    for row in content.rows:
         table.add_row(*row)
     console = Console(highlight=False)
     if not console.is_terminal:
         # A pipe has no width; figures must not be truncated.
         console = Console(highlight=False, width=200)
-    console.print(title, style="bold", soft_wrap=True)
+    console.print(content.title, style="bold", soft_wrap=True)
     console.print(table)
 
 
@@ -74,76 +79,3 @@ def progress(words: str) -> Iterator[Watch]:
 def remark(text: str) -> None:
     """A message for people, on stderr."""
     typer.echo(text, err=True)
-
-
-class CountedRows(Protocol):
-    """A result that counts the rows of its data."""
-
-    @property
-    def rows(self) -> int:
-        """Number of rows of the data."""
-        ...
-
-    @property
-    def rows_used(self) -> int:
-        """Number of rows used."""
-        ...
-
-    @property
-    def excluded(self) -> Mapping[str, int]:
-        """Reason for leaving rows out -> number of rows."""
-        ...
-
-
-def rows_of(result: CountedRows) -> str:
-    """Number of rows that a comparison or diagnosis uses, with the reasons for leaving out others."""
-    if result.rows_used == result.rows:
-        return f"{result.rows} rows"
-    reasons = "".join(f", {count} left out: {reason}" for reason, count in result.excluded.items())
-    return f"{result.rows_used} of {result.rows} rows{reasons}"
-
-
-def error_unit(unit: str) -> tuple[str, float]:
-    """Display unit of an error, and its number per SI unit."""
-    return ("mm", 1e3) if unit == "m" else (unit.replace("1", "x noise"), 1.0)
-
-
-def write_experiment(specimens: Iterable[SpecimenResult]) -> None:
-    """Print what each test was made with, and who says it."""
-    from mckibben.measurement.experiment import place_of, shown_value, title_of
-
-    for specimen in specimens:
-        write_table(
-            f"Experiment of {specimen.file}",
-            ["", "value", "who says it"],
-            [
-                [title_of(name), shown_value(name, value), place_of(value)]
-                for name, value in specimen.experiment.items()
-            ],
-        )
-
-
-def write_parameters(parameters: ParameterTable) -> None:
-    """Print the table of a model's parameters, if it has any."""
-    rows = [
-        [
-            f"{effect}.{name}",
-            f"{item.value:.5g}",  # a conductance is below the rounding errors that a figure hides
-            ("–" if item.stderr is None else f"{item.stderr:.2g}") if item.fitted else "given",
-            item.unit,
-            "at its bound" if item.at_bound else "",
-        ]
-        for effect, values in parameters.items()
-        for name, item in values.items()
-    ]
-    if rows:
-        write_table("Parameters", ["parameter", "value", "± standard error", "unit", ""], rows)
-
-
-def figure(value: float | None, digits: int = 4, unit: str = "") -> str:
-    """A number with ``digits`` significant digits, or a dash."""
-    if value is None or value != value:
-        return "–"
-    # A result this small is the rounding error of a sum.
-    shown = 0.0 if abs(value) < 1e-9 else value
-    return f"{shown:.{digits}g}{unit}"

@@ -39,7 +39,7 @@ def run(
     # Imported only after the port is bound: errors of the address are reported at once.
     import uvicorn
 
-    from mckibben.cli.problems import tell_problems
+    from mckibben.documents.unused_files import unused_files
     from mckibben.server.app import create_app
     from mckibben.server.security import new_token
     from mckibben.server.settings import Settings, is_every_interface, is_loopback
@@ -67,7 +67,8 @@ def run(
                 threading.Thread(target=webbrowser.open, args=(link,), daemon=True).start()
 
     app = create_app(settings)
-    tell_problems(app.state.studio, chosen.user_presets)
+    for sentence in unused_files(app.state.studio, chosen.user_presets):
+        typer.echo(sentence, err=True)
     config = uvicorn.Config(
         app,
         log_level="warning",

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -96,7 +96,7 @@ class Measurement:
     id: str
     kind: str
     kind_detected: bool
-    columns: Mapping[str, NDArray]
+    columns: Mapping[str, NDArray[Any]]
     channels: tuple[MeasuredChannel, ...]
     ignored: tuple[str, ...]
     conditions: Mapping[str, float | str]

@@ -11,7 +11,6 @@ from fastapi import FastAPI
 from fastapi.routing import APIRoute
 from starlette.middleware.gzip import GZipMiddleware
 
-from mckibben import __version__
 from mckibben.documents.studio import Studio
 from mckibben.measurement.store import MeasurementStore
 from mckibben.server import errors, static
@@ -35,6 +34,7 @@ from mckibben.server.security import BodyLimitMiddleware, SecurityMiddleware
 from mckibben.server.server_timing import TimingMiddleware
 from mckibben.server.settings import Settings
 from mckibben.simulation.integrate.many import lane_kernels
+from mckibben.version import __version__
 
 # Bytes. The usual curves answer is smaller: compressing it would take longer than computing it.
 _GZIP_FROM = 256 * 1024

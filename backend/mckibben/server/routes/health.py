@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request
 
-from mckibben import __version__
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.health import Health
+from mckibben.version import __version__
 
 router = APIRouter(prefix="/api/health", tags=["health"], route_class=StrictRoute)
 

@@ -10,7 +10,13 @@ from mckibben.physics.muscle import GEOMETRY
 from mckibben.simulation.drive.initial_state import settle
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import constants_of, external_force, skewed
-from mckibben.simulation.integrate.engine import CompiledDrive, Outcome, compiled_driven, integrate
+from mckibben.simulation.integrate.engine import (
+    CompiledDrive,
+    Outcome,
+    compiled_driven,
+    engine_by_size,
+    integrate,
+)
 from mckibben.simulation.statics.model import StaticModel
 
 TOLERANCE = 1e-6
@@ -128,6 +134,7 @@ def _run(
         inputs=packed_inputs,
         grid=np.ascontiguousarray(time, dtype=float),
         tolerance=tolerance,
+        engine=engine_by_size(len(packed_inputs)),
         restitution=restitution,
     )
     if solution.outcome is not Outcome.COMPLETED:

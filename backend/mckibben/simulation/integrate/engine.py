@@ -43,6 +43,7 @@ __all__ = [
     "compile_system",
     "compiled_drive",
     "compiled_driven",
+    "engine_by_size",
     "integrate",
     "kernel",
     "outcome_of",
@@ -67,6 +68,16 @@ def _load_kernels() -> Kernels:
 
 
 kernel = Background(_load_kernels, "rodas-kernel")
+_FEW_SEGMENTS = 20  # LSODA needs less for them than the 0.6 s that loading the kernel takes
+
+
+def engine_by_size(segments: int) -> str:
+    """The engine for a run of so many segments, whatever is loaded: the same question gives the same digits.
+
+    Args:
+        segments: of the inputs.
+    """
+    return "lsoda" if segments <= _FEW_SEGMENTS else "rodas"
 
 
 def integrate(

@@ -1,4 +1,4 @@
-"""Measurements named on the command line, each with what is said about its experiment."""
+"""Measurement files named by the user, each with what is said about its experiment."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ from mckibben.measurement.points import Points, find_preset
 from mckibben.measurement.read import Correction, read_measurement, spoken_correction
 from mckibben.physics.errors import InputError, did_you_mean
 
+#: How values are named that stand in no file: as options of the command line, or as arguments of Python.
+OPTION, ARGUMENT = "--", ""
 _MAX_BYTES = 200_000_000
 _READING = ("sheet", "head", "column", "ignore")  # of an entry: how its file is read
 _LIST_EXAMPLE = '[{"file": "a.csv", "rest_length": "250 mm", "load": "3 kg"}]'
@@ -121,7 +123,7 @@ def said_values(given: Mapping[str, Any], source: str) -> dict[str, ExperimentVa
 
     Args:
         given: field -> value.
-        source: a file, or "--" for options, for messages and as the place of the values.
+        source: a file, `OPTION` or `ARGUMENT`, for messages and as the place of the values.
 
     Raises:
         InputError: a value that cannot be used, naming field or option.
@@ -135,21 +137,30 @@ def said_values(given: Mapping[str, Any], source: str) -> dict[str, ExperimentVa
     except ValidationError as error:
         problem = first_problem(error.errors(), ExperimentInput, dict(given), "the experiment")
         name = str(problem.field or "").partition(".")[0]
-        place = option_of(name) if source == "--" else f"{source}: {name}"
-        raise InputError(f"{place}: {problem.message}", hint=problem.hint) from error
+        raise InputError(f"{_place(name, source)}: {problem.message}", hint=problem.hint) from error
     except InputError as error:
-        raise InputError(f"{source}: {error.message}", hint=error.hint) from error
+        raise InputError(f"{source or 'experiment'}: {error.message}", hint=error.hint) from error
     try:
         found = stated_experiment(read, source)
     except InputError as error:
-        place = "--accuracy" if source == "--" else f"{source}: accuracy"
-        raise InputError(f"{place}: {error.message}", hint=error.hint) from error
+        raise InputError(f"{_place('accuracy', source)}: {error.message}", hint=error.hint) from error
     return {
         name: ExperimentValue(
-            value.value, value.unit, value.origin, option_of(name) if source == "--" else source
+            value.value, value.unit, value.origin, source if _is_file(source) else _place(name, source)
         )
         for name, value in found.items()
     }
+
+
+def _is_file(source: str) -> bool:
+    return source not in (OPTION, ARGUMENT)
+
+
+def _place(name: str, source: str) -> str:
+    """What says a field of the experiment: an option, an argument, or the field of a file."""
+    if source == OPTION:
+        return option_of(name)
+    return f"{source}: {name}" if _is_file(source) else name
 
 
 def option_of(name: str) -> str:

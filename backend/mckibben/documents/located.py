@@ -1,4 +1,4 @@
-"""Errors of the command line with the file and the field that they are about."""
+"""Errors with the file and the field that they are about, in one line."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ from mckibben.physics.errors import InputError
 
 
 def at_file(source: str, field: str | None, message: str, hint: str | None) -> InputError:
-    """The error with the name of the file in front."""
-    return InputError(f"{source}: {located(field, message).removesuffix('.')}", hint=hint)
+    """The error with the name of the file in front; "" for none."""
+    text = located(field, message).removesuffix(".")
+    return InputError(f"{source}: {text}" if source else text, hint=hint)
 
 
 def located(field: str | None, message: str) -> str:
@@ -19,3 +20,9 @@ def located(field: str | None, message: str) -> str:
     ):
         return message
     return f"{field}: {message}"
+
+
+def one_line(error: InputError) -> str:
+    """Where, what is wrong, what would be right, in one line."""
+    hint = "" if not error.hint else f" ({error.hint.rstrip('.')})"
+    return " ".join(f"{located(error.field, error.message)}{hint}".split())

@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import groupby
 from pathlib import Path
-
-import typer
 
 from mckibben.documents.studio import Studio
 
 _SHOWN = 3  # problems of one preset file
 
 
-def tell_problems(studio: Studio, user_presets: Path | None) -> None:
-    """Say on stderr which files of effects and presets are not used, where and why, what would be right.
+def unused_files(studio: Studio, user_presets: Path | None) -> Iterator[str]:
+    """Which files of effects and presets are not used, where and why, what would be right; one line each.
 
     Args:
         studio: what was loaded.
         user_presets: the user's folder of presets.
     """
     for problem in studio.catalogue.problems:
-        typer.echo(f"effect file {problem.file} is not used: {problem.message}", err=True)
+        yield f"effect file {problem.file} is not used: {problem.message}"
     for file, problems in groupby(studio.library.problems(), key=lambda problem: problem.file):
         name = file.removeprefix("user/")
         path = file if name == file or user_presets is None else user_presets / name
@@ -29,6 +28,6 @@ def tell_problems(studio: Studio, user_presets: Path | None) -> None:
             known = not problem.field or problem.field in problem.message.replace("'", "")
             said = problem.message if known else f"{problem.field}: {problem.message}"
             hint = f" ({problem.hint.rstrip('.')})" if problem.hint else ""
-            typer.echo(" ".join(f"preset file {path} is not used: {said}{hint}".split()), err=True)
+            yield " ".join(f"preset file {path} is not used: {said}{hint}".split())
         if more := len(listed[_SHOWN:]):
-            typer.echo(f"preset file {path}: and {more} more", err=True)
+            yield f"preset file {path}: and {more} more"

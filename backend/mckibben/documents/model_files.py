@@ -1,11 +1,11 @@
-"""The JSON files of ``--drive`` and ``--model``: a drive, a model alone, or a saved model."""
+"""JSON files of a model: a drive, muscle and effects alone, or a saved model."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mckibben.cli.located import at_file
+from mckibben.documents.located import at_file
 from mckibben.physics.errors import InputError, did_you_mean
 
 if TYPE_CHECKING:

@@ -1,0 +1,135 @@
+"""From a muscle in a document or file, with chosen effects, to a start model; errors name the file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mckibben.documents.located import at_file
+from mckibben.physics.errors import InputError
+
+if TYPE_CHECKING:
+    from mckibben.documents.start_model import PresetFacts, StartModel
+    from mckibben.documents.studio import Studio
+
+#: Effect id -> parameter -> SI number, or text with a unit.
+Effects = dict[str, dict[str, float | str]]
+
+
+@dataclass(frozen=True, slots=True)
+class NamedEffects:
+    """Effects of ``--effect``: with the numbers of the document or preset where it has them."""
+
+    ids: tuple[str, ...]
+
+    def of(self, stated: Mapping[str, Mapping[str, float | str]]) -> Effects:
+        """The effects with what is stated of each; what is not takes its default."""
+        return {name: dict(stated.get(name, {})) for name in self.ids}
+
+
+def with_length(document: object, rest_length: float | None) -> object:
+    """A muscle of a document, with this length where it has none."""
+    if not isinstance(document, dict) or rest_length is None or "nominal_length" in document:
+        return document
+    return {**document, "nominal_length": rest_length}
+
+
+def is_file(muscle: str, studio: Studio) -> bool:
+    """Whether it names a JSON file; a preset id with a slash, or a file named like a preset, does not."""
+    if muscle.lower().endswith(".json"):
+        return True
+    known = {preset.id.lower() for preset in studio.library.list("muscles")}
+    return muscle.partition(":")[0].lower() not in known and Path(muscle).exists()
+
+
+def start_of_file(
+    studio: Studio, path: Path, effects: Effects | NamedEffects | None, rest_length: float | None
+) -> StartModel:
+    """A muscle by geometry, or a whole preset file.
+
+    Raises:
+        InputError: names the file and field, what is wrong and what would be right.
+    """
+    from mckibben.documents.start_model import PresetFacts
+
+    content = preset_of_file(path, studio)
+    if not isinstance(content, PresetFacts):
+        return start_of_input(studio, with_length(content, rest_length), effects, str(path))
+    if isinstance(effects, NamedEffects):
+        effects = effects.of(content.effects)
+    return start_of_input(studio, {}, effects, str(path), facts=content)
+
+
+def preset_of_file(path: Path, studio: Studio) -> PresetFacts | object:
+    """The facts of a muscle preset in a file, or the content of a file that holds something else.
+
+    Raises:
+        InputError: names the file and field, what is wrong and what would be right.
+    """
+    from mckibben.documents.start_model import preset_facts
+    from mckibben.presets import MusclePreset
+    from mckibben.presets.reading import BadDocumentError, parse, read_file
+
+    try:
+        document = read_file(path, follow_links=True)
+        if not isinstance(document, dict) or "kind" not in document:
+            return document
+        preset = parse(MusclePreset, document, studio.effect_table)
+    except BadDocumentError as bad:
+        finding = bad.findings[0]
+        where = f"{path}: {finding.field}" if finding.field else str(path)
+        raise InputError(f"{where}: {finding.message}", hint=finding.hint) from bad
+    assert isinstance(preset, MusclePreset)  # noqa: S101 - parsed as one
+    preset.adopt("user", studio.effect_table)
+    return preset_facts(preset, studio.catalogue)
+
+
+def _usable(studio: Studio, start: StartModel) -> StartModel:
+    """The same, after checking that a model can be built; here an error can name the file."""
+    studio.static_model(start)
+    return start
+
+
+def start_of_input(
+    studio: Studio,
+    document: object,
+    effects: Effects | NamedEffects | None,
+    source: str,
+    *,
+    facts: PresetFacts | None = None,
+) -> StartModel:
+    """A muscle of a document with chosen effects.
+
+    Args:
+        studio: presets and effects.
+        document: the muscle as JSON.
+        effects: {} is the ideal model, None the effects of the preset.
+        source: where the document stands, for messages; "" for nowhere.
+        facts: of a preset that no folder has.
+
+    Raises:
+        InputError: names source and field, what is wrong and what would be right.
+    """
+    from pydantic import ValidationError
+
+    from mckibben.documents.convert import stated_muscle
+    from mckibben.documents.muscle import MuscleInput
+    from mckibben.documents.problems import first_problem
+    from mckibben.documents.start_model import start_model
+
+    try:
+        muscle = stated_muscle(MuscleInput.model_validate(document))
+        if isinstance(effects, NamedEffects):
+            effects = effects.of({} if muscle.preset is None else studio.facts(muscle.preset).effects)
+        if facts is None:
+            return _usable(studio, studio.start_model(muscle, effects))
+        return _usable(studio, start_model(muscle, effects, preset=facts, catalogue=studio.catalogue))
+    except ValidationError as error:
+        problem = first_problem(error.errors(), MuscleInput, document, "the muscle")
+        raise at_file(source, problem.field, problem.message, problem.hint) from error
+    except InputError as error:
+        raise at_file(
+            source, (error.field or "").removeprefix("muscle."), error.message, error.hint
+        ) from error

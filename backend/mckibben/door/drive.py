@@ -1,0 +1,251 @@
+"""Drives: a muscle with valve, tube, supply, load and command, simulated through time."""
+
+# pyright: strict, reportMissingTypeStubs=false
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from os import PathLike, fspath
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
+
+from mckibben.application.simulate import POINTS, SimulationQuestion, prepare, single_run_engine
+from mckibben.documents.drive import DriveDocument
+from mckibben.documents.drive_files import named_document, preset_document, read_document
+from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
+from mckibben.documents.studio import Studio
+from mckibben.door.model import Model
+from mckibben.door.model_files import model_of_document
+from mckibben.door.problem import reported
+from mckibben.door.rendering import notebook_cell, plain_text
+from mckibben.door.result import Frozen, write_file
+from mckibben.door.run import Run
+from mckibben.door.values import Quantity, number_of
+from mckibben.door.workspace import studio
+from mckibben.physics.errors import InputError
+from mckibben.presets import FittingPreset, TubePreset, ValvePreset
+from mckibben.report.summary import Summary
+from mckibben.report.summary.drive import document_text, summary_of
+from mckibben.simulation.outcome import Watch
+
+if TYPE_CHECKING:
+    from plotly.graph_objects import Figure
+
+#: A part of a drive document, ``{"mass": "10 kg"}``.
+Part: TypeAlias = Mapping[str, Any]
+
+
+class Drive(Frozen):
+    """A drive; each argument is a part of the drive document. Drives do not change; `changed` makes another.
+
+    Args:
+        muscle: a `Model`, the id of a preset ("DMSP-20", "DMSP-20:300mm"), or a document. To the effects of
+            a model come those of the presets of valve, tube and fittings; a model that was fitted or loaded
+            from a saved one has them all already.
+        valve: id of a preset, or a document with its conductances.
+        supply: gauge pressure, "6 bar".
+        command: ``{"shape": "pulse", "on": "0 s", "off": "2 s"}``; also step, square, triangle, ramp, sine,
+            chirp, random, table.
+        controller: ``{"kp": 2.0, "ki": 10.0, "reference": {...}}`` instead of a command.
+        effects: all effects of the drive, instead of those of muscle and parts.
+        load: ``{"mass": "10 kg", "arrangement": "hanging"}``.
+        tube: id of a preset, or ``{"inside_diameter": "4 mm", "length": "1 m"}``; None = none.
+        duration: of a run, "4 s".
+        title: for display.
+        parts: further parts: regulator, fittings, gas, stops, start, start_pressure.
+
+    Raises:
+        Problem: an unknown part, preset or effect (with the nearest match), or impossible values.
+    """
+
+    __slots__ = ("_document", "_name", "_studio")
+
+    _document: DriveDocument
+    _name: str
+    _studio: Studio
+
+    @reported
+    def __init__(
+        self,
+        muscle: Model | str | Part,
+        *,
+        valve: str | Part,
+        supply: Quantity | Part = "6 bar",
+        command: Part | None = None,
+        controller: Part | None = None,
+        effects: Part | None = None,
+        load: Part | None = None,
+        tube: str | Part | None = None,
+        duration: Quantity | None = None,
+        title: str = "",
+        **parts: Any,
+    ) -> None:
+        stated: dict[str, Any] = {
+            "muscle": muscle, "valve": valve, "supply": supply, "command": command, "controller": controller,
+            "effects": effects, "load": load, "tube": tube, "duration": duration, "title": title, **parts,
+        }  # fmt: skip
+        document = _document_of({name: value for name, value in stated.items() if value is not None})
+        self._make(read_document(document, "the drive"), title or "the drive", studio())
+
+    def _make(self, document: DriveDocument, name: str, of: Studio) -> None:
+        self._set(_document=document, _name=name, _studio=of)
+        drive_of(document, of, measured=document.command is None and document.controller is None)
+
+    @classmethod
+    def of(cls, document: DriveDocument, name: str, of: Studio) -> Drive:
+        """The drive of a checked document, for the rest of the door."""
+        drive = cls.__new__(cls)
+        drive._make(document, name, of)
+        return drive
+
+    @classmethod
+    @reported
+    def preset(cls, id: str) -> Drive:
+        """A drive preset, "propneu-20"; ``mckibben.presets("drives")`` lists them.
+
+        Raises:
+            Problem: an unknown preset, with the nearest match.
+        """
+        return cls.of(preset_document(id, studio()), id, studio())
+
+    @classmethod
+    @reported
+    def load(cls, path: str | PathLike[str]) -> Drive:
+        """The drive in a JSON file: a drive document or a drive preset.
+
+        Raises:
+            Problem: names the file, the field, what is wrong and what would be right.
+        """
+        name = fspath(path)
+        document = named_document(name, studio())
+        try:
+            return cls.of(document, name, studio())
+        except InputError as error:
+            raise InputError(f"{name}: {error.message}", field=error.field, hint=error.hint) from error
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The drive document, as `save` writes it."""
+        return self._document.to_document()
+
+    @property
+    def parsed(self) -> DriveDocument:
+        """The drive document, checked."""
+        return self._document
+
+    @property
+    def model(self) -> Model:
+        """Muscle and effects."""
+        return model_of_document(self.document, self._studio)
+
+    @reported
+    def changed(self, **parts: Any) -> Drive:
+        """The same drive with some parts replaced; None takes a part away.
+
+        Raises:
+            Problem: as for a new drive.
+        """
+        known = {**self.document, **_document_of(parts)}
+        document = {name: value for name, value in known.items() if value is not None}
+        return Drive.of(read_document(document, "the drive"), self._name, studio())
+
+    @reported
+    def run(
+        self,
+        *,
+        points: int = POINTS,
+        begin: Quantity | None = None,
+        end: Quantity | None = None,
+        progress: Callable[[float], object] | None = None,
+    ) -> Run:
+        """Simulate the drive.
+
+        Args:
+            points: rows of the result.
+            begin, end: times of the first and last row; None = the whole run.
+            progress: called with the share that is done, 0 to 1.
+
+        Raises:
+            Problem: a drive without a command, rows outside of the run, no equilibrium to start from.
+        """
+        if not 2 <= points <= 1_000_000:
+            raise InputError(f"points: {points} is not between 2 and 1 000 000", hint="e.g. 2001")
+        annotated = self._annotated()
+        question = SimulationQuestion(
+            annotated,
+            points=points,
+            begin=None if begin is None else number_of(begin, "s", "begin"),
+            end=None if end is None else number_of(end, "s", "end"),
+            engine=single_run_engine(annotated),
+        )
+        result = prepare(question)(Watch(progress=None if progress is None else _teller(progress)))
+        return Run(result, self._document, self._name)
+
+    def _annotated(self) -> AnnotatedDrive:
+        return drive_of(self._document, self._studio)
+
+    def plot(self) -> Figure:
+        """Position, pressure and force of a run; a Plotly figure."""
+        return self.run().plot()
+
+    @reported
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the drive document as JSON, for `Drive.load` and ``mckibben simulate``.
+
+        Raises:
+            Problem: the file cannot be written.
+        """
+        write_file(path, document_text(self._document))
+
+    def _summary(self) -> Summary:
+        return summary_of(self._document, self._name)
+
+    def __str__(self) -> str:
+        return plain_text(self._summary())
+
+    def __repr__(self) -> str:
+        return f"<Drive {self._name}>"
+
+    def _repr_html_(self) -> str:
+        return notebook_cell(f"Drive {self._name}", (), self._summary())
+
+
+def _document_of(parts: Mapping[str, Any]) -> dict[str, Any]:
+    """The parts as they stand in a document."""
+    document = dict(parts)
+    muscle = document.get("muscle")
+    if isinstance(muscle, Model):
+        document["muscle"] = muscle.document["muscle"]
+    elif isinstance(muscle, str):
+        name, separator, length = muscle.partition(":")
+        document["muscle"] = {"preset": name, **({"nominal_length": length} if separator else {})}
+    for name in ("valve", "tube"):
+        if isinstance(document.get(name), str):
+            document[name] = {"preset": document[name]}
+    if isinstance(document.get("supply"), str | int | float):
+        document["supply"] = {"pressure": document["supply"]}
+    if isinstance(muscle, Model) and "effects" not in document and not muscle.has_preset_effects:
+        own = muscle.document["effects"]
+        document["effects"] = own if muscle.is_saved else {**_effects_of_parts(document), **own}
+    return document
+
+
+def _effects_of_parts(document: Mapping[str, Any]) -> dict[str, dict[str, float]]:
+    """Default effects of the presets of valve, tube and fittings."""
+    library = studio().library
+    named: list[tuple[str, object]] = [("fittings", name) for name in document.get("fittings") or ()]
+    for kind, part in (("valves", document.get("valve")), ("tubes", document.get("tube"))):
+        if isinstance(part, Mapping):
+            named.append((kind, cast("Mapping[str, object]", part).get("preset")))
+    effects: dict[str, dict[str, float]] = {}
+    for kind, name in named:
+        preset = library.get(kind, name) if isinstance(name, str) else None
+        if isinstance(preset, ValvePreset | TubePreset | FittingPreset):
+            effects |= preset.effect_values()
+    return effects
+
+
+def _teller(progress: Callable[[float], object]) -> Callable[[float], None]:
+    def tell(share: float) -> None:
+        progress(share)
+
+    return tell

@@ -1,0 +1,77 @@
+"""Figures of diagnoses, runs and sizings."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.application.simulate import SimulationResult
+from mckibben.application.size import SizingResult
+from mckibben.door.figures.style import ACCENT, LOAD, SECOND, SOFT, add_line, add_points, blank, name_axes
+from mckibben.report.summary.parts import error_unit
+
+if TYPE_CHECKING:
+    from plotly.graph_objects import Figure
+
+
+def diagnosis_figure(result: DiagnosisResult, title: str) -> Figure:
+    """The error after each addition, in the fit and in groups left out, and the noise."""
+    from plotly.graph_objects import Bar
+
+    unit, scale = error_unit(result.unit)
+    steps = [step.added or ("start model" if n == 0 else "refitted") for n, step in enumerate(result.path)]
+    names = [f"{number}. {name}" for number, name in enumerate(steps)]
+    figure = blank(title)
+    figure.add_trace(
+        Bar(x=names, y=[scale * s.rmse for s in result.path], name="fitted rows", marker_color=ACCENT)
+    )
+    figure.add_trace(
+        Bar(
+            x=names,
+            y=[scale * s.holdout_rmse for s in result.path],
+            name="left-out groups",
+            marker_color=SECOND,
+        )
+    )
+    noise = result.noise_floor.rmse
+    if noise is not None:
+        figure.add_hline(
+            y=scale * noise, line={"color": SOFT, "dash": "dash"}, annotation_text="noise",
+            annotation_font_color=SOFT,
+        )  # fmt: skip
+    name_axes(figure, "after adding", [f"RMS error ({unit})"])
+    return figure
+
+
+def run_figure(result: SimulationResult, title: str) -> Figure:
+    """Position with its set point, pressure, and force over time."""
+    figure = blank(title, rows=3)
+    add_line(figure, result.time, 1e3 * result.position, "position")
+    if result.reference is not None:
+        add_line(figure, result.time, 1e3 * result.reference, "set point", colour=SECOND, dash="dash")
+    add_line(figure, result.time, result.pressure / 1e5, "pressure", row=2)
+    if result.tube_pressure is not None:
+        add_line(
+            figure, result.time, result.tube_pressure / 1e5, "pressure in the tube", colour=SECOND, row=2
+        )
+    add_line(figure, result.time, result.force, "force of the muscle", row=3)
+    add_line(figure, result.time, result.load_force, "force of the load", colour=LOAD, dash="dot", row=3)
+    name_axes(figure, "Time (s)", ["Position (mm)", "Pressure (bar)", "Force (N)"])
+    return figure
+
+
+def sizing_figure(result: SizingResult, title: str) -> Figure:
+    """Air per cycle over the time of the stroke: all drives that fulfil the task, and the proposals."""
+    figure = blank(title)
+    others = [one for one in result.explored if one.time is not None]
+    add_points(
+        figure, [one.time or 0.0 for one in others], [1e3 * one.air_volume_anr for one in others],
+        "fulfils the task", colour=SOFT,
+    )  # fmt: skip
+    for rank, one in enumerate(result.proposals, 1):
+        if one.time is not None:
+            name = f"{rank}. {one.muscle}, {1e3 * one.nominal_length:.4g} mm"
+            colour = ACCENT if rank == 1 else SECOND
+            add_points(figure, [one.time], [1e3 * one.air_volume_anr], name, colour=colour)
+    name_axes(figure, "Time of the stroke (s)", ["Air per cycle at ANR (l)"])
+    return figure

@@ -1,0 +1,400 @@
+"""A model: a muscle with the physical effects that act on it."""
+
+# pyright: strict, reportMissingTypeStubs=false
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+from mckibben.application.compare import compared_whole
+from mckibben.application.curves import DEFAULT_PRESSURES, CurvesQuestion, curves
+from mckibben.application.diagnose import prepare
+from mckibben.application.muscle_summary import GeometrySummary, geometry_of
+from mckibben.application.saved_model import fitted_model, model_text, saved_model
+from mckibben.documents.saved_model import SavedModel
+from mckibben.documents.start_model import StartModel
+from mckibben.documents.studio import Studio
+from mckibben.door.comparison import Comparison
+from mckibben.door.curves import Curves
+from mckibben.door.diagnosis import Diagnosis
+from mckibben.door.problem import reported
+from mckibben.door.questions import (
+    Data,
+    StatedModel,
+    question_of,
+    watch_of,
+)
+from mckibben.door.rendering import notebook_cell, plain_text
+from mckibben.door.result import Frozen, write_file
+from mckibben.door.statics import at_least_two, force_of, optional_number, pressures_in
+from mckibben.door.values import FloatArray, Quantities, Quantity
+from mckibben.door.workspace import studio
+from mckibben.physics.errors import InputError, did_you_mean
+from mckibben.report.summary import Summary
+from mckibben.report.summary.model import summary_of
+
+if TYPE_CHECKING:
+    from plotly.graph_objects import Figure
+
+    from mckibben.door.drive import Drive
+
+_SHORTEST = 0.05  # shortest length accepted, share of the nominal length; no muscle contracts so far
+
+
+class Model(Frozen):
+    """A muscle with its effects; SI inside, arguments are SI numbers or texts with a unit.
+
+    Tension of the ideal muscle: F = (π D0² p / 4) (a (1 - κ)² - b), a = 3 / tan² α, b = 1 / sin² α, with the
+    braid diameter D0 at the braid angle α, gauge pressure p and contraction κ = 1 - L/L0. Each effect changes
+    it as `mckibben.effects` tells. Models do not change; `with_effect` and the like make another one.
+
+    Args:
+        preset: id of a muscle preset, whose values the other arguments replace.
+        nominal_length: length between the fittings at rest, "300 mm".
+        inside_diameter, braid_diameter: bore, and diameter of the braid at the braid angle; without the
+            latter the bore is taken.
+        braid_angle: between thread and axis at rest, "25 deg".
+        wall_thickness: of the bladder at rest.
+        thread_length, turns: of one thread, instead of diameter and angle.
+        rhombus: the lattice, ``{"side": "2 mm", "along": 60, "around": 20}``, instead of these.
+        effects: effect id -> parameters; None for those of the preset, or none for a muscle by geometry.
+
+    Raises:
+        Problem: a geometry that is missing, impossible or stated twice, an unknown preset, effect or unit.
+    """
+
+    __slots__ = ("__weakref__", "_stated", "_studio")
+
+    _stated: StatedModel
+    _studio: Studio
+
+    @reported
+    def __init__(
+        self,
+        *,
+        preset: str | None = None,
+        nominal_length: Quantity | None = None,
+        inside_diameter: Quantity | None = None,
+        braid_diameter: Quantity | None = None,
+        braid_angle: Quantity | None = None,
+        wall_thickness: Quantity | None = None,
+        thread_length: Quantity | None = None,
+        turns: float | None = None,
+        rhombus: Mapping[str, Quantity] | None = None,
+        effects: Mapping[str, Mapping[str, Quantity]] | None = None,
+    ) -> None:
+        stated: dict[str, object] = {
+            "preset": preset,
+            "nominal_length": nominal_length,
+            "inside_diameter": inside_diameter,
+            "braid_diameter": braid_diameter,
+            "braid_angle": braid_angle,
+            "wall_thickness": wall_thickness,
+            "thread_length": thread_length,
+            "turns": turns,
+            "rhombus": None if rhombus is None else dict(rhombus),
+        }
+        muscle = {name: value for name, value in stated.items() if value is not None}
+        self._make(StatedModel(muscle, None if effects is None else _copied(effects)), studio())
+
+    def _make(self, stated: StatedModel, of: Studio) -> None:
+        self._set(_stated=stated, _studio=of)
+        stated.sample(of)
+
+    @classmethod
+    def of(cls, stated: StatedModel, of: Studio) -> Model:
+        """The model of documents, for the rest of the door."""
+        model = cls.__new__(cls)
+        model._make(stated, of)
+        return model
+
+    @classmethod
+    @reported
+    def preset(
+        cls,
+        id: str,
+        *,
+        length: Quantity | None = None,
+        effects: Mapping[str, Mapping[str, Quantity]] | None = None,
+    ) -> Model:
+        """The model of a muscle preset, "DMSP-20".
+
+        Args:
+            id: of the preset; `mckibben.presets` lists them.
+            length: nominal length; None = that of the preset, where data state none.
+            effects: instead of those of the preset.
+
+        Raises:
+            Problem: an unknown preset (with the nearest match), a length that cannot be.
+        """
+        muscle: dict[str, object] = {"preset": id}
+        if length is not None:
+            muscle["nominal_length"] = length
+        return cls.of(StatedModel(muscle, None if effects is None else _copied(effects)), studio())
+
+    @property
+    def geometry(self) -> GeometrySummary:
+        """Dimensions at rest, SI."""
+        return geometry_of(self._sample)
+
+    @property
+    def effects(self) -> Mapping[str, Mapping[str, float]]:
+        """Effect id -> parameter -> value, SI; all parameters."""
+        return {name: dict(values) for name, values in self._sample.effects.items()}
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The model as the JSON document that `save` writes."""
+        return self._saved().to_document()
+
+    @property
+    def has_preset_effects(self) -> bool:
+        """Whether its effects are those of its preset, untouched."""
+        return self._stated.effects is None
+
+    @property
+    def is_saved(self) -> bool:
+        """Whether it was fitted to measurements, or loaded from a saved model."""
+        return self._stated.saved is not None
+
+    @property
+    def _sample(self) -> StartModel:
+        return self._stated.sample(self._studio)
+
+    @reported
+    def with_effect(self, effect: str, /, **parameters: Quantity) -> Model:
+        """The same muscle with one more effect, or with other parameters of an effect that it has.
+
+        Args:
+            effect: id; `mckibben.effects` lists them. "custom" takes ``term="-c*sign(v)*P"`` and its
+                constants.
+            parameters: SI numbers or texts with a unit; the others keep their values or take their defaults.
+
+        Raises:
+            Problem: an unknown effect or parameter (with the nearest match), a value outside its bounds.
+        """
+        effects = self._effect_documents()
+        effects[effect] = {**effects.get(effect, {}), **parameters}
+        return self._with_effects(effects)
+
+    @reported
+    def without(self, *effects: str) -> Model:
+        """The same muscle without these effects.
+
+        Raises:
+            Problem: the model does not have one of them.
+        """
+        known = self._effect_documents()
+        for effect in effects:
+            if effect not in known:
+                hint = did_you_mean(effect, known) or "the model has no effects"
+                raise InputError(f"the model has no effect '{effect}'", hint=hint)
+            del known[effect]
+        return self._with_effects(known)
+
+    @reported
+    def ideal(self) -> Model:
+        """The same muscle without any effect."""
+        return self._with_effects({})
+
+    @reported
+    def with_geometry(self, **dimensions: Quantity) -> Model:
+        """The same model with other dimensions: ``nominal_length``, ``braid_angle`` and the like.
+
+        Raises:
+            Problem: an unknown or impossible dimension.
+        """
+        return Model.of(self._stated.changed(muscle={**self._stated.muscle, **dimensions}), studio())
+
+    def _effect_documents(self) -> dict[str, dict[str, float | str]]:
+        sample = self._sample
+        stated = self._stated.effects or {}
+        return {name: {**values, **stated.get(name, {})} for name, values in sample.effects.items()}
+
+    def _with_effects(self, effects: dict[str, dict[str, float | str]]) -> Model:
+        return Model.of(self._stated.changed(effects=effects), studio())
+
+    @reported
+    def force(
+        self,
+        *,
+        pressure: Quantities,
+        contraction: Quantities | None = None,
+        length: Quantities | None = None,
+        direction: Quantities = 0.0,
+        unclipped: bool = False,
+    ) -> FloatArray:
+        """Tension [N] at pressures and lengths, which broadcast as numpy arrays do.
+
+        Args:
+            pressure: gauge pressure [Pa] or texts.
+            contraction: 1 - L/L0; or
+            length: [m].
+            direction: sign of dL/dt, for friction: -1 shortening, 1 lengthening, 0 the mean.
+            unclipped: False = a slack muscle has no tension; True = what it would push.
+
+        Returns:
+            The tension, with the shape of the arguments together.
+
+        Raises:
+            Problem: a value without a unit that fits, a length that no muscle has, shapes that do not fit.
+
+        >>> muscle = Model(inside_diameter="20 mm", braid_angle="25 deg", nominal_length="300 mm")
+        >>> muscle.force(pressure="6 bar", contraction=["0 %", "10 %"]).round(1).tolist()
+        [1545.3, 1051.1]
+        """
+        return force_of(
+            self._stated.start(self._studio), self._studio, pressure=pressure, contraction=contraction,
+            length=length, direction=direction, unclipped=unclipped,
+        )  # fmt: skip
+
+    @reported
+    def curves(
+        self,
+        pressure: str | Sequence[Quantity] | FloatArray | None = None,
+        *,
+        points: int = 200,
+        contraction_from: Quantity | None = None,
+        contraction_to: Quantity | None = None,
+        load: Quantity | None = None,
+        fixed_length: Quantity | None = None,
+        unclipped: bool = False,
+    ) -> Curves:
+        """Force, stiffness, volume and diameter over the contraction.
+
+        Args:
+            pressure: gauge pressures, "1 bar, 6 bar" or a list; None = 1 to 6 bar.
+            points: number of lengths.
+            contraction_from, contraction_to: the range; None = from the pretension limit to the last end.
+            load: constant load, for operating points [N].
+            fixed_length: where the force is shown over the pressure [m].
+            unclipped: whether to show what a slack muscle would push.
+
+        Raises:
+            Problem: a pressure or range that cannot be used, a muscle without a length.
+        """
+        question = CurvesQuestion(
+            self._stated.start(self._studio),
+            DEFAULT_PRESSURES if pressure is None else pressures_in(pressure),
+            at_least_two(points),
+            unclipped,
+            optional_number(contraction_from, "1", "contraction_from"),
+            optional_number(contraction_to, "1", "contraction_to"),
+            optional_number(load, "N", "load"),
+            optional_number(fixed_length, "m", "fixed_length"),
+        )
+        return Curves(curves(question, self._studio), self.name)
+
+    def plot(self, pressure: str | Sequence[Quantity] | FloatArray | None = None) -> Figure:
+        """Force over contraction at some pressures; a Plotly figure."""
+        return self.curves(pressure).plot()
+
+    @reported
+    def compare(
+        self,
+        data: Data,
+        *,
+        fit: bool = False,
+        free: str | Sequence[str] = (),
+        use: str | Sequence[str] = (),
+        keep: str | Sequence[str] = (),
+        drive: Drive | None = None,
+        strict: bool = False,
+    ) -> Comparison:
+        """The error of this model on measurements, with or without a fit.
+
+        Args:
+            data: a measurement, the path of a file, or a list; several are several specimens.
+            fit: fit the parameters of the effects.
+            free: geometry, or constants as "effect.parameter", to be fitted as well.
+            use, keep: entries that are wrong, or right, as stated: an answer to ``doubts`` of a diagnosis.
+            drive: valve, tube, supply and load of a transient measurement.
+            strict: refuse instead of assuming what nobody states.
+
+        Raises:
+            Problem: names the file or argument, what is wrong and what would be right.
+        """
+        question, names = question_of(
+            self._stated, self._studio, data, free=free, use=use, keep=keep,
+            drive=None if drive is None else drive.parsed, strict=strict, refit=fit,
+        )  # fmt: skip
+        compared = compared_whole(question, fit=fit)
+        model = self
+        if compared.comparison.fit is not None:
+            saved = fitted_model(question, compared, self._studio)
+            model = Model.of(StatedModel.of_saved(saved, "the fitted model"), self._studio)
+        return Comparison(compared, model, names)
+
+    @reported
+    def diagnose(
+        self,
+        data: Data,
+        *,
+        free: str | Sequence[str] = (),
+        noise: float | None = None,
+        use: str | Sequence[str] = (),
+        keep: str | Sequence[str] = (),
+        drive: Drive | None = None,
+        strict: bool = False,
+        progress: Callable[[float], object] | None = None,
+    ) -> Diagnosis:
+        """Which physical effect this model of the measurements is missing.
+
+        Args:
+            data, free, use, keep, drive, strict: as in `compare`.
+            noise: standard deviation of the predicted channel, SI, where it is known.
+            progress: called with the share that is done, 0 to 1, a few times a second.
+
+        Raises:
+            Problem: names the file or argument, what is wrong and what would be right.
+        """
+        question, names = question_of(
+            self._stated, self._studio, data, free=free, use=use, keep=keep,
+            drive=None if drive is None else drive.parsed, strict=strict, noise=noise,
+        )  # fmt: skip
+        result = prepare(question, self._studio)(watch_of(progress))
+        saved = saved_model(question, result, self._studio)
+        model = Model.of(StatedModel.of_saved(saved, "the diagnosed model"), self._studio)
+        return Diagnosis(result, model, names, question, self._studio)
+
+    @reported
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the model as JSON, for `mckibben.load` and the option ``--model`` of the command line.
+
+        Raises:
+            Problem: the file cannot be written.
+        """
+        write_file(path, model_text(self._saved()))
+
+    def _saved(self) -> SavedModel:
+        return self._stated.to_saved(self._studio)
+
+    @property
+    def name(self) -> str:
+        """Preset and length, "DMSP-20, 300 mm", or what is known of the geometry."""
+        return self._stated.named(self._studio)
+
+    def _summary(self) -> Summary:
+        return summary_of(self._sample, self.name, with_length=self._stated.has_length(self._studio))
+
+    def __str__(self) -> str:
+        return plain_text(self._summary())
+
+    def __repr__(self) -> str:
+        effects = ", ".join(self._sample.effects) or "ideal"
+        return f"<Model {self.name}: {effects}>"
+
+    def _repr_html_(self) -> str:
+        return notebook_cell(f"Model {self.name}", (), self._summary())
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Model) and self.document == other.document
+
+    def __hash__(self) -> int:
+        return hash(model_text(self._saved()))
+
+
+def _copied(effects: Mapping[str, Mapping[str, float | str]]) -> dict[str, dict[str, float | str]]:
+    return {str(name): dict(values) for name, values in effects.items()}

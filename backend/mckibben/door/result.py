@@ -1,0 +1,123 @@
+"""What all results of the Python door have: text, HTML, a dictionary, a frame, a figure, files."""
+
+# pyright: strict, reportMissingTypeStubs=false
+
+from __future__ import annotations
+
+import json
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mckibben.application.json_text import to_json
+from mckibben.door.frames import csv_of
+from mckibben.door.problem import reported
+from mckibben.door.rendering import notebook_cell, plain_text
+from mckibben.physics.errors import InputError
+from mckibben.report.summary import Summary
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from plotly.graph_objects import Figure
+
+
+class Frozen:
+    """A value that does not change once it is made."""
+
+    __slots__ = ()
+
+    def _set(self, **values: object) -> None:
+        """Set attributes while the value is made."""
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"a {type(self).__name__} does not change; make another one")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"a {type(self).__name__} does not change; make another one")
+
+
+class Result(Frozen, ABC):
+    """A finished result; SI throughout, pressures are gauge.
+
+    ``print(result)`` gives what the command line prints, a notebook shows tables. ``to_dict()`` has the keys
+    of the command line's ``--json``.
+    """
+
+    __slots__ = ()
+
+    @abstractmethod
+    def to_frame(self) -> pd.DataFrame:
+        """The numbers as a pandas data frame, SI."""
+
+    @abstractmethod
+    def plot(self) -> Figure:
+        """A Plotly figure with the look of the studio."""
+
+    @abstractmethod
+    def _answer(self) -> object:
+        """The result of the use case."""
+
+    @abstractmethod
+    def _summary(self) -> Summary:
+        """Tables and sentences."""
+
+    @abstractmethod
+    def _title(self) -> str:
+        """What it is, in one line."""
+
+    def _lead(self) -> Sequence[str]:
+        """The sentences to be read first."""
+        return ()
+
+    def to_dict(self) -> dict[str, Any]:
+        """The result with the keys of ``--json``; NaN and infinity become None."""
+        return json.loads(to_json(self._answer()))
+
+    @reported
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the result: ``.json`` as ``--json`` prints it, ``.csv`` the data frame.
+
+        Raises:
+            Problem: the file cannot be written, or its ending is neither.
+        """
+        write_file(path, self._files(Path(path)))
+
+    def _files(self, path: Path) -> str:
+        """The content of a file with this ending."""
+        if path.suffix.lower() == ".json":
+            return to_json(self._answer()).decode() + "\n"
+        if path.suffix.lower() == ".csv":
+            return csv_of(self.to_frame())
+        raise unknown_ending(path, (".json", ".csv"))
+
+    def __str__(self) -> str:
+        return plain_text(self._summary())
+
+    def __repr__(self) -> str:
+        return f"<{self._title()}>"
+
+    def _repr_html_(self) -> str:
+        return notebook_cell(self._title(), self._lead(), self._summary())
+
+
+def unknown_ending(path: Path, known: Sequence[str]) -> InputError:
+    """A file is to be written in a form that is not known."""
+    return InputError(f"{path}: '{path.suffix}' is not a known ending", hint=f"one of {', '.join(known)}")
+
+
+def write_file(path: str | PathLike[str], text: str) -> None:
+    """Write a text file.
+
+    Raises:
+        InputError: it cannot be written.
+    """
+    try:
+        Path(path).write_text(text, encoding="utf-8", newline="\n")
+    except OSError as error:
+        raise InputError(
+            f"{path}: cannot be written: {error.strerror or error}", hint="name a file in an existing folder"
+        ) from error

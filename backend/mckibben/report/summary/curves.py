@@ -1,0 +1,47 @@
+"""Summary of the static characteristics of a muscle."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mckibben.application.curves import CurvesResult
+from mckibben.report.summary.parts import Summary, Table, figure
+
+_TABLE_ROWS = 11
+
+
+def summary_of(result: CurvesResult, muscle: str) -> Summary:
+    """Force over contraction, figures per pressure, notices.
+
+    Args:
+        result: the curves.
+        muscle: name of the muscle, for the title.
+    """
+    bars = [f"{value / 1e5:g} bar" for value in result.pressure]
+    chosen = np.unique(np.linspace(0, len(result.contraction) - 1, _TABLE_ROWS).astype(int))
+    force = Table(
+        f"Force of {muscle} [N]",
+        ["contraction", "length", *bars],
+        [
+            [
+                f"{result.contraction[index] * 100:.1f} %",
+                f"{result.length[index] * 1e3:.1f} mm",
+                *(figure(row[index]) for row in result.force),
+            ]
+            for index in chosen
+        ],
+    )
+    per_pressure = Table(
+        "Per pressure",
+        ["pressure", "blocked force", "free contraction", "work of a stroke"],
+        [
+            [
+                name,
+                figure(item.blocked_force, unit=" N"),
+                figure(item.free_contraction * 100, unit=" %"),
+                figure(item.max_work, unit=" J"),
+            ]
+            for name, item in zip(bars, result.characteristics, strict=True)
+        ],
+    )
+    return [force, per_pressure, *(notice.message for notice in result.flags)]

@@ -1,0 +1,104 @@
+"""Tables and sentences of a summary, and the parts that several summaries have."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+from mckibben.identification.fit.comparison import ParameterTable
+from mckibben.measurement.experiment import place_of, shown_value, title_of
+
+if TYPE_CHECKING:
+    from mckibben.application.experiment_result import SpecimenResult
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A table of texts.
+
+    Attributes:
+        title: what it shows.
+        columns: heads of the columns; the first column holds names, the others figures.
+        rows: cells.
+    """
+
+    title: str
+    columns: Sequence[str]
+    rows: Sequence[Sequence[str]]
+
+
+#: Tables and sentences in the order in which they are read.
+Summary = list[Table | str]
+
+
+class CountedRows(Protocol):
+    """A result that counts the rows of its data."""
+
+    @property
+    def rows(self) -> int:
+        """Number of rows of the data."""
+        ...
+
+    @property
+    def rows_used(self) -> int:
+        """Number of rows used."""
+        ...
+
+    @property
+    def excluded(self) -> Mapping[str, int]:
+        """Reason for leaving rows out -> number of rows."""
+        ...
+
+
+def rows_of(result: CountedRows) -> str:
+    """Number of rows that a comparison or diagnosis uses, with the reasons for leaving out others."""
+    if result.rows_used == result.rows:
+        return f"{result.rows} rows"
+    reasons = "".join(f", {count} left out: {reason}" for reason, count in result.excluded.items())
+    return f"{result.rows_used} of {result.rows} rows{reasons}"
+
+
+def error_unit(unit: str) -> tuple[str, float]:
+    """Display unit of an error, and its number per SI unit."""
+    return ("mm", 1e3) if unit == "m" else (unit.replace("1", "x noise"), 1.0)
+
+
+def experiment_tables(specimens: Iterable[SpecimenResult]) -> list[Table]:
+    """What each test was made with, and who says it."""
+    return [
+        Table(
+            f"Experiment of {specimen.file}",
+            ["", "value", "who says it"],
+            [
+                [title_of(name), shown_value(name, value), place_of(value)]
+                for name, value in specimen.experiment.items()
+            ],
+        )
+        for specimen in specimens
+    ]
+
+
+def parameter_tables(parameters: ParameterTable) -> list[Table]:
+    """The table of a model's parameters, if it has any."""
+    rows = [
+        [
+            f"{effect}.{name}",
+            f"{item.value:.5g}",  # a conductance is below the rounding errors that a figure hides
+            ("–" if item.stderr is None else f"{item.stderr:.2g}") if item.fitted else "given",
+            item.unit,
+            "at its bound" if item.at_bound else "",
+        ]
+        for effect, values in parameters.items()
+        for name, item in values.items()
+    ]
+    return [Table("Parameters", ["parameter", "value", "± standard error", "unit", ""], rows)] if rows else []
+
+
+def figure(value: float | None, digits: int = 4, unit: str = "") -> str:
+    """A number with ``digits`` significant digits, or a dash."""
+    if value is None or value != value:
+        return "–"
+    # A result this small is the rounding error of a sum.
+    shown = 0.0 if abs(value) < 1e-9 else value
+    return f"{shown:.{digits}g}{unit}"

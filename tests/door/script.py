@@ -1,0 +1,22 @@
+import mckibben as mk
+
+model = mk.Model.preset("DMSP-20", length="300 mm")
+print(model.curves("1 bar, 6 bar").to_frame())
+data = mk.read("map.csv", rest_length="300 mm")
+ideal = model.ideal()
+before = ideal.compare(data)
+print(before)
+found = ideal.diagnose(data)
+print(found)
+print(found.sentence, dict(found.probabilities))
+better = found.model
+after = better.compare(data)
+print(f"{before.rmse:.1f} N before, {after.rmse:.1f} N after")
+by_hand = ideal.with_effect("bladder_elasticity", shear_modulus="0.5 MPa")
+print(by_hand.compare(data, fit=True).rmse)
+run = mk.Drive.preset("propneu-20").run()
+print(run.timing.extend.rise_time)
+figure = better.plot()
+better.curves().save("curves.csv")
+better.save("model.json")
+print(mk.load("model.json") == better)

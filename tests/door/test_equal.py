@@ -1,0 +1,135 @@
+"""The numbers of the door are those of the command line's ``--json``."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import mckibben as mk
+from tests.cli.conftest import Run
+
+VOLATILE = {"wall_ms", "made", "where"}  # times; an option has another name as an argument
+DATA = "martens-dmsp-10-250"
+TASK = {
+    "load": {"mass": "20 kg"},
+    "stroke": "60 mm",
+    "time": "0.5 s",
+    "limits": {"max_length": "600 mm", "max_parallel": 1},
+    "catalogue": {"muscles": ["DMSP-20"], "valves": ["MPYE-5-1/8-HF"], "tube_length": "1 m"},
+}
+
+
+def differences(mine: Any, theirs: Any, path: str = "") -> list[str]:
+    """Where two JSON values differ by more than 1e-12."""
+    if isinstance(theirs, dict) and isinstance(mine, dict):
+        missing = [f"{path}: {key}" for key in mine.keys() ^ theirs.keys()]
+        shared = [key for key in theirs if key in mine and key not in VOLATILE]
+        return missing + [
+            line for key in shared for line in differences(mine[key], theirs[key], f"{path}.{key}")
+        ]
+    if isinstance(theirs, list) and isinstance(mine, list):
+        if len(mine) != len(theirs):
+            return [f"{path}: {len(mine)} and {len(theirs)} values"]
+        pairs = enumerate(zip(mine, theirs, strict=True))
+        return [line for at, (a, b) in pairs for line in differences(a, b, f"{path}[{at}]")]
+    if isinstance(theirs, float) and isinstance(mine, float):
+        near = math.isclose(mine, theirs, rel_tol=1e-12, abs_tol=1e-12)
+        return [] if near else [f"{path}: {mine!r} and {theirs!r}"]
+    return [] if mine == theirs else [f"{path}: {mine!r} and {theirs!r}"]
+
+
+def printed(run: Run, *arguments: str) -> dict[str, Any]:
+    """The JSON that a command line prints."""
+    code, out, err = run(*arguments, "--json")
+    assert code == 0, err
+    return json.loads(out)
+
+
+def test_the_comparison_of_numbers_sees_a_difference() -> None:
+    assert differences({"a": [1.0, 2.0]}, {"a": [1.0, 2.0 + 4e-12]}) != []
+    assert differences({"a": 1.0}, {"b": 1.0}) != []
+
+
+@pytest.mark.parametrize("ideal", [False, True])
+def test_curves(run: Run, ideal: bool) -> None:
+    options = ["--ideal"] if ideal else []
+    theirs = printed(run, "curves", "--muscle", "DMSP-20:300mm", "--pressure", "1 bar,6 bar", *options)
+    model = mk.Model.preset("DMSP-20", length="300 mm")
+    curves = (model.ideal() if ideal else model).curves("1 bar, 6 bar")
+    assert differences(curves.to_dict(), theirs) == []
+    frame = curves.to_frame()
+    assert frame["force_N"].tolist() == [value for row in theirs["force"] for value in row]
+    again = (model.ideal() if ideal else model).force(
+        pressure=frame["pressure_Pa"].to_numpy(), length=frame["length_m"].to_numpy()
+    )
+    assert again == pytest.approx(frame["force_N"].to_numpy(), rel=1e-12, abs=1e-9)
+
+
+@pytest.mark.parametrize("options", [(), ("--fit",), ("--fit", "--free", "braid_angle")])
+def test_comparisons(run: Run, options: tuple[str, ...]) -> None:
+    theirs = printed(run, "compare", DATA, "--muscle", "DMSP-10", *options)
+    mine = mk.Model.preset("DMSP-10").compare(
+        mk.read(DATA), fit="--fit" in options, free="braid_angle" if "--free" in options else ()
+    )
+    assert differences(mine.to_dict(), theirs) == []
+    assert mine.rmse == pytest.approx(theirs["rmse"], rel=1e-12)
+    frame = mine.to_frame()
+    assert len(frame) == theirs["rows_used"]
+    assert (frame["residual"] ** 2).mean() ** 0.5 == pytest.approx(mine.rmse, rel=1e-12)
+
+
+def test_effects_and_files_mean_the_same(run: Run) -> None:
+    mk.read(DATA).save("map.csv")
+    theirs = printed(
+        run, "compare", "map.csv", "--muscle", "DMSP-10", "--ideal", "--rest-length", "240 mm",
+        "--experiment", "force_zero=2 N", "--accuracy", "length 0.5 mm",
+    )  # fmt: skip
+    data = mk.read(
+        "map.csv", rest_length="240 mm", experiment={"force_zero": "2 N"}, accuracy="length 0.5 mm"
+    )
+    mine = mk.Model.preset("DMSP-10").ideal().compare(data)
+    assert differences(mine.to_dict(), theirs) == []
+
+
+def test_diagnoses_and_what_they_save(run: Run) -> None:
+    mk.read(DATA).save("map.csv")
+    theirs = printed(run, "diagnose", "map.csv", "--muscle", "DMSP-10", "--ideal", "--save", "theirs.json")
+    shares: list[float] = []
+    found = mk.Model.preset("DMSP-10").ideal().diagnose(mk.read("map.csv"), progress=shares.append)
+    assert differences(found.to_dict(), theirs) == []
+    assert found.sentence == theirs["verdict"]["sentence"]
+    assert found.probabilities == theirs["verdict"].get("probabilities", {})
+    assert found.effects == tuple(theirs["verdict"]["effects"])
+    assert all(0.0 <= share <= 1.0 for share in shares)
+    found.model.save("mine.json")
+    mine, saved = (json.loads(Path(name).read_text("utf-8")) for name in ("mine.json", "theirs.json"))
+    del mine["origin"]["files"], saved["origin"]["files"]  # who says the muscle has another name
+    assert differences(mine, saved) == []
+    # On other data as well: the same muscle at pressures above those of the model.
+    other = printed(run, "compare", DATA, "--model", "theirs.json")
+    assert differences(mk.load("theirs.json").compare(DATA).to_dict(), other) == []
+    assert differences(found.model.compare(DATA).rmse, other["rmse"]) == []
+
+
+def test_simulations(run: Run) -> None:
+    theirs = printed(run, "simulate", "propneu-20")
+    mine = mk.Drive.preset("propneu-20").run()
+    assert differences(mine.to_dict(), theirs) == []
+    assert mine.timing.extend.rise_time == pytest.approx(theirs["timing"]["extend"]["rise_time"], rel=1e-12)
+    assert mine.to_frame()["displacement_m"].tolist() == theirs["position"]
+
+
+def test_sizings(run: Run) -> None:
+    Path("task.json").write_text(json.dumps(TASK), "utf-8")
+    theirs = printed(run, "size", "task.json")
+    mine = mk.size(TASK)
+    assert differences(mine.to_dict(), theirs) == []
+    assert mine.to_frame()["muscle"].tolist() == [item["muscle"] for item in theirs["proposals"]]
+    best = mine.proposals[0]
+    run_of_best = best.drive.run()
+    assert best.time is not None
+    assert run_of_best.timing.extend.positioning_time == pytest.approx(best.time, rel=0.01)

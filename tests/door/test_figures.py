@@ -1,0 +1,64 @@
+"""Figures have the look of the studio's page, and the numbers of their results."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mckibben as mk
+from mckibben.door.figures import style
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_the_colours_and_the_font_are_those_of_the_page() -> None:
+    theme = (ROOT / "frontend" / "app" / "js" / "plots" / "theme.js").read_text("utf-8")
+    light = theme[theme.index("LIGHT = {") : theme.index("DARK = {")]
+    shown = dict(re.findall(r'(\w+): "(#\w+)"', light))
+    names = {"ink": style.INK, "soft": style.SOFT, "grid": style.GRID, "line": style.LINE}
+    names |= {"accent": style.ACCENT, "second": style.SECOND, "load": style.LOAD}
+    assert {name: shown[name] for name in names} == names
+    stops = re.findall(r"\[(\d+), (\d+), (\d+)\]", light)
+    assert style.colours(len(stops)) == [f"rgb({','.join(stop)})" for stop in stops]
+    chart = (ROOT / "frontend" / "app" / "js" / "plots" / "chart.js").read_text("utf-8")
+    assert style.FONT in chart
+
+
+def test_curves_show_their_numbers_with_units() -> None:
+    curves = mk.Model.preset("DMSP-20", length="300 mm").curves("6 bar, 1 bar")
+    figure = curves.plot()
+    assert figure.layout.xaxis.title.text == "Contraction (%)"
+    assert figure.layout.yaxis.title.text == "Force (N)"
+    assert [trace.name for trace in figure.data] == ["6 bar", "1 bar"]
+    assert np.asarray(figure.data[0].y) == pytest.approx(curves.force[0])
+    # The colours follow the pressures, not the order in which they were asked for.
+    assert [trace.line.color for trace in figure.data] == list(reversed(style.colours(2)))
+
+
+def test_a_comparison_shows_points_model_and_residual() -> None:
+    compared = mk.Model.preset("DMSP-10").compare("martens-dmsp-10-250")
+    figure = compared.plot()
+    titles = [figure.layout.yaxis.title.text, figure.layout.yaxis2.title.text]
+    assert titles == ["Force (N)", "Error (N)"]
+    points = [np.asarray(trace.y) for trace in figure.data if trace.yaxis == "y2"]
+    residual = np.concatenate(points)
+    assert np.sqrt(np.mean(residual**2)) == pytest.approx(compared.rmse)
+
+
+def test_a_run_and_a_measurement_over_time() -> None:
+    run = mk.Drive.preset("propneu-20").run(points=101)
+    figure = run.plot()
+    assert figure.layout.xaxis3.title.text == "Time (s)"
+    assert [figure.layout[f"yaxis{n}"].title.text for n in ("", 2, 3)] == [
+        "Position (mm)",
+        "Pressure (bar)",
+        "Force (N)",
+    ]
+    assert np.asarray(figure.data[0].y) == pytest.approx(1e3 * run.position)
+    run.save("trace.csv")
+    shown = mk.read("trace.csv").plot()
+    assert {trace.name for trace in shown.data} >= {"pressure", "displacement", "force"}
+    assert mk.read("martens-dmsp-10-250").plot().layout.yaxis.title.text == "Force (N)"
