@@ -8,7 +8,7 @@ from pathlib import Path
 from mckibben.application.diagnose import prepare
 from mckibben.application.measurement_files import measurements_of
 from mckibben.application.next_experiment import NO_EXPERIMENT, schedule_csv
-from mckibben.application.saved_model import saved_model
+from mckibben.application.saved_model import model_text, saved_model
 from mckibben.cli.model import model_question
 from mckibben.cli.options import ModelOptions
 from mckibben.cli.output import check_folder, progress, remark, write_json, write_summary
