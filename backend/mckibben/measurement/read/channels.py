@@ -22,6 +22,7 @@ from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
 
 LARGEST = 1e100  # no physical value is; keeps sums and ranges of a column finite
+_AIR = (5e4, 1.1e5)  # Pa; of the air where people work
 _EPOCH = 1e8  # s; a later time counts from 1970, not from the beginning of the test
 _ZERO_CELSIUS = 150.0  # a temperature without unit below it is in °C
 
@@ -43,6 +44,12 @@ class ChannelReading:
     ignored: list[str]
     skip: bool = False
     clocks: frozenset[int] = frozenset()
+
+    @property
+    def ambient(self) -> float:
+        """Pressure of the surrounding air [Pa]: that of the file where it states a possible one."""
+        said = self.conditions.get("ambient_pressure")
+        return said if isinstance(said, float) and _AIR[0] <= said <= _AIR[1] else ATMOSPHERE
 
     def drop(self, column: HeaderColumn, why: str) -> None:
         """Do not use a column."""
@@ -171,9 +178,9 @@ def _values(column: HeaderColumn, reading: ChannelReading) -> _Values:
         values -= values[0]
     if use == "pressure":
         if column.absolute:
-            values -= ATMOSPHERE
+            values -= reading.ambient
         hint = "say 'pressure_abs_bar' or '# pressure: absolute' where it is absolute, gauge is assumed"
-        return _Values(values, values < -ATMOSPHERE, "is a negative absolute pressure", hint)
+        return _Values(values, values < -reading.ambient, "is a negative absolute pressure", hint)
     if use in ("length", "diameter", "temperature"):
         return _Values(values, values <= 0.0, f"is not a {use}", f"a {use} above 0")
     if use == "contraction":
@@ -185,7 +192,9 @@ def _values(column: HeaderColumn, reading: ChannelReading) -> _Values:
 def _say_reference(column: HeaderColumn, reading: ChannelReading) -> None:
     label = f"{reading.noun} '{column.header}'"
     if column.absolute:
-        reading.messages.append(f"{label} is absolute pressure: {ATMOSPHERE:.0f} Pa subtracted")
+        stated = "ambient_pressure" in reading.conditions and reading.ambient == reading.conditions["ambient_pressure"]
+        whose = "the surrounding air that the file states" if stated else "the standard atmosphere"
+        reading.messages.append(f"{label} is absolute pressure: {reading.ambient:.0f} Pa subtracted, {whose}")
     elif column.absolute is None:
         reading.messages.append(f"{label} read as gauge pressure")
 

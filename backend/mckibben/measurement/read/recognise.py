@@ -13,7 +13,6 @@ from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.read.unit_words import (
     CLOCK,
     COUNT,
-    REFERENCE_WORDS,
     UnitText,
     dimension_of,
     reference_of,
@@ -28,6 +27,7 @@ from mckibben.measurement.read.vocabulary import (
     channel_of_word,
     folded,
     other_quantity,
+    reference_among,
     words_of,
 )
 
@@ -104,7 +104,7 @@ def held_pressure(text: str) -> HeldQuantity | None:
     number = float(match["number"].replace(",", "."))
     absolute = None if not match["mark"] else reference_of(match["mark"])
     if absolute is None:
-        absolute = _reference_among(words)
+        absolute = reference_among(words)
     unit = next(
         u for u in ("mbar", "bar", "kPa", "MPa", "hPa", "Pa", "psi") if u.lower() == match["unit"].lower()
     )
@@ -170,7 +170,7 @@ def taken_apart(header: str, unit_below: str | None = None) -> Head:
     if unit is not None and unit.absolute is not None:
         absolute = unit.absolute
     if absolute is None:
-        absolute = _reference_among(words_of(text))
+        absolute = reference_among(words_of(text))
     return Head(text.strip(" _"), None if unit is None else unit.unit, absolute, held)
 
 
@@ -332,11 +332,6 @@ def _sure(name: str, text: str, unit: UnitText) -> bool:
         "daN",
         "kgf",
     )
-
-
-def _reference_among(words: list[str]) -> bool | None:
-    marks = {REFERENCE_WORDS[word] for word in words if len(word) > 2 and word in REFERENCE_WORDS}
-    return marks.pop() if len(marks) == 1 else None
 
 
 def fits_channel(unit: str, channel: str) -> bool:
