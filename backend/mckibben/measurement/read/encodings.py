@@ -22,7 +22,7 @@ _KNOWN = frozenset(
 #: Letters of Windows-1250 whose bytes are signs in Latin-1; signs do not stand inside of words.
 _SIGN_INSIDE = re.compile(r"[^\W\d_][³¥¯¹¿£\x80-\x9f][^\W\d_]|[^\W\d_][\x80-\x9f]|[\x80-\x9f][^\W\d_]")
 _RARE = re.compile("[ðþýÐÞÝ]")  # of Iceland in Latin-1, of Turkey in Windows-1254
-_MANY_ACCENTS = re.compile("[\u00c0-\u00ff]{4,}")  # a word in other letters, taken for Latin ones
+_MANY_ACCENTS = re.compile("[\u00c0-\u017f]{4,}")  # a word in other letters, taken for Latin ones
 _CYRILLIC = re.compile("[\u0400-\u04ff]+")
 
 
@@ -76,5 +76,5 @@ def _known_words(text: str, *, ascii_too: bool = True) -> int:
 def _score(text: str) -> int:
     """How well a text reads: known words count for it, letters and signs where none stand against it."""
     against = len(_SIGN_INSIDE.findall(text)) + len(_RARE.findall(text)) + len(_MANY_ACCENTS.findall(text))
-    mixed = sum(1 for run in _CYRILLIC.findall(text) if len(run) < 3 or not (run[1:].islower() or run.isupper()))
+    mixed = sum(1 for run in _CYRILLIC.findall(text) if not (run[1:].islower() or run.isupper()))
     return 3 * _known_words(text) - against - 2 * mixed

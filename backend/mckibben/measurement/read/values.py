@@ -8,7 +8,7 @@ from datetime import UTC, datetime, timedelta
 from functools import lru_cache
 from typing import NamedTuple
 
-from mckibben.measurement.read.cells import Cell
+from mckibben.measurement.read.cells import Cell, marker_of
 
 NUMBER, CLOCK, TEXT, GAP = "n", "c", "t", ""
 
@@ -19,9 +19,6 @@ _GROUPED = re.compile(
 _DAY = r"(?:[0-9]{4}[-/.][0-9]{1,2}[-/.][0-9]{1,2}|[0-9]{1,2}[./-][0-9]{1,2}[./-][0-9]{2,4})"
 _TIME = r"[0-9]{1,2}:[0-9]{2}(?::[0-9]{2}(?:[.,:][0-9]{1,9})?)?(?:\s*[aApP][mM])?"
 _CLOCK = re.compile(rf"{_TIME}|{_DAY}(?:[T ]+{_TIME}(?:Z|\s*[+-][0-9]{{2}}:?[0-9]{{2}})?)?")
-_GAPS = frozenset(
-    {"", "-", "--", "---", "nan", "na", "n/a", "#n/a", "#na", "null", "none", "#nv", "#div/0!", "*"}
-)
 
 
 class NumberStyle(NamedTuple):
@@ -34,7 +31,7 @@ class NumberStyle(NamedTuple):
 @lru_cache(maxsize=65536)
 def _kind_of_text(text: str) -> str:
     bare = text.strip()
-    if bare.lower() in _GAPS:
+    if not bare or marker_of(bare) is not None:
         return GAP
     if _PLAIN.fullmatch(bare):
         return NUMBER

@@ -233,3 +233,21 @@ UNITS = {
     "%": "percent prozent procent процент проц ％ pct", "V": "vol volt volts в", "kg": "кг 千克 公斤", "g": "г gram grams",
     "µm": "um мкм", "degC": "°с ℃ c° celsius", "degF": "℉ fahrenheit",
 }  # fmt: skip
+
+#: What instruments and programs write instead of a number -> texts, lower case; repeated signs say the same.
+MARKERS = {
+    "not a finite number": (
+        "nan", "+nan", "-nan", "na", "<na>", "n/a", "#n/a", "#na", "null", "none", "nil", "#nv", "#div/0!",
+        "#value!", "#ref!", "#num!", "1.#qnan", "-1.#ind", "1.#ind", "inf", "+inf", "-inf", "infinity",
+        "+infinity", "-infinity", "∞", "+∞", "-∞", "1.#inf", "-1.#inf",
+    ),
+    "no reading": (
+        "no data", "nodata", "no value", "missing", "bad", "invalid", "error", "err", "fail", "timeout", "n.a.",
+        "n.d.", "k.a.", "k. a.", "brak", "нет", "нет данных", "无", "欠測", "dnf", "*", "?", "-", "–", "—", "/",
+    ),
+    "out of range": (
+        "ol", "+ol", "-ol", "o.l", "o.l.", "0.l", "ovl", "ovld", "ovr", "ovf", "over", "over range", "overrange",
+        "overload", "overflow", "under", "underrange", "under range", "udr", "sat", "saturated", "burnout",
+        "b.o.", "open", "hi", "lo", "hihi", "lolo",
+    ),
+}  # fmt: skip
