@@ -220,9 +220,11 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
     if units_at is not None and units_at > named and _divides(names, _padded(texts[units_at], width)):
         units_at = None  # units, and words that divide the names above
     units: list[str | None] = [None] * width
+    in_cells = getattr(grid, "units", {})
     if units_at is not None:
         below = _padded(texts.get(units_at) or texts_of(grid.cells(units_at)), width)
         units = [cell if cell and unit_of(cell) is not None else None for cell in below]
+    units = [unit or in_cells.get(column) for column, unit in enumerate(units)]
     for index in reversed(rows):
         if index in (named, units_at):
             continue
