@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
+from collections import Counter
 from collections.abc import Sequence
 from typing import Protocol
 
@@ -158,4 +159,18 @@ def separator_of(lines: Sequence[str]) -> str:
                 rows = width = 0
         if score > most:
             best, most = separator, score
+    return best if most else _by_width(lines)
+
+
+def _by_width(lines: Sequence[str]) -> str:
+    """The separator that gives most rows of equally many cells, some of them numbers; texts may be more."""
+    best, most = ",", 0
+    for separator in SEPARATORS[:-1]:
+        rows = [split_line(line, separator) for line in lines[:_SAMPLE] if separator in line]
+        widths = Counter(
+            len(cells) for cells in rows if any(kind_of(cell) in (NUMBER, CLOCK) for cell in cells)
+        )
+        width, count = widths.most_common(1)[0] if widths else (0, 0)
+        if width > 1 and count * width > most:
+            best, most = separator, count * width
     return best

@@ -117,12 +117,13 @@ def main_runs(grid: Grid, runs: Sequence[Run]) -> list[Run]:
     if not runs:
         return []
     largest = max(runs, key=lambda run: (run.filled, run.rows))
+    head = _row_above(grid, largest)
     kept: list[Run] = []
     for run in runs:
         alike = run.numbers == largest.numbers or (
             run.width == largest.width and run.numbers <= largest.numbers
         )
-        headed = alike and _is_headed(grid, run)
+        headed = alike and (_is_headed(grid, run) or (len(head) > 1 and _row_above(grid, run) == head))
         follows = bool(kept) and run.first - kept[-1].last <= 3 and not headed
         if alike and follows and not _is_footer(grid, run):
             last = kept[-1]
@@ -132,6 +133,14 @@ def main_runs(grid: Grid, runs: Sequence[Run]) -> list[Run]:
         elif run is largest or (headed and run.rows >= 2 and alike and 20 * run.rows >= largest.rows):
             kept.append(run)
     return kept
+
+
+def _row_above(grid: Grid, run: Run) -> list[str]:
+    """The last row of texts above a run."""
+    for index in range(run.first - 1, max(-1, run.first - 4), -1):
+        if any(names := texts_of(grid.cells(index))):
+            return names
+    return []
 
 
 def _is_headed(grid: Grid, run: Run) -> bool:

@@ -21,6 +21,7 @@ from mckibben.measurement.read.locate import (
 from mckibben.physics.errors import InputError, did_you_mean
 
 _TEXT_ROWS = 400  # rows beside the tables of which the texts are kept
+_SUMMARY = 0.2  # of the rows of the longest table; a shorter one of the same channels sums it up
 _MAX_TEXT = 300  # characters of one
 
 
@@ -234,7 +235,14 @@ def choose(tables: Sequence[Table], *, sheet: str | None, noun: str = "sheet") -
         best = _together(alike)
         others = [table for table in tables if table not in alike]
         return Chosen(best, _left_out(others, noun), (), _unread(others))
-    rivals = [t for t in tables if t is not best and len(wanted) >= 2 and len(channels_of(t)) >= len(wanted)]
+    rivals = [
+        t
+        for t in tables
+        if t is not best
+        and len(wanted) >= 2
+        and len(channels_of(t)) >= len(wanted)
+        and _rows_of(t) >= _SUMMARY * _rows_of(best)
+    ]
     choices: tuple[tuple[str, str], ...] = ()
     if rivals:
         choices = tuple(
@@ -256,8 +264,7 @@ def _unread(tables: Sequence[Table]) -> list[tuple[str, str]]:
 
 def _best(tables: Sequence[Table]) -> Table:
     def score(table: Table) -> tuple[int, int]:
-        rows = sum(last - first for part in table.parts for first, last in part.pieces)
-        return len(channels_of(table)), rows if len(channels_of(table)) == 0 else 0
+        return len(channels_of(table)), _rows_of(table)
 
     return max(tables, key=score)
 
@@ -271,6 +278,10 @@ def _together(tables: Sequence[Table]) -> Table:
         rest=[text for table in tables for text in table.rest],
         messages=[message for table in tables for message in table.messages],
     )  # fmt: skip
+
+
+def _rows_of(table: Table) -> int:
+    return sum(last - first for part in table.parts for first, last in part.pieces)
 
 
 def _left_out(tables: Sequence[Table], noun: str) -> list[str]:

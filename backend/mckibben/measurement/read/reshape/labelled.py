@@ -34,7 +34,8 @@ def without_labels(grid: Grid) -> Rewritten | None:
     times = _unit_of_times(grid, rows)
     head: list[Cell] = []
     for column in range(width):
-        head.append(_head(said[column]) if column in said else f"time{f' [{times}]' if times else ''}")
+        number = f" #{column // 2 + 1}" if column > 1 else ""
+        head.append(_head(said[column]) if column in said else f"time{number}{f' [{times}]' if times else ''}")
     first = rows[0]
     places = [*range(first), first, *range(body, len(grid))]
     content: list[Sequence[Cell]] = [*(grid.cells(i) for i in range(first)), head]
