@@ -23,6 +23,8 @@ from mckibben.physics.units import convert
 
 LARGEST = 1e100  # no physical value is; keeps sums and ranges of a column finite
 _AIR = (5e4, 1.1e5)  # Pa; of the air where people work
+_SERIAL = (32_000.0, 62_000.0)  # days; the years 1987 to 2069
+_LONGEST_TEST = 30.0  # days
 _EPOCH = 1e8  # s; a later time counts from 1970, not from the beginning of the test
 _ZERO_CELSIUS = 150.0  # a temperature without unit below it is in °C
 
@@ -113,6 +115,9 @@ def _with_known_unit(column: HeaderColumn, reading: ChannelReading) -> HeaderCol
     if use == "time" and unit is None and (since := _since_1970(raw)) is not None:
         unit = since
         reading.messages.append(f"{reading.noun} '{column.header}' counts {unit} since 1970")
+    if use == "time" and unit is None and _are_serial_days(raw):
+        unit = "day"
+        reading.messages.append(f"{reading.noun} '{column.header}' counts days as spreadsheets do")
     if unit is None:
         unit, origin = CHANNEL_UNITS[use], "proposed"
         largest = float(np.max(np.abs(raw)))
@@ -144,6 +149,13 @@ def _since_1970(raw: NDArray[np.float64]) -> str | None:
         if len(raw) and size <= float(np.min(raw)) and float(np.max(raw)) <= 4.0 * size:
             return unit
     return None
+
+
+def _are_serial_days(raw: NDArray[np.float64]) -> bool:
+    """Whether times are dates as spreadsheets keep them: days since 1900, with the time of day as a fraction."""
+    if not len(raw) or not (_SERIAL[0] <= float(np.min(raw)) and float(np.max(raw)) <= _SERIAL[1]):
+        return False
+    return bool(np.ptp(raw) < _LONGEST_TEST and np.any(raw != np.round(raw)))
 
 
 def _signed_force(column: HeaderColumn, reading: ChannelReading) -> HeaderColumn:

@@ -14,6 +14,7 @@ from mckibben.measurement.read.values import CLOCK, GAP, NUMBER, TEXT, kind_of
 from mckibben.measurement.read.vocabulary import STATISTICS, words_of
 
 _HEAD_ROWS = 8  # most rows of a head
+_NAME_WORDS = 8  # most words of a name; more are a remark
 _UNITS_WITHIN = 40  # rows above a head in which its units may stand
 _QUICK = re.compile(r"[\s0-9.,;|+\-eE]*")
 
@@ -345,7 +346,7 @@ def _units_in_preamble(grid: Grid, named: int, names: Sequence[str]) -> int | No
 
 def _names_channel(name: str) -> bool:
     """Whether a text names a channel, not only a unit."""
-    if not name or len(name) > 120:
+    if not name or len(name) > 120 or len(name.split()) > _NAME_WORDS:
         return False
     known = recognise(name)
     return (known.channel is not None and known.penalty < BY_UNIT and unit_of(name) is None) or _is_letter(

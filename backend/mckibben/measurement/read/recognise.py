@@ -219,6 +219,9 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
     named = [channel for word in meant if (channel := channel_of_word(word)) is not None]
     for word in words:
         reason = other_quantity(word, named[-1] if named else None)
+        strokes = named and named[-1] in ("displacement", "contraction", "extension")
+        if (reason == "a length at rest" and strokes) or (reason == "a set value" and named[-1:] == ["command"]):
+            continue  # a shortening from the length at rest; what a valve is set to is its command
         if reason is not None and (named or dimension):
             return Recognised(None, head.unit, None, 0, f"it is {reason}")
     distinct = set(named)
