@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -221,6 +223,8 @@ def _rivals(evidence: Evidence) -> list[Question]:
     for winner, other in evidence.meaning.rivals:
         if "you" in (winner.origin, other.origin) or winner.use not in evidence.channels:
             continue
+        if winner.use == "time":
+            asked += _other_time(evidence, winner, other)
         if winner.use not in ("force", "pressure", *STROKES):
             continue
         if abs(_plainness(other) - _plainness(winner)) >= _RAW_PENALTY or not evidence.numeric(other.place):
@@ -245,6 +249,28 @@ def _rivals(evidence: Evidence) -> list[Question]:
             )
         )
     return asked
+
+
+def _other_time(evidence: Evidence, winner: HeaderColumn, other: HeaderColumn) -> list[Question]:
+    """A second column of times under the same name that runs otherwise: signals were sampled apart."""
+    first, later = (re.sub(r"\s*#[0-9]+$", "", bare_name(column)) for column in (winner, other))
+    both = evidence.pair(winner.place, other.place) if first == later else None
+    if both is None or len(both[0]) < ENOUGH:
+        return []
+    apart = float(np.max(np.abs((both[0] - both[0][0]) - (both[1] - both[1][0]))))
+    step = median_step(both[0])
+    if step is None or apart <= 0.5 * step:
+        return []
+    return [
+        Question(
+            "second time",
+            f"{evidence.noun}s '{winner.header}' and '{other.header}' are times of different signals and differ by "
+            f"up to {apart:.3g}: the rows hold readings of different instants; bring them to one time axis, or "
+            "leave one signal out with its time",
+            ignore_option(bare_name(other)),
+            other.header,
+        )
+    ]
 
 
 def _plainness(column: HeaderColumn) -> int:

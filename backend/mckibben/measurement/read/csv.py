@@ -17,6 +17,7 @@ from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.encodings import decoded_otherwise
 from mckibben.measurement.read.grid import split_line
 from mckibben.measurement.read.header import HEADER_EXAMPLE, plainly_known
+from mckibben.measurement.read.json_file import is_json, open_json
 from mckibben.measurement.read.lines import located_text
 from mckibben.measurement.read.raw import RawRows, shown_rows
 from mckibben.measurement.read.recognise import held_pressure
@@ -66,6 +67,9 @@ def open_csv(data: bytes, name: str, correction: Correction | None = None) -> Ra
     correction = correction or Correction()
     messages: list[str] = []
     text = _decoded(data, name, messages)
+    if is_json(text) and (found := open_json(text, name, correction)) is not None:
+        found.messages[:0] = messages
+        return found
     refusal: InputError | None = None
     plain: RawTable | None = None
     try:

@@ -8,12 +8,13 @@ from dataclasses import dataclass, field
 
 from mckibben.measurement.read.cells import Cell
 from mckibben.measurement.read.grid import BLANKS, Grid, TextGrid
-from mckibben.measurement.read.recognise import BY_UNIT, recognise
+from mckibben.measurement.read.recognise import BY_UNIT, held_quantities, recognise
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.values import CLOCK, GAP, NUMBER, TEXT, kind_of
 from mckibben.measurement.read.vocabulary import STATISTICS, words_of
 
 _HEAD_ROWS = 8  # most rows of a head
+_TITLE_ROWS = 12  # most rows between two blocks of one head
 _NAME_WORDS = 8  # most words of a name; more are a remark
 _UNITS_WITHIN = 40  # rows above a head in which its units may stand
 _QUICK = re.compile(r"[\s0-9.,;|+\-eE]*")
@@ -23,6 +24,7 @@ _QUICK = re.compile(r"[\s0-9.,;|+\-eE]*")
 class Run:
     """Rows of numbers in the same columns: ``first`` to ``last`` (exclusive), odd rows between ``pieces``.
 
+    ``headless``: the head of the run before is its own; a text between them says what it holds.
     ``numbers`` holds the columns of numbers, ``clocks`` those of times of day; ``rows`` counts the good rows,
     ``filled`` their numbers.
     """
@@ -34,6 +36,7 @@ class Run:
     rows: int = 0
     filled: int = 0
     clocks: frozenset[int] = field(default_factory=frozenset)
+    headless: bool = False
     pieces: list[tuple[int, int]] = field(default_factory=list)
 
 
@@ -126,7 +129,10 @@ def main_runs(grid: Grid, runs: Sequence[Run]) -> list[Run]:
         )
         headed = alike and (_is_headed(grid, run) or (len(head) > 1 and _row_above(grid, run) == head))
         follows = bool(kept) and run.first - kept[-1].last <= 3 and not headed
-        if alike and follows and not _is_footer(grid, run):
+        if kept and alike and not headed and run.rows >= 2 and _is_titled(grid, kept[-1].last, run.first):
+            run.headless = True
+            kept.append(run)
+        elif alike and follows and not _is_footer(grid, run):
             last = kept[-1]
             broken = [(i, i + 1) for i in range(last.last, run.first) if _holds_number(grid, i)]
             last.pieces = [*(last.pieces or [(last.first, last.last)]), *broken, (run.first, run.last)]
@@ -142,6 +148,17 @@ def _row_above(grid: Grid, run: Run) -> list[str]:
         if any(names := texts_of(grid.cells(index))):
             return names
     return []
+
+
+def _is_titled(grid: Grid, first: int, last: int) -> bool:
+    """Whether a text between two runs says which pressure, stroke or load the next one holds."""
+    return last - first <= _TITLE_ROWS and any(
+        quantity.channel == "pressure" or quantity.named
+        for index in range(first, last)
+        for text in texts_of(grid.cells(index))
+        if not recognise(text).why.startswith("it is")
+        for quantity in held_quantities(text)
+    )
 
 
 def _is_headed(grid: Grid, run: Run) -> bool:

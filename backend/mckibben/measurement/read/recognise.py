@@ -43,6 +43,7 @@ DIMENSIONS = {
 BY_WORDS, BY_UNIT = 10, 60  # how much less such a column is wanted than one named the plain way
 _CHANGES = frozenset(("change", "delta", "anderung", "variation", "difference"))
 _ALSO_VOLTAGE = frozenset(("tension", "tensione", "tensao"))  # a voltage in other languages
+_STROKES_FROM_REST = frozenset(("displacement", "contraction", "extension"))  # "shortening from rest length"
 _RAW = 3  # of LESS_WANTED: a raw column
 _NUMBER = r"[0-9]+(?:[.,][0-9]+)?"
 _HELD = re.compile(
@@ -219,9 +220,11 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
     named = [channel for word in meant if (channel := channel_of_word(word)) is not None]
     for word in words:
         reason = other_quantity(word, named[-1] if named else None)
-        strokes = named and named[-1] in ("displacement", "contraction", "extension")
-        if (reason == "a length at rest" and strokes) or (reason == "a set value" and named[-1:] == ["command"]):
-            continue  # a shortening from the length at rest; what a valve is set to is its command
+        if reason == "a length at rest" and set(named) & _STROKES_FROM_REST:
+            named = [channel for channel in named if channel != "length"]
+            continue
+        if reason == "a set value" and named[-1:] == ["command"]:
+            continue  # what a valve is set to is its command
         if reason is not None and (named or dimension):
             return Recognised(None, head.unit, None, 0, f"it is {reason}")
     distinct = set(named)

@@ -150,6 +150,7 @@ def _quick(
     if (
         len(table.parts) > 1
         or isinstance(part, MapPart)
+        or part.carried
         or not isinstance(grid, TextGrid)
         or len(part.pieces) > 1
     ):

@@ -66,10 +66,15 @@ def tables_of_grid(grid: Grid, *, head: int | None = None, until: int | None = N
     tables: list[Table] = []
     taken: set[int] = set()
     after = -1
+    before: TableHead | None = None
     for run in kept:
         own = at if at is not None and at >= after and run is kept[0] else None
-        table_head = head_of(grid, run, after=after, at=own)
-        with_broken_rows(grid, run, table_head)
+        if run.headless and before is not None:
+            table_head = before
+        else:
+            table_head = head_of(grid, run, after=after, at=own)
+            with_broken_rows(grid, run, table_head)
+        before = table_head
         titles = _titles(grid, run, table_head, after)
         table = tables_of_run(grid, run, table_head, titles)
         if not isinstance(table.parts[0], MapPart):  # above a map stand titles only

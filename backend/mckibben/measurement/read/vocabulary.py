@@ -89,6 +89,8 @@ REMARK_WORDS = {what: frozenset(all_words(texts)) for what, texts in words.REMAR
 LOADLESS = REMARK_WORDS["loadless"]
 #: Words with which the statistics below a table begin.
 STATISTICS = frozenset(all_words(words.STATISTIC))
+#: Words for the way there and the way back.
+WAYS = frozenset(all_words(words.WAYS))
 #: Words for the reference of a pressure: True = absolute.
 REFERENCE_WORDS = {
     word: reference == "absolute" for reference, texts in words.REFERENCES.items() for word in all_words(texts)

@@ -220,6 +220,17 @@ DIRECTIONS = {
     },
 }  # fmt: skip
 
+#: Words that tell the way there from the way back, in heads of columns of one quantity.
+WAYS = {
+    "en": "up down loading unloading load unload inflation deflation inflating deflating forward backward return "
+    "there back increasing decreasing rising falling filling venting",
+    "de": "auf ab aufwärts abwärts hin rück hinweg rückweg belasten entlasten belastung entlastung füllen entlüften",
+    "fr": "montée descente aller retour", "it": "salita discesa andata ritorno", "es": "subida bajada ida vuelta",
+    "pt": "subida descida ida volta", "pl": "góra dół", "cs": "nahoru dolů tam zpět",
+    "ru": "вверх вниз прямой обратный нагружение разгрузка", "tr": "gidiş dönüş artan azalan yükleme boşaltma",
+    "nl": "heen terug op neer", "sv": "upp ner fram tillbaka", "ja": "加圧 減圧 往路 復路", "zh": "加压 减压 上升 下降 加载 卸载",
+}  # fmt: skip
+
 #: Units in other letters and words -> the spelling of the unit library; lower case.
 UNITS = {
     "s": "sek seg sekunden sekundy secondes secondi segundos saniye sn sec secs с сек 秒 초 seconden sekunder",
