@@ -182,11 +182,17 @@ def _unread(evidence: Evidence) -> list[Question]:
         name = head.name or header or f"column {index + 1}"
         target = "displacement" if channel == "length" else channel
         others = (target,) if target != "displacement" else ("displacement", "length", "diameter")
+        doubt = (
+            "; no text says from which zero it counts nor whether it grows as the muscle shortens: is it the position "
+            "of the muscle's end, and how does it count"
+            if channel == "length" and not is_filled
+            else "; what is it"
+        )
         asked.append(
             Question(
                 f"column '{name}'",
                 f"{evidence.noun} '{header or name}' is in {head.unit or 'no unit'} and is not read"
-                f"{' (' + reason + ')' if reason else ''}; what is it",
+                f"{' (' + reason + ')' if reason else ''}{doubt}",
                 f"{ignore_option(name)} or {column_option(target, name)}",
                 header or name,
                 choices=("ignore", *others),

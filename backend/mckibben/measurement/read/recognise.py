@@ -175,6 +175,9 @@ def taken_apart(header: str, unit_below: str | None = None) -> Head:
     return Head(text.strip(" _"), None if unit is None else unit.unit, absolute, held)
 
 
+_SURE_UNITS = frozenset(
+    "mm cm bar mbar kPa MPa hPa mmHg inHg psi kN daN cN mN lbf ozf kgf gf ms mV kg".split()
+)  # no name ends like them
 _NEWTONS = {"n": UnitText("N")}  # behind a name of a force only; alone it counts
 _PATH = re.compile(r"/?(?P<first>[A-Za-z_]\w*)[./](?:[A-Za-z_]\w*[./])*(?P<name>[A-Za-z_]\w*)")
 
@@ -322,22 +325,7 @@ def _sure(name: str, text: str, unit: UnitText) -> bool:
         return True
     if named and text in ("V", "mV", "mA"):
         return True
-    return len(text) >= 2 and text in (
-        "mm",
-        "bar",
-        "mbar",
-        "kPa",
-        "MPa",
-        "kN",
-        "ms",
-        "mV",
-        "kg",
-        "cm",
-        "psi",
-        "lbf",
-        "daN",
-        "kgf",
-    )
+    return text in _SURE_UNITS
 
 
 def fits_channel(unit: str, channel: str) -> bool:
