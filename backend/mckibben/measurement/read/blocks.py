@@ -149,8 +149,8 @@ def tables_of_run(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[
     table.names = _told_apart(table.names)
     table.units = [units[c] for c in order]
     for c in sorted(carried):
-        said = f"column '{names[c] or f'column {c + 1}'}' is filled in the first row of each block only: its value "
-        table.messages.append(f"{said}counts for the rows below, down to the next one")
+        said = f"column '{names[c] or f'column {c + 1}'}' is filled in the first row of each block only: it "
+        table.messages.append(f"{said}counts for the rows below too, down to the next one")
     spans = [
         (min(group), min(groups[i + 1]) if i + 1 < len(groups) else 10**6) for i, group in enumerate(groups)
     ]
@@ -163,7 +163,7 @@ def tables_of_run(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[
 
 
 def _carried(grid: Grid, pieces: Sequence[tuple[int, int]], used: Sequence[int]) -> frozenset[int]:
-    """Columns filled in the first row of each block only: one cell, then a gap, some dozens of times at most."""
+    """Columns filled in the first row of each block only: one cell and a gap, some dozens of times."""
     indices = [index for first, last in pieces for index in range(first, last)][:_CARRIED_WITHIN]
     if len(indices) < 2 * _SHORTEST_BLOCK:
         return frozenset()
@@ -177,7 +177,11 @@ def _carried(grid: Grid, pieces: Sequence[tuple[int, int]], used: Sequence[int])
         if min(gaps) < _SHORTEST_BLOCK:
             continue
         marked = any(_bad(row[column]) for row in rows if column < len(row))
-        if not marked and len(rows) >= 2 * _SHORTEST_BLOCK * min(len(filled), 2) and _others_filled(rows, column, used):
+        if (
+            not marked
+            and len(rows) >= 2 * _SHORTEST_BLOCK * min(len(filled), 2)
+            and _others_filled(rows, column, used)
+        ):
             found.add(column)
     return frozenset(found)
 

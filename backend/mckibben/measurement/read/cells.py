@@ -26,7 +26,7 @@ MAX_WORDS = 200_000  # different ones in a column
 
 
 def marker_of(text: str) -> str | None:
-    """Why a text stands where a number should: "not a finite number", "no reading", "out of range"; else None.
+    """Why a text stands where a number should: "no reading", "out of range"; None = no such text.
 
     >>> marker_of("OL")
     'out of range'
@@ -93,8 +93,8 @@ def added(skipped: Mapping[str, Skip], reason: str, rows: int, first: str) -> di
 class Problems:
     """Bad rows: the first one to raise, or all of them counted by reason.
 
-    Rows without a reading in a column that is used (an empty cell, ``NaN``, ``OL``) are left out with a count,
-    unless there are more of them than of others.
+    Rows without a reading in a column that is used (an empty cell, ``NaN``, ``OL``) are left out and
+    counted, unless there are more of them than of others.
 
     Args:
         place: the file (and sheet), for messages.

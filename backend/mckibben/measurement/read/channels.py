@@ -204,7 +204,10 @@ def _values(column: HeaderColumn, reading: ChannelReading) -> _Values:
 def _say_reference(column: HeaderColumn, reading: ChannelReading) -> None:
     label = f"{reading.noun} '{column.header}'"
     if column.absolute:
-        stated = "ambient_pressure" in reading.conditions and reading.ambient == reading.conditions["ambient_pressure"]
+        stated = (
+            "ambient_pressure" in reading.conditions
+            and reading.ambient == reading.conditions["ambient_pressure"]
+        )
         whose = "the surrounding air that the file states" if stated else "the standard atmosphere"
         reading.messages.append(f"{label} is absolute pressure: {reading.ambient:.0f} Pa subtracted, {whose}")
     elif column.absolute is None:

@@ -140,7 +140,12 @@ def _tables(values: Mapping[str, Any], path: str, name: str, noun: str, depth: i
 def _alike_together(inner: list[tuple[str, Any]]) -> list[tuple[str, Any]]:
     """Structs of the same fields, ``run_01``, ``run_02``, as an array of structs."""
     fields = [frozenset(value) for _, value in inner if isinstance(value, dict)]
-    if len(inner) < 2 or len(fields) < len(inner) or len(set(fields)) > 1 or not any(map(_is_vector, inner[0][1].values())):
+    if (
+        len(inner) < 2
+        or len(fields) < len(inner)
+        or len(set(fields)) > 1
+        or not any(map(_is_vector, inner[0][1].values()))
+    ):
         return inner
     return [(f"{inner[0][0]} to {inner[-1][0]}", [value for _, value in inner])]
 
@@ -227,7 +232,11 @@ def _signals(value: Any) -> dict[str, Any] | None:
             else text
         )
         if reference_of(unit) is None and unit_of(unit) is not None:
-            marks = [v for k, v in struct.items() if isinstance(v, str) and k != "unit" and reference_of(v) is not None]
+            marks = [
+                v
+                for k, v in struct.items()
+                if isinstance(v, str) and k != "unit" and reference_of(v) is not None
+            ]
             head = f"{head} ({marks[0]})" if len(marks) == 1 else head
         while head in found:
             head += "'"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -42,21 +41,28 @@ class _Derived:
 def with_derived(source: RawTable) -> RawTable:
     """The table with computed columns in the place of those that they are computed from."""
     columns = [_Derived(index) for index in range(len(source.headers))]
-    headers, units = list(source.headers), [*source.units, *[None] * (len(source.headers) - len(source.units))]
+    headers, units = (
+        list(source.headers),
+        [*source.units, *[None] * (len(source.headers) - len(source.units))],
+    )
     said: list[str] = []
     pair = _seconds_and_parts(source)
     if pair is not None:
         whole, part, share = pair
         columns[whole] = _Derived(whole, fraction=part, share=1.0 / share)
         names = f"{headers[whole]} + {headers[part]}"
-        said.append(f"time is the sum of '{headers[whole]}' and '{headers[part]}': it counts from the first row")
+        said.append(
+            f"time is the sum of '{headers[whole]}' and '{headers[part]}': it counts from the first row"
+        )
         headers[whole], units[whole] = f"time: {names}", "s"
         del columns[part], headers[part], units[part]
     for index, column in enumerate(columns[:_MOST_SCALED]):
         scale = None if column.fraction is not None else _scale(source, headers[index], units[index])
         if scale is not None:
             columns[index] = replace(column, factor=scale.factor, offset=scale.offset)
-            said.append(f"{source.noun} '{headers[index]}' is read by its scale, {scale.text} ({scale.where})")
+            said.append(
+                f"{source.noun} '{headers[index]}' is read by its scale, {scale.text} ({scale.where})"
+            )
             headers[index], units[index] = f"{_bare(headers[index])}: {scale.name}", scale.unit
     return replace(_mapped(source, columns), headers=headers, units=tuple(units), messages=[*source.messages, *said]) if (
         said
@@ -72,7 +78,9 @@ def _mapped(source: RawTable, columns: Sequence[_Derived]) -> RawTable:
 
     def read(numeric: Sequence[int], text: Sequence[int], skip: bool) -> CellTable:
         wanted = [columns[index] for index in numeric]
-        needed = dict.fromkeys([c.place for c in wanted] + [c.fraction for c in wanted if c.fraction is not None])
+        needed = dict.fromkeys(
+            [c.place for c in wanted] + [c.fraction for c in wanted if c.fraction is not None]
+        )
         words = {index: columns[index].place for index in text}
         table = source.read(list(needed), list(words.values()), skip)
         return table._replace(
@@ -90,7 +98,7 @@ def _mapped(source: RawTable, columns: Sequence[_Derived]) -> RawTable:
     return replace(source, read=read, sample=sample, raw=raw, clocks=clocks)
 
 
-def _seconds_and_parts(source: RawTable) -> tuple[int, int, float]| None:
+def _seconds_and_parts(source: RawTable) -> tuple[int, int, float] | None:
     """(column of seconds, column of the rest, parts of a second) where two columns of one name are a time."""
     found: dict[tuple[str, ...], list[tuple[int, str]]] = {}
     for index, header in enumerate(source.headers):
@@ -99,7 +107,9 @@ def _seconds_and_parts(source: RawTable) -> tuple[int, int, float]| None:
         unit = unit_of(words[-1]) if words and head.unit is None else None
         name, kind = (words[:-1], unit.unit) if unit is not None else (words, head.unit or "")
         if kind == "s" or kind in _PARTS:
-            found.setdefault(tuple(word for word in name if word not in ("nano", "micro", "milli")), []).append((index, kind))
+            found.setdefault(
+                tuple(word for word in name if word not in ("nano", "micro", "milli")), []
+            ).append((index, kind))
     for pair in found.values():
         kinds = [kind for _, kind in pair]
         if len(pair) != 2 or kinds.count("s") != 1:

@@ -13,7 +13,12 @@ from mckibben.physics.errors import InputError
 
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 _BINARY = {
-    ".h5": "an HDF5 file", ".hdf5": "an HDF5 file",".xlsx": "an Excel workbook", ".mat": "a MATLAB file", ".tdms": "a TDMS file"}
+    ".h5": "an HDF5 file",
+    ".hdf5": "an HDF5 file",
+    ".xlsx": "an Excel workbook",
+    ".mat": "a MATLAB file",
+    ".tdms": "a TDMS file",
+}
 _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1f]")
 
 #: First bytes -> (what the file is, what to do instead).

@@ -59,7 +59,7 @@ def open_json(text: str, name: str, correction: Correction | None = None) -> Raw
         raise InputError(
             f"{name}: the JSON text is nested too deeply", field="file", hint="one object per reading"
         ) from error
-    except ValueError:
+    except (ValueError, TypeError):
         return None
     records = lines if lines is not None else next(_records(document, 0), None)
     if records is not None:
@@ -71,8 +71,10 @@ def open_json(text: str, name: str, correction: Correction | None = None) -> Raw
         return replace(choose_vectors(values, name, correction), format="json")
     except InputError as error:
         hint = 'records such as {"pressure_bar": 1.0, "length_mm": 300.0}, or a list of numbers for each name'
-        raise error if error.hint and "e.g." not in error.hint else InputError(
-            error.message, field=error.field, hint=hint
+        raise (
+            error
+            if error.hint and "e.g." not in error.hint
+            else InputError(error.message, field=error.field, hint=hint)
         ) from error
 
 
@@ -88,7 +90,7 @@ def _parsed(text: str) -> tuple[list[tuple[int, Record]] | None, Any]:
         if bare:
             value = json.loads(bare)
             if not isinstance(value, dict):
-                raise ValueError("a line of JSON that is no object")
+                raise TypeError("a line of JSON that is no object")
             found.append((number, value))
     if len(found) < 2:
         raise ValueError("no lines of JSON")
@@ -99,22 +101,26 @@ def _records(value: Any, depth: int) -> Iterator[list[tuple[int, Record]]]:
     """Lists of objects that hold single numbers, the outermost first; or of lists below a list of names."""
     if depth > _DEEPEST:
         return
-    if isinstance(value, list) and len(value) >= _FEWEST:
-        if all(isinstance(item, dict) for item in value) and _holds_numbers(value[:20]):
-            yield list(enumerate(value, start=1))
-            return
+    objects = isinstance(value, list) and len(value) >= _FEWEST and all(isinstance(v, dict) for v in value)
+    if objects and _holds_numbers(value[:20]):
+        yield list(enumerate(value, start=1))
+        return
     if isinstance(value, dict):
         names = next((v for k, v in value.items() if _is_names(v)), None)
         for item in value.values():
             rows = item if isinstance(item, list) else []
-            if names and len(rows) >= _FEWEST and all(isinstance(r, list) and len(r) == len(names) for r in rows):
+            if (
+                names
+                and len(rows) >= _FEWEST
+                and all(isinstance(r, list) and len(r) == len(names) for r in rows)
+            ):
                 yield [(n, dict(zip(names, row, strict=True))) for n, row in enumerate(rows, start=1)]
                 return
         for item in value.values():
             yield from _records(item, depth + 1)
     elif isinstance(value, list):
-        head = value[0] if value else None
-        if _is_names(head) and len(value) > _FEWEST and all(isinstance(r, list) and len(r) == len(head) for r in value):
+        head: list[str] = value[0] if value and _is_names(value[0]) else []
+        if head and len(value) > _FEWEST and all(isinstance(r, list) and len(r) == len(head) for r in value):
             yield [(n, dict(zip(head, row, strict=True))) for n, row in enumerate(value[1:], start=2)]
             return
         for item in value[:1000]:
@@ -122,7 +128,9 @@ def _records(value: Any, depth: int) -> Iterator[list[tuple[int, Record]]]:
 
 
 def _is_names(value: Any) -> bool:
-    return isinstance(value, list) and 2 <= len(value) <= MAX_COLUMNS and all(isinstance(v, str) for v in value)
+    return (
+        isinstance(value, list) and 2 <= len(value) <= MAX_COLUMNS and all(isinstance(v, str) for v in value)
+    )
 
 
 def _holds_numbers(records: Sequence[Record]) -> bool:
@@ -162,9 +170,17 @@ def _of_records(
     heads = list(dict.fromkeys(key for _, record in readings for key in record))
     check_columns(len(heads), name, "columns")
     noun = "line" if document is None else "record"
-    beside = [(f"{noun} {n}", key, value) for n, record in others[:_MAX_RECORDS_OF_NOTES] for key, value in record.items()]
+    beside = [
+        (f"{noun} {n}", key, value)
+        for n, record in others[:_MAX_RECORDS_OF_NOTES]
+        for key, value in record.items()
+    ]
     beside += [("", key, value) for key, value in _beside(document)]
-    units = {key.rpartition(".")[2]: str(value) for _, key, value in beside if "unit" in key.lower() and isinstance(value, str)}
+    units = {
+        key.rpartition(".")[2]: str(value)
+        for _, key, value in beside
+        if "unit" in key.lower() and isinstance(value, str)
+    }
     rows: list[list[Cell]] = [[_head(head, units) for head in heads]]
     rows += [[_cell(record.get(head)) for head in heads] for _, record in readings]
     numbers = [0, *(n for n, _ in readings)]
@@ -271,12 +287,18 @@ def _values(value: Any, depth: int) -> Any:
         # Single values of an object without vectors belong to the one around it.
         loose: dict[str, Any] = {}
         for key, item in list(found.items()):
-            if isinstance(item, dict) and item and not any(isinstance(v, (dict, list, np.ndarray)) for v in item.values()):
+            if (
+                isinstance(item, dict)
+                and item
+                and not any(isinstance(v, (dict, list, np.ndarray)) for v in item.values())
+            ):
                 loose |= {k: v for k, v in item.items() if k not in found}
                 del found[key]
         return {key: item for key, item in {**loose, **found}.items() if item is not None}
     if isinstance(value, list):
-        if value and all(v is None or (isinstance(v, (int, float)) and not isinstance(v, bool)) for v in value):
+        if value and all(
+            v is None or (isinstance(v, (int, float)) and not isinstance(v, bool)) for v in value
+        ):
             return np.array([np.nan if v is None else float(v) for v in value])
         if value and all(isinstance(v, list) and len(v) == len(value[0]) for v in value):
             inner = [_values(v, depth + 1) for v in value]

@@ -109,7 +109,7 @@ class _Mat73Reader:
         return result
 
     def _attributes(self, item: Any) -> dict[str, Any]:
-        """Attributes as numbers, texts and lists of texts; a number with the unit beside it under ``name [unit]``."""
+        """Attributes as numbers, texts, lists of texts; a number with its unit beside it as ``name [unit]``."""
         found: dict[str, Any] = {}
         for key in list(item.attrs)[:_MAX_ATTRIBUTES]:
             self._variables += 1
@@ -124,7 +124,9 @@ class _Mat73Reader:
             elif np.ndim(value) == 0 and np.asarray(value).dtype.kind in "biuf":
                 found[key] = np.asarray(value, dtype=float)
         for key in [key for key, value in found.items() if isinstance(value, np.ndarray)]:
-            unit = next((found[u] for u in (f"{key}_unit", f"{key}_units") if isinstance(found.get(u), str)), None)
+            unit = next(
+                (found[u] for u in (f"{key}_unit", f"{key}_units") if isinstance(found.get(u), str)), None
+            )
             if unit is not None:
                 found[f"{key} [{unit}]"] = found.pop(key)
         return found
@@ -132,7 +134,9 @@ class _Mat73Reader:
     def _plain(self, key: str, dataset: Any) -> dict[str, Any]:
         """A dataset of another program: vectors with units, tables of named columns, texts."""
         attributes = self._attributes(dataset)
-        names = next((v for k, v in attributes.items() if isinstance(v, list) and "unit" not in k.lower()), None)
+        names = next(
+            (v for k, v in attributes.items() if isinstance(v, list) and "unit" not in k.lower()), None
+        )
         units = next((v for k, v in attributes.items() if isinstance(v, list) and "unit" in k.lower()), None)
         unit = next((v for k, v in attributes.items() if isinstance(v, str) and _IS_UNIT.fullmatch(k)), None)
         if dataset.shape is None or dataset.dtype.kind not in "biufSOV":
@@ -141,7 +145,9 @@ class _Mat73Reader:
             return self._words(key, dataset)
         if dataset.dtype.kind == "V":
             fields = dataset.dtype.names or ()
-            if not all(dataset.dtype[field].kind in "biuf" and not dataset.dtype[field].shape for field in fields):
+            if not all(
+                dataset.dtype[field].kind in "biuf" and not dataset.dtype[field].shape for field in fields
+            ):
                 return {}
             table = self._read(key, dataset)
             units = units if units and len(units) == len(fields) else [None] * len(fields)
@@ -151,7 +157,9 @@ class _Mat73Reader:
         if values.ndim == 2 and names is not None and len(names) in values.shape:
             table = values if values.shape[1] == len(names) else values.T
             units = units if units and len(units) == len(names) else [None] * len(names)
-            return {key: {_headed(n, u): table[:, i] for i, (n, u) in enumerate(zip(names, units, strict=True))}}
+            return {
+                key: {_headed(n, u): table[:, i] for i, (n, u) in enumerate(zip(names, units, strict=True))}
+            }
         said = {k: v for k, v in attributes.items() if isinstance(v, str) and not _IS_UNIT.fullmatch(k)}
         reference = next((v for v in said.values() if reference_of(v) is not None), None)
         head = _headed(key, unit)
@@ -161,13 +169,17 @@ class _Mat73Reader:
         """A text, or a list of words."""
         import h5py
 
-        if h5py.check_string_dtype(dataset.dtype) is None or int(dataset.size) > _MAX_WORDS or (
-            dataset.id.get_storage_size() > _MAX_PIECE or dataset.is_virtual or dataset.external
+        if (
+            h5py.check_string_dtype(dataset.dtype) is None
+            or int(dataset.size) > _MAX_WORDS
+            or (dataset.id.get_storage_size() > _MAX_PIECE or dataset.is_virtual or dataset.external)
         ):
             return {}
         self._words_seen += int(dataset.size)
         if self._words_seen > _MAX_WORDS:
-            raise self._refused(key, f"holds too many texts, at most {_MAX_WORDS} are read", "keep the readings only")
+            raise self._refused(
+                key, f"holds too many texts, at most {_MAX_WORDS} are read", "keep the readings only"
+            )
         self._allowance.take(WORD * int(dataset.size), f"variable '{key}'")
         values = dataset[()]
         if isinstance(values, bytes):

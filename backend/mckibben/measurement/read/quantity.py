@@ -8,7 +8,9 @@ from typing import NamedTuple
 
 from mckibben.measurement.read.unit_words import COUNT, dimension_of, unit_of
 
-_CELL = re.compile(r"([+-]?[0-9][0-9.,'’]*(?:[eE][+-]?[0-9]+)?)\s*([^\s0-9.,;:()\[\]+-][^\s;:]{0,11}(?:\s?\([a-z]{1,4}\))?)")
+_CELL = re.compile(
+    r"([+-]?[0-9][0-9.,'’]*(?:[eE][+-]?[0-9]+)?)\s*([^\s0-9.,;:()\[\]+-][^\s;:]{0,11}(?:\s?\([a-z]{1,4}\))?)"
+)
 
 
 class QuantityText(NamedTuple):

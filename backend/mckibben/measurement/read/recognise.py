@@ -176,7 +176,29 @@ def taken_apart(header: str, unit_below: str | None = None) -> Head:
 
 
 _SURE_UNITS = frozenset(
-    "mm cm bar mbar kPa MPa hPa mmHg inHg psi kN daN cN mN lbf ozf kgf gf ms mV kg".split()
+    [
+        "mm",
+        "cm",
+        "bar",
+        "mbar",
+        "kPa",
+        "MPa",
+        "hPa",
+        "mmHg",
+        "inHg",
+        "psi",
+        "kN",
+        "daN",
+        "cN",
+        "mN",
+        "lbf",
+        "ozf",
+        "kgf",
+        "gf",
+        "ms",
+        "mV",
+        "kg",
+    ]
 )  # no name ends like them
 _NEWTONS = {"n": UnitText("N")}  # behind a name of a force only; alone it counts
 _PATH = re.compile(r"/?(?P<first>[A-Za-z_]\w*)[./](?:[A-Za-z_]\w*[./])*(?P<name>[A-Za-z_]\w*)")

@@ -16,7 +16,9 @@ _RANGES = re.compile(rf"{_SPAN}{_RAW}{_TO}{_SPAN}{_UNIT}")
 _EQUAL = re.compile(rf"(?<![\d.,-])({_NUMBER})\s*{_RAW}{_TO}({_NUMBER})\s*{_UNIT}")
 _PER = re.compile(rf"({_NUMBER})\s*{_UNIT}\s*/\s*{_RAW}\b")
 _SENSITIVITY = re.compile(rf"({_NUMBER})\s*{_RAW}\s*/\s*{_UNIT}")
-_CLOSED = re.compile(rf"({_NUMBER})\s*{_RAW}\s*(?:=|:|is)?\s*(?:closed|shut|zu|geschlossen|neutral|middle|mitte)")
+_CLOSED = re.compile(
+    rf"({_NUMBER})\s*{_RAW}\s*(?:=|:|is)?\s*(?:closed|shut|zu|geschlossen|neutral|middle|mitte)"
+)
 _OPEN = re.compile(rf"({_NUMBER})\s*{_RAW}\s*(?:=|:|is)?\s*(?:fully\s+)?(?:opens?|offen|auf)\b")
 
 
@@ -80,6 +82,10 @@ def _float(text: str) -> float:
 def _unit(text: str) -> str | None:
     """A unit with its reference; None = it is none, or that of a raw signal."""
     unit = unit_of(text)
-    if unit is None or unit.unit in (CLOCK, COUNT) or dimension_of(unit.unit) in ("", "a voltage", "a current"):
+    if (
+        unit is None
+        or unit.unit in (CLOCK, COUNT)
+        or dimension_of(unit.unit) in ("", "a voltage", "a current")
+    ):
         return None
     return f"{unit.unit}{ {True: '(a)', False: '(g)', None: ''}[unit.absolute] }"

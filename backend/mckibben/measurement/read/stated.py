@@ -32,7 +32,9 @@ _UNIT = r"(?:[^\W\d_]|[°%\"'])+(?:/[^\W\d_]+[2²]?)?"
 _QUANTITY = re.compile(rf"(?<![\w.,-])({_NUMBER})\s*({_UNIT}(?:\s*\([a-zü]+\))?)?(?![\w.,]*\d)")
 _UNIT_FIRST = re.compile(rf"[\[(]\s*([^\])]+?)\s*[\])]\s*[:=;]?\s*({_NUMBER})(?!\s*[A-Za-z])")
 #: A symbol, a number and a unit in one word, as in names of files: ``L200mm``, ``m5kg``, ``ps6bar``.
-_GLUED = re.compile(rf"(?<![^\W_])([^\W\d_]{{0,12}}0?)[=]?((?<![0-9])[0-9]+(?:[.,][0-9]+)?)({_UNIT})(?![^\W_])")
+_GLUED = re.compile(
+    rf"(?<![^\W_])([^\W\d_]{{0,12}}0?)[=]?((?<![0-9])[0-9]+(?:[.,][0-9]+)?)({_UNIT})(?![^\W_])"
+)
 _AT_REST, _LOADS, _SUPPLIES = REMARK_WORDS["at rest"], REMARK_WORDS["load"], REMARK_WORDS["supply"]
 _SAMPLES, _DATES, _AMBIENT = REMARK_WORDS["sample"], REMARK_WORDS["date"], REMARK_WORDS["ambient"]
 _REST_LENGTHS = re.compile(
@@ -78,7 +80,11 @@ def statements(rest: Iterable[tuple[str, str]], name: str) -> list[Note]:
             found.setdefault(key, Note(where, key, value))
     for quantity in (*_quantities(stem.replace("_", " ")), *_glued(stem)):
         key = _key_of(quantity)
-        if key is None and quantity.words in (["l"], ["length"]) and dimension_of(quantity.unit) == "a length":
+        if (
+            key is None
+            and quantity.words in (["l"], ["length"])
+            and dimension_of(quantity.unit) == "a length"
+        ):
             key = "nominal_length"
         if key is None and quantity.unit is not None and dimension_of(quantity.unit) == "a mass":
             key = None if "load_force" in found else "load_mass"

@@ -58,7 +58,9 @@ def source_of(
             ]
             if numbered:
                 more.append(number)
-            times = {i: Clock(**ways.get(i, {})) for i, c in enumerate(part.columns) if clocks and c in part.clocks}
+            times = {
+                i: Clock(**ways.get(i, {})) for i, c in enumerate(part.columns) if clocks and c in part.clocks
+            }
             for line, row in part.rows():
                 cells: list[Cell] = [number_of(cell, style) for cell in row]
                 for i, clock in times.items():

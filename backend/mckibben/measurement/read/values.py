@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 from datetime import UTC, datetime, timedelta
 from functools import lru_cache
+from itertools import pairwise
 from typing import NamedTuple
 
 from mckibben.measurement.read.cells import Cell, marker_of
@@ -139,13 +140,17 @@ class Clock:
 def is_elapsed(cells: Sequence[Cell]) -> bool:
     """Whether times of two parts, ``0:03``, are minutes and seconds: they begin at zero, as no clock does."""
     times = [cell.strip() for cell in cells if isinstance(cell, str) and kind_of(cell) == CLOCK]
-    return bool(times) and all(re.fullmatch(r"[0-9]{1,3}:[0-9]{2}", t) for t in times) and times[0][:-3] in ("0", "00")
+    return (
+        bool(times)
+        and all(re.fullmatch(r"[0-9]{1,3}:[0-9]{2}", t) for t in times)
+        and times[0][:-3] in ("0", "00")
+    )
 
 
 def is_falling(cells: Sequence[Cell]) -> bool:
     """Whether most times of a column are earlier than the one before."""
     stamps = [value[0] for cell in cells if (value := _absolute_seconds(cell)) is not None]
-    steps = [b - a for a, b in zip(stamps, stamps[1:], strict=False)]
+    steps = [b - a for a, b in pairwise(stamps)]
     return sum(step < 0.0 for step in steps) > sum(step > 0.0 for step in steps)
 
 

@@ -31,12 +31,16 @@ def word_set(text: str) -> frozenset[str]:
 
 def all_words(by_language: Mapping[str, str]) -> tuple[str, ...]:
     """The words of all languages, folded, without the marks of their parts."""
-    return tuple(dict.fromkeys(folded(w.strip("*") or w) for text in by_language.values() for w in text.split()))
+    return tuple(
+        dict.fromkeys(folded(w.strip("*") or w) for text in by_language.values() for w in text.split())
+    )
 
 
 def _marked(by_language: Mapping[str, str]) -> frozenset[str]:
     """The words that count as the beginning or end of others although they are short."""
-    return frozenset(folded(w.strip("*")) for t in by_language.values() for w in t.split() if "*" in w and w != "*")
+    return frozenset(
+        folded(w.strip("*")) for t in by_language.values() for w in t.split() if "*" in w and w != "*"
+    )
 
 
 def is_unparted(word: str) -> bool:
@@ -93,7 +97,9 @@ STATISTICS = frozenset(all_words(words.STATISTIC))
 WAYS = frozenset(all_words(words.WAYS))
 #: Words for the reference of a pressure: True = absolute.
 REFERENCE_WORDS = {
-    word: reference == "absolute" for reference, texts in words.REFERENCES.items() for word in all_words(texts)
+    word: reference == "absolute"
+    for reference, texts in words.REFERENCES.items()
+    for word in all_words(texts)
 }
 
 

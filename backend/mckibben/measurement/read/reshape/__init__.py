@@ -1,4 +1,4 @@
-"""Grids that are written in another way than as columns below a head, rewritten as such; rows keep their numbers."""
+"""Grids that are no columns below a head, rewritten as such; rows keep their numbers."""
 
 from __future__ import annotations
 

@@ -22,7 +22,9 @@ def without_labels(grid: Grid) -> Rewritten | None:
     if len(rows) < _FEWEST:
         return None
     width = max(len(grid.cells(index)) for index in rows)
-    body = next((i for i in range(rows[-1] + 1, min(len(grid), SAMPLED)) if _is_body(grid.cells(i), width)), None)
+    body = next(
+        (i for i in range(rows[-1] + 1, min(len(grid), SAMPLED)) if _is_body(grid.cells(i), width)), None
+    )
     if body is None:
         return None
     said: dict[int, list[tuple[str, str]]] = {c: [] for c in range(1, width, 2)}
@@ -35,12 +37,15 @@ def without_labels(grid: Grid) -> Rewritten | None:
     head: list[Cell] = []
     for column in range(width):
         number = f" #{column // 2 + 1}" if column > 1 else ""
-        head.append(_head(said[column]) if column in said else f"time{number}{f' [{times}]' if times else ''}")
+        head.append(
+            _head(said[column]) if column in said else f"time{number}{f' [{times}]' if times else ''}"
+        )
     first = rows[0]
     places = [*range(first), first, *range(body, len(grid))]
     content: list[Sequence[Cell]] = [*(grid.cells(i) for i in range(first)), head]
     content += [grid.cells(i) for i in range(body, len(grid))]
-    message = f"each channel has its labels before it ({grid.where(first)} to {grid.where(rows[-1])}): read as heads"
+    where = f"{grid.where(first)} to {grid.where(rows[-1])}"
+    message = f"each channel has its labels before it ({where}): read as heads"
     return RowsGrid(grid, content, places, units={}), [message], []
 
 
@@ -64,7 +69,11 @@ def _head(said: Sequence[tuple[str, str]]) -> str:
     texts = [text for _, text in said if text != unit and kind_of(text) != NUMBER][:2]
     known = next((text for text in texts[::-1] if recognise(text, unit).channel is not None), None)
     why = next((text for text in texts[::-1] if recognise(text, unit).why.startswith("it is")), None)
-    name = " ".join(texts[:1] + [text for text in (why, known) if text and text != texts[0]][:1]) if texts else ""
+    name = (
+        " ".join(texts[:1] + [text for text in (why, known) if text and text != texts[0]][:1])
+        if texts
+        else ""
+    )
     return f"{name} [{unit}]" if unit and taken_apart(name).unit is None else name
 
 

@@ -9,6 +9,7 @@ from mckibben.measurement.read.reshape.labelled import without_labels
 from mckibben.measurement.read.reshape.tall import pivoted
 from mckibben.measurement.read.reshape.united import without_units
 
+
 class Regular(NamedTuple):
     """A grid of columns below a head, what was done to it, texts that left it, columns that are not read."""
 

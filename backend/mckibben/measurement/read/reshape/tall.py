@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 from mckibben.measurement.read.cells import Cell, marker_of
@@ -84,7 +85,9 @@ def _columns_of(grid: Grid) -> _Columns | None:
     width = Counter(map(len, rows)).most_common(1)[0][0]
     kinds = [Counter(kind_of(row[c]) for row in rows if c < len(row)) for c in range(width)]
     words = [c for c in range(width) if kinds[c][TEXT] > 0.9 * len(rows)]
-    tag = next((c for c in words if _names_signals(grid, [str(row[c]) for row in rows if c < len(row)])), None)
+    tag = next(
+        (c for c in words if _names_signals(grid, [str(row[c]) for row in rows if c < len(row)])), None
+    )
     if tag is None:
         return None
     clocks = [c for c in range(width) if kinds[c][CLOCK] > 0.9 * len(rows)]
@@ -99,7 +102,9 @@ def _columns_of(grid: Grid) -> _Columns | None:
     instant = next(iter(running), None) if instant is None and len(running) == 1 else instant
     others = [c for c in words if c != tag]
     unit = next((c for c in others if all(unit_of(str(row[c])) for row in rows[:20] if c < len(row))), None)
-    quality = next((c for c in others if c != unit and _judges([str(row[c]) for row in rows if c < len(row)])), None)
+    quality = next(
+        (c for c in others if c != unit and _judges([str(row[c]) for row in rows if c < len(row)])), None
+    )
     return _Columns(tag, values[0], instant, unit, quality, first)
 
 
@@ -132,13 +137,13 @@ def _counts_on(values: Sequence[Cell]) -> bool:
         numbers = [float(str(value).replace(",", ".")) for value in values if kind_of(value) == NUMBER]
     except ValueError:
         return False
-    return len(numbers) > 2 and all(b >= a for a, b in zip(numbers, numbers[1:], strict=False)) and (
-        numbers[-1] > numbers[0]
-    )
+    return len(numbers) > 2 and all(b >= a for a, b in pairwise(numbers)) and (numbers[-1] > numbers[0])
 
 
 def _judges(words: Sequence[str]) -> bool:
-    return any(marker_of(word) or word.strip().lower() in (*_NOT_GOOD, "good", "ok", "valid") for word in set(words))
+    return any(
+        marker_of(word) or word.strip().lower() in (*_NOT_GOOD, "good", "ok", "valid") for word in set(words)
+    )
 
 
 def _known(grid: Grid, tag: str) -> Recognised:
@@ -164,7 +169,11 @@ def _head(grid: Grid, tag: str, columns: _Columns, readings: Sequence[tuple[int,
     head = tag if explained is None else f"{tag} {explained}"
     if columns.unit is not None and taken_apart(head).unit is None:
         at = columns.unit
-        units = {str(cells[at]).strip() for _, cells in readings if len(cells) > at and str(cells[columns.tag]).strip() == tag}
+        units = {
+            str(cells[at]).strip()
+            for _, cells in readings
+            if len(cells) > at and str(cells[columns.tag]).strip() == tag
+        }
         units = {unit for unit in units if unit_of(unit) is not None}
         if len(units) == 1:
             head = f"{head} [{units.pop()}]"
