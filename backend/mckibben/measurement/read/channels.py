@@ -23,6 +23,9 @@ from mckibben.physics.units import convert
 
 LARGEST = 1e100  # no physical value is; keeps sums and ranges of a column finite
 _AIR = (5e4, 1.1e5)  # Pa; of the air where people work
+_NO_NUMBER = (9e36, 1.1e38)  # what instruments send for "overflow" and "no number"
+_SENTINELS = (-9999.0, -999.0, -99999.0, -999.25, -9999.99, 9999.0, 99999.0, 999999.0)
+_FAR = 3.0  # times all other numbers of the column
 _SERIAL = (32_000.0, 62_000.0)  # days; the years 1987 to 2069
 _LONGEST_TEST = 30.0  # days
 _EPOCH = 1e8  # s; a later time counts from 1970, not from the beginning of the test
@@ -79,6 +82,7 @@ def read_channels(
     """
     units: dict[str, HeaderColumn] = {}
     for column in [c for c in columns if c.use not in TEXT_COLUMNS]:
+        _without_sentinels(column, reading)
         known = _with_known_unit(column, reading)
         if known is None:
             continue
@@ -101,6 +105,22 @@ def read_channels(
     by_use = {column.use: column for column in columns}
     slack = _read_labels(by_use, channels, reading)
     return channels, by_use | units, slack
+
+
+def _without_sentinels(column: HeaderColumn, reading: ChannelReading) -> None:
+    """Leave out rows with a number that stands for none: 9.9E37 of instruments, -9999 far from all others."""
+    raw = reading.table.numbers[column.place]
+    odd = (np.abs(raw) >= _NO_NUMBER[0]) & (np.abs(raw) <= _NO_NUMBER[1])
+    if column.use != "time":
+        for value in _SENTINELS:
+            same = raw == value
+            if same.any() and not same.all() and _FAR * float(np.max(np.abs(raw[~(same | odd)]), initial=0.0)) < abs(value):
+                odd |= same
+    if not odd.any() or 2 * int(np.count_nonzero(odd)) > len(raw):
+        return
+    first = int(np.argmax(odd))
+    where = f"row {int(reading.table.lines[first])}, {reading.noun} '{column.header}'"
+    reading.table = reading.table.only(~odd, f"{raw[first]:g} stands for no reading", where)
 
 
 def _with_known_unit(column: HeaderColumn, reading: ChannelReading) -> HeaderColumn | None:

@@ -273,7 +273,7 @@ def _other_time(evidence: Evidence, winner: HeaderColumn, other: HeaderColumn) -
             f"{evidence.noun}s '{winner.header}' and '{other.header}' are times of different signals and differ by "
             f"up to {apart:.3g}: the rows hold readings of different instants; bring them to one time axis, or "
             "leave one signal out with its time",
-            ignore_option(bare_name(other)),
+            ignore_option(f"column {other.place + 1}"),
             other.header,
         )
     ]

@@ -50,11 +50,11 @@ def with_derived(source: RawTable) -> RawTable:
     if pair is not None:
         whole, part, share = pair
         columns[whole] = _Derived(whole, fraction=part, share=1.0 / share)
-        names = f"{headers[whole]} + {headers[part]}"
+        names = f"{headers[whole]} and {headers[part]}"
         said.append(
             f"time is the sum of '{headers[whole]}' and '{headers[part]}': it counts from the first row"
         )
-        headers[whole], units[whole] = f"time: {names}", "s"
+        headers[whole], units[whole] = f"time from {names} [s]", None
         del columns[part], headers[part], units[part]
     for index, column in enumerate(columns[:_MOST_SCALED]):
         scale = None if column.fraction is not None else _scale(source, headers[index], units[index])

@@ -283,7 +283,14 @@ def _values(value: Any, depth: int) -> Any:
         whole = _with_quantities(value, _DEEPEST)
         if not isinstance(whole, dict):
             return whole
-        found = {str(key): _values(item, depth + 1) for key, item in value.items()}
+        found: dict[str, Any] = {}
+        for key, item in value.items():
+            text = _with_quantities(item, 0)
+            if isinstance(item, dict) and isinstance(text, str):
+                number, _, unit = text.partition(" ")
+                found[f"{key} [{unit}]"] = float(number)
+            else:
+                found[str(key)] = _values(item, depth + 1)
         # Single values of an object without vectors belong to the one around it.
         loose: dict[str, Any] = {}
         for key, item in list(found.items()):

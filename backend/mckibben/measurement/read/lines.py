@@ -49,6 +49,10 @@ def located_text(text: str, name: str, correction: Correction, messages: Sequenc
         if line.lstrip(' "').startswith("#")
         and (note := note_of_line(line.strip(';,\t "'), f"{name}, row {row}")) is not None
     ]
+    values = {}
+    for note in notes:
+        values.setdefault(note.key, set()).add(note.value)
+    notes = [note for note in notes if len(values[note.key]) == 1]  # others are titles of blocks
     stated = {int(note.where.rpartition(" ")[2]) for note in notes}
     lines = ["" if number in stated else line for number, line in enumerate(lines, start=1)]
     said = list(messages)

@@ -59,6 +59,14 @@ def texts_of(cells: Sequence[Cell]) -> list[str]:
     return ["" if cell is None else " ".join(str(cell).split()) for cell in cells]
 
 
+def titles_of(grid: Grid, index: int) -> list[tuple[int, str]]:
+    """(column, text) of a row that may be a title; between blanks stand words, the text is the whole line."""
+    texts = texts_of(grid.cells(index))
+    if isinstance(grid, TextGrid) and grid.separator == BLANKS:
+        return [(0, " ".join(texts))] if any(texts) else []
+    return [(column, text) for column, text in enumerate(texts) if text]
+
+
 def find_runs(grid: Grid, until: int | None = None) -> list[Run]:
     """The runs of numbers in the first rows of a grid, in their order."""
     runs: list[Run] = []
@@ -134,7 +142,8 @@ def main_runs(grid: Grid, runs: Sequence[Run]) -> list[Run]:
             kept.append(run)
         elif alike and follows and not _is_footer(grid, run):
             last = kept[-1]
-            broken = [(i, i + 1) for i in range(last.last, run.first) if _holds_number(grid, i)]
+            between = range(last.last, run.first)
+            broken = [(i, i + 1) for i in between if _holds_number(grid, i) and not _is_statistic(grid, i)]
             last.pieces = [*(last.pieces or [(last.first, last.last)]), *broken, (run.first, run.last)]
             last.last, last.rows, last.filled = run.last, last.rows + run.rows, last.filled + run.filled
         elif run is largest or (headed and run.rows >= 2 and alike and 20 * run.rows >= largest.rows):
@@ -155,7 +164,7 @@ def _is_titled(grid: Grid, first: int, last: int) -> bool:
     return last - first <= _TITLE_ROWS and any(
         quantity.channel == "pressure" or quantity.named
         for index in range(first, last)
-        for text in texts_of(grid.cells(index))
+        for _, text in titles_of(grid, index)
         if not recognise(text).why.startswith("it is")
         for quantity in held_quantities(text)
     )
@@ -178,6 +187,12 @@ def _holds_number(grid: Grid, index: int) -> bool:
     return any(kind_of(cell) in (NUMBER, CLOCK) for cell in grid.cells(index))
 
 
+def _is_statistic(grid: Grid, index: int) -> bool:
+    """Whether a row begins with a word of statistics ("Mean")."""
+    words = words_of(next((text for text in texts_of(grid.cells(index)) if text), ""))
+    return bool(words) and words[0] in STATISTICS
+
+
 def with_broken_rows(grid: Grid, run: Run, head: TableHead) -> None:
     """Take the rows next to a run into it that are readings with a wrong cell: reading them says so.
 
@@ -187,7 +202,7 @@ def with_broken_rows(grid: Grid, run: Run, head: TableHead) -> None:
         (row for row in (head.row, head.units_at) if row is not None and row < run.first), default=run.first
     )
     above = (
-        [index for index in range(top + 1, run.first) if _holds_number(grid, index)]
+        [i for i in range(top + 1, run.first) if _holds_number(grid, i) and not _is_statistic(grid, i)]
         if head.row is not None
         else []
     )

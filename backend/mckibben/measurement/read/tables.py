@@ -16,6 +16,7 @@ from mckibben.measurement.read.locate import (
     head_of,
     main_runs,
     texts_of,
+    titles_of,
     with_broken_rows,
 )
 from mckibben.physics.errors import InputError, did_you_mean
@@ -141,8 +142,7 @@ def _titles(grid: Grid, run: Run, head: TableHead, after: int) -> list[tuple[int
         (index, column, text)
         for index in range(first, run.first)
         if index not in (head.row, head.units_at)
-        for column, text in enumerate(texts_of(grid.cells(index)))
-        if text
+        for column, text in titles_of(grid, index)
     ]
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 #: Channel -> language -> words for it.
 CHANNELS = {
     "time": {
-        "en": "time timestamp datetime seconds clock elapsed",
+        "en": "time timestamp ts datetime seconds clock elapsed",
         "de": "*zeit sekunden uhrzeit zeitstempel dauer", "fr": "temps heure horodatage", "it": "tempo ora",
         "es": "tiempo hora", "pt": "tempo hora", "pl": "czas czasu", "cs": "čas času",
         "ru": "время времени", "tr": "zaman süre", "nl": "tijd tijdstip", "sv": "tid tidpunkt",

@@ -56,6 +56,8 @@ def _label(cells: Sequence[str]) -> str | None:
     if len(labels) != 1 or len(cells) < 2 * _FEWEST or channels < 1 or sum(map(bool, cells[0::2])) < _FEWEST:
         return None
     label = labels.pop()
+    if unit_of(label) is not None:
+        return None
     return label if label not in cells[1::2] and kind_of(label) not in (NUMBER, CLOCK) else None
 
 

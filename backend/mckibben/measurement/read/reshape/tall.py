@@ -57,7 +57,7 @@ def pivoted(grid: Grid) -> Rewritten | None:
     instants = _instants(readings, columns, tags)
     clock_head = texts_of(grid.cells(columns.first - 1)) if columns.first else []
     column = columns.instant
-    first = [] if column is None else [clock_head[column] if column < len(clock_head) else "time"]
+    first = [] if column is None else [_instant_head(clock_head, column)]
     rows: list[list[Cell]] = [list(grid.cells(index)) for index in range(max(0, columns.first - 1))]
     places = list(range(max(0, columns.first - 1)))
     rows.append([*first, *(heads[tag] for tag in tags)])
@@ -71,6 +71,12 @@ def pivoted(grid: Grid) -> Rewritten | None:
     ]
     said += [f"'{name}' is not read: {why}" for name, why in unread]
     return RowsGrid(grid, rows, places, units={}), said, unread
+
+
+def _instant_head(heads: Sequence[str], column: int) -> str:
+    """The head of the instants; numbers of samples are no samples."""
+    head = heads[column] if column < len(heads) else "time"
+    return head if recognise(head).channel == "time" else f"{head} no."
 
 
 def _name(heads: Sequence[str], column: int) -> str:
