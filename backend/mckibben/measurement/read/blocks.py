@@ -176,7 +176,7 @@ def _carried(grid: Grid, pieces: Sequence[tuple[int, int]], used: Sequence[int])
         gaps = [b - a for a, b in zip(filled, [*filled[1:], len(rows)], strict=True)]
         if min(gaps) < _SHORTEST_BLOCK:
             continue
-        marked = any(_bad(row[column]) for row in rows if column < len(row))
+        marked = any(kind_of(c) == GAP and _bad(c) for c in (r[column] for r in rows if column < len(r)))
         if (
             not marked
             and len(rows) >= 2 * _SHORTEST_BLOCK * min(len(filled), 2)

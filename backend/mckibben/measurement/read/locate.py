@@ -88,7 +88,7 @@ def find_runs(grid: Grid, until: int | None = None) -> list[Run]:
         texts = kinds.count(TEXT)
         if not numbers and not texts:
             continue
-        if not numbers or len(numbers) < texts:
+        if not numbers or len(numbers) < texts or (run is None and _sums_up(grid, index)):
             run = None
             continue
         clocks = frozenset(i for i, kind in enumerate(kinds) if kind == CLOCK)
@@ -132,6 +132,8 @@ def main_runs(grid: Grid, runs: Sequence[Run]) -> list[Run]:
     head = _row_above(grid, largest)
     kept: list[Run] = []
     for run in runs:
+        if run is not largest and run.last <= largest.first and _is_footer(grid, run):
+            continue  # statistics above the readings
         alike = run.numbers == largest.numbers or (
             run.width == largest.width and run.numbers <= largest.numbers
         )
@@ -143,7 +145,7 @@ def main_runs(grid: Grid, runs: Sequence[Run]) -> list[Run]:
         elif alike and follows and not _is_footer(grid, run):
             last = kept[-1]
             between = range(last.last, run.first)
-            broken = [(i, i + 1) for i in between if _holds_number(grid, i) and not _is_statistic(grid, i)]
+            broken = [(i, i + 1) for i in between if _is_broken(grid, i)]
             last.pieces = [*(last.pieces or [(last.first, last.last)]), *broken, (run.first, run.last)]
             last.last, last.rows, last.filled = run.last, last.rows + run.rows, last.filled + run.filled
         elif run is largest or (headed and run.rows >= 2 and alike and 20 * run.rows >= largest.rows):
@@ -183,8 +185,20 @@ def _is_headed(grid: Grid, run: Run) -> bool:
     return False
 
 
-def _holds_number(grid: Grid, index: int) -> bool:
-    return any(kind_of(cell) in (NUMBER, CLOCK) for cell in grid.cells(index))
+def _is_broken(grid: Grid, index: int) -> bool:
+    """Whether a row beside readings is one with a wrong cell: it holds a number, and is no title or statistic."""
+    if not any(kind_of(cell) in (NUMBER, CLOCK) for cell in grid.cells(index)) or _is_statistic(grid, index):
+        return False
+    remark = isinstance(grid, TextGrid) and re.match(r"\s*(#|%|//)", grid.lines[index])
+    return not remark and not any(held_quantities(text) for _, text in titles_of(grid, index))
+
+
+def _sums_up(grid: Grid, index: int) -> bool:
+    """Whether a row of statistics stands above readings, which begin with a number."""
+    if not _is_statistic(grid, index):
+        return False
+    below = (grid.cells(i) for i in range(index + 1, min(len(grid), index + 8)))
+    return any(cells and kind_of(cells[0]) in (NUMBER, CLOCK) for cells in below)
 
 
 def _is_statistic(grid: Grid, index: int) -> bool:
@@ -202,7 +216,7 @@ def with_broken_rows(grid: Grid, run: Run, head: TableHead) -> None:
         (row for row in (head.row, head.units_at) if row is not None and row < run.first), default=run.first
     )
     above = (
-        [i for i in range(top + 1, run.first) if _holds_number(grid, i) and not _is_statistic(grid, i)]
+        [i for i in range(top + 1, run.first) if _is_broken(grid, i)]
         if head.row is not None
         else []
     )
@@ -225,10 +239,11 @@ def _is_footer(grid: Grid, run: Run) -> bool:
 
     Without an empty row above it has to be a word of statistics; any other may be a reading gone wrong.
     """
-    parted = not any(texts_of(grid.cells(run.first - 1)))
+    parted = run.first > 0 and not any(texts_of(grid.cells(run.first - 1)))
+    parted = parted or any(_is_statistic(grid, index) for index in range(run.first, run.last))
     for index in range(run.first, run.last):
         words = words_of(next((text for text in texts_of(grid.cells(index)) if text), ""))
-        if not words or not (words[0] in STATISTICS or (parted and re.match(r"[^\W\d_]{3,}", words[0]))):
+        if not words or not (words[0] in STATISTICS or (parted and re.match(r"[^\W\d_]", words[0]))):
             return False
     return True
 
@@ -355,7 +370,8 @@ def _row_of_units(texts: dict[int, list[str]], rows: Sequence[int], names: Seque
         physical = sum(
             bool(dimension_of(unit.unit)) for _, cell in filled if (unit := unit_of(cell)) is not None
         )
-        if physical and 2 * units >= len(filled) and units > most:
+        quantity = any("=" in cell or re.search(r"[0-9]{2}", cell) for _, cell in filled if unit_of(cell) is None)
+        if physical and not quantity and 2 * units >= len(filled) and units > most:
             best, most = index, units
     return best
 

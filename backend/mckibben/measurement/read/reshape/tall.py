@@ -91,9 +91,9 @@ def _columns_of(grid: Grid) -> _Columns | None:
     width = Counter(map(len, rows)).most_common(1)[0][0]
     kinds = [Counter(kind_of(row[c]) for row in rows if c < len(row)) for c in range(width)]
     words = [c for c in range(width) if kinds[c][TEXT] > 0.9 * len(rows)]
-    tag = next(
-        (c for c in words if _names_signals(grid, [str(row[c]) for row in rows if c < len(row)])), None
-    )
+    unit = next((c for c in words if all(unit_of(str(row[c])) for row in rows[:20] if c < len(row))), None)
+    names = [c for c in words if c != unit]
+    tag = next((c for c in names if _names_signals(grid, rows, c, unit)), None)
     if tag is None:
         return None
     clocks = [c for c in range(width) if kinds[c][CLOCK] > 0.9 * len(rows)]
@@ -107,7 +107,6 @@ def _columns_of(grid: Grid) -> _Columns | None:
     instant = next(iter([*clocks, *times]), None)
     instant = next(iter(running), None) if instant is None and len(running) == 1 else instant
     others = [c for c in words if c != tag]
-    unit = next((c for c in others if all(unit_of(str(row[c])) for row in rows[:20] if c < len(row))), None)
     quality = next(
         (c for c in others if c != unit and _judges([str(row[c]) for row in rows if c < len(row)])), None
     )
@@ -128,12 +127,18 @@ def _body(grid: Grid) -> tuple[int, list[Sequence[Cell]]]:
     return first, rows
 
 
-def _names_signals(grid: Grid, words: Sequence[str]) -> bool:
-    """Whether words come again and again and name at least two channels."""
-    counts = Counter(word.strip() for word in words)
-    if not 2 <= len(counts) <= _MOST_TAGS or len(words) < 2 * len(counts):
+def _names_signals(grid: Grid, rows: Sequence[Sequence[Cell]], column: int, unit: int | None) -> bool:
+    """Whether the words of a column come again and again and name at least two channels."""
+    units: dict[str, str] = {}
+    counts: Counter[str] = Counter()
+    for row in rows:
+        if column < len(row):
+            counts[tag := str(row[column]).strip()] += 1
+            if unit is not None and unit < len(row):
+                units[tag] = str(row[unit]).strip()
+    if not 2 <= len(counts) <= _MOST_TAGS or counts.total() < 2 * len(counts):
         return False
-    channels = {_known(grid, tag).channel for tag in counts} - {None, "group", "direction"}
+    channels = {_known(grid, tag, units.get(tag)).channel for tag in counts} - {None, "group", "direction"}
     return len(channels) >= 2
 
 
@@ -152,9 +157,11 @@ def _judges(words: Sequence[str]) -> bool:
     )
 
 
-def _known(grid: Grid, tag: str) -> Recognised:
+def _known(grid: Grid, tag: str, unit: str | None) -> Recognised:
     explained = _explained(grid, tag)
-    known = recognise(tag)
+    known = recognise(tag, unit)
+    if unit is not None and known.channel is not None:
+        return known
     return known if known.channel is not None and known.penalty < BY_UNIT else recognise(explained or tag)
 
 
