@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import islice
 
 from mckibben.measurement.read.cells import Cell
 from mckibben.measurement.read.grid import Grid
@@ -164,7 +165,7 @@ def tables_of_run(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[
 
 def _carried(grid: Grid, pieces: Sequence[tuple[int, int]], used: Sequence[int]) -> frozenset[int]:
     """Columns filled in the first row of each block only: one cell and a gap, some dozens of times."""
-    indices = [index for first, last in pieces for index in range(first, last)][:_CARRIED_WITHIN]
+    indices = list(islice((i for first, last in pieces for i in range(first, last)), _CARRIED_WITHIN))
     if len(indices) < 2 * _SHORTEST_BLOCK:
         return frozenset()
     rows = [grid.cells(index) for index in indices]
