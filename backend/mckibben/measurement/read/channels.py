@@ -114,7 +114,11 @@ def _without_sentinels(column: HeaderColumn, reading: ChannelReading) -> None:
     if column.use != "time":
         for value in _SENTINELS:
             same = raw == value
-            if same.any() and not same.all() and _FAR * float(np.max(np.abs(raw[~(same | odd)]), initial=0.0)) < abs(value):
+            if (
+                same.any()
+                and not same.all()
+                and _FAR * float(np.max(np.abs(raw[~(same | odd)]), initial=0.0)) < abs(value)
+            ):
                 odd |= same
     if not odd.any() or 2 * int(np.count_nonzero(odd)) > len(raw):
         return

@@ -101,8 +101,12 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
         i for i, name in enumerate(headers) if not name and i < len(first) and kind_of(first[i]) == CLOCK
     ]
     pressures = {(held.value, held.unit) for header in headers if (held := held_pressure(header)) is not None}
-    gaps = [i for i in known if len(sample) > 2 and all(i < len(r) and kind_of(r[i]) == GAP for r in sample[1:3])]
-    sure = bool(known) and not words and not gaps and len(pressures) < 2 and not _has_thousands(body, separator)
+    gaps = [
+        i for i in known if len(sample) > 2 and all(i < len(r) and kind_of(r[i]) == GAP for r in sample[1:3])
+    ]
+    sure = (
+        bool(known) and not words and not gaps and len(pressures) < 2 and not _has_thousands(body, separator)
+    )
 
     def read(numeric: Sequence[int], words: Sequence[int], skip: bool) -> CellTable:
         return read_table(
@@ -171,7 +175,11 @@ def without_footer(body: str, separator: str, first_line: int) -> tuple[str, lis
             lines.append(line)
         end = begin - 1
     counted = any(_is_statistic(line, separator) for line in lines)
-    if not lines or end <= 0 or not (gap or counted or all(_is_no_reading(line, separator) for line in lines)):
+    if (
+        not lines
+        or end <= 0
+        or not (gap or counted or all(_is_no_reading(line, separator) for line in lines))
+    ):
         return body, []
     kept = body[:end]
     row = first_line + kept.count("\n") + 1

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 from mckibben.measurement.read.cells import Cell
 from mckibben.measurement.read.grid import BLANKS, Grid, TextGrid
+from mckibben.measurement.read.limits import MAX_BLOCKS
 from mckibben.measurement.read.recognise import BY_UNIT, held_quantities, recognise
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.values import CLOCK, GAP, NUMBER, TEXT, kind_of
@@ -132,6 +133,8 @@ def main_runs(grid: Grid, runs: Sequence[Run]) -> list[Run]:
     head = _row_above(grid, largest)
     kept: list[Run] = []
     for run in runs:
+        if len(kept) > MAX_BLOCKS:
+            break  # whoever asked refuses them
         if run is not largest and run.last <= largest.first and _is_footer(grid, run):
             continue  # statistics above the readings
         alike = run.numbers == largest.numbers or (
@@ -146,7 +149,8 @@ def main_runs(grid: Grid, runs: Sequence[Run]) -> list[Run]:
             last = kept[-1]
             between = range(last.last, run.first)
             broken = [(i, i + 1) for i in between if _is_broken(grid, i)]
-            last.pieces = [*(last.pieces or [(last.first, last.last)]), *broken, (run.first, run.last)]
+            last.pieces = last.pieces or [(last.first, last.last)]
+            last.pieces += [*broken, (run.first, run.last)]
             last.last, last.rows, last.filled = run.last, last.rows + run.rows, last.filled + run.filled
         elif run is largest or (headed and run.rows >= 2 and alike and 20 * run.rows >= largest.rows):
             kept.append(run)
@@ -215,11 +219,7 @@ def with_broken_rows(grid: Grid, run: Run, head: TableHead) -> None:
     top = max(
         (row for row in (head.row, head.units_at) if row is not None and row < run.first), default=run.first
     )
-    above = (
-        [i for i in range(top + 1, run.first) if _is_broken(grid, i)]
-        if head.row is not None
-        else []
-    )
+    above = [i for i in range(top + 1, run.first) if _is_broken(grid, i)] if head.row is not None else []
     last = run.last
     while last < len(grid) and (cells := [c for c in grid.cells(last) if kind_of(c) != GAP]):
         if kind_of(cells[0]) not in (NUMBER, CLOCK):
@@ -287,7 +287,11 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
             continue
         other = _padded(texts[index], width)
         if index > named and _divides(names, other):
-            names = [" ".join(filter(None, pair)) for pair in zip(_filled_on(names), other, strict=False)]
+            filled = _filled_on(names)
+            names = [
+                " ".join(filter(None, (f if name or o else "", o)))
+                for name, f, o in zip(names, filled, other, strict=False)
+            ]
             continue
         names = [name or (o if _names_channel(o) else "") for name, o in zip(names, other, strict=False)]
     return TableHead(names, units, named, units_at, tuple(rows))
@@ -321,10 +325,16 @@ def _placed_units(names: str, units: str) -> list[str] | None:
 
 def _divides(names: Sequence[str], below: Sequence[str]) -> bool:
     """Whether a row of names is divided by the one below: "Kraft" over "Ist" and "Soll"."""
-    gaps = sum(not name and bool(b) for name, b in zip(names, below, strict=False))
+    pairs = list(zip(names, below, strict=False))
+    gaps = [i for i, (name, under) in enumerate(pairs) if not name and under]
+    parts = {*gaps, *(i - 1 for i in gaps)}  # the name above a gap stands for it too
+    divided = [i for i in parts if i >= 0 and pairs[i][1]]
+    loose = any(under and i not in parts for i, (_, under) in enumerate(pairs))
+    everywhere = sum(map(bool, below)) >= sum(map(bool, names)) + len(gaps)
     return (
-        gaps > 0
-        and sum(map(bool, below)) >= sum(map(bool, names)) + gaps
+        bool(gaps)
+        and len(divided) > len(gaps)
+        and (everywhere or not loose)
         and not any(_names_channel(b) for b in below if b)
     )
 
@@ -370,7 +380,9 @@ def _row_of_units(texts: dict[int, list[str]], rows: Sequence[int], names: Seque
         physical = sum(
             bool(dimension_of(unit.unit)) for _, cell in filled if (unit := unit_of(cell)) is not None
         )
-        quantity = any("=" in cell or re.search(r"[0-9]{2}", cell) for _, cell in filled if unit_of(cell) is None)
+        quantity = any(
+            "=" in cell or re.search(r"[0-9]{2}", cell) for _, cell in filled if unit_of(cell) is None
+        )
         if physical and not quantity and 2 * units >= len(filled) and units > most:
             best, most = index, units
     return best

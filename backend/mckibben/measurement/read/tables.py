@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -9,6 +10,7 @@ from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.read.blocks import MapPart, Table, tables_of_run
 from mckibben.measurement.read.grid import Grid, TextGrid
 from mckibben.measurement.read.header import map_headers
+from mckibben.measurement.read.limits import MAX_BLOCKS
 from mckibben.measurement.read.locate import (
     Run,
     TableHead,
@@ -64,6 +66,12 @@ def tables_of_grid(grid: Grid, *, head: int | None = None, until: int | None = N
         kept = main_runs(grid, below) or below[:1]
     if until is not None and kept and kept[-1].last >= until:
         kept[-1].last = _end(grid, kept[-1])
+    if len(kept) > MAX_BLOCKS:
+        raise InputError(
+            f"{grid.place}: the file holds more than {MAX_BLOCKS} blocks of readings, at most {MAX_BLOCKS} are read",
+            field="rows",
+            hint="split the file, or write the blocks as columns of one table",
+        )
     tables: list[Table] = []
     taken: set[int] = set()
     after = -1
@@ -156,7 +164,10 @@ def _rest(grid: Grid, runs: Sequence[Run], taken: set[int], table: Table) -> lis
     total = len(grid) if not isinstance(grid, TextGrid) or len(grid) < 200_000 else 0
     candidates = [*range(inside[0][0])] if inside else []
     if total:
-        candidates = [i for i in range(total) if not any(first <= i < last for first, last in pieces)]
+        read = bytearray(total)
+        for first, last in pieces:
+            read[first:last] = b"\1" * (min(last, total) - first)
+        candidates = [i for i in range(total) if not read[i]]
     elif inside:
         candidates += range(inside[-1][1], len(grid))
     for index in candidates:
@@ -166,7 +177,8 @@ def _rest(grid: Grid, runs: Sequence[Run], taken: set[int], table: Table) -> lis
         text = " ".join(cell for cell in cells if cell)[:_MAX_TEXT]
         if not text:
             continue
-        if any(first <= index < last for first, last in inside):
+        at = bisect_right(inside, (index, len(grid))) - 1
+        if at >= 0 and inside[at][0] <= index < inside[at][1]:
             between.append(f"{grid.where(index)}: '{text[:60]}'")
         elif inside and index >= inside[-1][1]:
             below.append((grid.line(index), text[:40]))
