@@ -176,7 +176,7 @@ def _since_1970(raw: NDArray[np.float64]) -> str | None:
 
 
 def _are_serial_days(raw: NDArray[np.float64]) -> bool:
-    """Whether times are dates as spreadsheets keep them: days since 1900, with the time of day as a fraction."""
+    """Whether times are dates as spreadsheets keep them: days since 1900 with fractions."""
     if not len(raw) or not (_SERIAL[0] <= float(np.min(raw)) and float(np.max(raw)) <= _SERIAL[1]):
         return False
     return bool(np.ptp(raw) < _LONGEST_TEST and np.any(raw != np.round(raw)))

@@ -183,8 +183,8 @@ def _unread(evidence: Evidence) -> list[Question]:
         target = "displacement" if channel == "length" else channel
         others = (target,) if target != "displacement" else ("displacement", "length", "diameter")
         doubt = (
-            "; no text says from which zero it counts nor whether it grows as the muscle shortens: is it the position "
-            "of the muscle's end, and how does it count"
+            "; no text says from which zero it counts nor whether it grows as the muscle shortens: is it "
+            "the position of the muscle's end, and how does it count"
             if channel == "length" and not is_filled
             else "; what is it"
         )
@@ -270,9 +270,9 @@ def _other_time(evidence: Evidence, winner: HeaderColumn, other: HeaderColumn) -
     return [
         Question(
             "second time",
-            f"{evidence.noun}s '{winner.header}' and '{other.header}' are times of different signals and differ by "
-            f"up to {apart:.3g}: the rows hold readings of different instants; bring them to one time axis, or "
-            "leave one signal out with its time",
+            f"{evidence.noun}s '{winner.header}' and '{other.header}' are times of different signals and "
+            f"differ by up to {apart:.3g}: the rows hold readings of different instants; bring them to one "
+            "time axis, or leave one signal out with its time",
             ignore_option(f"column {other.place + 1}"),
             other.header,
         )

@@ -20,7 +20,7 @@ from mckibben.measurement.read.header import HEADER_EXAMPLE, plainly_known
 from mckibben.measurement.read.json_file import is_json, open_json
 from mckibben.measurement.read.lines import located_text
 from mckibben.measurement.read.raw import RawRows, shown_rows
-from mckibben.measurement.read.recognise import held_pressure
+from mckibben.measurement.read.recognise import held_pressure, recognise
 from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
 from mckibben.measurement.read.stated import in_known_words, statements
 from mckibben.measurement.read.table import first_rows, read_table, split_header
@@ -98,7 +98,9 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
     first = list(sample[0]) if sample else []
     words = [i for i in known if i < len(first) and kind_of(first[i]) in (TEXT, CLOCK)]
     words += [
-        i for i, name in enumerate(headers) if not name and i < len(first) and kind_of(first[i]) == CLOCK
+        i
+        for i, name in enumerate(headers[: len(first)])
+        if kind_of(first[i]) == CLOCK and (not name or recognise(name).channel == "time")
     ]
     pressures = {(held.value, held.unit) for header in headers if (held := held_pressure(header)) is not None}
     gaps = [

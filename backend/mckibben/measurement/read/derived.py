@@ -1,4 +1,4 @@
-"""Columns that are computed from those of a file: seconds and nanoseconds as one time, volts by a stated scale."""
+"""Columns computed from those of a file: seconds and nanoseconds as one time, volts by a stated scale."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Measurements from JSON and JSON lines: records of readings, or vectors by name, as signals or in structs."""
+"""Measurements from JSON and JSON lines: records of readings, vectors by name, signals, structs."""
 
 from __future__ import annotations
 

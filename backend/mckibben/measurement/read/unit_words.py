@@ -54,6 +54,8 @@ def unit_of(text: str) -> UnitText | None:
     if absolute is None:
         plain, absolute = _reference_in(bare)
     plain = _without_brackets(plain.strip(" ,."))
+    if re.fullmatch(r"[^\W\d_]+1", plain):
+        return None  # "FT1" is a name; nobody writes a unit to the power of one
     unit = _SPELLINGS.get(plain.lower(), plain)
     # "mPa" is a thousandth of a pascal; "Mpa" and "mpa" are written for MPa.
     spellings = ("MPa",) if unit in ("Mpa", "mpa") else (unit, unit.lower())
