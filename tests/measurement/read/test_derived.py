@@ -1,4 +1,4 @@
-"""Columns computed from others: seconds with nanoseconds, volts by a stated scale; numbers that stand for none."""
+"""Columns computed from others: seconds with nanoseconds, volts by a stated scale, numbers for none."""
 
 from __future__ import annotations
 
@@ -74,5 +74,5 @@ def test_conditions_glued_in_the_name_and_the_air_of_the_file() -> None:
     rows = f"time_s,pressure_bar,stroke_mm\n{table(TIME, PRESSURE, STROKE)}"
     found = read(rows, "lift_dmsp20_L250mm_m4.5kg_ps6bar.csv").conditions
     assert (found["nominal_length"], found["load_mass"], found["supply_pressure"]) == (0.25, 4.5, 6e5)
-    rows = f"Barometer: 1000 hPa\nPressure [bar abs],Force [N],Stroke [mm]\n{table(PRESSURE + 1.0, FORCE, STROKE)}"
-    assert_is_the_test(read(rows), rest=False)
+    head = "Barometer: 1000 hPa\nPressure [bar abs],Force [N],Stroke [mm]\n"
+    assert_is_the_test(read(head + table(PRESSURE + 1.0, FORCE, STROKE)), rest=False)

@@ -12,7 +12,8 @@ HEAD = "pressure_bar,length_mm,force_N\n"
 ROWS = "1,300,10\n2,290,20\n3,280,30\n4,270,40\n"
 
 MARKERS = {
-    "": "an empty cell", "NaN": "not a finite number", "#N/A": "not a finite number", "∞": "not a finite number",
+    "": "an empty cell", "NaN": "not a finite number", "#N/A": "not a finite number",
+    "∞": "not a finite number",
     "--": "no reading", "No Data": "no reading", "-": "no reading", "OL": "out of range",
     "+++++++": "out of range", "####": "out of range", "OVLD": "out of range", "Over range": "out of range",
 }  # fmt: skip

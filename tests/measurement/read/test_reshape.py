@@ -1,4 +1,4 @@
-"""Tables that are no columns below a head: one value per line, units in cells, labels, blocks, merged cells."""
+"""Tables that are no columns below a head: one value per line, units in cells, labels, merged cells."""
 
 from __future__ import annotations
 
@@ -25,17 +25,21 @@ def tall(head: str, line: str, names: tuple[str, str, str], units: tuple[str, ..
 
 TALL = {
     "units in names": tall(
-        "# L0: 300 mm\nsample,sensor,value", "{i},{tag},{value}", ("Pressure [bar]", "Force [N]", "Stroke [mm]")
+        "# L0: 300 mm\nsample,sensor,value", "{i},{tag},{value}",
+        ("Pressure [bar]", "Force [N]", "Stroke [mm]"),
     ),
     "a column of units": tall(
         "rest length 300 mm\ntime_s;channel;reading;unit", "{t};{tag};{value};{unit}",
         ("P_muscle", "F_tension", "X_stroke"), ("bar", "N", "mm"),
     ),
     "explained above": tall(
-        "# PT1 = muscle pressure, bar(g); FT1 = tension, N; ZT1 = shortening, mm; L0 300 mm\nTime;Tag;Value;Quality",
+        "# PT1 = muscle pressure, bar(g); FT1 = tension, N; ZT1 = shortening, mm; L0 300 mm\n"
+        "Time;Tag;Value;Quality",
         "2024-06-11T14:03:{i:02d}.250Z;{tag};{value};Good", ("PT1", "FT1", "ZT1"),
     ),
-    "japanese": tall("自然長 300 mm\n時刻,項目,値", "{t},{tag},{value}", ("圧力(bar)", "荷重(N)", "変位(mm)")),
+    "japanese": tall(
+        "自然長 300 mm\n時刻,項目,値", "{t},{tag},{value}", ("圧力(bar)", "荷重(N)", "変位(mm)")
+    ),
 }  # fmt: skip
 
 
@@ -166,7 +170,8 @@ def test_a_notebook_table() -> None:
 
 
 def test_newest_first_is_turned() -> None:
-    found = read(f"rest length 300 mm\ntime_s,pressure_bar,force_N,stroke_mm\n{table(TIME[::-1], PRESSURE[::-1], FORCE[::-1], STROKE[::-1])}")  # fmt: skip
+    rows = table(TIME[::-1], PRESSURE[::-1], FORCE[::-1], STROKE[::-1])
+    found = read(f"rest length 300 mm\ntime_s,pressure_bar,force_N,stroke_mm\n{rows}")
     assert_is_the_test(found)
     assert found.columns["time"].tolist() == TIME.tolist()
     assert any("backwards in time" in message for message in found.messages)

@@ -146,7 +146,7 @@ def _oldest_first(
     columns: dict[str, NDArray], by_use: Mapping[str, HeaderColumn], slack: NDArray | None, source: RawTable,
     messages: list[str],
 ) -> NDArray | None:  # fmt: skip
-    """Turn the rows of a file that runs backwards in time, in place; returns the marks of slack, turned too."""
+    """Turn the rows of a file that runs backwards in time; returns the marks of slack, turned too."""
     time = columns.get("time")
     if time is None or len(time) < _FEWEST_TO_TURN or not (np.diff(time) <= 0.0).all() or time[0] == time[-1]:
         return slack

@@ -288,7 +288,8 @@ def _specimens(evidence: Evidence) -> list[Question]:
     column = evidence.used.get(SAMPLE)
     labels = evidence.labels.get(column.place) if column else None
     words = [word for word in labels.words if word] if labels else []
-    if column is None or len(words) < 2 or column.origin == "you":
+    running = labels is not None and all(w.isdecimal() for w in words) and 2 * len(words) > len(labels.codes)
+    if column is None or len(words) < 2 or column.origin == "you" or running:
         return []
     return [
         Question(

@@ -107,7 +107,12 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
         i for i in known if len(sample) > 2 and all(i < len(r) and kind_of(r[i]) == GAP for r in sample[1:3])
     ]
     sure = (
-        bool(known) and not words and not gaps and len(pressures) < 2 and not _has_thousands(body, separator)
+        bool(known)
+        and len(first) in (0, len(headers))
+        and not words
+        and not gaps
+        and len(pressures) < 2
+        and not _has_thousands(body, separator)
     )
 
     def read(numeric: Sequence[int], words: Sequence[int], skip: bool) -> CellTable:

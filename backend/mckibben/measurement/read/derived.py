@@ -64,9 +64,10 @@ def with_derived(source: RawTable) -> RawTable:
                 f"{source.noun} '{headers[index]}' is read by its scale, {scale.text} ({scale.where})"
             )
             headers[index], units[index] = f"{_bare(headers[index])}: {scale.name}", scale.unit
-    return replace(_mapped(source, columns), headers=headers, units=tuple(units), messages=[*source.messages, *said]) if (
-        said
-    ) else source  # fmt: skip
+    if not said:
+        return source
+    messages = [*source.messages, *said]
+    return replace(_mapped(source, columns), headers=headers, units=tuple(units), messages=messages)
 
 
 def _bare(header: str) -> str:

@@ -160,7 +160,7 @@ def _flat(record: Record, prefix: str = "", depth: int = 0) -> dict[str, Any]:
 def _of_records(
     records: list[tuple[int, Record]], document: Any, name: str, correction: Correction
 ) -> RawTable:
-    """The table of records; those with other names, and what stands beside the list, say what the test was."""
+    """The table of records; others, and what stands beside the list, say what the test was."""
     check_rows(len(records), name)
     flat = [(number, _flat(record)) for number, record in records]
     kinds = Counter(frozenset(record) for _, record in flat)

@@ -190,7 +190,7 @@ def _is_headed(grid: Grid, run: Run) -> bool:
 
 
 def _is_broken(grid: Grid, index: int) -> bool:
-    """Whether a row beside readings is one with a wrong cell: it holds a number, and is no title or statistic."""
+    """Whether a row beside readings is one with a wrong cell: with a number, no title, no statistic."""
     if not any(kind_of(cell) in (NUMBER, CLOCK) for cell in grid.cells(index)) or _is_statistic(grid, index):
         return False
     remark = isinstance(grid, TextGrid) and re.match(r"\s*(#|%|//)", grid.lines[index])

@@ -109,7 +109,7 @@ class _Mat73Reader:
         return result
 
     def _attributes(self, item: Any) -> dict[str, Any]:
-        """Attributes as numbers, texts, lists of texts; a number with its unit beside it as ``name [unit]``."""
+        """Attributes as numbers, texts, lists of texts; a number with a unit is ``name [unit]``."""
         found: dict[str, Any] = {}
         for key in list(item.attrs)[:_MAX_ATTRIBUTES]:
             self._variables += 1

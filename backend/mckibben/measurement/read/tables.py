@@ -68,7 +68,7 @@ def tables_of_grid(grid: Grid, *, head: int | None = None, until: int | None = N
         kept[-1].last = _end(grid, kept[-1])
     if len(kept) > MAX_BLOCKS:
         raise InputError(
-            f"{grid.place}: the file holds more than {MAX_BLOCKS} blocks of readings, at most {MAX_BLOCKS} are read",
+            f"{grid.place}: the file holds more than {MAX_BLOCKS} blocks of readings, which is too much",
             field="rows",
             hint="split the file, or write the blocks as columns of one table",
         )

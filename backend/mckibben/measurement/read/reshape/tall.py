@@ -196,7 +196,7 @@ def _head(grid: Grid, tag: str, columns: _Columns, readings: Sequence[tuple[int,
 def _instants(
     readings: Sequence[tuple[int, Sequence[Cell]]], columns: _Columns, tags: Sequence[str]
 ) -> list[tuple[int, Cell, dict[str, Cell]]]:
-    """(row, instant, values by name): readings of one instant together, else those until a name comes again."""
+    """(row, instant, values by name): readings of one instant, else those until a name comes again."""
     wanted = set(tags)
     chosen = [(i, cells) for i, cells in readings if str(cells[columns.tag]).strip() in wanted]
     keys = [None if columns.instant is None else str(cells[columns.instant]) for _, cells in chosen]
