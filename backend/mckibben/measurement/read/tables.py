@@ -10,12 +10,12 @@ from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.read.blocks import MapPart, Table, tables_of_run
 from mckibben.measurement.read.grid import Grid, TextGrid
 from mckibben.measurement.read.header import map_headers
+from mckibben.measurement.read.heads import head_of
 from mckibben.measurement.read.limits import MAX_BLOCKS
 from mckibben.measurement.read.locate import (
     Run,
     TableHead,
     find_runs,
-    head_of,
     main_runs,
     texts_of,
     titles_of,
