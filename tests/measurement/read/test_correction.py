@@ -119,7 +119,7 @@ def test_a_column_that_is_not_there() -> None:
 
 
 def test_preview_of_what_can_be_guessed() -> None:
-    found = preview(CSV, "a.csv")
+    found = preview(CSV.replace(b"21,7,,1,x", b"21,7,seven,1,x"), "a.csv")
     by_header = {column.header: column for column in found.columns}
     assert list(by_header) == ["time_s", "p1", "stroke_mm", "F", "note"]
     assert [column.channel for column in found.columns] == ["time", None, "displacement", "force", None]
@@ -130,7 +130,7 @@ def test_preview_of_what_can_be_guessed() -> None:
     assert len(found.sample) == 8
     assert (found.rows, found.valid) == (23, 22)
     assert {reason: skip.first for reason, skip in found.skipped.items()} == {
-        "an empty cell": "row 24, column 'stroke_mm'"
+        "not a number": "row 24, column 'stroke_mm'"
     }
     assert found.refused
     assert found.problem is not None

@@ -389,9 +389,12 @@ ERRORS = {
         "pressure_bar,length_mm\nTrue,1\nTrue,1\n",
         "a.csv, row 2, column 'pressure_bar': 'True' is not a number",
     ),
-    "empty cell": (BASE + "3,,5\n", "a.csv, row 4, column 'length_mm': the cell is empty"),
-    "nan": (BASE + "3,4,NaN\n", "a.csv, row 4, column 'force_N': 'NaN' is not a number that can be used"),
-    "inf": (BASE + "3,4,-inf\n", "a.csv, row 4, column 'force_N': '-inf' is not a number that can be used"),
+    "empty cell": (BASE + 3 * "3,,5\n", "a.csv, row 4, column 'length_mm': the cell is empty"),
+    "nan": (BASE + 3 * "3,4,NaN\n", "a.csv, row 4, column 'force_N': 'NaN' is not a number that can be used"),
+    "inf": (
+        BASE + 3 * "3,4,-inf\n",
+        "a.csv, row 4, column 'force_N': '-inf' is not a number that can be used",
+    ),
     "too large": (BASE + "3,4,1e999\n", "a.csv, row 4, column 'force_N': '1e999' is too large"),
     "too large in SI": (
         "pressure_bar,length_mm,force_MN\n1,3,1e308\n",

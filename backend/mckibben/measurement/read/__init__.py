@@ -16,7 +16,7 @@ __all__ = [
 
 
 def read_measurement(data: bytes, name: str, correction: Correction | None = None) -> Measurement:
-    """The measurement in a file: CSV, .xlsx, .mat (v5 to v7.3) or .tdms, told apart by the content.
+    """The measurement in a file: CSV, JSON, .xlsx, .mat, HDF5 or .tdms, told apart by the content.
 
     Args:
         data: the file's bytes.

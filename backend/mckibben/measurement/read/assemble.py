@@ -28,6 +28,7 @@ from mckibben.measurement.read.stated import KIND_SAID, NAME, SIGN
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
 
+_FEWEST_TO_TURN = 3  # rows
 _LOOKED_AT = 20_000  # readings from which questions are asked
 
 
@@ -100,6 +101,7 @@ def assemble(
         source.place, source.noun, table, conditions, messages, list(meaning.ignored), skip, source.clocks
     )
     columns, by_use, slack = read_channels(meaning.columns, reading)
+    slack = _oldest_first(columns, by_use, slack, source, messages)
     _hold_pressure_of_name(columns, by_use, name, messages)
     skipped = dict(reading.table.skipped)
     for reason, left_out in skipped.items():
@@ -138,6 +140,22 @@ def assemble(
         questions=tuple(questions),
     )
     return Read(measurement, list(by_use.values()), skipped, questions)
+
+
+def _oldest_first(
+    columns: dict[str, NDArray], by_use: Mapping[str, HeaderColumn], slack: NDArray | None, source: RawTable,
+    messages: list[str],
+) -> NDArray | None:  # fmt: skip
+    """Turn the rows of a file that runs backwards in time; returns the marks of slack, turned too."""
+    time = columns.get("time")
+    if time is None or len(time) < _FEWEST_TO_TURN or not (np.diff(time) <= 0.0).all() or time[0] == time[-1]:
+        return slack
+    for channel, values in columns.items():
+        columns[channel] = values[::-1].copy()
+    if by_use["time"].place in source.clocks:
+        columns["time"] -= columns["time"][0]
+    messages.append("the rows run backwards in time: they are read from the last to the first")
+    return slack if slack is None else slack[::-1].copy()
 
 
 def _suits(kind: str, columns: Mapping[str, NDArray]) -> bool:

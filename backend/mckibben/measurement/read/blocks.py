@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import islice
 
 from mckibben.measurement.read.cells import Cell
 from mckibben.measurement.read.grid import Grid
@@ -13,7 +14,7 @@ from mckibben.measurement.read.locate import Run, TableHead, texts_of
 from mckibben.measurement.read.recognise import HeldQuantity, held_quantities, recognise, taken_apart
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.values import GAP, NUMBER, TEXT, kind_of
-from mckibben.measurement.read.vocabulary import folded
+from mckibben.measurement.read.vocabulary import WAYS, folded
 
 UNNAMED = "values at each pressure"  # a column of which only the pressure is said
 
@@ -37,6 +38,7 @@ class Part:
         own: those that are this part's alone; a row in which they are empty is not of this part.
         held: channel -> pressure, stroke or load of the part, where a title or head says it.
         clocks: columns of the grid with times of day or dates.
+        carried: those whose value stands in the first row of a block only, as merged cells have it.
     """
 
     grid: Grid
@@ -45,13 +47,22 @@ class Part:
     own: tuple[int, ...]
     held: dict[str, Held] = field(default_factory=dict)
     clocks: frozenset[int] = frozenset()
+    carried: frozenset[int] = frozenset()
 
     def rows(self) -> Iterator[tuple[int, list[Cell]]]:
         """Row of the file and cells, in the order of the heads."""
+        kept: dict[int, Cell] = {}
         for first, last in self.pieces:
             for index in range(first, last):
                 cells = self.grid.cells(index)
                 count = len(cells)
+                if self.carried:
+                    cells = [*cells, *[None] * (max(self.columns) + 1 - count)]
+                    count = len(cells)
+                    for column in self.carried:
+                        if kind_of(cells[column]) != GAP:
+                            kept[column] = cells[column]
+                        cells[column] = kept.get(column)
                 if all(
                     column >= count or (kind_of(cells[column]) == GAP and not _bad(cells[column]))
                     for column in self.own
@@ -122,6 +133,7 @@ def tables_of_run(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[
     where = "" if head.units_at is None else grid.where(head.units_at)
     names, units = head.names, head.units
     used = [c for c in range(len(names)) if names[c] or units[c] or c in run.numbers]
+    carried = _carried(grid, pieces, used)
     shared, groups, bases = _groups(names, used, run)
     table = Table(
         place=grid.place, title=grid.title, names=[], units=[], unit_where=where,
@@ -137,14 +149,56 @@ def tables_of_run(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[
         table.names[-1] = value or UNNAMED
     table.names = _told_apart(table.names)
     table.units = [units[c] for c in order]
+    for c in sorted(carried):
+        said = f"column '{names[c] or f'column {c + 1}'}' is filled in the first row of each block only: it "
+        table.messages.append(f"{said}counts for the rows below too, down to the next one")
     spans = [
         (min(group), min(groups[i + 1]) if i + 1 < len(groups) else 10**6) for i, group in enumerate(groups)
     ]
     for group, span in zip(groups, spans, strict=True):
-        own = tuple(c for c in group if c in run.numbers) or tuple(group)
+        own = tuple(c for c in group if c in run.numbers and c not in carried) or tuple(group)
         held = _held_of_group(grid, names, group, titles, span if len(groups) > 1 else None, head)
-        table.parts.append(Part(grid, pieces, (*shared, *group), own, held, run.clocks))
+        inside = carried & {*shared, *group}
+        table.parts.append(Part(grid, pieces, (*shared, *group), own, held, run.clocks, inside))
     return table
+
+
+def _carried(grid: Grid, pieces: Sequence[tuple[int, int]], used: Sequence[int]) -> frozenset[int]:
+    """Columns filled in the first row of each block only: one cell and a gap, some dozens of times."""
+    indices = list(islice((i for first, last in pieces for i in range(first, last)), _CARRIED_WITHIN))
+    if len(indices) < 2 * _SHORTEST_BLOCK:
+        return frozenset()
+    rows = [grid.cells(index) for index in indices]
+    found = set()
+    for column in used:
+        filled = [n for n, row in enumerate(rows) if column < len(row) and kind_of(row[column]) != GAP]
+        if filled[:1] != [0] or len(filled) > _MOST_BLOCKS:
+            continue
+        gaps = [b - a for a, b in zip(filled, [*filled[1:], len(rows)], strict=True)]
+        if min(gaps) < _SHORTEST_BLOCK:
+            continue
+        marked = any(kind_of(c) == GAP and _bad(c) for c in (r[column] for r in rows if column < len(r)))
+        if (
+            not marked
+            and len(rows) >= 2 * _SHORTEST_BLOCK * min(len(filled), 2)
+            and _others_filled(rows, column, used)
+        ):
+            found.add(column)
+    return frozenset(found)
+
+
+def _others_filled(rows: Sequence[Sequence[Cell]], column: int, used: Sequence[int]) -> bool:
+    """Whether two other columns are filled nearly throughout."""
+    full = 0
+    for other in used:
+        count = sum(other < len(row) and kind_of(row[other]) != GAP for row in rows)
+        full += other != column and count > 0.9 * len(rows)
+    return full >= 2
+
+
+_CARRIED_WITHIN = 2000  # rows that show it
+_MOST_BLOCKS = 60
+_SHORTEST_BLOCK = 3  # rows
 
 
 def _told_apart(names: Sequence[str]) -> list[str]:
@@ -192,6 +246,9 @@ def _groups(
     groups = list(by_pressure.values())
     if len(groups) > 1:
         bases = {c: _without_held(names[c]) for group in groups for c in group}
+        ways = {c: _without_way(base) for c, base in bases.items()}
+        if all(len({folded(ways[c]) for c in group}) == 1 for group in groups) and ways != bases:
+            groups, bases = [[c] for group in groups for c in group], ways
         keys = [[folded(bases[c]) for c in group] for group in groups]
         if all(sorted(key) == sorted(keys[0]) and len(set(key)) == len(key) for key in keys):
             ordered = [
@@ -233,6 +290,12 @@ def _without_held(name: str) -> str:
     held = taken_apart(name).held
     text = name if held is None else name.replace("_", " ").replace(held.text, " ")
     return " ".join(text.split())
+
+
+def _without_way(name: str) -> str:
+    """``"Kraft hin [N]"`` -> ``"Kraft [N]"``."""
+    kept = [word for word in name.split() if folded(word.strip("()-,")) not in WAYS]
+    return " ".join(kept) if kept else name
 
 
 def _map(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[int, int, str]]) -> Table | None:

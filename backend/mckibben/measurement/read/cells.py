@@ -12,15 +12,31 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.measurement.read.words import MARKERS
 from mckibben.physics.errors import InputError
 
 Cell = str | float | int | bool | datetime | timedelta | None
 
 _POINT = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _COMMA = re.compile(r"[+-]?(?:[0-9]+,[0-9]*|,[0-9]+)(?:[eE][+-]?[0-9]+)?")
-_MISSING = ("nan", "inf", "infinity", "na", "n/a", "none", "null")
+_MARKERS = {text: reason for reason, texts in MARKERS.items() for text in texts}
+_SIGNS = re.compile(r"([-+*#?<>.–—_])\1+")  # "--", "+++++++", "####"
 _SHOWN = 30
 MAX_WORDS = 200_000  # different ones in a column
+
+
+def marker_of(text: str) -> str | None:
+    """Why a text stands where a number should: "no reading", "out of range"; None = no such text.
+
+    >>> marker_of("OL")
+    'out of range'
+    """
+    bare = text.strip().lower()
+    if (reason := _MARKERS.get(bare)) is not None:
+        return reason
+    if _SIGNS.fullmatch(bare):
+        return "out of range" if bare[0] in "+#<>" else "no reading"
+    return None
 
 
 class Labels(NamedTuple):
@@ -77,6 +93,9 @@ def added(skipped: Mapping[str, Skip], reason: str, rows: int, first: str) -> di
 class Problems:
     """Bad rows: the first one to raise, or all of them counted by reason.
 
+    Rows without a reading in a column that is used (an empty cell, ``NaN``, ``OL``) are left out and
+    counted, unless there are more of them than of others.
+
     Args:
         place: the file (and sheet), for messages.
         noun: what the format calls a column.
@@ -88,29 +107,43 @@ class Problems:
         self.noun = noun
         self.skip = skip
         self.first: InputError | None = None
-        self.rows = 0
+        self.missing: InputError | None = None
+        self.rows = self.without = 0
         self.skipped: dict[str, Skip] = {}
 
     def clear(self) -> None:
         """Forget all of them."""
-        self.first, self.rows, self.skipped = None, 0, {}
+        self.first, self.rows, self.skipped, self.missing, self.without = None, 0, {}, None, 0
 
-    def add(self, line: int, column: str | None, what: str, hint: str, *, reason: str) -> None:
-        """One more bad row."""
-        self.rows += 1
+    def add(
+        self, line: int, column: str | None, what: str, hint: str, *, reason: str, missing: bool = False
+    ) -> None:
+        """One more bad row; ``missing``: it only lacks a reading."""
         where = f"row {line}" + (f", {self.noun} '{column}'" if column else "")
-        if self.skip:
+        if self.skip or missing:
             self.skipped = added(self.skipped, reason, 1, where)
-        elif self.first is None:
-            field = f"row {line}" + (f", {self.noun} {column}" if column else "")
-            self.first = InputError(f"{self.place}, {where}: {what}", field=field, hint=hint)
+        field = f"row {line}" + (f", {self.noun} {column}" if column else "")
+        if missing and not self.skip:
+            self.without += 1
+            if self.missing is None:
+                self.missing = InputError(f"{self.place}, {where}: {what}", field=field, hint=hint)
+        elif not self.skip:
+            self.rows += 1
+            if self.first is None:
+                self.first = InputError(f"{self.place}, {where}: {what}", field=field, hint=hint)
 
-    def raise_any(self) -> None:
-        """Raise the first one, with the number of the others."""
-        if self.first is None:
+    def raise_any(self, kept: int | None = None) -> None:
+        """Raise the first one, with the number of the others; of those without a reading when most are.
+
+        ``kept``: number of good rows; None = not known yet.
+        """
+        first, rows = self.first, self.rows
+        if first is None and kept is not None and self.without > kept:
+            first, rows = self.missing, self.without
+        if first is None:
             return
-        more = f" (and {self.rows - 1} more such rows)" if self.rows > 1 else ""
-        raise InputError(self.first.message + more, field=self.first.field, hint=self.first.hint)
+        more = f" (and {rows - 1} more such rows)" if rows > 1 else ""
+        raise InputError(first.message + more, field=first.field, hint=first.hint)
 
 
 def read_cells(
@@ -143,7 +176,7 @@ def read_cells(
             codes[index].append(words[index].setdefault(label, len(words[index])))
             if codes[index][-1] >= MAX_WORDS:
                 check_words(len(words[index]), problems.place, problems.noun, headers[index])
-    problems.raise_any()
+    problems.raise_any(len(lines))
     if not lines:
         raise no_rows(problems.place, problems.skipped)
     return CellTable(
@@ -172,7 +205,9 @@ def good_rows(
         for index in numeric:
             value, sign = _number(row[index])
             if isinstance(value, str):
-                problems.add(line, headers[index], *_why_no_number(value), reason=_reason(value))
+                what, hint = _why_no_number(value, headers[index] or f"column {index + 1}")
+                missing = not value or marker_of(value) is not None
+                problems.add(line, headers[index], what, hint, reason=_reason(value), missing=missing)
                 break
             if sign and sign != style:
                 if style:
@@ -225,17 +260,16 @@ def _word(cell: Cell) -> str:
 def _reason(cell: str) -> str:
     if not cell:
         return "an empty cell"
-    if cell.lower().lstrip("+-") in _MISSING:
-        return "not a finite number"
-    return "not a number"
+    return marker_of(cell) or "not a number"
 
 
-def _why_no_number(cell: str) -> tuple[str, str]:
+def _why_no_number(cell: str, column: str) -> tuple[str, str]:
     """(what is wrong, what would be right) for a cell that is no number."""
+    unwanted = f'or leave the column out: --ignore "{column}"'
     if not cell:
-        return "the cell is empty", "a number, or leave the row out"
-    if cell.lower().lstrip("+-") in _MISSING:
-        return f"'{cell}' is not a number that can be used", "a finite number, or leave the row out"
+        return "the cell is empty", f"a number, {unwanted}"
+    if marker_of(cell) is not None:
+        return f"'{cell}' is not a number that can be used", f"a finite number, {unwanted}"
     if _POINT.fullmatch(cell) or _COMMA.fullmatch(cell):
         return f"'{cell[:_SHOWN]}' is too large", "a finite number"
     if re.fullmatch(r"[+-]?[0-9]{1,3}([.,' ][0-9]{3})+([.,][0-9]*)?", cell):

@@ -22,6 +22,12 @@ from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
 
 LARGEST = 1e100  # no physical value is; keeps sums and ranges of a column finite
+_AIR = (5e4, 1.1e5)  # Pa; of the air where people work
+_NO_NUMBER = (9e36, 1.1e38)  # what instruments send for "overflow" and "no number"
+_SENTINELS = (-9999.0, -999.0, -99999.0, -999.25, -9999.99, 9999.0, 99999.0, 999999.0)
+_FAR = 3.0  # times all other numbers of the column
+_SERIAL = (32_000.0, 62_000.0)  # days; the years 1987 to 2069
+_LONGEST_TEST = 30.0  # days
 _EPOCH = 1e8  # s; a later time counts from 1970, not from the beginning of the test
 _ZERO_CELSIUS = 150.0  # a temperature without unit below it is in °C
 
@@ -43,6 +49,12 @@ class ChannelReading:
     ignored: list[str]
     skip: bool = False
     clocks: frozenset[int] = frozenset()
+
+    @property
+    def ambient(self) -> float:
+        """Pressure of the surrounding air [Pa]: that of the file where it states a possible one."""
+        said = self.conditions.get("ambient_pressure")
+        return said if isinstance(said, float) and _AIR[0] <= said <= _AIR[1] else ATMOSPHERE
 
     def drop(self, column: HeaderColumn, why: str) -> None:
         """Do not use a column."""
@@ -70,6 +82,7 @@ def read_channels(
     """
     units: dict[str, HeaderColumn] = {}
     for column in [c for c in columns if c.use not in TEXT_COLUMNS]:
+        _without_sentinels(column, reading)
         known = _with_known_unit(column, reading)
         if known is None:
             continue
@@ -94,6 +107,26 @@ def read_channels(
     return channels, by_use | units, slack
 
 
+def _without_sentinels(column: HeaderColumn, reading: ChannelReading) -> None:
+    """Leave out rows with a number that stands for none: 9.9E37 of instruments, -9999 far from all others."""
+    raw = reading.table.numbers[column.place]
+    odd = (np.abs(raw) >= _NO_NUMBER[0]) & (np.abs(raw) <= _NO_NUMBER[1])
+    if column.use != "time":
+        for value in _SENTINELS:
+            same = raw == value
+            if (
+                same.any()
+                and not same.all()
+                and _FAR * float(np.max(np.abs(raw[~(same | odd)]), initial=0.0)) < abs(value)
+            ):
+                odd |= same
+    if not odd.any() or 2 * int(np.count_nonzero(odd)) > len(raw):
+        return
+    first = int(np.argmax(odd))
+    where = f"row {int(reading.table.lines[first])}, {reading.noun} '{column.header}'"
+    reading.table = reading.table.only(~odd, f"{raw[first]:g} stands for no reading", where)
+
+
 def _with_known_unit(column: HeaderColumn, reading: ChannelReading) -> HeaderColumn | None:
     """The column with a unit, guessed from its numbers where none is given; None = no such channel."""
     raw = reading.table.numbers[column.place]
@@ -106,6 +139,9 @@ def _with_known_unit(column: HeaderColumn, reading: ChannelReading) -> HeaderCol
     if use == "time" and unit is None and (since := _since_1970(raw)) is not None:
         unit = since
         reading.messages.append(f"{reading.noun} '{column.header}' counts {unit} since 1970")
+    if use == "time" and unit is None and _are_serial_days(raw):
+        unit = "day"
+        reading.messages.append(f"{reading.noun} '{column.header}' counts days as spreadsheets do")
     if unit is None:
         unit, origin = CHANNEL_UNITS[use], "proposed"
         largest = float(np.max(np.abs(raw)))
@@ -137,6 +173,13 @@ def _since_1970(raw: NDArray[np.float64]) -> str | None:
         if len(raw) and size <= float(np.min(raw)) and float(np.max(raw)) <= 4.0 * size:
             return unit
     return None
+
+
+def _are_serial_days(raw: NDArray[np.float64]) -> bool:
+    """Whether times are dates as spreadsheets keep them: days since 1900 with fractions."""
+    if not len(raw) or not (_SERIAL[0] <= float(np.min(raw)) and float(np.max(raw)) <= _SERIAL[1]):
+        return False
+    return bool(np.ptp(raw) < _LONGEST_TEST and np.any(raw != np.round(raw)))
 
 
 def _signed_force(column: HeaderColumn, reading: ChannelReading) -> HeaderColumn:
@@ -171,9 +214,9 @@ def _values(column: HeaderColumn, reading: ChannelReading) -> _Values:
         values -= values[0]
     if use == "pressure":
         if column.absolute:
-            values -= ATMOSPHERE
+            values -= reading.ambient
         hint = "say 'pressure_abs_bar' or '# pressure: absolute' where it is absolute, gauge is assumed"
-        return _Values(values, values < -ATMOSPHERE, "is a negative absolute pressure", hint)
+        return _Values(values, values < -reading.ambient, "is a negative absolute pressure", hint)
     if use in ("length", "diameter", "temperature"):
         return _Values(values, values <= 0.0, f"is not a {use}", f"a {use} above 0")
     if use == "contraction":
@@ -185,7 +228,12 @@ def _values(column: HeaderColumn, reading: ChannelReading) -> _Values:
 def _say_reference(column: HeaderColumn, reading: ChannelReading) -> None:
     label = f"{reading.noun} '{column.header}'"
     if column.absolute:
-        reading.messages.append(f"{label} is absolute pressure: {ATMOSPHERE:.0f} Pa subtracted")
+        stated = (
+            "ambient_pressure" in reading.conditions
+            and reading.ambient == reading.conditions["ambient_pressure"]
+        )
+        whose = "the surrounding air that the file states" if stated else "the standard atmosphere"
+        reading.messages.append(f"{label} is absolute pressure: {reading.ambient:.0f} Pa subtracted, {whose}")
     elif column.absolute is None:
         reading.messages.append(f"{label} read as gauge pressure")
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -180,11 +182,17 @@ def _unread(evidence: Evidence) -> list[Question]:
         name = head.name or header or f"column {index + 1}"
         target = "displacement" if channel == "length" else channel
         others = (target,) if target != "displacement" else ("displacement", "length", "diameter")
+        doubt = (
+            "; no text says from which zero it counts nor whether it grows as the muscle shortens: is it "
+            "the position of the muscle's end, and how does it count"
+            if channel == "length" and not is_filled
+            else "; what is it"
+        )
         asked.append(
             Question(
                 f"column '{name}'",
                 f"{evidence.noun} '{header or name}' is in {head.unit or 'no unit'} and is not read"
-                f"{' (' + reason + ')' if reason else ''}; what is it",
+                f"{' (' + reason + ')' if reason else ''}{doubt}",
                 f"{ignore_option(name)} or {column_option(target, name)}",
                 header or name,
                 choices=("ignore", *others),
@@ -221,6 +229,8 @@ def _rivals(evidence: Evidence) -> list[Question]:
     for winner, other in evidence.meaning.rivals:
         if "you" in (winner.origin, other.origin) or winner.use not in evidence.channels:
             continue
+        if winner.use == "time":
+            asked += _other_time(evidence, winner, other)
         if winner.use not in ("force", "pressure", *STROKES):
             continue
         if abs(_plainness(other) - _plainness(winner)) >= _RAW_PENALTY or not evidence.numeric(other.place):
@@ -247,6 +257,28 @@ def _rivals(evidence: Evidence) -> list[Question]:
     return asked
 
 
+def _other_time(evidence: Evidence, winner: HeaderColumn, other: HeaderColumn) -> list[Question]:
+    """A second column of times under the same name that runs otherwise: signals were sampled apart."""
+    first, later = (re.sub(r"\s*#[0-9]+$", "", bare_name(column)) for column in (winner, other))
+    both = evidence.pair(winner.place, other.place) if first == later else None
+    if both is None or len(both[0]) < ENOUGH:
+        return []
+    apart = float(np.max(np.abs((both[0] - both[0][0]) - (both[1] - both[1][0]))))
+    step = median_step(both[0])
+    if step is None or apart <= 0.5 * step:
+        return []
+    return [
+        Question(
+            "second time",
+            f"{evidence.noun}s '{winner.header}' and '{other.header}' are times of different signals and "
+            f"differ by up to {apart:.3g}: the rows hold readings of different instants; bring them to one "
+            "time axis, or leave one signal out with its time",
+            ignore_option(f"column {other.place + 1}"),
+            other.header,
+        )
+    ]
+
+
 def _plainness(column: HeaderColumn) -> int:
     """How raw, filtered or clipped a column says to be, however its name was recognised."""
     return column.penalty if column.penalty >= _CLIPPED else column.penalty % BY_WORDS
@@ -256,7 +288,8 @@ def _specimens(evidence: Evidence) -> list[Question]:
     column = evidence.used.get(SAMPLE)
     labels = evidence.labels.get(column.place) if column else None
     words = [word for word in labels.words if word] if labels else []
-    if column is None or len(words) < 2 or column.origin == "you":
+    running = labels is not None and all(w.isdecimal() for w in words) and 2 * len(words) > len(labels.codes)
+    if column is None or len(words) < 2 or column.origin == "you" or running:
         return []
     return [
         Question(

@@ -12,12 +12,12 @@ from mckibben.measurement.read.marks import split_mark
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import is_unit, si
 
-ATMOSPHERE = 101_325.0  # Pa, subtracted from an absolute pressure
+ATMOSPHERE = 101_325.0  # Pa, subtracted from an absolute pressure where the file states no ambient one
 
 #: Conditions that are physical values -> SI unit; the others stay text.
 CONDITION_UNITS = {
     "load_mass": "kg", "load_force": "N", "supply_pressure": "Pa", "nominal_length": "m", "temperature": "K",
-    "inclination": "rad", "force_zero": "N", "pressure_zero": "Pa",
+    "inclination": "rad", "force_zero": "N", "pressure_zero": "Pa", "ambient_pressure": "Pa",
 }  # fmt: skip
 #: Conditions with a meaning that are text.
 TEXT_CONDITIONS = (
@@ -104,7 +104,7 @@ def condition_value(
             messages.append(f"{key}: no unit given, read as {number:g} {unit}")
     if not math.isfinite(number):
         raise InputError(f"{where}: '{value}' is not finite", field=field, hint="a finite value")
-    number -= ATMOSPHERE if absolute else 0.0
+    number -= ATMOSPHERE if absolute and key != "ambient_pressure" else 0.0
     if number < 0.0 and key not in _SIGNED:
         raise InputError(f"{where}: '{value}' is negative", field=field, hint="a value of 0 or more")
     return number

@@ -18,7 +18,7 @@ from mckibben.measurement.read.conditions import Note
 from mckibben.measurement.read.header import map_headers
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.source import HeaderColumn
-from mckibben.measurement.read.unit_words import dimension_of, unit_of
+from mckibben.measurement.read.unit_words import dimension_of, reference_of, unit_of
 from mckibben.measurement.read.vectors import as_column, sorted_out
 from mckibben.physics.errors import InputError
 
@@ -118,6 +118,7 @@ def _tables(values: Mapping[str, Any], path: str, name: str, noun: str, depth: i
         else:
             own[key] = value
     own = _with_units(_matrices_apart(own), inner)
+    inner = _alike_together(inner)
     try:
         table.columns, table.notes, table.messages = sorted_out(own, place=place, noun=noun)
     except InputError as error:
@@ -134,6 +135,19 @@ def _tables(values: Mapping[str, Any], path: str, name: str, noun: str, depth: i
             yield from _tables(value, where, name, noun, depth + 1)
         else:
             yield from _parts(value, where, name, noun, depth)
+
+
+def _alike_together(inner: list[tuple[str, Any]]) -> list[tuple[str, Any]]:
+    """Structs of the same fields, ``run_01``, ``run_02``, as an array of structs."""
+    fields = [frozenset(value) for _, value in inner if isinstance(value, dict)]
+    if (
+        len(inner) < 2
+        or len(fields) < len(inner)
+        or len(set(fields)) > 1
+        or not any(map(_is_vector, inner[0][1].values()))
+    ):
+        return inner
+    return [(f"{inner[0][0]} to {inner[-1][0]}", [value for _, value in inner])]
 
 
 def _parts(structs: list[Any], path: str, name: str, noun: str, depth: int) -> Iterator[NamedTable]:
@@ -217,6 +231,13 @@ def _signals(value: Any) -> dict[str, Any] | None:
             if unit and unit_of(unit) is not None and recognise(text).unit is None
             else text
         )
+        if reference_of(unit) is None and unit_of(unit) is not None:
+            marks = [
+                v
+                for k, v in struct.items()
+                if isinstance(v, str) and k != "unit" and reference_of(v) is not None
+            ]
+            head = f"{head} ({marks[0]})" if len(marks) == 1 else head
         while head in found:
             head += "'"
         found[head] = vectors[0]

@@ -17,13 +17,14 @@ from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.encodings import decoded_otherwise
 from mckibben.measurement.read.grid import split_line
 from mckibben.measurement.read.header import HEADER_EXAMPLE, plainly_known
+from mckibben.measurement.read.json_file import is_json, open_json
 from mckibben.measurement.read.lines import located_text
 from mckibben.measurement.read.raw import RawRows, shown_rows
-from mckibben.measurement.read.recognise import held_pressure
+from mckibben.measurement.read.recognise import held_pressure, recognise
 from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
 from mckibben.measurement.read.stated import in_known_words, statements
 from mckibben.measurement.read.table import first_rows, read_table, split_header
-from mckibben.measurement.read.values import CLOCK, NUMBER, TEXT, kind_of
+from mckibben.measurement.read.values import CLOCK, GAP, NUMBER, TEXT, kind_of
 from mckibben.measurement.read.vocabulary import STATISTICS, words_of
 from mckibben.physics.errors import InputError
 
@@ -32,7 +33,6 @@ _PIECE = 1_000_000  # bytes
 _HEADER_WITHIN = 10_000  # lines
 _FOOTER_LINES = 100
 _LONGEST_LINE = 10_000  # characters
-_WORD = re.compile(r'[\s"]*[^\W\d_]{3,}')
 _THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3}(?:\.\d{3})+,\d|(?<![\d.,])\d{1,3}(?:,\d{3})+\.\d")
 _QUOTED_THOUSANDS = re.compile(r'"\s*[+-]?\d{1,3}(?:,\d{3})+\.\d*\s*"')
 _BLANK_THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3}(?:['’\u00a0\u202f]\d{3})+(?![\d])")
@@ -66,6 +66,9 @@ def open_csv(data: bytes, name: str, correction: Correction | None = None) -> Ra
     correction = correction or Correction()
     messages: list[str] = []
     text = _decoded(data, name, messages)
+    if is_json(text) and (found := open_json(text, name, correction)) is not None:
+        found.messages[:0] = messages
+        return found
     refusal: InputError | None = None
     plain: RawTable | None = None
     try:
@@ -95,10 +98,22 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
     first = list(sample[0]) if sample else []
     words = [i for i in known if i < len(first) and kind_of(first[i]) in (TEXT, CLOCK)]
     words += [
-        i for i, name in enumerate(headers) if not name and i < len(first) and kind_of(first[i]) == CLOCK
+        i
+        for i, name in enumerate(headers[: len(first)])
+        if kind_of(first[i]) == CLOCK and (not name or recognise(name).channel == "time")
     ]
     pressures = {(held.value, held.unit) for header in headers if (held := held_pressure(header)) is not None}
-    sure = bool(known) and not words and len(pressures) < 2 and not _has_thousands(body, separator)
+    gaps = [
+        i for i in known if len(sample) > 2 and all(i < len(r) and kind_of(r[i]) == GAP for r in sample[1:3])
+    ]
+    sure = (
+        bool(known)
+        and len(first) in (0, len(headers))
+        and not words
+        and not gaps
+        and len(pressures) < 2
+        and not _has_thousands(body, separator)
+    )
 
     def read(numeric: Sequence[int], words: Sequence[int], skip: bool) -> CellTable:
         return read_table(
@@ -160,13 +175,18 @@ def without_footer(body: str, separator: str, first_line: int) -> tuple[str, lis
     while end > 0 and len(lines) < _FOOTER_LINES:
         begin = body.rfind("\n", 0, end) + 1
         line = body[begin:end].strip()
-        if line.strip(separator + " ") and not _WORD.match(line):
+        if line.strip(separator + " ") and kind_of(line.split(separator)[0].strip(' "')) != TEXT:
             break
         gap = not line.strip(separator + " ")
         if not gap:
             lines.append(line)
         end = begin - 1
-    if not lines or end <= 0 or not (gap or all(_is_no_reading(line, separator) for line in lines)):
+    counted = any(_is_statistic(line, separator) for line in lines)
+    if (
+        not lines
+        or end <= 0
+        or not (gap or counted or all(_is_no_reading(line, separator) for line in lines))
+    ):
         return body, []
     kept = body[:end]
     row = first_line + kept.count("\n") + 1
@@ -176,10 +196,14 @@ def without_footer(body: str, separator: str, first_line: int) -> tuple[str, lis
 
 def _is_no_reading(line: str, separator: str) -> bool:
     """Whether a line that begins with a word holds no number, or is a line of statistics."""
-    cells = line.split(separator)
-    words = words_of(cells[0])
-    statistic = bool(words) and words[0] in STATISTICS
-    return statistic or not any(kind_of(cell) == NUMBER for cell in cells)
+    return _is_statistic(line, separator) or not any(
+        kind_of(cell) == NUMBER for cell in line.split(separator)
+    )
+
+
+def _is_statistic(line: str, separator: str) -> bool:
+    words = words_of(line.split(separator)[0])
+    return bool(words) and words[0] in STATISTICS
 
 
 def _decoded(data: bytes, name: str, messages: list[str]) -> str:

@@ -110,6 +110,7 @@ def read_fast(
         for index in text
     }
     rows = np.concatenate([piece.lines for piece in pieces])
+    problems.raise_any(len(rows))
     return CellTable(numbers, labels, first_line + rows, problems.skipped)
 
 

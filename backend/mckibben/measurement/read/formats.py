@@ -7,11 +7,18 @@ from pathlib import PurePath
 
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.csv import open_csv
+from mckibben.measurement.read.derived import with_derived
 from mckibben.measurement.read.source import RawTable
 from mckibben.physics.errors import InputError
 
 _HDF5 = b"\x89HDF\r\n\x1a\n"
-_BINARY = {".xlsx": "an Excel workbook", ".mat": "a MATLAB file", ".tdms": "a TDMS file"}
+_BINARY = {
+    ".h5": "an HDF5 file",
+    ".hdf5": "an HDF5 file",
+    ".xlsx": "an Excel workbook",
+    ".mat": "a MATLAB file",
+    ".tdms": "a TDMS file",
+}
 _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1f]")
 
 #: First bytes -> (what the file is, what to do instead).
@@ -26,6 +33,15 @@ _REFUSED = {
 
 
 def open_source(data: bytes, name: str, correction: Correction | None = None) -> RawTable:
+    """The table of a file, with the columns that are computed from others.
+
+    Raises:
+        InputError: a format that is not read, or a damaged file.
+    """
+    return with_derived(_opened(data, name, correction))
+
+
+def _opened(data: bytes, name: str, correction: Correction | None = None) -> RawTable:
     """The table of a file; the correction says which sheet and head the user wants.
 
     Raises:

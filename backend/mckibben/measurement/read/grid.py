@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import csv
 import re
+from collections import Counter
 from collections.abc import Sequence
 from typing import Protocol
 
 from mckibben.measurement.read.cells import Cell
+from mckibben.measurement.read.quantity import quantity_of
 from mckibben.measurement.read.values import CLOCK, GAP, NUMBER, kind_of
 
 #: Between the cells of a line: a sign, or any number of blanks.
 BLANKS = " "
 SEPARATORS = ("\t", ";", ",", "|", BLANKS)
+_RULE = re.compile(r"[|:\-=+\s]*[-=]{2,}[|:\-=+\s]*")
 _SAMPLE = 600  # lines from which the separator is told
 
 
@@ -119,6 +122,11 @@ def split_line(line: str, separator: str) -> list[str]:
     """The cells of a line without blanks around them; quotes that do not match are kept."""
     if separator == BLANKS:
         return re.sub(r"\s+(?=[\[(])", "", line).split()
+    if separator == "|":  # tables of notebooks have one at either end, and a line of dashes below the head
+        line = line.strip()
+        if _RULE.fullmatch(line):
+            return []
+        line = line.removeprefix("|").removesuffix("|")
     if '"' in line:
         try:
             return [
@@ -137,7 +145,7 @@ def separator_of(lines: Sequence[str]) -> str:
         score = longest = rows = width = 0
         for line in lines[:_SAMPLE]:
             cells = split_line(line, separator) if line.strip() else []
-            kinds = [kind_of(cell) for cell in cells]
+            kinds = [NUMBER if quantity_of(cell) else kind_of(cell) for cell in cells]
             numbers = kinds.count(NUMBER) + kinds.count(CLOCK)
             texts = len(kinds) - numbers - kinds.count(GAP)
             if numbers >= 2 and numbers > texts and len(cells) == width:
@@ -151,4 +159,18 @@ def separator_of(lines: Sequence[str]) -> str:
                 rows = width = 0
         if score > most:
             best, most = separator, score
+    return best if most else _by_width(lines)
+
+
+def _by_width(lines: Sequence[str]) -> str:
+    """The separator that gives most rows of equally many cells, some of them numbers; texts may be more."""
+    best, most = ",", 0
+    for separator in SEPARATORS[:-1]:
+        rows = [split_line(line, separator) for line in lines[:_SAMPLE] if separator in line]
+        widths = Counter(
+            len(cells) for cells in rows if any(kind_of(cell) in (NUMBER, CLOCK) for cell in cells)
+        )
+        width, count = widths.most_common(1)[0] if widths else (0, 0)
+        if width > 1 and count * width > most:
+            best, most = separator, count * width
     return best

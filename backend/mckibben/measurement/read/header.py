@@ -134,7 +134,7 @@ def map_headers(
                 column = _chosen(index, header, choices[index], apart[index])
                 if column is None:
                     reasons[index] = "you do not want it"
-            elif header and header.casefold() in seen:
+            elif header and header.casefold() in seen and recognise(name, apart[index]).channel != "time":
                 raise InputError(
                     f"{where}, {noun} '{header[:_MAX_HEADER]}': the name occurs twice",
                     field=field,

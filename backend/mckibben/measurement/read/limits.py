@@ -17,6 +17,7 @@ MAX_ROWS = 6_000_000
 MAX_COLUMNS = 1000
 MAX_ROW_LENGTH = 200_000  # characters of a row of a text
 MAX_VARIABLES = 2000
+MAX_BLOCKS = 1000  # of readings, one below the other
 WORD = 64  # bytes that a short text takes
 _PIECE = 1_000_000  # bytes
 _SPLIT = "split the file, or keep every second row"

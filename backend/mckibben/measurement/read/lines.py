@@ -14,6 +14,7 @@ from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.grid import TextGrid, separator_of
 from mckibben.measurement.read.limits import check_columns, check_rows
 from mckibben.measurement.read.recognise import taken_apart, without_paths
+from mckibben.measurement.read.reshape import Regular, regular
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import in_known_words, statements
 from mckibben.measurement.read.table_source import source_of
@@ -48,6 +49,10 @@ def located_text(text: str, name: str, correction: Correction, messages: Sequenc
         if line.lstrip(' "').startswith("#")
         and (note := note_of_line(line.strip(';,\t "'), f"{name}, row {row}")) is not None
     ]
+    values = {}
+    for note in notes:
+        values.setdefault(note.key, set()).add(note.value)
+    notes = [note for note in notes if len(values[note.key]) == 1]  # others are titles of blocks
     stated = {int(note.where.rpartition(" ")[2]) for note in notes}
     lines = ["" if number in stated else line for number, line in enumerate(lines, start=1)]
     said = list(messages)
@@ -61,7 +66,9 @@ def located_text(text: str, name: str, correction: Correction, messages: Sequenc
         grid = TextGrid(lines, name, hint or separator_of(_sampled(lines)))
         remarks = []
     long = len(lines) > _ALL_LINES or len(text) > _ALL_CHARACTERS
-    tables = tables_of_grid(grid, head=correction.head, until=_FIRST_LINES if long else None)
+    reshaped = Regular(grid, [], [], False) if long or keyed else regular(grid)
+    said += reshaped.messages
+    tables = tables_of_grid(reshaped.grid, head=correction.head, until=_FIRST_LINES if long else None)
     if not any(any(table.names) or any(table.units) for table in tables):
         return None
     chosen = choose(tables, sheet=None)
@@ -70,7 +77,7 @@ def located_text(text: str, name: str, correction: Correction, messages: Sequenc
     _name_abscissa(table)
     _units_of_comments(table, original)
     table.rest += remarks
-    table.unread = [*table.unread, *chosen.unread]
+    table.unread = [*table.unread, *chosen.unread, *reshaped.unread]
     found = in_known_words(notes)
     known = {note.key for note in found}
     found += [note for note in statements(table.rest, name) if note.key not in known]
@@ -80,7 +87,7 @@ def located_text(text: str, name: str, correction: Correction, messages: Sequenc
     )
     return source_of(
         table, format="csv", notes=found, messages=[*said, *chosen.messages], shown=shown,
-        rewritten=keyed is not None,
+        rewritten=keyed is not None or reshaped.rewritten,
     )  # fmt: skip
 
 

@@ -8,13 +8,15 @@ from dataclasses import dataclass, field
 
 from mckibben.measurement.read.cells import Cell
 from mckibben.measurement.read.grid import BLANKS, Grid, TextGrid
-from mckibben.measurement.read.recognise import BY_UNIT, recognise
-from mckibben.measurement.read.unit_words import dimension_of, unit_of
+from mckibben.measurement.read.limits import MAX_BLOCKS
+from mckibben.measurement.read.recognise import BY_UNIT, held_quantities, recognise
+from mckibben.measurement.read.unit_words import unit_of
 from mckibben.measurement.read.values import CLOCK, GAP, NUMBER, TEXT, kind_of
 from mckibben.measurement.read.vocabulary import STATISTICS, words_of
 
 _HEAD_ROWS = 8  # most rows of a head
-_UNITS_WITHIN = 40  # rows above a head in which its units may stand
+_TITLE_ROWS = 12  # most rows between two blocks of one head
+_NAME_WORDS = 8  # most words of a name; more are a remark
 _QUICK = re.compile(r"[\s0-9.,;|+\-eE]*")
 
 
@@ -22,6 +24,7 @@ _QUICK = re.compile(r"[\s0-9.,;|+\-eE]*")
 class Run:
     """Rows of numbers in the same columns: ``first`` to ``last`` (exclusive), odd rows between ``pieces``.
 
+    ``headless``: the head of the run before is its own; a text between them says what it holds.
     ``numbers`` holds the columns of numbers, ``clocks`` those of times of day; ``rows`` counts the good rows,
     ``filled`` their numbers.
     """
@@ -33,6 +36,7 @@ class Run:
     rows: int = 0
     filled: int = 0
     clocks: frozenset[int] = field(default_factory=frozenset)
+    headless: bool = False
     pieces: list[tuple[int, int]] = field(default_factory=list)
 
 
@@ -53,6 +57,14 @@ class TableHead:
 def texts_of(cells: Sequence[Cell]) -> list[str]:
     """The cells as texts without blanks around them."""
     return ["" if cell is None else " ".join(str(cell).split()) for cell in cells]
+
+
+def titles_of(grid: Grid, index: int) -> list[tuple[int, str]]:
+    """(column, text) of a row that may be a title; between blanks stand words, the text is the whole line."""
+    texts = texts_of(grid.cells(index))
+    if isinstance(grid, TextGrid) and grid.separator == BLANKS:
+        return [(0, " ".join(texts))] if any(texts) else []
+    return [(column, text) for column, text in enumerate(texts) if text]
 
 
 def find_runs(grid: Grid, until: int | None = None) -> list[Run]:
@@ -76,7 +88,7 @@ def find_runs(grid: Grid, until: int | None = None) -> list[Run]:
         texts = kinds.count(TEXT)
         if not numbers and not texts:
             continue
-        if not numbers or len(numbers) < texts:
+        if not numbers or len(numbers) < texts or (run is None and _sums_up(grid, index)):
             run = None
             continue
         clocks = frozenset(i for i, kind in enumerate(kinds) if kind == CLOCK)
@@ -117,21 +129,50 @@ def main_runs(grid: Grid, runs: Sequence[Run]) -> list[Run]:
     if not runs:
         return []
     largest = max(runs, key=lambda run: (run.filled, run.rows))
+    head = _row_above(grid, largest)
     kept: list[Run] = []
     for run in runs:
+        if len(kept) > MAX_BLOCKS:
+            break  # whoever asked refuses them
+        if run is not largest and run.last <= largest.first and _is_footer(grid, run):
+            continue  # statistics above the readings
         alike = run.numbers == largest.numbers or (
             run.width == largest.width and run.numbers <= largest.numbers
         )
-        headed = alike and _is_headed(grid, run)
+        headed = alike and (_is_headed(grid, run) or (len(head) > 1 and _row_above(grid, run) == head))
         follows = bool(kept) and run.first - kept[-1].last <= 3 and not headed
-        if alike and follows and not _is_footer(grid, run):
+        if kept and alike and not headed and run.rows >= 2 and _is_titled(grid, kept[-1].last, run.first):
+            run.headless = True
+            kept.append(run)
+        elif alike and follows and not _is_footer(grid, run):
             last = kept[-1]
-            broken = [(i, i + 1) for i in range(last.last, run.first) if _holds_number(grid, i)]
-            last.pieces = [*(last.pieces or [(last.first, last.last)]), *broken, (run.first, run.last)]
+            between = range(last.last, run.first)
+            broken = [(i, i + 1) for i in between if _is_broken(grid, i)]
+            last.pieces = last.pieces or [(last.first, last.last)]
+            last.pieces += [*broken, (run.first, run.last)]
             last.last, last.rows, last.filled = run.last, last.rows + run.rows, last.filled + run.filled
         elif run is largest or (headed and run.rows >= 2 and alike and 20 * run.rows >= largest.rows):
             kept.append(run)
     return kept
+
+
+def _row_above(grid: Grid, run: Run) -> list[str]:
+    """The last row of texts above a run."""
+    for index in range(run.first - 1, max(-1, run.first - 4), -1):
+        if any(names := texts_of(grid.cells(index))):
+            return names
+    return []
+
+
+def _is_titled(grid: Grid, first: int, last: int) -> bool:
+    """Whether a text between two runs says which pressure, stroke or load the next one holds."""
+    return last - first <= _TITLE_ROWS and any(
+        quantity.channel == "pressure" or quantity.named
+        for index in range(first, last)
+        for _, text in titles_of(grid, index)
+        if not recognise(text).why.startswith("it is")
+        for quantity in held_quantities(text)
+    )
 
 
 def _is_headed(grid: Grid, run: Run) -> bool:
@@ -142,13 +183,31 @@ def _is_headed(grid: Grid, run: Run) -> bool:
             if index < run.first - 2:
                 break
             continue
-        if sum(_names_channel(name) for name in names) >= min(2, len(run.numbers)):
+        if sum(names_channel(name) for name in names) >= min(2, len(run.numbers)):
             return True
     return False
 
 
-def _holds_number(grid: Grid, index: int) -> bool:
-    return any(kind_of(cell) in (NUMBER, CLOCK) for cell in grid.cells(index))
+def _is_broken(grid: Grid, index: int) -> bool:
+    """Whether a row beside readings is one with a wrong cell: with a number, no title, no statistic."""
+    if not any(kind_of(cell) in (NUMBER, CLOCK) for cell in grid.cells(index)) or _is_statistic(grid, index):
+        return False
+    remark = isinstance(grid, TextGrid) and re.match(r"\s*(#|%|//)", grid.lines[index])
+    return not remark and not any(held_quantities(text) for _, text in titles_of(grid, index))
+
+
+def _sums_up(grid: Grid, index: int) -> bool:
+    """Whether a row of statistics stands above readings, which begin with a number."""
+    if not _is_statistic(grid, index):
+        return False
+    below = (grid.cells(i) for i in range(index + 1, min(len(grid), index + 8)))
+    return any(cells and kind_of(cells[0]) in (NUMBER, CLOCK) for cells in below)
+
+
+def _is_statistic(grid: Grid, index: int) -> bool:
+    """Whether a row begins with a word of statistics ("Mean")."""
+    words = words_of(next((text for text in texts_of(grid.cells(index)) if text), ""))
+    return bool(words) and words[0] in STATISTICS
 
 
 def with_broken_rows(grid: Grid, run: Run, head: TableHead) -> None:
@@ -159,11 +218,7 @@ def with_broken_rows(grid: Grid, run: Run, head: TableHead) -> None:
     top = max(
         (row for row in (head.row, head.units_at) if row is not None and row < run.first), default=run.first
     )
-    above = (
-        [index for index in range(top + 1, run.first) if _holds_number(grid, index)]
-        if head.row is not None
-        else []
-    )
+    above = [i for i in range(top + 1, run.first) if _is_broken(grid, i)] if head.row is not None else []
     last = run.last
     while last < len(grid) and (cells := [c for c in grid.cells(last) if kind_of(c) != GAP]):
         if kind_of(cells[0]) not in (NUMBER, CLOCK):
@@ -183,158 +238,18 @@ def _is_footer(grid: Grid, run: Run) -> bool:
 
     Without an empty row above it has to be a word of statistics; any other may be a reading gone wrong.
     """
-    parted = not any(texts_of(grid.cells(run.first - 1)))
+    parted = run.first > 0 and not any(texts_of(grid.cells(run.first - 1)))
+    parted = parted or any(_is_statistic(grid, index) for index in range(run.first, run.last))
     for index in range(run.first, run.last):
         words = words_of(next((text for text in texts_of(grid.cells(index)) if text), ""))
-        if not words or not (words[0] in STATISTICS or (parted and re.match(r"[^\W\d_]{3,}", words[0]))):
+        if not words or not (words[0] in STATISTICS or (parted and re.match(r"[^\W\d_]", words[0]))):
             return False
     return True
 
 
-def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> TableHead:
-    """The head of a run.
-
-    Args:
-        grid: the rows.
-        run: the rows of numbers.
-        after: row of the grid below which the head stands (the end of the run before).
-        at: the row of the names, where the user says it.
-    """
-    if at is not None:
-        rows = [index for index in range(at, run.first) if any(texts_of(grid.cells(index)))]
-    else:
-        rows = _rows_above(grid, run, after)
-    if not rows:
-        return TableHead([""] * run.width, [None] * run.width, None, None, ())
-    texts = {index: texts_of(grid.cells(index)) for index in rows}
-    named = at if at is not None else _row_of_names(texts, rows, run)
-    names = _padded(texts[named], run.width)
-    width = len(names)
-    if isinstance(grid, TextGrid) and grid.separator == BLANKS:
-        for index in rows:
-            if index != named and (placed := _placed_units(grid.lines[named], grid.lines[index])):
-                texts[index] = placed
-    units_at = _row_of_units(texts, [index for index in rows if index != named], names)
-    if units_at is None and not any(recognise(name).unit for name in names if name):
-        units_at = _units_in_preamble(grid, named, names)
-    if units_at is not None and units_at > named and _divides(names, _padded(texts[units_at], width)):
-        units_at = None  # units, and words that divide the names above
-    units: list[str | None] = [None] * width
-    if units_at is not None:
-        below = _padded(texts.get(units_at) or texts_of(grid.cells(units_at)), width)
-        units = [cell if cell and unit_of(cell) is not None else None for cell in below]
-    for index in reversed(rows):
-        if index in (named, units_at):
-            continue
-        other = _padded(texts[index], width)
-        if index > named and _divides(names, other):
-            names = [" ".join(filter(None, pair)) for pair in zip(_filled_on(names), other, strict=False)]
-            continue
-        names = [name or (o if _names_channel(o) else "") for name, o in zip(names, other, strict=False)]
-    return TableHead(names, units, named, units_at, tuple(rows))
-
-
-def _placed_units(names: str, units: str) -> list[str] | None:
-    """Units below names in columns of fixed width, one cell per name; None = it is no such line.
-
-    A unit belongs to the name whose end or middle is nearest; the first column may have none.
-    """
-    heads = list(re.finditer(r"\S+(?:\s[\[(]\S+)?", names.expandtabs()))
-    found = list(re.finditer(r"\S+", units.expandtabs()))
-    if not found or len(found) > len(heads) or any(unit_of(word[0]) is None for word in found):
-        return None
-    cells = [""] * len(heads)
-    for word in found:
-        gaps = [
-            min(
-                abs(word.end() - head.end()),
-                abs(word.start() - head.start()),
-                abs(sum(word.span()) - sum(head.span())) // 2,
-            )
-            for head in heads
-        ]
-        nearest = gaps.index(min(gaps))
-        if cells[nearest]:
-            return None
-        cells[nearest] = word[0]
-    return cells
-
-
-def _divides(names: Sequence[str], below: Sequence[str]) -> bool:
-    """Whether a row of names is divided by the one below: "Kraft" over "Ist" and "Soll"."""
-    gaps = sum(not name and bool(b) for name, b in zip(names, below, strict=False))
-    return (
-        gaps > 0
-        and sum(map(bool, below)) >= sum(map(bool, names)) + gaps
-        and not any(_names_channel(b) for b in below if b)
-    )
-
-
-def _filled_on(names: Sequence[str]) -> list[str]:
-    """Names, each also for the columns without one behind it, as merged cells mean it."""
-    filled: list[str] = []
-    for name in names:
-        filled.append(name or (filled[-1] if filled else ""))
-    return filled
-
-
-def _rows_above(grid: Grid, run: Run, after: int) -> list[int]:
-    rows: list[int] = []
-    for index in range(run.first - 1, after, -1):
-        if any(texts_of(grid.cells(index))):
-            rows.insert(0, index)
-        elif rows:
-            break
-        if len(rows) == _HEAD_ROWS:
-            break
-    return rows
-
-
-def _row_of_names(texts: dict[int, list[str]], rows: Sequence[int], run: Run) -> int:
-    def score(index: int) -> tuple[int, int, int]:
-        cells = texts[index]
-        if len(cells) == 1 and run.width > 1:
-            return 0, 0, index
-        inside = [cell for column, cell in enumerate(cells) if cell and column < run.width]
-        units = sum(unit_of(cell) is not None for cell in inside)
-        known = sum(_names_channel(cell) for cell in inside)
-        return known, 0 if inside and 2 * units > len(inside) else len(inside), index
-
-    return max(rows, key=score)
-
-
-def _row_of_units(texts: dict[int, list[str]], rows: Sequence[int], names: Sequence[str]) -> int | None:
-    best, most = None, 0
-    for index in rows:
-        filled = [(column, cell) for column, cell in enumerate(texts[index]) if cell and column < len(names)]
-        units = sum(unit_of(cell) is not None for _, cell in filled)
-        physical = sum(
-            bool(dimension_of(unit.unit)) for _, cell in filled if (unit := unit_of(cell)) is not None
-        )
-        if physical and 2 * units >= len(filled) and units > most:
-            best, most = index, units
-    return best
-
-
-def _units_in_preamble(grid: Grid, named: int, names: Sequence[str]) -> int | None:
-    """A row far above that holds the units of the columns, as loggers write it; it begins with its label."""
-    for index in range(named - 1, max(-1, named - 1 - _UNITS_WITHIN), -1):
-        cells = texts_of(grid.cells(index))
-        fitting = 0
-        for name, cell in zip(names, cells, strict=False):
-            unit = unit_of(cell) if cell else None
-            channel = recognise(name).channel if name else None
-            fitting += bool(
-                unit and channel and dimension_of(unit.unit) and recognise(name, cell).channel == channel
-            )
-        if fitting >= 2:
-            return index
-    return None
-
-
-def _names_channel(name: str) -> bool:
+def names_channel(name: str) -> bool:
     """Whether a text names a channel, not only a unit."""
-    if not name or len(name) > 120:
+    if not name or len(name) > 120 or len(name.split()) > _NAME_WORDS:
         return False
     known = recognise(name)
     return (known.channel is not None and known.penalty < BY_UNIT and unit_of(name) is None) or _is_letter(
@@ -344,10 +259,6 @@ def _names_channel(name: str) -> bool:
 
 def _is_letter(name: str) -> bool:
     return re.fullmatch(r"[tpxFLsDTκuUPX]", name.strip()) is not None
-
-
-def _padded(cells: Sequence[str], width: int) -> list[str]:
-    return [*cells, *[""] * (width - len(cells))]
 
 
 def rows_with(grid: Grid, first: int, last: int) -> list[int]:

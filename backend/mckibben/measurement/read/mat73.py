@@ -1,4 +1,6 @@
-"""Measurements from MATLAB files v7.3, which are HDF5: vectors by variable name, or one struct of vectors.
+"""Measurements from HDF5 and from MATLAB files v7.3, which are HDF5: vectors by name, in groups or structs.
+
+What programs other than MATLAB write has its units, names of columns and conditions in attributes.
 
 HDF5 keeps a variable in pieces that may be compressed, and unpacks a piece whole, whatever size it says. So
 every piece is unpacked here first, as far as its size, before HDF5 reads it.
@@ -7,7 +9,9 @@ every piece is unpacked here first, as far as its size, before HDF5 reads it.
 from __future__ import annotations
 
 import io
+import re
 import zlib
+from dataclasses import replace
 from math import prod
 from typing import Any
 
@@ -17,7 +21,9 @@ from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.limits import WORD, Allowance, check_variables, inflated
 from mckibben.measurement.read.mat import choose
 from mckibben.measurement.read.mat5 import Foreign
+from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.source import RawTable
+from mckibben.measurement.read.unit_words import reference_of, unit_of
 from mckibben.physics.errors import InputError
 
 _SHUFFLE, _DEFLATE, _CHECKSUM = 2, 1, 3  # filters that are built in: nothing is loaded for them
@@ -30,12 +36,15 @@ _CHECKSUM_SIZE = 4  # bytes
 _MAX_PIECE = 32_000_000  # bytes that one piece unpacks to
 _MAX_PIECES = 50_000
 _MAX_WORDS = 200_000
+_MAX_ATTRIBUTES = 200  # of a group or dataset
+_LONGEST_ATTRIBUTE = 100_000  # bytes
+_IS_UNIT = re.compile(r"(?i)(unit|units|einheit|unit_?label|uom)")
 _DEEPEST = 3  # structs within structs
 _AT_ONCE = 4_000_000  # bytes; other threads come in between
 
 
 def open_mat73(data: bytes, name: str, correction: Correction | None = None) -> RawTable:
-    """The table of a MATLAB v7.3 file.
+    """The table of an HDF5 file, of MATLAB or any other program.
 
     Raises:
         InputError: damaged, or without vectors that are named like channels.
@@ -44,23 +53,31 @@ def open_mat73(data: bytes, name: str, correction: Correction | None = None) -> 
 
     try:
         with h5py.File(io.BytesIO(data), "r") as file:
-            values = _Mat73Reader(file, name, data).group(file)
+            by_matlab = b"MATLAB" in data[:128] or _of_matlab(file)
+            values = _Mat73Reader(file, name, data, by_matlab=by_matlab).group(file)
     except InputError:
         raise
     except Exception as error:  # h5py raises whatever a damaged file leads to
         raise InputError(
-            f"{name}: no variable can be read: the MATLAB 7.3 file is damaged "
+            f"{name}: no variable can be read: the MATLAB 7.3 or HDF5 file is damaged "
             f"({type(error).__name__}: {str(error)[:100]})",
             field="file", hint="save it again with -v7",
         ) from error  # fmt: skip
-    return choose(values, name, correction)
+    source = choose(values, name, correction)
+    return source if by_matlab else replace(source, format="hdf5")
+
+
+def _of_matlab(file: Any) -> bool:
+    """Whether variables say their MATLAB class."""
+    return any("MATLAB_class" in file[key].attrs for key in list(file)[:20] if file.get(key) is not None)
 
 
 class _Mat73Reader:
     """Datasets and groups to arrays, texts and mappings; counts what it reads."""
 
-    def __init__(self, file: Any, name: str, data: bytes) -> None:
+    def __init__(self, file: Any, name: str, data: bytes, *, by_matlab: bool) -> None:
         self._file = file
+        self._by_matlab = by_matlab
         self._name = name
         self._size = len(data)
         self._allowance = Allowance(name, len(data))
@@ -72,7 +89,7 @@ class _Mat73Reader:
         """The members of a group (or struct) by name; links out of the file are not followed."""
         import h5py
 
-        result: dict[str, Any] = {}
+        result: dict[str, Any] = {} if self._by_matlab else self._attributes(group)
         for key in group:
             self._variables += 1
             check_variables(self._variables, self._name)
@@ -85,9 +102,89 @@ class _Mat73Reader:
                 continue
             if isinstance(member, h5py.Group):
                 result[key] = self.group(member, depth + 1) if depth < _DEEPEST else None
-            elif isinstance(member, h5py.Dataset):
+            elif isinstance(member, h5py.Dataset) and self._by_matlab:
                 result[key] = self._dataset(key, member, kind, depth)
+            elif isinstance(member, h5py.Dataset):
+                result |= self._plain(key, member)
         return result
+
+    def _attributes(self, item: Any) -> dict[str, Any]:
+        """Attributes as numbers, texts, lists of texts; a number with a unit is ``name [unit]``."""
+        found: dict[str, Any] = {}
+        for key in list(item.attrs)[:_MAX_ATTRIBUTES]:
+            self._variables += 1
+            check_variables(self._variables, self._name)
+            if item.attrs.get_id(key).get_storage_size() > _LONGEST_ATTRIBUTE:
+                continue
+            value = item.attrs[key]
+            if isinstance(value, (bytes, str)):
+                found[key] = _text(value)
+            elif isinstance(value, np.ndarray) and value.dtype.kind in "OSU" and value.ndim == 1:
+                found[key] = [_text(word) for word in value]
+            elif np.ndim(value) == 0 and np.asarray(value).dtype.kind in "biuf":
+                found[key] = np.asarray(value, dtype=float)
+        for key in [key for key, value in found.items() if isinstance(value, np.ndarray)]:
+            unit = next(
+                (found[u] for u in (f"{key}_unit", f"{key}_units") if isinstance(found.get(u), str)), None
+            )
+            if unit is not None:
+                found[f"{key} [{unit}]"] = found.pop(key)
+        return found
+
+    def _plain(self, key: str, dataset: Any) -> dict[str, Any]:
+        """A dataset of another program: vectors with units, tables of named columns, texts."""
+        attributes = self._attributes(dataset)
+        names = next(
+            (v for k, v in attributes.items() if isinstance(v, list) and "unit" not in k.lower()), None
+        )
+        units = next((v for k, v in attributes.items() if isinstance(v, list) and "unit" in k.lower()), None)
+        unit = next((v for k, v in attributes.items() if isinstance(v, str) and _IS_UNIT.fullmatch(k)), None)
+        if dataset.shape is None or dataset.dtype.kind not in "biufSOV":
+            return {}
+        if dataset.dtype.kind in "SO":
+            return self._words(key, dataset)
+        if dataset.dtype.kind == "V":
+            fields = dataset.dtype.names or ()
+            if not all(
+                dataset.dtype[field].kind in "biuf" and not dataset.dtype[field].shape for field in fields
+            ):
+                return {}
+            table = self._read(key, dataset)
+            units = units if units and len(units) == len(fields) else [None] * len(fields)
+            columns = {_headed(f, u): table[f].astype(float) for f, u in zip(fields, units, strict=True)}
+            return {key: columns}
+        values = self._read(key, dataset)
+        if values.ndim == 2 and names is not None and len(names) in values.shape:
+            table = values if values.shape[1] == len(names) else values.T
+            units = units if units and len(units) == len(names) else [None] * len(names)
+            return {
+                key: {_headed(n, u): table[:, i] for i, (n, u) in enumerate(zip(names, units, strict=True))}
+            }
+        said = {k: v for k, v in attributes.items() if isinstance(v, str) and not _IS_UNIT.fullmatch(k)}
+        reference = next((v for v in said.values() if reference_of(v) is not None), None)
+        head = _headed(key, unit)
+        return {head if reference is None else f"{head} ({reference})": values}
+
+    def _words(self, key: str, dataset: Any) -> dict[str, Any]:
+        """A text, or a list of words."""
+        import h5py
+
+        if (
+            h5py.check_string_dtype(dataset.dtype) is None
+            or int(dataset.size) > _MAX_WORDS
+            or (dataset.id.get_storage_size() > _MAX_PIECE or dataset.is_virtual or dataset.external)
+        ):
+            return {}
+        self._words_seen += int(dataset.size)
+        if self._words_seen > _MAX_WORDS:
+            raise self._refused(
+                key, f"holds too many texts, at most {_MAX_WORDS} are read", "keep the readings only"
+            )
+        self._allowance.take(WORD * int(dataset.size), f"variable '{key}'")
+        values = dataset[()]
+        if isinstance(values, bytes):
+            return {key: _text(values)[:1000]}
+        return {key: [_text(word)[:1000] for word in np.asarray(values).reshape(-1)]}
 
     def _dataset(self, key: str, dataset: Any, kind: str, depth: int) -> Any:
         import h5py
@@ -201,7 +298,12 @@ def _in_parts(dataset: Any) -> np.ndarray:
 
 
 def _text(value: Any) -> str:
-    return value.decode("latin-1") if isinstance(value, bytes) else str(value)
+    return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
+
+
+def _headed(name: str, unit: str | None) -> str:
+    """A name with its unit, where it says none itself."""
+    return f"{name} [{unit}]" if unit and unit_of(unit) is not None and recognise(name).unit is None else name
 
 
 def _characters(codes: Any) -> str:

@@ -72,7 +72,7 @@ class Preview:
     """What a file would be read as.
 
     Attributes:
-        format: ``csv``, ``xlsx``, ``mat`` or ``tdms``.
+        format: ``csv``, ``json``, ``xlsx``, ``mat``, ``hdf5`` or ``tdms``.
         columns: all columns of the file, in its order.
         sample: the first rows as texts, one per column.
         rows, valid: rows of the file below the header, and those that can be read.

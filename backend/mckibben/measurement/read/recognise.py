@@ -13,7 +13,6 @@ from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.read.unit_words import (
     CLOCK,
     COUNT,
-    REFERENCE_WORDS,
     UnitText,
     dimension_of,
     reference_of,
@@ -28,6 +27,7 @@ from mckibben.measurement.read.vocabulary import (
     channel_of_word,
     folded,
     other_quantity,
+    reference_among,
     words_of,
 )
 
@@ -43,11 +43,12 @@ DIMENSIONS = {
 BY_WORDS, BY_UNIT = 10, 60  # how much less such a column is wanted than one named the plain way
 _CHANGES = frozenset(("change", "delta", "anderung", "variation", "difference"))
 _ALSO_VOLTAGE = frozenset(("tension", "tensione", "tensao"))  # a voltage in other languages
+_STROKES_FROM_REST = frozenset(("displacement", "contraction", "extension"))  # "shortening from rest length"
 _RAW = 3  # of LESS_WANTED: a raw column
 _NUMBER = r"[0-9]+(?:[.,][0-9]+)?"
 _HELD = re.compile(
     rf"(?i)(?:(?:\b(?:bei|at|à|a|con|für|for|mit|avec|with|of|von)\b|@|\b[a-zκ]\s*[=:])\s*)?"
-    rf"(?P<number>{_NUMBER})\s*(?P<unit>mbar|bar|kPa|MPa|hPa|Pa|psi)(?:\s*\(?(?P<mark>abs|a|g|ü|rel)\b\.?\)?)?(?![\w/])"
+    rf"(?<![\d.,…–-])(?P<number>{_NUMBER})\s*(?P<unit>mbar|bar|kPa|MPa|hPa|Pa|psi)(?:\s*\(?(?P<mark>abs|a|g|ü|rel)\b\.?\)?)?(?![\w/])"
 )
 
 
@@ -104,7 +105,7 @@ def held_pressure(text: str) -> HeldQuantity | None:
     number = float(match["number"].replace(",", "."))
     absolute = None if not match["mark"] else reference_of(match["mark"])
     if absolute is None:
-        absolute = _reference_among(words)
+        absolute = reference_among(words)
     unit = next(
         u for u in ("mbar", "bar", "kPa", "MPa", "hPa", "Pa", "psi") if u.lower() == match["unit"].lower()
     )
@@ -170,10 +171,35 @@ def taken_apart(header: str, unit_below: str | None = None) -> Head:
     if unit is not None and unit.absolute is not None:
         absolute = unit.absolute
     if absolute is None:
-        absolute = _reference_among(words_of(text))
+        absolute = reference_among(words_of(text))
     return Head(text.strip(" _"), None if unit is None else unit.unit, absolute, held)
 
 
+_SURE_UNITS = frozenset(
+    [
+        "mm",
+        "cm",
+        "bar",
+        "mbar",
+        "kPa",
+        "MPa",
+        "hPa",
+        "mmHg",
+        "inHg",
+        "psi",
+        "kN",
+        "daN",
+        "cN",
+        "mN",
+        "lbf",
+        "ozf",
+        "kgf",
+        "gf",
+        "ms",
+        "mV",
+        "kg",
+    ]
+)  # no name ends like them
 _NEWTONS = {"n": UnitText("N")}  # behind a name of a force only; alone it counts
 _PATH = re.compile(r"/?(?P<first>[A-Za-z_]\w*)[./](?:[A-Za-z_]\w*[./])*(?P<name>[A-Za-z_]\w*)")
 
@@ -219,6 +245,11 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
     named = [channel for word in meant if (channel := channel_of_word(word)) is not None]
     for word in words:
         reason = other_quantity(word, named[-1] if named else None)
+        if reason == "a length at rest" and set(named) & _STROKES_FROM_REST:
+            named = [channel for channel in named if channel != "length"]
+            continue
+        if reason == "a set value" and named[-1:] == ["command"]:
+            continue  # what a valve is set to is its command
         if reason is not None and (named or dimension):
             return Recognised(None, head.unit, None, 0, f"it is {reason}")
     distinct = set(named)
@@ -316,27 +347,7 @@ def _sure(name: str, text: str, unit: UnitText) -> bool:
         return True
     if named and text in ("V", "mV", "mA"):
         return True
-    return len(text) >= 2 and text in (
-        "mm",
-        "bar",
-        "mbar",
-        "kPa",
-        "MPa",
-        "kN",
-        "ms",
-        "mV",
-        "kg",
-        "cm",
-        "psi",
-        "lbf",
-        "daN",
-        "kgf",
-    )
-
-
-def _reference_among(words: list[str]) -> bool | None:
-    marks = {REFERENCE_WORDS[word] for word in words if len(word) > 2 and word in REFERENCE_WORDS}
-    return marks.pop() if len(marks) == 1 else None
+    return text in _SURE_UNITS
 
 
 def fits_channel(unit: str, channel: str) -> bool:

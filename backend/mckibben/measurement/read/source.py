@@ -26,7 +26,7 @@ class RawTable:
 
     Attributes:
         place: file (and sheet), for messages.
-        format: ``csv``, ``xlsx``, ``mat`` or ``tdms``.
+        format: ``csv``, ``json``, ``xlsx``, ``mat``, ``hdf5`` or ``tdms``.
         headers: names of the columns, units in them where the format keeps them apart.
         read: reads the rows of the wanted columns.
         sample: the first rows as texts.

@@ -10,8 +10,17 @@ from typing import NamedTuple
 
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, Note, key_of
 from mckibben.measurement.read.recognise import taken_apart
-from mckibben.measurement.read.unit_words import REFERENCE_WORDS, dimension_of, unit_of
-from mckibben.measurement.read.vocabulary import LOADLESS, channel_of_word, folded, word_set, words_of
+from mckibben.measurement.read.unit_words import dimension_of, unit_of
+from mckibben.measurement.read.vocabulary import (
+    LOADLESS,
+    REMARK_WORDS,
+    channel_of_word,
+    folded,
+    has_word,
+    reference_among,
+    word_set,
+    words_of,
+)
 from mckibben.resources import presets_folder
 
 NAME = "the file's name"
@@ -19,40 +28,36 @@ NAME = "the file's name"
 SIGN = "force_sign"  # text: "compression positive"
 KIND_SAID = "kind_said"  # text: "isotonic"
 _NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
-_QUANTITY = re.compile(rf"(?<![\w.,-])({_NUMBER})\s*([A-Za-zµ°%\"]+(?:\s*\([a-zü]+\))?)?(?![\w.,]*\d)")
+_UNIT = r"(?:[^\W\d_]|[°%\"'])+(?:/[^\W\d_]+[2²]?)?"
+_QUANTITY = re.compile(rf"(?<![\w.,-])({_NUMBER})\s*({_UNIT}(?:\s*\([a-zü]+\))?)?(?![\w.,]*\d)")
 _UNIT_FIRST = re.compile(rf"[\[(]\s*([^\])]+?)\s*[\])]\s*[:=;]?\s*({_NUMBER})(?!\s*[A-Za-z])")
-_AT_REST = word_set(
-    "l0 rest unloaded relaxed free initial nominal gauge start ruhe anfang anfangs nenn einspann ausgangs "
-    "vide repos initiale libre riposo iniziale libera reposo inicial spoczynkowa poczatkowa repouso "
-    "sample specimen"
+#: A symbol, a number and a unit in one word, as in names of files: ``L200mm``, ``m5kg``, ``ps6bar``.
+_GLUED = re.compile(
+    rf"(?<![^\W_])([^\W\d_]{{0,12}}0?)[=]?((?<![0-9])[0-9]+(?:[.,][0-9]+)?)({_UNIT})(?![^\W_])"
 )
+_AT_REST, _LOADS, _SUPPLIES = REMARK_WORDS["at rest"], REMARK_WORDS["load"], REMARK_WORDS["supply"]
+_SAMPLES, _DATES, _AMBIENT = REMARK_WORDS["sample"], REMARK_WORDS["date"], REMARK_WORDS["ambient"]
 _REST_LENGTHS = re.compile(
-    r"(ruhe|einspann|anfangs|nenn|ausgangs|probe[nr]?)[a-z]{0,2}(lange|laenge)|自然長|初期長"
-)
-_LOADS = word_set("load last mass masse weight gewicht charge carico carga massa peso poids masa")
-_SUPPLIES = word_set(
-    "supply versorgung versorgungsdruck speisedruck vordruck netzdruck alimentation alimentazione "
-    "alimentacion"
-)
-_SAMPLES = word_set(
-    "specimen sample probe prufling eprouvette provino probeta muestra muster dut campione probka amostra"
-)
-_DATES = word_set("date datum fecha data giorno")
+    "|".join([r"(ruhe|einspann|anfangs|nenn|ausgangs|probe[nr]?)[a-z]{0,2}(lange|laenge)",
+              *map(re.escape, REMARK_WORDS["rest length"])])
+)  # fmt: skip
+_SUPPLY_SYMBOLS = word_set("ps pv psup psupply pversorgung p0 pin")
 #: Kind of a test -> how its name begins in the languages of the heads.
 _KINDS = {"isobaric": "isobar", "isometric": "isometr", "isotonic": "isoton"}
-_UNPARTED = 0x3000  # code of the first letters of languages without blanks
 _COMPRESSION = re.compile(
     r"(compress\w*|druckkraft)\W+(?:\w+\W+){0,2}positi|(tension|traction|pull\w*|zug\w*|trazione)\W+(?:\w+\W+){0,3}negati"
 )
 _CODE = re.compile(r"(?<![A-Za-z0-9])([A-Z]{2,6}-[0-9]{1,3})(?:-([0-9]{2,4})(?![0-9]))?")
+_CODE_IN_A_WORD = re.compile(r"(?i)(?<![a-z0-9])([a-z]{2,6})[-_ ]?([0-9]{1,3})(?![0-9a-z])")
 
 
 class _Quantity(NamedTuple):
-    """A number with its unit in a text, and the words before it."""
+    """A number with its unit in a text, the words before it and, up to the next comma, behind it."""
 
     words: list[str]
     value: str
     unit: str | None
+    behind: Sequence[str] = ()
 
 
 def statements(rest: Iterable[tuple[str, str]], name: str) -> list[Note]:
@@ -73,13 +78,18 @@ def statements(rest: Iterable[tuple[str, str]], name: str) -> list[Note]:
     for text, where in coded:
         for key, value in _of_code(text):
             found.setdefault(key, Note(where, key, value))
-    for quantity in _quantities(stem.replace("_", " ")):
+    for quantity in (*_quantities(stem.replace("_", " ")), *_glued(stem)):
+        key = _key_of(quantity)
         if (
-            quantity.unit is not None
-            and dimension_of(quantity.unit) == "a mass"
-            and "load_force" not in found
+            key is None
+            and quantity.words in (["l"], ["length"])
+            and dimension_of(quantity.unit) == "a length"
         ):
-            found.setdefault("load_mass", Note(NAME, "load_mass", f"{quantity.value} {quantity.unit}"))
+            key = "nominal_length"
+        if key is None and quantity.unit is not None and dimension_of(quantity.unit) == "a mass":
+            key = None if "load_force" in found else "load_mass"
+        if key is not None:
+            found.setdefault(key, Note(NAME, key, f"{quantity.value} {quantity.unit or ''}".strip()))
     if "load_mass" in found and "load_force" in found and found["load_mass"].where == NAME:
         del found["load_mass"]
     return list(found.values())
@@ -90,13 +100,14 @@ def _of_text(text: str) -> Iterator[tuple[str, str]]:
     if _COMPRESSION.search(plain):
         yield SIGN, "compression positive"
     words = words_of(text)
-    references = {REFERENCE_WORDS[w] for w in folded_words(text) if len(w) > 2 and w in REFERENCE_WORDS}
-    if len(references) == 1 and any(channel_of_word(word) == "pressure" for word in words):
-        yield "pressure", "absolute" if references.pop() else "gauge"
+    reference = reference_among(words)
+    about_muscle = not has_word(words, _AMBIENT | _SUPPLIES)
+    if reference is not None and about_muscle and any(channel_of_word(word) == "pressure" for word in words):
+        yield "pressure", "absolute" if reference else "gauge"
     kinds = {kind for word in words for kind, stem in _KINDS.items() if word.startswith(stem)}
     if len(kinds) == 1:
         yield KIND_SAID, kinds.pop()
-    for quantity in _quantities(text):
+    for quantity in (*_quantities(text), *_glued(text)):
         key = _key_of(quantity)
         if key is not None:
             yield key, f"{quantity.value} {quantity.unit}" if quantity.unit else quantity.value
@@ -108,13 +119,6 @@ def _of_text(text: str) -> Iterator[tuple[str, str]]:
         yield "date", day[0]
 
 
-def folded_words(text: str) -> list[str]:
-    """The words of a text in lower case, with their accents and without; Japanese does not part its words."""
-    lower = re.findall(r"[^\W_]+", text.lower())
-    unparted = [word for word in REFERENCE_WORDS if ord(word[0]) > _UNPARTED and word in text]
-    return [*lower, *(folded(word) for word in lower), *unparted]
-
-
 def _quantities(text: str) -> Iterator[_Quantity]:
     """The quantities of a text; each with the words since the one before it."""
     text = _UNIT_FIRST.sub(r" \2 \1", text)
@@ -123,27 +127,39 @@ def _quantities(text: str) -> Iterator[_Quantity]:
         unit = unit_of(found[2]) if found[2] else None
         before = re.split(r"[,;](?!\d)\s*(?=[^\W\d])", text[begin : found.start()])[-1]
         begin = found.end()
-        yield _Quantity(words_of(before), found[1].replace(",", "."), None if unit is None else unit.unit)
+        behind = re.split(r"[,;.:(]", text[begin : begin + 40])[0]
+        value = found[1].replace(",", ".")
+        yield _Quantity(words_of(before), value, None if unit is None else unit.unit, words_of(behind))
+
+
+def _glued(text: str) -> Iterator[_Quantity]:
+    """The quantities whose symbol, number and unit are one word."""
+    for found in _GLUED.finditer(text):
+        unit = unit_of(found[3])
+        if unit is not None and found[1]:
+            yield _Quantity(words_of(found[1]), found[2].replace(",", "."), unit.unit)
 
 
 def _key_of(quantity: _Quantity) -> str | None:
     words = set(quantity.words)
     joined = "".join(quantity.words)
     measured = dimension_of(quantity.unit) if quantity.unit else ""
+    if measured == "a pressure" and has_word(quantity.words, _AMBIENT):
+        return "ambient_pressure"
     if words & LOADLESS:
         return None
     lengthy = any(channel_of_word(word) == "length" for word in quantity.words)
-    at_rest = (bool(words & _AT_REST) and (lengthy or "l0" in words)) or bool(_REST_LENGTHS.search(joined))
-    if at_rest and measured in ("", "a length"):
+    at_rest = has_word(quantity.words, _AT_REST) and (lengthy or "l0" in words)
+    if (at_rest or _REST_LENGTHS.search(joined)) and measured in ("", "a length"):
         return "nominal_length"
-    loaded = words & _LOADS or any(
+    loaded = has_word([*quantity.words, *quantity.behind], _LOADS) or any(
         channel_of_word(w) == "force" and w.endswith("last") for w in quantity.words
     )
-    if loaded and measured == "a mass":
+    if (loaded or words == {"m"}) and measured == "a mass":
         return "load_mass"
     if loaded and measured == "a force":
         return "load_force"
-    if words & _SUPPLIES and measured == "a pressure":
+    if (has_word(quantity.words, _SUPPLIES) or joined in _SUPPLY_SYMBOLS) and measured == "a pressure":
         return "supply_pressure"
     return None
 
@@ -155,6 +171,9 @@ def _of_code(text: str) -> Iterator[tuple[str, str]]:
             yield "muscle", found[1]
             if found[2]:
                 yield "nominal_length", f"{found[2]} mm"
+    for found in _CODE_IN_A_WORD.finditer(text):
+        if (code := f"{found[1]}-{found[2]}".upper()) in _known_muscles():
+            yield "muscle", code
 
 
 @cache
@@ -175,6 +194,10 @@ def in_known_words(notes: Iterable[Note]) -> list[Note]:
             head = taken_apart(note.key)
             quantity = next(iter(_quantities(f"{head.name.replace('_', ' ')}: {note.value}")), None)
             words = words_of(head.name)
+            reference = reference_among([*words_of(str(note.value)), *words])
+            if reference is not None and any(channel_of_word(word) == "pressure" for word in words):
+                renamed.append(note._replace(key="pressure", value="absolute" if reference else "gauge"))
+                continue
             unit = head.unit or (quantity.unit if quantity else None)
             known = (
                 _key_of(_Quantity(words, "", unit)) if quantity or not isinstance(note.value, str) else None

@@ -15,7 +15,7 @@ from mckibben.measurement.read.raw import RawRows, shown_rows
 from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
 from mckibben.measurement.read.table import FAST_FROM, read_table
 from mckibben.measurement.read.tables import told_channels
-from mckibben.measurement.read.values import Clock, NumberStyle, number_of, style_of
+from mckibben.measurement.read.values import Clock, NumberStyle, is_elapsed, is_falling, number_of, style_of
 from mckibben.physics.units import factor
 
 PART = "group"  # head of the column that numbers the parts
@@ -49,6 +49,8 @@ def source_of(
         cell for part in table.parts for _, row in islice(part.rows(), _STYLE_ROWS) for cell in row
     )
 
+    ways = _ways_of_clocks(table, said)
+
     def rows(clocks: bool) -> Iterator[tuple[int, list[Cell]]]:
         for number, part in enumerate(table.parts):
             more: list[Cell] = [
@@ -56,7 +58,9 @@ def source_of(
             ]
             if numbered:
                 more.append(number)
-            times = {i: Clock() for i, c in enumerate(part.columns) if clocks and c in part.clocks}
+            times = {
+                i: Clock(**ways.get(i, {})) for i, c in enumerate(part.columns) if clocks and c in part.clocks
+            }
             for line, row in part.rows():
                 cells: list[Cell] = [number_of(cell, style) for cell in row]
                 for i, clock in times.items():
@@ -87,6 +91,23 @@ def source_of(
         clocks=frozenset(i for part in table.parts for i, c in enumerate(part.columns) if c in part.clocks),
         raw=_raw(table, shown, len(names), rewritten),
     )  # fmt: skip
+
+
+def _ways_of_clocks(table: Table, said: list[str]) -> dict[int, dict[str, bool]]:
+    """How the times of each column are to be read, from the first rows."""
+    ways: dict[int, dict[str, bool]] = {}
+    for part in table.parts[:1]:
+        clocked = [i for i, c in enumerate(part.columns) if c in part.clocks]
+        shown = [row for _, row in islice(part.rows(), _STYLE_ROWS)] if clocked else []
+        for i in clocked:
+            cells = [row[i] for row in shown]
+            ways[i] = {"elapsed": is_elapsed(cells), "falling": is_falling(cells)}
+            name = f"column '{table.names[i] or f'column {i + 1}'}'"
+            if ways[i]["elapsed"]:
+                said.append(f"{name} is read as minutes:seconds: it begins at '{cells[0]}'")
+            if ways[i]["falling"]:
+                said.append(f"{name} runs backwards: the newest row stands first")
+    return ways
 
 
 def _raw(table: Table, shown: Iterable[tuple[int, Iterable[object]]], width: int, rewritten: bool) -> RawRows:
@@ -131,6 +152,7 @@ def _quick(
     if (
         len(table.parts) > 1
         or isinstance(part, MapPart)
+        or part.carried
         or not isinstance(grid, TextGrid)
         or len(part.pieces) > 1
     ):

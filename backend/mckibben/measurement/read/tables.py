@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -9,18 +10,21 @@ from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.read.blocks import MapPart, Table, tables_of_run
 from mckibben.measurement.read.grid import Grid, TextGrid
 from mckibben.measurement.read.header import map_headers
+from mckibben.measurement.read.heads import head_of
+from mckibben.measurement.read.limits import MAX_BLOCKS
 from mckibben.measurement.read.locate import (
     Run,
     TableHead,
     find_runs,
-    head_of,
     main_runs,
     texts_of,
+    titles_of,
     with_broken_rows,
 )
 from mckibben.physics.errors import InputError, did_you_mean
 
 _TEXT_ROWS = 400  # rows beside the tables of which the texts are kept
+_SUMMARY = 0.2  # of the rows of the longest table; a shorter one of the same channels sums it up
 _MAX_TEXT = 300  # characters of one
 
 
@@ -62,13 +66,24 @@ def tables_of_grid(grid: Grid, *, head: int | None = None, until: int | None = N
         kept = main_runs(grid, below) or below[:1]
     if until is not None and kept and kept[-1].last >= until:
         kept[-1].last = _end(grid, kept[-1])
+    if len(kept) > MAX_BLOCKS:
+        raise InputError(
+            f"{grid.place}: the file holds more than {MAX_BLOCKS} blocks of readings, which is too much",
+            field="rows",
+            hint="split the file, or write the blocks as columns of one table",
+        )
     tables: list[Table] = []
     taken: set[int] = set()
     after = -1
+    before: TableHead | None = None
     for run in kept:
         own = at if at is not None and at >= after and run is kept[0] else None
-        table_head = head_of(grid, run, after=after, at=own)
-        with_broken_rows(grid, run, table_head)
+        if run.headless and before is not None:
+            table_head = before
+        else:
+            table_head = head_of(grid, run, after=after, at=own)
+            with_broken_rows(grid, run, table_head)
+        before = table_head
         titles = _titles(grid, run, table_head, after)
         table = tables_of_run(grid, run, table_head, titles)
         if not isinstance(table.parts[0], MapPart):  # above a map stand titles only
@@ -135,8 +150,7 @@ def _titles(grid: Grid, run: Run, head: TableHead, after: int) -> list[tuple[int
         (index, column, text)
         for index in range(first, run.first)
         if index not in (head.row, head.units_at)
-        for column, text in enumerate(texts_of(grid.cells(index)))
-        if text
+        for column, text in titles_of(grid, index)
     ]
 
 
@@ -150,7 +164,10 @@ def _rest(grid: Grid, runs: Sequence[Run], taken: set[int], table: Table) -> lis
     total = len(grid) if not isinstance(grid, TextGrid) or len(grid) < 200_000 else 0
     candidates = [*range(inside[0][0])] if inside else []
     if total:
-        candidates = [i for i in range(total) if not any(first <= i < last for first, last in pieces)]
+        read = bytearray(total)
+        for first, last in pieces:
+            read[first:last] = b"\1" * (min(last, total) - first)
+        candidates = [i for i in range(total) if not read[i]]
     elif inside:
         candidates += range(inside[-1][1], len(grid))
     for index in candidates:
@@ -160,7 +177,8 @@ def _rest(grid: Grid, runs: Sequence[Run], taken: set[int], table: Table) -> lis
         text = " ".join(cell for cell in cells if cell)[:_MAX_TEXT]
         if not text:
             continue
-        if any(first <= index < last for first, last in inside):
+        at = bisect_right(inside, (index, len(grid))) - 1
+        if at >= 0 and inside[at][0] <= index < inside[at][1]:
             between.append(f"{grid.where(index)}: '{text[:60]}'")
         elif inside and index >= inside[-1][1]:
             below.append((grid.line(index), text[:40]))
@@ -234,7 +252,14 @@ def choose(tables: Sequence[Table], *, sheet: str | None, noun: str = "sheet") -
         best = _together(alike)
         others = [table for table in tables if table not in alike]
         return Chosen(best, _left_out(others, noun), (), _unread(others))
-    rivals = [t for t in tables if t is not best and len(wanted) >= 2 and len(channels_of(t)) >= len(wanted)]
+    rivals = [
+        t
+        for t in tables
+        if t is not best
+        and len(wanted) >= 2
+        and len(channels_of(t)) >= len(wanted)
+        and _rows_of(t) >= _SUMMARY * _rows_of(best)
+    ]
     choices: tuple[tuple[str, str], ...] = ()
     if rivals:
         choices = tuple(
@@ -256,8 +281,7 @@ def _unread(tables: Sequence[Table]) -> list[tuple[str, str]]:
 
 def _best(tables: Sequence[Table]) -> Table:
     def score(table: Table) -> tuple[int, int]:
-        rows = sum(last - first for part in table.parts for first, last in part.pieces)
-        return len(channels_of(table)), rows if len(channels_of(table)) == 0 else 0
+        return len(channels_of(table)), _rows_of(table)
 
     return max(tables, key=score)
 
@@ -271,6 +295,10 @@ def _together(tables: Sequence[Table]) -> Table:
         rest=[text for table in tables for text in table.rest],
         messages=[message for table in tables for message in table.messages],
     )  # fmt: skip
+
+
+def _rows_of(table: Table) -> int:
+    return sum(last - first for part in table.parts for first, last in part.pieces)
 
 
 def _left_out(tables: Sequence[Table], noun: str) -> list[str]:

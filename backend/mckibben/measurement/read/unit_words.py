@@ -6,18 +6,13 @@ import re
 from functools import lru_cache
 from typing import NamedTuple
 
-from mckibben.measurement.read.marks import MARK_WORDS, split_mark
-from mckibben.measurement.read.vocabulary import word_set
+from mckibben.measurement.read.marks import split_mark
+from mckibben.measurement.read.vocabulary import REFERENCE_WORDS, folded, word_set
+from mckibben.measurement.read.words import UNITS
 from mckibben.physics.units import is_unit, meaning
 
 #: Spellings that the unit library lacks, lower case.
-_SPELLINGS = {
-    "sek": "s", "msek": "ms", "seg": "s", "sekunden": "s", "secondes": "s", "secondi": "s", "segundos": "s",
-    "kp": "kgf", "kg-force": "kgf", "kg(f)": "kgf", "kp/cm2": "kgf/cm2", "kg/cm2": "kgf/cm2",
-    "kg/cm²": "kgf/cm2", "kgf/cm²": "kgf/cm2", "lbs": "lbf", "lb": "lbf", "lbs.": "lbf", "pounds": "lbf",
-    "zoll": "in", '"': "in", "inch": "in", "inches": "in", "pouces": "in", "pollici": "in",
-    "percent": "%", "prozent": "%", "vol": "V", "kn": "kN", "um": "µm",
-}  # fmt: skip
+_SPELLINGS = {spelling: unit for unit, text in UNITS.items() for spelling in text.split()}
 #: What a column of a laboratory is measured in; other meanings of a short text are not its unit.
 _MEANINGS = frozenset({
     "a pressure", "a force", "a length", "a time", "a mass", "a speed", "a temperature", "a voltage",
@@ -59,6 +54,8 @@ def unit_of(text: str) -> UnitText | None:
     if absolute is None:
         plain, absolute = _reference_in(bare)
     plain = _without_brackets(plain.strip(" ,."))
+    if re.fullmatch(r"[^\W\d_]+1", plain):
+        return None  # "FT1" is a name; nobody writes a unit to the power of one
     unit = _SPELLINGS.get(plain.lower(), plain)
     # "mPa" is a thousandth of a pascal; "Mpa" and "mpa" are written for MPa.
     spellings = ("MPa",) if unit in ("Mpa", "mpa") else (unit, unit.lower())
@@ -73,7 +70,7 @@ def unit_of(text: str) -> UnitText | None:
 def reference_of(text: str) -> bool | None:
     """Absolute (True) or gauge (False), where a short text says so: ``"Ü"``, ``"abs."``, ``"relative"``."""
     word = _without_brackets(text.strip()).strip(". ").lower()
-    return _OVERPRESSURE.get(word, REFERENCE_WORDS.get(word))
+    return _OVERPRESSURE.get(word, REFERENCE_WORDS.get(folded(word)))
 
 
 def dimension_of(unit: str | None) -> str:
@@ -83,17 +80,6 @@ def dimension_of(unit: str | None) -> str:
     return meaning(unit) or ""
 
 
-#: Words for the reference of a pressure in the languages of the heads.
-REFERENCE_WORDS = dict(MARK_WORDS) | {
-    "absolut": True, "absolutdruck": True, "absolue": True, "absolu": True, "assoluta": True,
-    "assoluto": True, "absoluta": True, "absoluto": True, "überdruck": False, "ueberdruck": False,
-    "ü": False, "relativ": False, "relativa": False, "relativo": False, "effective": False,
-    "manometrique": False, "manométrique": False, "manometrica": False,
-    "nadcisnienie": False, "nadciśnienie": False, "relatywne": False,
-    "ゲージ圧": False, "絶対圧": True, "bezwzgledne": True, "manométrica": False,
-}  # fmt: skip
-
-
 def _reference_in(text: str) -> tuple[str, bool | None]:
     """A unit text without the word of the reference behind it: ``"mbar rel."``, ``"bar (Ü)"``, ``"psig"``."""
     if found := re.fullmatch(r"(?i)(psi)(a|g)", text):
@@ -101,7 +87,7 @@ def _reference_in(text: str) -> tuple[str, bool | None]:
     found = re.fullmatch(r"(.*?)[\s,_(\[]+([^\s,_()\[\]]+?)\.?[)\]]*", text)
     if found:
         word = found[2].lower()
-        mark = _OVERPRESSURE.get(word, REFERENCE_WORDS.get(word))
+        mark = _OVERPRESSURE.get(word, REFERENCE_WORDS.get(folded(word)))
         if mark is not None:
             return found[1], mark
     if found := re.fullmatch(r"((?:m|h|k|M)?(?:bar|Pa))ü", text):

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from datetime import UTC, datetime, timedelta
 from functools import lru_cache
+from itertools import pairwise
 from typing import NamedTuple
 
-from mckibben.measurement.read.cells import Cell
+from mckibben.measurement.read.cells import Cell, marker_of
 
 NUMBER, CLOCK, TEXT, GAP = "n", "c", "t", ""
 
@@ -19,9 +20,6 @@ _GROUPED = re.compile(
 _DAY = r"(?:[0-9]{4}[-/.][0-9]{1,2}[-/.][0-9]{1,2}|[0-9]{1,2}[./-][0-9]{1,2}[./-][0-9]{2,4})"
 _TIME = r"[0-9]{1,2}:[0-9]{2}(?::[0-9]{2}(?:[.,:][0-9]{1,9})?)?(?:\s*[aApP][mM])?"
 _CLOCK = re.compile(rf"{_TIME}|{_DAY}(?:[T ]+{_TIME}(?:Z|\s*[+-][0-9]{{2}}:?[0-9]{{2}})?)?")
-_GAPS = frozenset(
-    {"", "-", "--", "---", "nan", "na", "n/a", "#n/a", "#na", "null", "none", "#nv", "#div/0!", "*"}
-)
 
 
 class NumberStyle(NamedTuple):
@@ -34,7 +32,7 @@ class NumberStyle(NamedTuple):
 @lru_cache(maxsize=65536)
 def _kind_of_text(text: str) -> str:
     bare = text.strip()
-    if bare.lower() in _GAPS:
+    if not bare or marker_of(bare) is not None:
         return GAP
     if _PLAIN.fullmatch(bare):
         return NUMBER
@@ -106,9 +104,16 @@ def number_of(cell: Cell, style: NumberStyle) -> Cell:
 
 
 class Clock:
-    """A column of times of day or dates as seconds from its first cell; a day is added at midnight."""
+    """A column of times of day or dates as seconds from its first cell; a day is added at midnight.
 
-    def __init__(self) -> None:
+    Args:
+        elapsed: times of two parts are minutes and seconds, not hours and minutes.
+        falling: the rows run backwards in time.
+    """
+
+    def __init__(self, *, elapsed: bool = False, falling: bool = False) -> None:
+        self._share = 1.0 / 60.0 if elapsed else 1.0
+        self._sign = -1.0 if falling else 1.0
         self._origin: float | None = None
         self._last = 0.0
         self._days = 0.0
@@ -120,13 +125,33 @@ class Clock:
             return cell
         stamp, dated = value
         if not dated:
-            if self._origin is not None and stamp + self._days < self._last - 43_200.0:
-                self._days += 86_400.0
+            if self._share != 1.0 and isinstance(cell, str) and cell.count(":") == 1:
+                stamp *= self._share
+            beyond = self._sign * (stamp + self._days - self._last)
+            if self._origin is not None and beyond < -43_200.0:
+                self._days += self._sign * 86_400.0
             stamp += self._days
             self._last = stamp
         if self._origin is None:
             self._origin = stamp
         return round(stamp - self._origin, 9)
+
+
+def is_elapsed(cells: Sequence[Cell]) -> bool:
+    """Whether times of two parts, ``0:03``, are minutes and seconds: they begin at zero, as no clock does."""
+    times = [cell.strip() for cell in cells if isinstance(cell, str) and kind_of(cell) == CLOCK]
+    return (
+        bool(times)
+        and all(re.fullmatch(r"[0-9]{1,3}:[0-9]{2}", t) for t in times)
+        and times[0][:-3] in ("0", "00")
+    )
+
+
+def is_falling(cells: Sequence[Cell]) -> bool:
+    """Whether most times of a column are earlier than the one before."""
+    stamps = [value[0] for cell in cells if (value := _absolute_seconds(cell)) is not None]
+    steps = [b - a for a, b in pairwise(stamps)]
+    return sum(step < 0.0 for step in steps) > sum(step > 0.0 for step in steps)
 
 
 def _absolute_seconds(cell: Cell) -> tuple[float, bool] | None:

@@ -1,111 +1,16 @@
-"""Words of table heads and preambles in eight languages of Europe and Japan.
-
-Words are compared without case and accents. A word of four letters or "
-"more also counts as the beginning or
-end of a longer one, as German builds them ("Muskeldruck", "
-""Wegaufnehmer"); a shorter one as its end only.
-"""
+"""What the words of heads and remarks mean: the table of `words`, and how words are compared with it."""
 
 from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
+from mckibben.measurement.read import words
 
-def word_set(text: str) -> frozenset[str]:
-    """The words of a text, parted by blanks."""
-    return frozenset(text.split())
-
-
-_CHANNEL_TEXTS = {
-    "time": "time zeit sekunden seconds temps tiempo tempo timestamp uhrzeit "
-    "heure hora ora clock elapsed "
-    "dauer czas czasu hora zaman 時刻 時間 経過時間 日時",
-    "pressure": "pressure druck pression presion pressione press cisnienie "
-    "cisnienia nadcisnienie pressao 圧力 ゲージ圧 内圧 空気圧",
-    "force": "force kraft effort forza fuerza load last charge carga carico "
-    "weight gewicht tension traction sila sily forca tracao 荷重 力 張力 引張力 発生力",
-    "length": "length laenge lange longueur longitud lunghezza dlugosc dlugosci comprimento 長さ 全長",
-    "displacement": "displacement displ disp weg hub stroke course corsa "
-    "carrera verschiebung deplacement "
-    "desplazamiento spostamento position posicion posizione travel verkuerzung verkurzung "
-    "raccourcissement accorciamento acortamiento shortening auslenkung "
-    "verfahrweg skrocenie przemieszczenie skok encurtamento deslocamento curso 変位 "
-    "収縮量 縮み ストローク",
-    "extension": "extension elongation langenanderung dehnung verlaengerung verlangerung allongement "
-    "allungamento alargamiento wydluzenie alongamento 伸び",
-    "contraction": "contraction kontraktion contrazione contraccion strain "
-    "kappa eps epsilon kontrakcja contracao 収縮率 ひずみ",
-    "diameter": "diameter durchmesser diametre diametro srednica 直径 外径",
-    "velocity": "velocity speed geschwindigkeit vitesse velocidad velocita predkosc velocidade 速度",
-    "command": "command ventil valve stellgroesse stellgrosse comando vanne valvola",
-    "temperature": "temperature temperatur temperatura temp 温度",
-    "group": "cycle zyklus ciclo versuch essai prova lauf sweep",
-}
-#: Channel -> words for it.
-CHANNEL_WORDS = {channel: tuple(words.split()) for channel, words in _CHANNEL_TEXTS.items()}
-#: Letters that stand for a channel where their unit agrees.
-LETTERS = {
-    "t": "time", "p": "pressure", "f": "force", "l": "length", "x": "displacement", "s": "displacement",
-    "d": "diameter", "v": "velocity", "u": "command",
-}  # fmt: skip
-
-#: Words that make a column something else -> what it is.
-OTHER_QUANTITIES = {
-    word: reason
-    for reason, words in {
-        "a set value": "set setpoint soll sollwert target desired demand demanded consigne consigna "
-        "riferimento fuehrung reference ref",
-        "the supply": "zasilanie zasilania alimentacao 供給圧 supply versorgung "
-        "versorgungs speise vordruck alimentation alimentazione "
-        "alimentacion line tank reservoir kessel inlet source",
-        "the surrounding air": "otoczenia otoczenie ambiente 大気圧 ambient umgebung "
-        "umgebungs atmosphere atmospheric baro barometer luftdruck",
-        "a length at rest": "rest ruhe ruhelaenge ruhelange initial anfang anfangs "
-        "nominal nenn nennlange l0 "
-        "spoczynkowa poczatkowa inicial repouso 自然長 初期長",
-        "a preload": "vorkraft preload vorlast precarga precarico precharge",
-        "a deviation": "dev stdev error fehler vs versus std sigma residual abweichung rms",
-        "a size of the tube": "inside inner innen outside outer aussen wall bore",
-    }.items()
-    for word in words.split()
-}
-#: These leave a pressure or a time what it is, but not a diameter.
-_ONLY_OF_DIAMETERS = word_set("inside inner innen outside outer aussen wall bore")
-#: A column with one of these is wanted less than one without.
-LESS_WANTED = {
-    **dict.fromkeys(word_set("raw roh brut grezzo crudo adc counts digits uncalibrated unkalibriert"), 3),
-    **dict.fromkeys(
-        word_set("filtered gefiltert smoothed geglaettet filtre filtrato filtrado mean mittel"), 2
-    ),
-}
-#: Words for a running number, a remark: columns of these names are no channel.
-NO_CHANNEL = {
-    **dict.fromkeys(
-        word_set("nr no number nummer lfd index idx punkt point id scan sample zeile row row# n i #"),
-        "a running number",
-    ),
-    **dict.fromkeys(
-        word_set(
-            "bemerkung remark remarks comment comments note notes kommentar remarque observaciones "
-            "osservazioni nota anmerkung status state flag"
-        ),
-        "a remark",
-    ),
-}
-#: Words before a force or mass that is not the load of the muscle.
-LOADLESS = word_set(
-    "preload vorkraft vorlast max maximum maximal cell zelle capacity grenze limit range pre sensor moving"
-)
-#: Words with which the statistics below a table begin.
-STATISTICS = word_set(
-    "mean mittel mittelwert average avg moyenne media promedio durchschnitt "
-    "max maximum maxi min minimum "
-    "mini std stdev stdabw sigma sd sum summe total totale somme suma count "
-    "anzahl median range spannweite "
-    "end ende fin fine statistics statistik"
-)
+_UNPARTED = "\u3000"  # from here on stand the letters of languages that do not part their words
+_LETTERS = str.maketrans({"ł": "l", "ı": "i", "đ": "d", "ø": "o", "æ": "ae", "œ": "oe"})
 
 
 def folded(text: str) -> str:
@@ -114,9 +19,97 @@ def folded(text: str) -> str:
     >>> folded("Prüfzeit")
     'prufzeit'
     """
-    plain = unicodedata.normalize("NFKD", text.casefold().replace("ł", "l"))
+    plain = unicodedata.normalize("NFKD", text.casefold().translate(_LETTERS))
     bare = "".join(character for character in plain if not unicodedata.combining(character))
     return bare if bare.isascii() else unicodedata.normalize("NFC", bare)
+
+
+def word_set(text: str) -> frozenset[str]:
+    """The words of a text, parted by blanks."""
+    return frozenset(text.split())
+
+
+def all_words(by_language: Mapping[str, str]) -> tuple[str, ...]:
+    """The words of all languages, folded, without the marks of their parts."""
+    return tuple(
+        dict.fromkeys(folded(w.strip("*") or w) for text in by_language.values() for w in text.split())
+    )
+
+
+def _marked(by_language: Mapping[str, str]) -> frozenset[str]:
+    """The words that count as the beginning or end of others although they are short."""
+    return frozenset(
+        folded(w.strip("*")) for t in by_language.values() for w in t.split() if "*" in w and w != "*"
+    )
+
+
+def is_unparted(word: str) -> bool:
+    """Whether a word is of a language that writes its words without blanks."""
+    return bool(word) and word[0] >= _UNPARTED
+
+
+def has_word(text_words: list[str], known: frozenset[str]) -> bool:
+    """Whether one of the words is known; long ones also as beginnings, unparted ones wherever they stand."""
+    return any(
+        word in known or any(is_part(word, stem) for stem in known if len(stem) >= _STEM or is_unparted(stem))
+        for word in text_words
+    )
+
+
+def is_part(word: str, stem: str) -> bool:
+    """Whether a known word stands in a longer one."""
+    if is_unparted(stem):
+        return len(stem) > 1 and stem in word
+    return word.startswith(stem)
+
+
+_STEM = 6  # letters from which a word counts as the beginning of its other forms
+
+#: Channel -> words for it.
+CHANNEL_WORDS = {channel: all_words(texts) for channel, texts in words.CHANNELS.items()}
+_COMPOUNDS = frozenset().union(*(_marked(texts) for texts in words.CHANNELS.values()))
+#: Letters that stand for a channel where their unit agrees.
+LETTERS = {
+    "t": "time", "p": "pressure", "f": "force", "l": "length", "x": "displacement", "s": "displacement",
+    "d": "diameter", "v": "velocity", "u": "command",
+}  # fmt: skip
+
+#: Words that make a column something else -> what it is.
+OTHER_QUANTITIES = {word: reason for reason, texts in words.OTHERS.items() for word in all_words(texts)}
+#: These leave a pressure or a time what it is, but not a diameter; of a length only.
+_ONLY_OF_DIAMETERS = frozenset(all_words(words.OTHERS["a size of the tube"]))
+#: A column with one of these is wanted less than one without.
+LESS_WANTED = {
+    **dict.fromkeys(word_set("raw roh brut grezzo crudo adc counts digits uncalibrated unkalibriert"), 3),
+    **dict.fromkeys(
+        word_set("filtered gefiltert smoothed geglaettet filtre filtrato filtrado mean mittel"), 2
+    ),
+}
+#: Words for a running number, a remark: columns of these names are no channel.
+NO_CHANNEL = {word: reason for reason, texts in words.NO_CHANNELS.items() for word in all_words(texts)}
+#: Remark -> its words: "at rest", "load", "supply", "ambient", "sample", "date".
+REMARK_WORDS = {what: frozenset(all_words(texts)) for what, texts in words.REMARKS.items()}
+#: Words before a force or mass that is not the load of the muscle.
+LOADLESS = REMARK_WORDS["loadless"]
+#: Words with which the statistics below a table begin.
+STATISTICS = frozenset(all_words(words.STATISTIC))
+#: Words for the way there and the way back.
+WAYS = frozenset(all_words(words.WAYS))
+#: Words for the reference of a pressure: True = absolute.
+REFERENCE_WORDS = {
+    word: reference == "absolute"
+    for reference, texts in words.REFERENCES.items()
+    for word in all_words(texts)
+}
+
+
+def reference_among(text_words: Sequence[str]) -> bool | None:
+    """Absolute (True) or gauge (False) where the words say just one of them."""
+    marks = {
+        mark for word in text_words for known, mark in REFERENCE_WORDS.items()
+        if (len(word) > 2 and word == known) or (is_unparted(known) and known in word)
+    }  # fmt: skip
+    return marks.pop() if len(marks) == 1 else None
 
 
 def words_of(text: str) -> list[str]:
@@ -125,7 +118,7 @@ def words_of(text: str) -> list[str]:
     >>> words_of("AI 1/MuscleForce_N")
     ['ai', '1', 'muscle', 'force', 'n']
     """
-    spaced = re.sub(r"(?<=[a-zäöüß])(?=[A-ZÄÖÜ])", " ", text)
+    spaced = re.sub(r"(?<=[a-zäöüß])(?=[A-ZÄÖÜ])|(?<=[A-Z])(?=[A-Z][a-z]{2})", " ", text)
     return [folded(word) for word in re.findall(r"[^\W_]+|#", spaced)]
 
 
@@ -138,15 +131,15 @@ def channel_of_word(word: str) -> str | None:
     best, length = None, 0
     for channel, stems in CHANNEL_WORDS.items():
         for stem in stems:
-            long_enough = len(stem) >= 5 or (len(stem) >= 3 and stem in _COMPOUNDS)
-            if long_enough and len(stem) > length and (word.startswith(stem) or word.endswith(stem)):
+            if is_unparted(stem):
+                found = stem in word if len(stem) > 1 else word.endswith(stem)
+            else:
+                long_enough = len(stem) >= 5 or (len(stem) >= 3 and stem in _COMPOUNDS)
+                found = long_enough and (word.startswith(stem) or word.endswith(stem))
+            if found and len(stem) > length:
                 # The last part of a compound says what it is: a "Kraftweg" is a distance.
                 best, length = channel, len(stem)
     return best
-
-
-#: Short words that German compounds are made of.
-_COMPOUNDS = word_set("zeit weg hub last")
 
 
 @lru_cache(maxsize=4096)
@@ -155,8 +148,9 @@ def other_quantity(word: str, channel: str | None) -> str | None:
     if word in OTHER_QUANTITIES:
         reason = OTHER_QUANTITIES[word]
         return None if word in _ONLY_OF_DIAMETERS and channel not in (None, "diameter") else reason
-    if channel is None:
-        return None
+    unparted = next((r for part, r in OTHER_QUANTITIES.items() if is_unparted(part) and part in word), None)
+    if unparted is not None or channel is None:
+        return unparted
     for part, reason in OTHER_QUANTITIES.items():
         if part in _ONLY_OF_DIAMETERS and channel != "diameter":
             continue

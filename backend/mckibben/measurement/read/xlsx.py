@@ -19,11 +19,12 @@ from mckibben.measurement.read.blocks import Held, Table
 from mckibben.measurement.read.cells import Cell, no_rows
 from mckibben.measurement.read.conditions import Note, note_of_line
 from mckibben.measurement.read.correction import Correction
-from mckibben.measurement.read.grid import SheetGrid
+from mckibben.measurement.read.grid import Grid, SheetGrid
 from mckibben.measurement.read.header import HEADER_EXAMPLE, map_headers
 from mckibben.measurement.read.limits import WORD, Allowance, check_columns
 from mckibben.measurement.read.locate import texts_of
 from mckibben.measurement.read.recognise import held_quantities
+from mckibben.measurement.read.reshape import regular
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import in_known_words, statements
 from mckibben.measurement.read.table_source import source_of
@@ -60,7 +61,8 @@ def open_xlsx(data: bytes, name: str, correction: Correction | None = None) -> R
     for title, rows in sheets:
         place = f"{name}, sheet '{title}'"
         notes[title] = _comments(rows, place)
-        grid = SheetGrid([row for row in rows if not _is_comment(row[1])], place, title)
+        reshaped = regular(SheetGrid([row for row in rows if not _is_comment(row[1])], place, title))
+        grid = reshaped.grid
         head = correction.head if wanted in (None, title) else None
         try:
             until = _FIRST_ROWS if len(grid) > _ALL_ROWS else None
@@ -72,6 +74,8 @@ def open_xlsx(data: bytes, name: str, correction: Correction | None = None) -> R
         where = f"name of sheet '{title}'"
         named = {q.channel: Held(q._replace(named=True), where) for q in held_quantities(title)}
         for table in found:
+            table.messages += reshaped.messages
+            table.unread += reshaped.unread
             for part in table.parts:
                 part.held = named | part.held
         tables += found
@@ -125,7 +129,7 @@ def _comments(rows: Rows, place: str) -> list[Note]:
     return found
 
 
-def _texts(grid: SheetGrid) -> list[tuple[str, str]]:
+def _texts(grid: Grid) -> list[tuple[str, str]]:
     """The texts of a sheet without a table, row by row."""
     found = []
     for index in range(min(len(grid), _HEADER_WITHIN)):

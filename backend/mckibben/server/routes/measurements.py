@@ -34,7 +34,7 @@ _CONTENT_TYPES = (
 _BODY = {
     "requestBody": {
         "required": True,
-        "description": "The file as it is, up to 64 MB: CSV, .xlsx, .mat (v5 to v7.3) or .tdms.",
+        "description": "The file as it is, up to 64 MB: CSV, JSON, .xlsx, .mat (v5 to v7.3), HDF5 or .tdms.",
         "content": {kind: {"schema": {"type": "string", "format": "binary"}} for kind in _CONTENT_TYPES},
     }
 }

@@ -183,7 +183,7 @@ class PreviewAnswer(Strict):
     """How a file would be read; nothing is stored."""
 
     name: str
-    format: str = Field(description="csv, xlsx, mat or tdms.")
+    format: str = Field(description="csv, json, xlsx, mat, hdf5 or tdms.")
     columns: list[PreviewColumn] = Field(description="All columns of the file, in its order.")
     sample: list[list[str]] = Field(description="The first rows as written in the file, up to 8.")
     rows: int = Field(description="Rows below the header.")

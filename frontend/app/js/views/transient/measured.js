@@ -85,7 +85,7 @@ export function measuredCard() {
     type: "file",
     hidden: true,
     id: "measured-file",
-    accept: ".csv,.txt,.tsv,.dat,.asc,.log,.lvm,.xlsx,.mat,.tdms,text/csv",
+    accept: ".csv,.txt,.tsv,.dat,.asc,.log,.lvm,.md,.json,.jsonl,.xlsx,.mat,.h5,.hdf5,.tdms,text/csv",
     onchange: () => {
       send(input.files?.[0]);
       input.value = "";

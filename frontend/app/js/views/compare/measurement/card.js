@@ -143,7 +143,7 @@ export function measurementsCard() {
     multiple: true,
     id: "measurement-files",
     "aria-label": "Measurement files",
-    accept: ".csv,.txt,.tsv,.dat,.asc,.log,.lvm,.xlsx,.mat,.tdms,text/csv",
+    accept: ".csv,.txt,.tsv,.dat,.asc,.log,.lvm,.md,.json,.jsonl,.xlsx,.mat,.h5,.hdf5,.tdms,text/csv",
     onchange: () => {
       const list = [...input.files ?? []];
       input.value = "";
@@ -163,7 +163,7 @@ export function measurementsCard() {
         null,
         () => reading.value ? `Reading ${reading.value}…` : "Choose files, or drop them on the page",
       ),
-      h("small", null, "CSV, .xlsx, .mat, .tdms"),
+      h("small", null, "CSV, JSON, .xlsx, .mat, .h5, .tdms"),
     ),
     () =>
       complaints.value.map(({ name, words }) =>

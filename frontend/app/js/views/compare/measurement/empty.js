@@ -36,7 +36,7 @@ export function emptyCard() {
     h(
       "p",
       { class: "muted" },
-      "A CSV, .xlsx, .mat or .tdms file with columns for pressure, length or contraction, force, time. You can also drop it on the page.",
+      "A CSV, JSON, .xlsx, .mat, .h5 or .tdms file with columns for pressure, length or contraction, force, time. You can also drop it on the page.",
     ),
     h("h3", null, "Built-in measurements"),
     h("div", { class: "tiles" }, () =>

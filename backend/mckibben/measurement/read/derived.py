@@ -1,0 +1,147 @@
+"""Columns computed from those of a file: seconds and nanoseconds as one time, volts by a stated scale."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.measurement.read.cells import CellTable
+from mckibben.measurement.read.recognise import recognise, taken_apart
+from mckibben.measurement.read.scales import Scale, scale_of
+from mckibben.measurement.read.source import RawTable
+from mckibben.measurement.read.unit_words import dimension_of, unit_of
+from mckibben.measurement.read.vocabulary import words_of
+from mckibben.physics.units import convert
+
+_PARTS = {"ms": 1e3, "us": 1e6, "µs": 1e6, "ns": 1e9}  # of a second, and how many it has
+_MOST_SCALED = 40  # columns
+
+
+@dataclass(frozen=True)
+class _Derived:
+    """A column: the one of the file, times ``factor`` plus ``offset``, plus the other one times its share."""
+
+    place: int
+    factor: float = 1.0
+    offset: float = 0.0
+    fraction: int | None = None
+    share: float = 0.0
+
+    def of(self, numbers: dict[int, NDArray[np.float64]]) -> NDArray[np.float64]:
+        """The values; seconds count from the first one, as sums of large and small numbers lose digits."""
+        values = numbers[self.place]
+        if self.fraction is not None:
+            return (values - values[0]) + numbers[self.fraction] * self.share
+        return values if self.factor == 1.0 and not self.offset else values * self.factor + self.offset
+
+
+def with_derived(source: RawTable) -> RawTable:
+    """The table with computed columns in the place of those that they are computed from."""
+    columns = [_Derived(index) for index in range(len(source.headers))]
+    headers, units = (
+        list(source.headers),
+        [*source.units, *[None] * (len(source.headers) - len(source.units))],
+    )
+    said: list[str] = []
+    pair = _seconds_and_parts(source)
+    if pair is not None:
+        whole, part, share = pair
+        columns[whole] = _Derived(whole, fraction=part, share=1.0 / share)
+        names = f"{headers[whole]} and {headers[part]}"
+        said.append(
+            f"time is the sum of '{headers[whole]}' and '{headers[part]}': it counts from the first row"
+        )
+        headers[whole], units[whole] = f"time from {names} [s]", None
+        del columns[part], headers[part], units[part]
+    for index, column in enumerate(columns[:_MOST_SCALED]):
+        scale = None if column.fraction is not None else _scale(source, headers[index], units[index])
+        if scale is not None:
+            columns[index] = replace(column, factor=scale.factor, offset=scale.offset)
+            said.append(
+                f"{source.noun} '{headers[index]}' is read by its scale, {scale.text} ({scale.where})"
+            )
+            headers[index], units[index] = f"{_bare(headers[index])}: {scale.name}", scale.unit
+    if not said:
+        return source
+    messages = [*source.messages, *said]
+    return replace(_mapped(source, columns), headers=headers, units=tuple(units), messages=messages)
+
+
+def _bare(header: str) -> str:
+    return taken_apart(header).name or header
+
+
+def _mapped(source: RawTable, columns: Sequence[_Derived]) -> RawTable:
+    """The table with other columns."""
+
+    def read(numeric: Sequence[int], text: Sequence[int], skip: bool) -> CellTable:
+        wanted = [columns[index] for index in numeric]
+        needed = dict.fromkeys(
+            [c.place for c in wanted] + [c.fraction for c in wanted if c.fraction is not None]
+        )
+        words = {index: columns[index].place for index in text}
+        table = source.read(list(needed), list(words.values()), skip)
+        return table._replace(
+            numbers={index: columns[index].of(table.numbers) for index in numeric},
+            labels={index: table.labels[place] for index, place in words.items()},
+        )
+
+    places = [column.place for column in columns]
+    raw = source.raw
+    if raw is not None:
+        kept = tuple(raw.places[place] if place < len(raw.places) else None for place in places)
+        raw = replace(raw, places=kept)
+    sample = [[row[place] if place < len(row) else "" for place in places] for row in source.sample]
+    clocks = frozenset(index for index, place in enumerate(places) if place in source.clocks)
+    return replace(source, read=read, sample=sample, raw=raw, clocks=clocks)
+
+
+def _seconds_and_parts(source: RawTable) -> tuple[int, int, float] | None:
+    """(column of seconds, column of the rest, parts of a second) where two columns of one name are a time."""
+    found: dict[tuple[str, ...], list[tuple[int, str]]] = {}
+    for index, header in enumerate(source.headers):
+        head = taken_apart(header, source.units[index] if index < len(source.units) else None)
+        words = words_of(head.name)
+        unit = unit_of(words[-1]) if words and head.unit is None else None
+        name, kind = (words[:-1], unit.unit) if unit is not None else (words, head.unit or "")
+        if kind == "s" or kind in _PARTS:
+            found.setdefault(
+                tuple(word for word in name if word not in ("nano", "micro", "milli")), []
+            ).append((index, kind))
+    for pair in found.values():
+        kinds = [kind for _, kind in pair]
+        if len(pair) != 2 or kinds.count("s") != 1:
+            continue
+        (whole,) = (index for index, kind in pair if kind == "s")
+        ((part, kind),) = ((index, kind) for index, kind in pair if kind != "s")
+        shown = _numbers(source, part)
+        steady = _numbers(source, whole)
+        if shown and steady and max(shown) < _PARTS[kind] and all(value == int(value) for value in steady):
+            return whole, part, _PARTS[kind]
+    return None
+
+
+def _numbers(source: RawTable, index: int) -> list[float]:
+    try:
+        return [float(row[index]) for row in source.sample if index < len(row) and row[index]]
+    except ValueError:
+        return []
+
+
+def _scale(source: RawTable, header: str, unit: str | None) -> Scale | None:
+    """The scale that the texts of the file state for a column of volts or milliamperes."""
+    head = taken_apart(header, unit)
+    if dimension_of(head.unit) not in ("a voltage", "a current") or head.unit is None:
+        return None
+    for text, where in source.rest:
+        found = scale_of(text, head.name, where)
+        if found is None or dimension_of(found.raw) != dimension_of(head.unit):
+            continue
+        per = float(convert([1.0], head.unit, found.raw)[0])
+        known = recognise(found.name, found.unit)
+        name = found.name if known.channel is not None else head.name
+        return found._replace(factor=found.factor * per, name=name)
+    return None

@@ -1,0 +1,174 @@
+"""The head of a run of numbers: the rows of names and units above it, and what divides names."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from mckibben.measurement.read.grid import BLANKS, Grid, TextGrid
+from mckibben.measurement.read.locate import Run, TableHead, names_channel, texts_of
+from mckibben.measurement.read.recognise import recognise
+from mckibben.measurement.read.unit_words import dimension_of, unit_of
+
+_HEAD_ROWS = 8  # most rows of a head
+_UNITS_WITHIN = 40  # rows above a head in which its units may stand
+
+
+def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> TableHead:
+    """The head of a run.
+
+    Args:
+        grid: the rows.
+        run: the rows of numbers.
+        after: row of the grid below which the head stands (the end of the run before).
+        at: the row of the names, where the user says it.
+    """
+    if at is not None:
+        rows = [index for index in range(at, run.first) if any(texts_of(grid.cells(index)))]
+    else:
+        rows = _rows_above(grid, run, after)
+    if not rows:
+        return TableHead([""] * run.width, [None] * run.width, None, None, ())
+    texts = {index: texts_of(grid.cells(index)) for index in rows}
+    named = at if at is not None else _row_of_names(texts, rows, run)
+    names = _padded(texts[named], run.width)
+    width = len(names)
+    if isinstance(grid, TextGrid) and grid.separator == BLANKS:
+        for index in rows:
+            if index != named and (placed := _placed_units(grid.lines[named], grid.lines[index])):
+                texts[index] = placed
+    units_at = _row_of_units(texts, [index for index in rows if index != named], names)
+    if units_at is None and not any(recognise(name).unit for name in names if name):
+        units_at = _units_in_preamble(grid, named, names)
+    if units_at is not None and units_at > named and _divides(names, _padded(texts[units_at], width)):
+        units_at = None  # units, and words that divide the names above
+    units: list[str | None] = [None] * width
+    in_cells = getattr(grid, "units", {})
+    if units_at is not None:
+        below = _padded(texts.get(units_at) or texts_of(grid.cells(units_at)), width)
+        units = [cell if cell and unit_of(cell) is not None else None for cell in below]
+    units = [unit or in_cells.get(column) for column, unit in enumerate(units)]
+    for index in reversed(rows):
+        if index in (named, units_at):
+            continue
+        other = _padded(texts[index], width)
+        if index > named and _divides(names, other):
+            filled = _filled_on(names)
+            names = [
+                " ".join(filter(None, (f if name or o else "", o)))
+                for name, f, o in zip(names, filled, other, strict=False)
+            ]
+            continue
+        names = [name or (o if names_channel(o) else "") for name, o in zip(names, other, strict=False)]
+    return TableHead(names, units, named, units_at, tuple(rows))
+
+
+def _placed_units(names: str, units: str) -> list[str] | None:
+    """Units below names in columns of fixed width, one cell per name; None = it is no such line.
+
+    A unit belongs to the name whose end or middle is nearest; the first column may have none.
+    """
+    heads = list(re.finditer(r"\S+(?:\s[\[(]\S+)?", names.expandtabs()))
+    found = list(re.finditer(r"\S+", units.expandtabs()))
+    if not found or len(found) > len(heads) or any(unit_of(word[0]) is None for word in found):
+        return None
+    cells = [""] * len(heads)
+    for word in found:
+        gaps = [
+            min(
+                abs(word.end() - head.end()),
+                abs(word.start() - head.start()),
+                abs(sum(word.span()) - sum(head.span())) // 2,
+            )
+            for head in heads
+        ]
+        nearest = gaps.index(min(gaps))
+        if cells[nearest]:
+            return None
+        cells[nearest] = word[0]
+    return cells
+
+
+def _divides(names: Sequence[str], below: Sequence[str]) -> bool:
+    """Whether a row of names is divided by the one below: "Kraft" over "Ist" and "Soll"."""
+    pairs = list(zip(names, below, strict=False))
+    gaps = [i for i, (name, under) in enumerate(pairs) if not name and under]
+    parts = {*gaps, *(i - 1 for i in gaps)}  # the name above a gap stands for it too
+    divided = [i for i in parts if i >= 0 and pairs[i][1]]
+    loose = any(under and i not in parts for i, (_, under) in enumerate(pairs))
+    everywhere = sum(map(bool, below)) >= sum(map(bool, names)) + len(gaps)
+    return (
+        bool(gaps)
+        and len(divided) > len(gaps)
+        and (everywhere or not loose)
+        and not any(names_channel(b) for b in below if b)
+    )
+
+
+def _filled_on(names: Sequence[str]) -> list[str]:
+    """Names, each also for the columns without one behind it, as merged cells mean it."""
+    filled: list[str] = []
+    for name in names:
+        filled.append(name or (filled[-1] if filled else ""))
+    return filled
+
+
+def _rows_above(grid: Grid, run: Run, after: int) -> list[int]:
+    rows: list[int] = []
+    for index in range(run.first - 1, after, -1):
+        if any(texts_of(grid.cells(index))):
+            rows.insert(0, index)
+        elif rows:
+            break
+        if len(rows) == _HEAD_ROWS:
+            break
+    return rows
+
+
+def _row_of_names(texts: dict[int, list[str]], rows: Sequence[int], run: Run) -> int:
+    def score(index: int) -> tuple[int, int, int]:
+        cells = texts[index]
+        if len(cells) == 1 and run.width > 1:
+            return 0, 0, index
+        inside = [cell for column, cell in enumerate(cells) if cell and column < run.width]
+        units = sum(unit_of(cell) is not None for cell in inside)
+        known = sum(names_channel(cell) for cell in inside)
+        return known, 0 if inside and 2 * units > len(inside) else len(inside), index
+
+    return max(rows, key=score)
+
+
+def _row_of_units(texts: dict[int, list[str]], rows: Sequence[int], names: Sequence[str]) -> int | None:
+    best, most = None, 0
+    for index in rows:
+        filled = [(column, cell) for column, cell in enumerate(texts[index]) if cell and column < len(names)]
+        units = sum(unit_of(cell) is not None for _, cell in filled)
+        physical = sum(
+            bool(dimension_of(unit.unit)) for _, cell in filled if (unit := unit_of(cell)) is not None
+        )
+        quantity = any(
+            "=" in cell or re.search(r"[0-9]{2}", cell) for _, cell in filled if unit_of(cell) is None
+        )
+        if physical and not quantity and 2 * units >= len(filled) and units > most:
+            best, most = index, units
+    return best
+
+
+def _units_in_preamble(grid: Grid, named: int, names: Sequence[str]) -> int | None:
+    """A row far above that holds the units of the columns, as loggers write it; it begins with its label."""
+    for index in range(named - 1, max(-1, named - 1 - _UNITS_WITHIN), -1):
+        cells = texts_of(grid.cells(index))
+        fitting = 0
+        for name, cell in zip(names, cells, strict=False):
+            unit = unit_of(cell) if cell else None
+            channel = recognise(name).channel if name else None
+            fitting += bool(
+                unit and channel and dimension_of(unit.unit) and recognise(name, cell).channel == channel
+            )
+        if fitting >= 2:
+            return index
+    return None
+
+
+def _padded(cells: Sequence[str], width: int) -> list[str]:
+    return [*cells, *[""] * (width - len(cells))]

@@ -1,0 +1,91 @@
+"""Scales of sensors that a text states: ``1 V = 200 N``, ``4-20 mA = 0-10 bar``, ``20 mV/bar``."""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+from mckibben.measurement.read.unit_words import CLOCK, COUNT, dimension_of, unit_of
+
+_NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
+_RAW = r"(?P<raw>mV|V|mA|A)"
+_UNIT = r"(?P<unit>[^\W\d_]+[0-9²]?(?:/[^\W\d_]+[2²]?)?(?:\s?\((?:a|g|abs|gauge)\))?|%)"
+_TO = r"\s*(?:=|≙|≈|:|->|→|for|per|to|is|corresponds to|entspricht|entsprechen|pour|per|für)\s*"
+_SPAN = rf"({_NUMBER})\s*(?:-|–|\.\.+|to|bis|\.{{2,3}}|…)\s*({_NUMBER})\s*"
+_RANGES = re.compile(rf"{_SPAN}{_RAW}{_TO}{_SPAN}{_UNIT}")
+_EQUAL = re.compile(rf"(?<![\d.,-])({_NUMBER})\s*{_RAW}{_TO}({_NUMBER})\s*{_UNIT}")
+_PER = re.compile(rf"({_NUMBER})\s*{_UNIT}\s*/\s*{_RAW}\b")
+_SENSITIVITY = re.compile(rf"({_NUMBER})\s*{_RAW}\s*/\s*{_UNIT}")
+_CLOSED = re.compile(
+    rf"({_NUMBER})\s*{_RAW}\s*(?:=|:|is)?\s*(?:closed|shut|zu|geschlossen|neutral|middle|mitte)"
+)
+_OPEN = re.compile(rf"({_NUMBER})\s*{_RAW}\s*(?:=|:|is)?\s*(?:fully\s+)?(?:opens?|offen|auf)\b")
+
+
+class Scale(NamedTuple):
+    """Value = factor times reading in ``raw`` plus offset, in ``unit``; ``name``: what it is of."""
+
+    factor: float
+    offset: float
+    raw: str
+    unit: str
+    name: str
+    text: str
+    where: str
+
+
+def scale_of(text: str, column: str, where: str) -> Scale | None:
+    """The scale that a text states for a column: what stands behind its name, up to a semicolon.
+
+    The name may be its last word alone ("B" of "Channel B").
+    """
+    for name in dict.fromkeys((column, column.split()[-1] if column.split() else "")):
+        if not name:
+            continue
+        pattern = rf"(?<![\w]){re.escape(name)}(?![\w])\s*(?:\([^)]*\))?\s*(?:[=:,–-]|is\b|->)\s*([^;|]+)"
+        if (found := re.search(pattern, text)) is not None:
+            said = _of_description(found[1], where)
+            if said is not None:
+                return said
+    return None
+
+
+def _of_description(text: str, where: str) -> Scale | None:
+    name = " ".join(word for word in re.findall(r"[^\W\d_]{2,}", text) if unit_of(word) is None)
+    shut, opened = _CLOSED.search(text), _OPEN.search(text)
+    if shut is not None and opened is not None and shut["raw"] == opened["raw"]:
+        zero, one = _float(shut[1]), _float(opened[1])
+        if zero != one:
+            slope = 1.0 / (one - zero)
+            shown = f"'{shut[0]}, {opened[0]}'"
+            return Scale(slope, -zero * slope, shut["raw"], "1", f"valve {name}", shown, where)
+    found = _RANGES.search(text)
+    if found is not None and (unit := _unit(found["unit"])) is not None:
+        low, high, least, most = (_float(found[n]) for n in (1, 2, 4, 5))
+        if high != low:
+            slope = (most - least) / (high - low)
+            return Scale(slope, least - slope * low, found["raw"], unit, name, f"'{found[0]}'", where)
+    for pattern, inverse in ((_EQUAL, False), (_PER, False), (_SENSITIVITY, True)):
+        found = pattern.search(text)
+        if found is None or (unit := _unit(found["unit"])) is None or not _float(found[1]):
+            continue
+        slope = _float(found[3]) / _float(found[1]) if pattern is _EQUAL else _float(found[1])
+        slope = 1.0 / slope if inverse else slope
+        return Scale(slope, 0.0, found["raw"], unit, name, f"'{found[0]}'", where)
+    return None
+
+
+def _float(text: str) -> float:
+    return float(text.replace(",", "."))
+
+
+def _unit(text: str) -> str | None:
+    """A unit with its reference; None = it is none, or that of a raw signal."""
+    unit = unit_of(text)
+    if (
+        unit is None
+        or unit.unit in (CLOCK, COUNT)
+        or dimension_of(unit.unit) in ("", "a voltage", "a current")
+    ):
+        return None
+    return f"{unit.unit}{ {True: '(a)', False: '(g)', None: ''}[unit.absolute] }"
