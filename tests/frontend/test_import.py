@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import FilePayload, Locator, Page, expect
 
-from tests.frontend.comparing import choose, drop, error, use
+from tests.frontend.comparing import choose, drop, error, setup, use
 from tests.frontend.guard import PageGuard
 from tests.frontend.importing import (
     CORPUS,
@@ -340,7 +340,7 @@ def test_bad_rows_are_left_out_only_when_the_user_says_so(case: Page) -> None:
     answer_everything(case)
     use(case)
     expect(case.locator(".file")).to_contain_text("left out: 1 not a number")
-    case.get_by_role("button", name="Import…").click()
+    setup(case).get_by_role("button", name="Import…").click()
     expect(panel(case).get_by_label("Leave out 1 row")).to_be_checked()
 
 
@@ -435,6 +435,7 @@ def test_a_length_that_contradicts_the_file_is_decided_in_the_view(case: Page, p
     expect(case.locator("#error-now")).to_be_visible(timeout=20_000)
     length = case.locator("[data-field='compare.nominal_length'] input")
     expect(length).to_have_value("250")
+    setup(case)
     length.fill("320")
     with case.expect_response("**/api/comparisons") as answer:
         length.press("Enter")

@@ -144,7 +144,7 @@ function withFile(c, { info, experiment }, instead) {
   const files = [...kept, added].slice(0, MOST_FILES);
   if (kept.length) return { ...c, files, muscle: withOneLength(c.muscle, files) };
   const drive = needsDrive(info) ? driveFor(doc.peek().transient.drive, conditions) : null;
-  return { ...withStartModel(c), files, muscle, drive, mystery: null, guided: false };
+  return { ...withStartModel(c), files, muscle, drive, mystery: null };
 }
 
 /** The muscle a file names, if there is no preset for it.
@@ -154,8 +154,8 @@ export function unknownMuscle(info) {
   return typeof name === "string" && !presetNamed(muscles.value, name) ? name : null;
 }
 
-/** Opens a measurement that comes with the program. @param {string} id @param {boolean} [guided] */
-export function openBuiltIn(id, guided = false) {
+/** Opens a measurement that comes with the program. @param {string} id */
+export function openBuiltIn(id) {
   const preset = references.peek().find((r) => r.id === id);
   if (!preset) return;
   complaints.value = [];
@@ -176,7 +176,6 @@ export function openBuiltIn(id, guided = false) {
       muscle,
       drive: null,
       mystery: null,
-      guided,
     },
   }), `measurement ${preset.title}`);
 }
@@ -199,7 +198,7 @@ export function removeFile(id) {
   if (left.length) return editCompare({ files: left }, `remove ${file?.name}`);
   edit((d) => ({
     ...d,
-    compare: { ...withStartModel(d.compare), files: [], drive: null, mystery: null, guided: false },
+    compare: { ...withStartModel(d.compare), files: [], drive: null, mystery: null },
   }), `remove ${file?.name}`);
 }
 

@@ -3,6 +3,7 @@
 import { axisTitle, extent, shown, steadyRange, steadyX } from "../../../plots/axes.js";
 import { capitalized, number, scaleOf, toShown } from "../../../format.js";
 import { pressureColour } from "../../../plots/theme.js";
+import { marksOf, placeOf } from "./scale.js";
 import { channelScale, column, isInside, VARIABLES } from "../words.js";
 
 /** @typedef {import("../../../plots/chart.js").Spec} Spec */
@@ -11,13 +12,11 @@ import { channelScale, column, isInside, VARIABLES } from "../words.js";
 /** @typedef {import("../../../format.js").System} System */
 /** @typedef {import("../types.js").Series} Series */
 /** @typedef {import("../../../types.js").Brush} Brush */
-/** `ghost`: the series of the other one of the models before and after; `picture`: changes with the data.
- * @typedef {{series: Series[], ghost: Series[], channel: string, unit: string, over: string, system: System,
- *   brush: Brush | null, noise: number | null, picture: string}} View */
-
-/** The x variable of the overlay for a kind of test. @param {string} kind */
-export const usualOver = (kind) =>
-  kind === "transient" ? "time" : kind === "isometric" || kind === "isotonic" ? "pressure" : "contraction";
+/** `ghost`: the series of the model one step before; `pinned`: those of models of the board; `picture`: changes
+ * with the data.
+ * @typedef {{series: Series[], ghost: Series[], pinned: {name: string, series: Series[]}[], channel: string,
+ *   unit: string, over: string, system: System, brush: Brush | null, noise: number | null,
+ *   picture: string}} View */
 
 /** A single series without a pressure: data and model then have different colours.
  * @param {Series[]} series */
@@ -62,6 +61,9 @@ const isScattered = (s, over) =>
 /** A range with room for the points at its ends. @param {[number, number]} range @returns {[number, number]} */
 export const padded = ([low, high]) => [low - 0.015 * (high - low), high + 0.015 * (high - low)];
 
+/** How the lines of pinned models are told apart. */
+export const PIN_DASHES = ["dot", "dashdot", "longdash", "dash", "longdashdot", "5px,2px"];
+
 /** More points than this are drawn small and faint, because they would hide the model. */
 const MANY = 300;
 
@@ -88,6 +90,16 @@ export function overlaySpec(v, p) {
       column: "other model",
     });
   }
+  v.pinned.forEach(({ name, series }, i) => {
+    const lines = series.map((one) => pieces(one, v.over, () => true));
+    traces.push({
+      id: `pin${i}`,
+      x: x(lines.flatMap((line) => [...line.x, null])),
+      y: y(lines.flatMap((line) => [...line.y, null])),
+      line: { color: p.second, width: 1.6, dash: PIN_DASHES[i % PIN_DASHES.length] },
+      column: name,
+    });
+  });
   traces.push(points(v, p, tints, x, y));
   v.series.forEach((one, i) => {
     if (isScattered(one, v.over)) {
@@ -131,9 +143,29 @@ export function overlaySpec(v, p) {
     traces,
     zones: brushZone(v),
     revision: `${v.picture}${v.over}${system}`,
+    ...(isNamed(v) ? { room: 52, labels: names(v, tints, x, y) } : {}),
     table: table(v, ["measured", "predicted"]),
   };
 }
+
+/** Whether the lines carry their pressure at the right end. @param {View} v */
+const isNamed = (v) =>
+  v.over !== "time" && v.series.length > 1 &&
+  v.series.every((s) => s.pressure !== null && s.use !== "validation");
+
+/** @param {View} v @param {string[]} tints @param {(values: (number | null)[]) => (number | null)[]} x
+ * @param {(values: (number | null)[]) => (number | null)[]} y */
+const names = (v, tints, x, y) =>
+  v.series.flatMap((s, i) => {
+    const across = column(s, v.over);
+    let end = -1;
+    across.forEach((one, k) => {
+      if (one !== null && s.predicted[k] !== null && (end < 0 || one > (across[end] ?? -Infinity))) end = k;
+    });
+    const [ex] = x([across[end] ?? null]), [ey] = y([s.predicted[end] ?? null]);
+    if (end < 0 || ex === null || ey === null) return [];
+    return [{ text: pressureText(s.pressure ?? 0, v.system), x: ex, y: ey, color: tints[i] }];
+  });
 
 /** Every point of a plot. @param {View} v @param {("measured" | "predicted" | "residual")[]} what
  * @returns {import("../../../ui/table.js").Table} */
@@ -172,7 +204,7 @@ function points(v, p, tints, x, y) {
     marker: {
       size: many ? 4 : 5,
       symbol: each((s, i) =>
-        s.use === "validation" ? "triangle-up" : (s.direction?.[i] ?? 0) < 0 ? "square" : "circle"
+        s.use === "validation" ? "triangle-up" : (s.direction?.[i] ?? 0) < 0 ? "square-open" : "circle"
       ),
       color: each((s, i, k) =>
         !isInside(s, i, v.brush) ? p.line : alone ? p.soft : many ? faint(tints[k]) : tints[k]
@@ -191,31 +223,49 @@ function brushZone({ brush, over, system }) {
 }
 
 const BAND = 2;
+/** Where the points of a direction stand along the axis of directions. */
+const JITTER = 0.18;
 
-/** @param {View} v @param {Palette} p @returns {Spec} */
-export function residualSpec(v, p) {
+/** The residual on the scale of the case: linear inside the noise, logarithmic outside.
+ * @param {View} v @param {Palette} p @param {import("./scale.js").Scale} fixed @returns {Spec} */
+export function residualSpec(v, p, fixed) {
   const { title, quantity } = VARIABLES[v.over], { system } = v;
   const s = channelScale(v.unit, v.channel, system), tints = colours(v.series, p);
-  const y = v.series.flatMap((one) => one.residual.map((r) => r == null ? null : r / s.factor));
-  const band = v.noise === null ? null : (BAND * v.noise) / s.factor;
-  const x = shown(v.series.flatMap((one) => column(one, v.over)), quantity, system);
-  const [xLow, xHigh] = extent([x]);
-  const size = Math.max(...y.map((r) => Math.abs(r ?? 0)), band ?? 0);
-  const [, high] = steadyRange(`res${v.picture}${v.channel}${system}`, 0, size || 1);
+  const at = (/** @type {number | null} */ r) => r == null ? null : placeOf(r, fixed);
+  const y = v.series.flatMap((one) => one.residual.map(at));
+  const band = v.noise === null ? null : placeOf(BAND * v.noise, fixed);
+  const ways = v.over === "direction";
+  const x = ways
+    ? v.series.flatMap((one) =>
+      one.direction.map((d, i) => d === null ? null : Math.sign(d) + JITTER * Math.sin(12.9898 * i))
+    )
+    : shown(v.series.flatMap((one) => column(one, v.over)), quantity, system);
+  const [xLow, xHigh] = ways ? [-1.5, 1.5] : extent([x]);
+  const size = Math.max(1, ...y.map((r) => Math.abs(r ?? 0)));
   return {
-    x: {
-      title: axisTitle(title, quantity, system),
-      range: padded(steadyX(`res${v.picture}${v.over}`, xLow, xHigh)),
+    x: ways
+      ? {
+        title: "Direction of motion",
+        range: [-1.5, 1.5],
+        marks: [{ at: -1, text: "shortening" }, { at: 0, text: "at rest" }, { at: 1, text: "lengthening" }],
+      }
+      : {
+        title: axisTitle(title, quantity, system),
+        range: padded(steadyX(`res${v.picture}${v.over}`, xLow, xHigh)),
+      },
+    y: {
+      title: `Residual (${s.unit || "× noise"})`,
+      range: [-1.04 * size, 1.04 * size],
+      marks: marksOf(fixed, s.factor),
     },
-    y: { title: `Residual (${s.unit})`, range: [-high, high] },
     traces: [{
       id: "residual",
       x,
       y,
       marker: {
-        size: y.length > 300 ? 4 : 5,
+        size: y.length > MANY ? 4 : 5,
         symbol: v.series.flatMap((one) =>
-          one.residual.map((_r, i) => (one.direction?.[i] ?? 0) < 0 ? "square" : "circle")
+          one.residual.map((_r, i) => (one.direction?.[i] ?? 0) < 0 ? "square-open" : "circle")
         ),
         color: v.series.flatMap((one, k) =>
           one.residual.map((_r, i) => isInside(one, i, v.brush) ? tints[k] : p.line)
