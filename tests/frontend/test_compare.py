@@ -201,28 +201,6 @@ def test_a_range_of_the_residual_and_a_cell_of_the_map(page: Page, sweeps: FileP
     expect(page.locator("#residual .js-line")).to_have_count(2)
 
 
-def checked(page: Page) -> float:
-    """The error on the files that are only checked [N]."""
-    return float(re.findall(r"[\d.]+", page.locator("#validation-error").inner_text())[0])
-
-
-def test_a_second_file_checks_the_first(page: Page, sweeps: FilePayload) -> None:
-    opened(page, sweeps, file("check.csv", measured(2)))
-    setup(page)
-    uses = page.get_by_role("radiogroup", name="Use of check.csv")
-    uses.get_by_role("radio", name="Check").click()
-    page.keyboard.press("Escape")
-    told = page.locator("#validation-error")
-    expect(told).to_contain_text("N", timeout=20_000)
-    diagnosed(page)
-    assert checked(page) == pytest.approx(error(page), rel=0.05)
-    changed(page, page.locator("#add-all").click)
-    assert checked(page) <= 1.15 * NOISE
-    setup(page)
-    uses.get_by_role("radio", name="Off").click()
-    expect(page.locator("#validation-error")).to_be_hidden(timeout=20_000)
-
-
 def test_a_file_that_is_no_measurement_says_so(page: Page, page_guard: PageGuard) -> None:
     page_guard.allow(REFUSED)
     open_compare(page)

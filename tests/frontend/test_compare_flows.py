@@ -88,21 +88,6 @@ def test_a_run_of_a_drive_shows_what_its_valve_does(page: Page) -> None:
     expect(page.locator(".strip")).to_have_attribute("data-state", "adequate")
 
 
-def test_a_mystery_is_diagnosed_and_revealed(page: Page) -> None:
-    open_compare(page)
-    page.locator(".tile", has_text="Two lines per pressure").click()
-    expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
-    diagnosed(page)
-    card = page.get_by_role("region", name="Mystery")
-    expect(card).to_contain_text("Add the effects you think are missing")
-    changed(page, page.locator("#add-all").click)
-    expect(card).to_contain_text("Your diagnosis so far")
-    card.get_by_role("button", name="Reveal what is hidden").click()
-    expect(card.locator(".revealed")).to_have_count(2)
-    expect(card.locator(".revealed.good")).to_have_count(2)
-    expect(card.get_by_role("button")).to_have_count(0)
-
-
 def test_a_mystery_with_a_drive_brings_it_along(page: Page) -> None:
     open_compare(page)
     page.locator(".tile", has_text="Slow to let go").click()

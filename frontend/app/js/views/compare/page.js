@@ -3,7 +3,7 @@
 // known and what comes next; under it plots, map and the list of what is missing.
 import { h } from "../../dom.js";
 import { computed, effect } from "../../reactive.js";
-import { answer, fault, files, stage, startComparing } from "./answers.js";
+import { answer, compare, fault, files, stage, startComparing } from "./answers.js";
 import { boardCard } from "./board/card.js";
 import { ladderCard } from "./ladder.js";
 import { listCard } from "./list/card.js";
@@ -45,7 +45,7 @@ export function comparePage() {
     h("div", { class: "case-start", hidden: () => !empty.value }, emptyCard()),
     h(
       "div",
-      { class: "case-body", hidden: () => empty.value },
+      { class: () => `case-body${compare.value.board ? " is-board" : ""}`, hidden: () => empty.value },
       caseCard(),
       h("div", { class: "area-over" }, overlayCards()),
       h("div", { class: "area-where" }, whereCard()),

@@ -205,6 +205,6 @@ export function listCard() {
       h("i", { style: () => `width:${Math.max(3, 100 * share.value)}%` }),
     ),
     body,
-    h("div", { class: "list-fold" }, triedFold, notes),
+    h("div", { class: "list-fold" }, () => state.value === "context" ? null : triedFold(), notes),
   );
 }

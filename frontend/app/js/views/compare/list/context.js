@@ -1,13 +1,13 @@
 // @ts-check
 // Entries that may be wrong: the question before the physics, with an answer in one click.
 import { h, icon } from "../../../dom.js";
-import { capitalized, number } from "../../../format.js";
+import { capitalized, number, plainScale, quantityOf, scaleOf } from "../../../format.js";
 import { edit, units } from "../../../state.js";
 import { answer, chosen, compare, diagnosis, editCompare, stale } from "../answers.js";
 import { withStep } from "../document.js";
 import { effectsNow, fittedStep, here, stamped, whileFitting } from "../model/history.js";
 import { decided } from "../request.js";
-import { errorText } from "../words.js";
+import { errorText, measuredText } from "../words.js";
 
 /** @typedef {import("../types.js").Diagnosis} Diagnosis */
 /** @typedef {Diagnosis["context"][number]} Entry */
@@ -19,6 +19,12 @@ const PER_FILE = { "muscle.nominal_length": "rest_length", load: "load" };
 
 /** A value as requests take it. @param {number} value @param {string} unit */
 const asRequest = (value, unit) => (unit === "m" ? `${number(1e3 * value, 3)} mm` : `${value} ${unit}`);
+
+/** @param {string} unit of SI */
+const scaleOfUnit = (unit) => {
+  const quantity = quantityOf(unit);
+  return quantity ? scaleOf(quantity, units.value) : plainScale(unit);
+};
 
 /** A value for people. @param {number} value @param {string} unit */
 const asText = (value, unit) =>
@@ -88,7 +94,7 @@ function proof(entry, result) {
   const end = result.path.at(-1)?.rmse ?? null;
   const stated = entry.stated === null ? "As stated" : `With ${asText(entry.stated, entry.unit)}`;
   const estimate = typeof entry.value === "number" && entry.stderr !== null
-    ? ` The data say ${asText(entry.value, entry.unit)} ± ${asText(entry.stderr, entry.unit)}.`
+    ? ` The data say ${measuredText(entry.value, entry.stderr, scaleOfUnit(entry.unit))}.`
     : "";
   return h(
     "p",

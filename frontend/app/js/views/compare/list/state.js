@@ -21,8 +21,9 @@ export const state = computed(() => {
   const result = diagnosis.value;
   if (stage.value === "failed" || !result) return "failed";
   if (asked(result).length) return "context";
-  if (entries.value.length || refits.value) return "verdict";
-  return result.verdict.status === "adequate" ? "adequate" : "unknown";
+  const { status } = result.verdict;
+  if (entries.value.length || (refits.value && status !== "unknown_effect")) return "verdict";
+  return status === "adequate" ? "adequate" : "unknown";
 });
 
 /** Whether an open choice among effects was made in a step so far. */

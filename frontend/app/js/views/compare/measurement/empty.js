@@ -20,7 +20,7 @@ export function emptyCard() {
     h(
       "div",
       { class: "starts" },
-      h("button", { type: "button", class: "primary", onclick: chooseFiles }, "Choose a measurement file"),
+      h("button", { type: "button", onclick: chooseFiles }, "Choose a measurement file"),
       () =>
         first()
           ? h(

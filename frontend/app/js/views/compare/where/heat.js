@@ -9,7 +9,7 @@ import { brush, fault, lookCompare, shown, stale } from "../answers.js";
 import { channelScale, errorText, errorUnit, rangeText, VARIABLES } from "../words.js";
 import { mapOf } from "./map.js";
 import { inkOn, tint } from "./colours.js";
-import { marksOf, placeOf, scale } from "./scale.js";
+import { isQuiet, marksOf, placeOf, scale } from "./scale.js";
 
 /** @typedef {import("./map.js").Grid} Grid */
 /** @typedef {import("./map.js").Cell} Cell */
@@ -18,8 +18,6 @@ import { marksOf, placeOf, scale } from "./scale.js";
 
 /** Height of all rows together, and of a row at least. */
 const ROWS_PX = 272, LEAST_PX = 24;
-/** A mean below this many standard deviations of one reading is none. */
-const NONE = 0.75;
 
 const grid = computed(() => shown.value ? mapOf(shown.value) : null);
 
@@ -80,7 +78,7 @@ function walk(event) {
 function value(mean, a, way) {
   const s = scale.value;
   if (mean === null || !s) return h("span", { class: "half none" });
-  const quiet = s.sigma !== null && Math.abs(mean) < NONE * s.sigma;
+  const quiet = isQuiet(mean, s);
   const share = quiet ? 0 : placeOf(mean, s), p = palette.value;
   const { factor } = channelScale(a.unit, a.predicted, units.value), size = Math.abs(mean) / factor;
   const text = size >= 9.95 ? String(Math.round(size)) : brief(size).replace(/(\.\d)\d+$/, "$1");
@@ -108,12 +106,12 @@ function describe(c, a, at, split) {
 function table(a, map) {
   const system = units.value, ys = VARIABLES[map.y], xs = VARIABLES[map.x];
   const xScale = xs ? scaleOf(xs.quantity, system) : null;
-  const label = (/** @type {import("./map.js").Row} */ row) => {
-    const at = row.level ?? row.range[0];
-    if (!ys) return number(at, 2);
-    const s = scaleOf(ys.quantity, system);
-    return `${number(toShown(at, s), 1)}${row.level === null ? "" : ` ${s.unit}`}`;
-  };
+  const yScale = ys ? scaleOf(ys.quantity, system) : null;
+  const shownAt = (/** @type {number} */ si) => number(yScale ? toShown(si, yScale) : si, 2);
+  const label = (/** @type {import("./map.js").Row} */ row) =>
+    row.level === null
+      ? `${shownAt(row.range[0])}…${shownAt(row.range[1])}`
+      : `${shownAt(row.level)} ${yScale?.unit ?? ""}`;
   const cell = (/** @type {Cell | null} */ c, /** @type {number} */ ix, /** @type {number} */ iy) => {
     if (!c) return h("td", null, h("span", { class: "none" }));
     const range = map.rows[iy].range;
@@ -207,6 +205,12 @@ const aside = () => {
   const a = shown.value, map = grid.value;
   if (!a || !map) return "";
   const unit = errorUnit(a.unit, a.predicted, units.value);
+  const ys = VARIABLES[map.y];
+  if (map.rows[0]?.level === null) {
+    return `mean residual, ${unit} · rows: ${readable(map.y)}, ${
+      ys ? scaleOf(ys.quantity, units.value).unit : ""
+    }`;
+  }
   return `mean residual, ${unit}${map.split ? " · ● lengthening, □ shortening" : ""}`;
 };
 

@@ -43,6 +43,11 @@ export function scaleFor(name) {
 /** The scale of the map and of the residual shown. */
 export const scale = computed(() => scaleFor(channel.value));
 
+/** A mean below this many standard deviations of one reading is none. */
+const NONE = 0.75;
+/** Whether a mean is none. @param {number} mean @param {Scale} s */
+export const isQuiet = (mean, { sigma }) => sigma !== null && Math.abs(mean) < NONE * sigma;
+
 /** The place of a residual on a scale: −1…1 within it. @param {number} r @param {Scale} s */
 export const placeOf = (r, { most, sigma }) =>
   sigma ? Math.asinh(r / (LINEAR * sigma)) / Math.asinh(most / (LINEAR * sigma)) : r / most;

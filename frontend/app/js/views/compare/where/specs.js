@@ -143,29 +143,41 @@ export function overlaySpec(v, p) {
     traces,
     zones: brushZone(v),
     revision: `${v.picture}${v.over}${system}`,
-    ...(isNamed(v) ? { room: 52, labels: names(v, tints, x, y) } : {}),
+    ...names(v, tints, x, y),
     table: table(v, ["measured", "predicted"]),
   };
 }
 
-/** Whether the lines carry their pressure at the right end. @param {View} v */
-const isNamed = (v) =>
-  v.over !== "time" && v.series.length > 1 &&
-  v.series.every((s) => s.pressure !== null && s.use !== "validation");
+/** Lines whose ends are this share of the axis apart end together. */
+const TOGETHER = 0.2;
 
-/** @param {View} v @param {string[]} tints @param {(values: (number | null)[]) => (number | null)[]} x
- * @param {(values: (number | null)[]) => (number | null)[]} y */
-const names = (v, tints, x, y) =>
-  v.series.flatMap((s, i) => {
-    const across = column(s, v.over);
-    let end = -1;
-    across.forEach((one, k) => {
-      if (one !== null && s.predicted[k] !== null && (end < 0 || one > (across[end] ?? -Infinity))) end = k;
-    });
-    const [ex] = x([across[end] ?? null]), [ey] = y([s.predicted[end] ?? null]);
-    if (end < 0 || ex === null || ey === null) return [];
-    return [{ text: pressureText(s.pressure ?? 0, v.system), x: ex, y: ey, color: tints[i] }];
+/** The pressure of each line: at the right ends where they end together, else where they begin.
+ * @param {View} v @param {string[]} tints @param {(values: (number | null)[]) => (number | null)[]} x
+ * @param {(values: (number | null)[]) => (number | null)[]} y
+ * @returns {Pick<Spec, "room" | "labels">} */
+function names(v, tints, x, y) {
+  const isNamed = v.over !== "time" && v.series.length > 1 &&
+    v.series.every((s) => s.pressure !== null && s.use !== "validation");
+  if (!isNamed) return {};
+  const ends = v.series.flatMap((s, i) => {
+    const across = x(column(s, v.over)), up = y(s.predicted);
+    const rows = [...across.keys()].filter((k) => across[k] !== null && up[k] !== null)
+      .sort((a, b) => (across[a] ?? 0) - (across[b] ?? 0));
+    const at = (/** @type {number | undefined} */ k) =>
+      k === undefined ? null : { x: across[k] ?? 0, y: up[k] ?? 0 };
+    const start = at(rows[0]), end = at(rows.at(-1));
+    return start && end
+      ? [{ start, end, text: pressureText(s.pressure ?? 0, v.system), color: tints[i] }]
+      : [];
   });
+  const all = ends.flatMap((e) => [e.start.x, e.end.x]), right = ends.map((e) => e.end.x);
+  const span = Math.max(...all) - Math.min(...all);
+  const together = Math.max(...right) - Math.min(...right) <= TOGETHER * span;
+  return {
+    ...(together ? { room: 52 } : {}),
+    labels: ends.map(({ start, end, text, color }) => ({ ...(together ? end : start), text, color })),
+  };
+}
 
 /** Every point of a plot. @param {View} v @param {("measured" | "predicted" | "residual")[]} what
  * @returns {import("../../../ui/table.js").Table} */
