@@ -1919,7 +1919,7 @@ export interface components {
     };
     /** A part of the squared residual; the shares of all parts add up to 1. */
     ResidualPart: {
-      /** 'offset', a variable, 'together' (of the variables) or 'rest': scatter that follows none. */
+      /** 'offset', a variable, 'together' (several variables) or 'rest': what follows none. */
       of: string;
       /** 0 to 1; each part has only what the ones before it left. */
       share: number;

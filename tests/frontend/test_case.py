@@ -1,10 +1,11 @@
-"""Whole cases, from bringing a file to the end: clicks, what moves, one recommendation; by thumb and by key."""
+"""Whole cases, from a file to the end: clicks, what moves, one recommendation; by thumb and by key."""
 
 from __future__ import annotations
 
 import csv
 import re
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -69,7 +70,7 @@ def to_the_end(page: Page, most: int = 6) -> list[str]:
 
 def falling(errors: list[str]) -> bool:
     values = [float(re.sub(r"[^\d.]", "", text.partition("N")[0])) for text in errors]
-    return all(after < before for before, after in zip(values, values[1:], strict=False))
+    return all(after < before for before, after in pairwise(values))
 
 
 def test_a_mystery_is_solved_by_the_recommendations_alone(page: Page) -> None:

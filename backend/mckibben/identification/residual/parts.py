@@ -32,10 +32,10 @@ class ResidualPart:
 def residual_parts(residual: Array, variables: Mapping[str, Array]) -> list[ResidualPart]:
     r"""The parts of :math:`\sum r^2`: offset, each variable, several together, rest; their sum is 1.
 
-    One after the other takes what the ones before left: the offset its mean, a variable the means of its levels
-    or of ten ranges with equally many rows, 'together' the means of the cells of all variables. From each but
-    the offset, what chance would give is taken away, :math:`(k-1)\,s^2` of k means and for the offset
-    :math:`s^2`, with the variance :math:`s^2` inside the cells; that belongs to the rest. Sequential analysis of
+    One after the other takes what the ones before left: the offset its mean, a variable the means of its
+    levels or of ten ranges with equally many rows, 'together' the means of the cells of all variables. What
+    chance would give is taken away from each and belongs to the rest: :math:`(k-1)\,s^2` of k means and
+    :math:`s^2` of the offset, with the variance :math:`s^2` inside the cells. A sequential analysis of
     variance: Montgomery, Design and Analysis of Experiments, chapter 5.
 
     Args:

@@ -176,7 +176,7 @@ class ResidualPart(Strict):
     """A part of the squared residual; the shares of all parts add up to 1."""
 
     of: str = Field(
-        description="'offset', a variable, 'together' (of the variables) or 'rest': scatter that follows none."
+        description="'offset', a variable, 'together' (several variables) or 'rest': what follows none."
     )
     share: float = Field(description="0 to 1; each part has only what the ones before it left.")
 

@@ -55,6 +55,26 @@ function nearest(result) {
   }${worse ? ", which is no better" : ""}: not added`;
 }
 
+const FEWEST_ROWS = 3;
+
+/** The range of a variable with the largest error. @param {string} name @returns {[number, number] | null} */
+function worstRange(name) {
+  const profile = answer.value?.where.find((one) => one.over === name);
+  if (!profile || profile.edges.length < FEWEST_ROWS) return null;
+  const sizes = profile.rms.map((rms, i) => (profile.count[i] ?? 0) >= FEWEST_ROWS ? rms ?? 0 : 0);
+  const at = sizes.indexOf(Math.max(...sizes)), from = profile.edges[at], to = profile.edges[at + 1];
+  return from == null || to == null ? null : [from, to];
+}
+
+/** Shows the residual over a variable, with the worst range chosen. @param {string} name */
+function showWorst(name) {
+  const range = worstRange(name);
+  lookCompare({
+    tab: /** @type {import("../../../types.js").Tab} */ (name),
+    ...(range && name !== "direction" ? { brush: { [name]: range } } : {}),
+  });
+}
+
 /** @param {Diagnosis} result */
 export function unknown(result) {
   const { verdict, noise_floor: floor } = result, a = answer.value;
@@ -83,8 +103,8 @@ export function unknown(result) {
         ? h("button", {
           type: "button",
           class: "link",
-          onclick: () => lookCompare({ tab: /** @type {import("../../../types.js").Tab} */ (variable) }),
-        }, `Show the residual over ${VARIABLES[variable].title.toLowerCase()}`)
+          onclick: () => showWorst(variable),
+        }, `Show where, over ${VARIABLES[variable].title.toLowerCase()}`)
         : null,
     ),
     h(
