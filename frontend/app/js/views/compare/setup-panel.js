@@ -14,6 +14,9 @@ const KEYS = {
   rest_length: "compare.nominal_length",
   load: "rig.load.mass",
   supply: "rig.supply.pressure",
+  tube: "rig.tube.length",
+  valve: "rig-valve",
+  stops: "rig.stops.max_contraction",
 };
 
 /** Whether the panel has a field. @param {string} key */

@@ -8,7 +8,7 @@ import { answer, compare, lookCompare, steps } from "../answers.js";
 import { MOST_PINS } from "../document.js";
 import { fitting } from "../model/history.js";
 import { mapOf } from "../where/map.js";
-import { isQuiet, placeOf, scale } from "../where/scale.js";
+import { isQuiet, mapScale, placeOf } from "../where/scale.js";
 import { tint } from "../where/colours.js";
 import { errorText, signed } from "../words.js";
 import { canPin, columns, draw, pin, pinStart, unpin, useModel } from "./columns.js";
@@ -39,7 +39,7 @@ const hidden = computed(() => rows.value.filter((row) => !row.differs).length);
 
 /** The map of a model in small, on the scale of the case. @param {Column} c */
 function mini(c) {
-  const map = c.comparison && mapOf(c.comparison), s = scale.value;
+  const map = c.comparison && mapOf(c.comparison), s = mapScale.value;
   if (!map || !s) return h("div", { class: "mini-map" });
   return h(
     "div",

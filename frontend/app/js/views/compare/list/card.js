@@ -10,6 +10,7 @@ import { adequate, openChoices } from "./adequate.js";
 import { contextBlock, contextLine } from "./context.js";
 import { entryRow, skeletonRow, soFarRow } from "./entry.js";
 import { addAll, entries, refits, soFar } from "./plan.js";
+import { hasSketches } from "./sketch.js";
 import { insideOf } from "./selection.js";
 import { share, state } from "./state.js";
 import { triedFold, triedText } from "./tried.js";
@@ -140,7 +141,7 @@ function body() {
         contextLine(),
         h("p", { class: "unseen", id: "verdict-status" }, result.verdict.title),
         question(),
-        key(),
+        hasSketches.value ? key() : null,
         h("ol", { class: "plain found-missing" }, ...rows()),
         refits.value && !entries.value.length
           ? quiet("The values of the model fit better after a refit.")

@@ -1,7 +1,7 @@
 // @ts-check
 // Entries that may be wrong: the question before the physics, with an answer in one click.
 import { h, icon } from "../../../dom.js";
-import { capitalized, number, plainScale, quantityOf, scaleOf } from "../../../format.js";
+import { capitalized, number, plainScale, quantityOf, readable, scaleOf } from "../../../format.js";
 import { edit, units } from "../../../state.js";
 import { answer, chosen, compare, diagnosis, editCompare, stale } from "../answers.js";
 import { withStep } from "../document.js";
@@ -164,7 +164,9 @@ export function contextBlock(result) {
 export function contextLine() {
   const result = diagnosis.value;
   const kept = result?.context.filter((entry) => entry.kept) ?? [];
-  const assumed = result?.assumptions ?? answer.value?.assumptions ?? [];
+  const told = result?.assumptions ?? answer.value?.assumptions ?? [];
+  const assumed = told.length ? told : Object.entries(answer.value?.experiment ?? {})
+    .flatMap(([field, one]) => one.origin === "assumed" ? [`${readable(field)} ${one.value}`] : []);
   return h(
     "p",
     { class: "context-line", title: assumed.join("\n") },

@@ -11,7 +11,7 @@ import { errorText, titleOf } from "../words.js";
 import { equationBox } from "./equation.js";
 import { add, addCandidate, choose, modelOf } from "./plan.js";
 import { insideOf } from "./selection.js";
-import { drawSketch, sketches } from "./sketch.js";
+import { drawSketch, hasSketches, sketches } from "./sketch.js";
 import { valueList } from "./values.js";
 
 /** @typedef {import("./plan.js").Entry} Entry */
@@ -144,8 +144,8 @@ export function entryRow(entry, index, noise) {
     ),
     h(
       "div",
-      { class: "missing-row" },
-      drawSketch(sketches.value[effect], title),
+      { class: `missing-row${hasSketches.value ? "" : " plain"}` },
+      hasSketches.value ? drawSketch(sketches.value[effect], title) : null,
       h(
         "div",
         { class: "missing-numbers" },

@@ -56,13 +56,13 @@ function sketchOf(whole, less) {
     : { over, lengthening: both, shortening: null, most };
 }
 
-/** The effects of the proposal; a simulated drive has no sketches: each would be a run. */
-const ids = computed(() => {
-  const result = diagnosis.value;
-  return stage.value === "done" && result && result.kind !== "transient"
-    ? entries.value.map((e) => e.effect)
-    : [];
-});
+/** A simulated drive has no sketches: each would be a run. */
+export const hasSketches = computed(() => diagnosis.value?.kind !== "transient");
+
+/** The effects of the proposal. */
+const ids = computed(() =>
+  stage.value === "done" && diagnosis.value && hasSketches.value ? entries.value.map((e) => e.effect) : []
+);
 
 /** The comparisons to ask for: with the whole proposal, then without each of its effects. */
 const texts = computed(() => {

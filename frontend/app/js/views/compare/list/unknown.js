@@ -7,6 +7,7 @@ import { answer, lookCompare } from "../answers.js";
 import { proposedTerm } from "../model/own-term.js";
 import { errorText, titleOf, VARIABLES, whatIsLeft } from "../words.js";
 import { tellingText } from "./entry.js";
+import { refits } from "./plan.js";
 import { openChoices } from "./adequate.js";
 import { termPlot } from "./term-plot.js";
 
@@ -32,7 +33,7 @@ export function plan({ verdict }) {
 }
 
 /** The place alone, of "look where it is largest: …". @param {string} text */
-const where = (text) => text.replace(/^[^:]*: */, "").replace(/\.$/, "");
+const where = (text) => text.replace(/^[^:]*: */, "").replace(/ \([^)]*\)/g, "").replace(/\.$/, "");
 
 /** In few words, for the strip. @param {Diagnosis} result */
 export const nextMeasurement = (result) => {
@@ -98,6 +99,15 @@ export function unknown(result) {
       h("h3", null, "What is left"),
       h("p", { class: "why" }, `${whatIsLeft(verdict)}.`),
       verdict.where_to_look ? h("p", { class: "why" }, capitalized(verdict.where_to_look)) : null,
+      refits.value
+        ? h(
+          "p",
+          { class: "why" },
+          `The values of the model fitted again alone leave ${
+            errorText(refits.value.rmse, result.unit, result.predicted, units.value)
+          }.`,
+        )
+        : null,
       h("p", { class: "why" }, `Nearest in the catalogue: ${nearest(result)}.`),
       variable
         ? h("button", {

@@ -3,7 +3,7 @@
 import { h, icon } from "../../../dom.js";
 import { units } from "../../../state.js";
 import { muscles, presets } from "../../../store.js";
-import { number, quantityOf, readable, scaleOf, toShown } from "../../../format.js";
+import { capitalized, number, quantityOf, readable, scaleOf, toShown } from "../../../format.js";
 import { answer, chosen, compare } from "../answers.js";
 import { infos } from "../measurement/files.js";
 import { presetNamed } from "../muscle-values.js";
@@ -65,7 +65,7 @@ const specimenSaysMuscle = () =>
 
 /** @param {string} field */
 function fact(field) {
-  const title = FIELDS[/** @type {keyof typeof FIELDS} */ (field)] ?? readable(field);
+  const title = FIELDS[/** @type {keyof typeof FIELDS} */ (field)] ?? capitalized(readable(field));
   const one = stated(field), value = one ? valueText(one) : "–";
   const [symbol, words] = one ? ORIGINS[one.origin] ?? ORIGINS.you : NOBODY;
   return h(
@@ -84,11 +84,17 @@ function fact(field) {
   );
 }
 
-/** The fields of this kind of test: always the muscle and its length; load and supply where they matter. */
+const MOST_FACTS = 4;
+
+/** The fields of this kind of test: always the muscle and its length; load and supply where they matter; what was
+ * assumed in any case. */
 const fields = () => {
   const said = answer.value?.experiment ?? {};
-  const more = Object.keys(said).filter((field) => !(field in FIELDS) && said[field].origin === "assumed");
-  return ["muscle", "rest_length", ...["load", "supply"].filter((f) => f in said), ...more].slice(0, 4);
+  const isAssumed = (/** @type {string} */ field) => said[field]?.origin === "assumed";
+  const usual = ["muscle", "rest_length", ...["load", "supply"].filter((f) => f in said)];
+  const more = Object.keys(said).filter((f) => isAssumed(f) && !usual.includes(f));
+  const kept = usual.filter((f, i) => isAssumed(f) || i + more.length < MOST_FACTS);
+  return [...kept, ...more].slice(0, MOST_FACTS);
 };
 
 export const facts = () => h("div", { class: "facts" }, () => fields().map(fact));

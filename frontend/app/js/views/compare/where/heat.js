@@ -9,15 +9,15 @@ import { brush, fault, lookCompare, shown, stale } from "../answers.js";
 import { channelScale, errorText, errorUnit, rangeText, VARIABLES } from "../words.js";
 import { mapOf } from "./map.js";
 import { inkOn, tint } from "./colours.js";
-import { isQuiet, marksOf, placeOf, scale } from "./scale.js";
+import { isQuiet, mapScale, marksOf, placeOf } from "./scale.js";
 
 /** @typedef {import("./map.js").Grid} Grid */
 /** @typedef {import("./map.js").Cell} Cell */
 /** @typedef {import("../types.js").Comparison} Comparison */
 /** @typedef {[number, number]} Range */
 
-/** Height of all rows together, and of a row at least. */
-const ROWS_PX = 272, LEAST_PX = 24;
+/** Height of all rows together, and of a row at least and at most. */
+const ROWS_PX = 272, LEAST_PX = 24, MOST_PX = 90;
 
 const grid = computed(() => shown.value ? mapOf(shown.value) : null);
 
@@ -34,7 +34,8 @@ const within = (a, b) => {
 /** @param {Grid} map @param {number} ix @param {number} iy */
 const isChosen = (map, ix, iy) => {
   const b = brush.value;
-  return Boolean(b) && within(columnRange(map, ix), b?.[map.x]) && within(map.rows[iy].range, b?.[map.y]);
+  return Boolean(b) && within(columnRange(map, ix), b?.[map.x]) &&
+    (map.rows[iy].channel !== undefined || within(map.rows[iy].range, b?.[map.y]));
 };
 
 /** Chooses a cell; with Shift the range grows to it; the chosen cell alone again clears the choice.
@@ -43,6 +44,11 @@ function choose(map, ix, iy, more) {
   const b = brush.peek(), x = columnRange(map, ix), y = map.rows[iy].range;
   const same = (/** @type {Range | undefined} */ r, /** @type {Range} */ to) =>
     r !== undefined && r[0] === to[0] && r[1] === to[1];
+  if (map.rows[iy].channel !== undefined) {
+    const was = b?.[map.x], isSame = was?.[0] === x[0] && was?.[1] === x[1];
+    const range = more && was ? /** @type {Range} */ ([Math.min(was[0], x[0]), Math.max(was[1], x[1])]) : x;
+    return lookCompare({ brush: !more && isSame ? null : { [map.x]: range } });
+  }
   if (!more) {
     const again = same(b?.[map.x], x) && same(b?.[map.y], y);
     return lookCompare({ brush: again ? null : { [map.x]: x, [map.y]: y } });
@@ -76,7 +82,7 @@ function walk(event) {
 /** A value of the map: the number of shown units, or a dot inside the noise.
  * @param {number | null} mean @param {Comparison} a @param {"" | "●" | "□"} way */
 function value(mean, a, way) {
-  const s = scale.value;
+  const s = mapScale.value;
   if (mean === null || !s) return h("span", { class: "half none" });
   const quiet = isQuiet(mean, s);
   const share = quiet ? 0 : placeOf(mean, s), p = palette.value;
@@ -109,15 +115,19 @@ function table(a, map) {
   const yScale = ys ? scaleOf(ys.quantity, system) : null;
   const shownAt = (/** @type {number} */ si) => number(yScale ? toShown(si, yScale) : si, 2);
   const label = (/** @type {import("./map.js").Row} */ row) =>
-    row.level === null
+    row.channel !== undefined
+      ? readable(row.channel)
+      : row.level === null
       ? `${shownAt(row.range[0])}…${shownAt(row.range[1])}`
       : `${shownAt(row.level)} ${yScale?.unit ?? ""}`;
   const cell = (/** @type {Cell | null} */ c, /** @type {number} */ ix, /** @type {number} */ iy) => {
     if (!c) return h("td", null, h("span", { class: "none" }));
     const range = map.rows[iy].range;
-    const where = `${map.rows[iy].level === null ? rangeText(map.y, range, system) : label(map.rows[iy])}, ${
-      rangeText(map.x, columnRange(map, ix), system)
-    }`;
+    const where = `${
+      map.rows[iy].level === null && map.rows[iy].channel === undefined
+        ? rangeText(map.y, range, system)
+        : label(map.rows[iy])
+    }, ${rangeText(map.x, columnRange(map, ix), system)}`;
     const text = describe(c, a, where, map.split);
     return h(
       "td",
@@ -138,10 +148,10 @@ function table(a, map) {
       ),
     );
   };
-  const tall = `height:${Math.max(LEAST_PX, Math.floor(ROWS_PX / map.rows.length))}px`;
+  const tall = `height:${Math.max(LEAST_PX, Math.min(MOST_PX, Math.floor(ROWS_PX / map.rows.length)))}px`;
   const made = h(
     "table",
-    { class: `heat${map.split ? " split" : ""}` },
+    { class: `heat${map.split ? " split" : map.rows[0]?.level === null ? " ranges" : ""}` },
     h("caption", { class: "unseen" }, `Mean residual by ${readable(map.y)} and ${readable(map.x)}`),
     h(
       "tbody",
@@ -175,7 +185,7 @@ function table(a, map) {
 
 /** The colours with their values. @param {Comparison} a */
 function key(a) {
-  const s = scale.value;
+  const s = mapScale.value;
   if (!s) return null;
   const c = channelScale(a.unit, a.predicted, units.value);
   return h(
@@ -206,6 +216,7 @@ const aside = () => {
   if (!a || !map) return "";
   const unit = errorUnit(a.unit, a.predicted, units.value);
   const ys = VARIABLES[map.y];
+  if (map.scaled) return "mean residual, × noise";
   if (map.rows[0]?.level === null) {
     return `mean residual, ${unit} · rows: ${readable(map.y)}, ${
       ys ? scaleOf(ys.quantity, units.value).unit : ""

@@ -6,22 +6,23 @@ import { column, varies } from "../words.js";
 /** @typedef {import("../types.js").Series} Series */
 /** Means in SI; `up`, `down`: of lengthening and shortening alone.
  * @typedef {{mean: number, rms: number, count: number, up: number | null, down: number | null}} Cell */
-/** `range`: of the variable of the rows. @typedef {{range: [number, number], level: number | null,
- *   cells: (Cell | null)[]}} Row */
+/** `range`: of the variable of the rows; `channel`: a row of several channels has no range.
+ * @typedef {{range: [number, number], level: number | null, channel?: string, cells: (Cell | null)[]}} Row */
 /** `split`: the directions disagree by more than chance, so that a mean over both would hide it; rows with the
- * largest level first.
- * @typedef {{x: string, y: string, edges: number[], rows: Row[], split: boolean}} Grid */
+ * largest level first; `scaled`: in units of the noise of each channel.
+ * @typedef {{x: string, y: string, edges: number[], rows: Row[], split: boolean, scaled: boolean}} Grid */
 
 const COLUMNS = 8, MOST_LEVELS = 14;
 /** Levels closer than this share of the largest one are one level. */
 const SAME_LEVEL = 0.01;
 
-/** The map of a comparison: levels where the file has them, else the ranges of the server.
+/** The map of a comparison: channels over time where there are several, levels where the file has them, else the
+ * ranges of the server.
  * @param {Comparison} a @returns {Grid | null} */
 export function mapOf(a) {
   const series = a.series.filter((s) => s.use !== "validation");
   const isOne = new Set(series.map((s) => s.channel)).size <= 1;
-  return isOne ? ofLevels(series, a.noise_floor) ?? ofRanges(a) : ofRanges(a);
+  return isOne ? ofLevels(series, a.noise_floor) ?? ofRanges(a) : ofChannels(series, a) ?? ofRanges(a);
 }
 
 /** @param {Series[]} series */
@@ -38,20 +39,48 @@ function ofLevels(series, sigma) {
   if (!levels.length || levels.length > MOST_LEVELS) return null;
   const x = ["contraction", "time"].find((name) => varies(series, name));
   if (!x) return null;
-  const values = series.flatMap((s) => column(s, x)).filter((v) => v !== null);
-  let low = Infinity, high = -Infinity;
-  for (const v of values) {
-    if (v < low) low = v;
-    if (v > high) high = v;
-  }
-  const edges = Array.from({ length: COLUMNS + 1 }, (_, i) => low + ((high - low) * i) / COLUMNS);
+  const edges = edgesOf(series, x);
   const rows = levels.map((level, k) => {
     const next = levels[k + 1] ?? Infinity, last = levels[k - 1] ?? -Infinity;
     const mine = series.filter((s) => nearest(s.pressure ?? 0, last, level, next));
     return rowOf(mine, level, x, edges);
   });
   const found = rows.map((row) => row.row).reverse();
-  return { x, y: "pressure", edges, rows: found, split: disagree(rows.flatMap((row) => row.tallies), sigma) };
+  return {
+    x,
+    y: "pressure",
+    edges,
+    rows: found,
+    scaled: false,
+    split: disagree(rows.flatMap((row) => row.tallies), sigma),
+  };
+}
+
+/** Equal parts of the range of a variable. @param {Series[]} series @param {string} x */
+function edgesOf(series, x) {
+  let low = Infinity, high = -Infinity;
+  for (const s of series) {
+    for (const v of column(s, x)) {
+      if (v === null) continue;
+      if (v < low) low = v;
+      if (v > high) high = v;
+    }
+  }
+  return Array.from({ length: COLUMNS + 1 }, (_, i) => low + ((high - low) * i) / COLUMNS);
+}
+
+/** Each channel over time, in units of its noise. @param {Series[]} series @param {Comparison} a
+ * @returns {Grid | null} */
+function ofChannels(series, a) {
+  if (!varies(series, "time")) return null;
+  const edges = edgesOf(series, "time"), names = [...new Set(series.map((s) => s.channel))];
+  const rows = names.map((channel) => {
+    const noise = a.channels[channel]?.noise_floor || 1;
+    const mine = series.filter((s) => s.channel === channel)
+      .map((s) => ({ ...s, residual: s.residual.map((r) => r === null ? null : r / noise) }));
+    return { ...rowOf(mine, 0, "time", edges).row, level: null, channel };
+  });
+  return { x: "time", y: "channel", edges, rows, split: false, scaled: true };
 }
 
 /** @param {number} p @param {number} last @param {number} level @param {number} next */
@@ -137,5 +166,5 @@ function ofRanges({ heat_map: map }) {
         : { mean, rms: map.rms[iy][ix] ?? Math.abs(mean), count: n, up: null, down: null };
     }),
   })).reverse();
-  return { x: map.x, y: map.y, edges: map.x_edges.map((v) => v ?? 0), rows, split: false };
+  return { x: map.x, y: map.y, edges: map.x_edges.map((v) => v ?? 0), rows, split: false, scaled: false };
 }

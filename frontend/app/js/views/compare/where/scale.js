@@ -40,8 +40,16 @@ export function scaleFor(name) {
   return { most: unit * roundedUp(Math.max(most, LINEAR * (sigma ?? 0), 1e-12) / unit), sigma };
 }
 
-/** The scale of the map and of the residual shown. */
+/** The scale of the residual shown, and of the map of a single channel. */
 export const scale = computed(() => scaleFor(channel.value));
+
+/** The scale of the map; that of several channels is in units of their noise. */
+export const mapScale = computed(() => {
+  const map = first.value && mapOf(first.value);
+  if (!map || channels.value.length < 2) return scale.value;
+  const sizes = map.rows.flatMap((row) => row.cells.map((c) => Math.abs(c?.mean ?? 0)));
+  return { most: roundedUp(Math.max(LINEAR, ...sizes)), sigma: 1 };
+});
 
 /** A mean below this many standard deviations of one reading is none. */
 const NONE = 0.75;
