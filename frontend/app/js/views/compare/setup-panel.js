@@ -26,7 +26,9 @@ export const setupHas = (key) => /^(compare|rig|noise)/.test(key);
 export function openSetup(field) {
   came = /** @type {HTMLElement | null} */ (document.activeElement);
   opened.value = true;
-  const panel = document.querySelector(".setup-panel");
+  const panel = /** @type {HTMLElement | null} */ (document.querySelector(".setup-panel"));
+  const below = document.querySelector(".strip")?.getBoundingClientRect().bottom ?? 0;
+  panel?.style.setProperty("--below", `${Math.max(0, below)}px`);
   if (!field || field === "files" || !goToField(KEYS[field] ?? field, ".setup-panel")) {
     /** @type {HTMLElement | null | undefined} */ (panel?.querySelector("button, select, input"))?.focus();
   }

@@ -177,7 +177,9 @@ export function contextLine() {
       kept.length
         ? `Kept as you said: ${kept.map(subject).join(", ")}.`
         : assumed.length
-        ? `Assumed: ${assumed.join("; ")}`
+        ? `Assumed: ${
+          assumed.map((text) => text.replace(/^assuming /, "").replace(/: --.*$/, "")).join("; ")
+        }`
         : result
         ? "No entry is in doubt: muscle, lengths, units, signs."
         : "Entries are checked with the effects.",
