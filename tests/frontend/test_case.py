@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import pytest
 from playwright.sync_api import FilePayload, Page, expect
@@ -27,7 +28,7 @@ from tests.frontend.comparing import (
     use,
     watch_shifts,
 )
-from tests.frontend.diagnoses import remember
+from tests.frontend.diagnoses import alter, remember
 from tests.frontend.importing import CORPUS, answer_everything
 from tests.frontend.views import open_compare, open_design, run
 
@@ -178,6 +179,26 @@ def test_the_board_compares_pinned_models(page: Page, sweeps: FilePayload, tmp_p
     expect(page.locator(".in-model")).to_have_count(0)
     board.get_by_role("button", name="Unpin Ideal muscle").click()
     expect(head).to_have_count(2)
+
+
+def test_probabilities_reasons_and_minutes_of_the_server_are_shown(page: Page, sweeps: FilePayload) -> None:
+    def change(done: dict[str, Any]) -> None:
+        verdict = done["verdict"]
+        verdict["probabilities"] = dict.fromkeys(verdict["effects"], 0.974)
+        verdict["applied"] = {verdict["effects"][0]: "it has the fewest values"}
+        for experiment in verdict["experiments"]:
+            experiment["minutes"] = 10.0
+
+    open_compare(page)
+    alter(page, change)
+    choose(page, sweeps)
+    use(page)
+    expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
+    diagnosed(page)
+    rows = page.locator(".found-missing > li")
+    expect(rows.locator(".likely")).to_have_text(["97 % likely"] * 3)
+    expect(rows.first).to_contain_text("It has the fewest values")
+    expect(rows.locator(".tell").first).to_contain_text("Would tell (10 min)")
 
 
 def tab_to(page: Page, wanted: str, most: int = 60) -> None:

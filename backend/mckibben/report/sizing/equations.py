@@ -99,7 +99,8 @@ _SIZING = (
         "Specimens",
         (
             r"F_i(\varepsilon) = F(\varepsilon + \Delta_i), \quad "
-            r"\Delta_i \sim \mathcal{N}\Bigl(0, \frac{\sigma_F F_0}{\lvert\partial_\varepsilon F(0)\rvert}\Bigr)",
+            r"\Delta_i \sim \mathcal{N}\Bigl(0, "
+            r"\frac{\sigma_F F_0}{\lvert\partial_\varepsilon F(0)\rvert}\Bigr)",
         ),
         "The force curve is shifted along the contraction so that the blocked force F₀ has the relative "
         "standard deviation σ_F; friction and supply pressure are uniformly distributed.",

@@ -113,7 +113,8 @@ function table(a, map) {
   const system = units.value, ys = VARIABLES[map.y], xs = VARIABLES[map.x];
   const xScale = xs ? scaleOf(xs.quantity, system) : null;
   const yScale = ys ? scaleOf(ys.quantity, system) : null;
-  const shownAt = (/** @type {number} */ si) => number(yScale ? toShown(si, yScale) : si, 2);
+  const shownAt = (/** @type {number} */ si) =>
+    number(yScale ? toShown(si, yScale) : si, map.rows[0]?.level === null ? 1 : 2);
   const label = (/** @type {import("./map.js").Row} */ row) =>
     row.channel !== undefined
       ? readable(row.channel)
@@ -153,6 +154,7 @@ function table(a, map) {
     "table",
     { class: `heat${map.split ? " split" : map.rows[0]?.level === null ? " ranges" : ""}` },
     h("caption", { class: "unseen" }, `Mean residual by ${readable(map.y)} and ${readable(map.x)}`),
+    h("colgroup", null, h("col", { class: "levels" }), h("col", { span: map.edges.length - 1 })),
     h(
       "tbody",
       null,

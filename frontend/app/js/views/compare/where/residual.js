@@ -16,7 +16,7 @@ import { channel, channels, residualOver, residuals, variables, viewOf } from ".
 import { autocorrelation, histogram, loops } from "./leftover.js";
 import { partsBar } from "./parts.js";
 import { scale } from "./scale.js";
-import { residualSpec } from "./specs.js";
+import { residualSpec } from "./residual-spec.js";
 import { errorText, rangeText, rmsInside, VARIABLES } from "../words.js";
 
 /** @typedef {import("../../../types.js").Tab} Tab */
