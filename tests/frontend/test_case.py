@@ -75,6 +75,7 @@ def falling(errors: list[str]) -> bool:
 
 
 def test_a_mystery_is_solved_by_the_recommendations_alone(page: Page) -> None:
+    remember(page)
     open_compare(page)
     assert recommendations(page) == ["Open…"]
     page.locator(".tile", has_text="Two lines per pressure").click()

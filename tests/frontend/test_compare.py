@@ -81,7 +81,7 @@ def test_from_the_empty_page_to_the_noise_in_five_clicks(page: Page, sweeps: Fil
         assert any(value == pytest.approx(hidden, rel=0.02) for value in values), values
 
 
-def test_all_at_once_undo_remove_and_refit(page: Page, sweeps: FilePayload) -> None:
+def test_all_at_once_undo_refit_and_one_step_taken_out(page: Page, sweeps: FilePayload) -> None:
     opened(page, sweeps)
     start = error(page)
     noise = changed(page, page.locator("#add-all").click)
@@ -89,6 +89,14 @@ def test_all_at_once_undo_remove_and_refit(page: Page, sweeps: FilePayload) -> N
     assert changed(page, lambda: page.keyboard.press("Control+z")) == start
     expect(page.locator(".path-table tr.past")).to_have_count(0)
     assert changed(page, lambda: redo(page)) == noise
+    # R fits again after a value was changed.
+    value = page.locator(".model-card .parameter input").first
+    value.fill("0.1")
+    assert changed(page, lambda: value.press("Enter")) > 5 * noise
+    page.locator("h1").click()
+    assert changed(page, lambda: page.keyboard.press("r")) == pytest.approx(noise, rel=0.05)
+    changed(page, lambda: page.keyboard.press("Control+z"))
+    assert changed(page, lambda: page.keyboard.press("Control+z")) == noise
     # One step is taken out; the steps after it stay and are fitted again.
     removed = changed(page, page.get_by_role("button", name="Take out Bladder elasticity").click)
     assert removed > 2 * noise
@@ -130,7 +138,9 @@ def depths(page: Page) -> list[int]:
     return [int(share) for style in styles for share in re.findall(r"(\d+)%", style)]
 
 
-def test_the_map_is_dark_when_bad_and_plain_when_solved(page: Page, sweeps: FilePayload) -> None:
+def test_the_map_is_dark_when_bad_and_plain_when_solved_and_the_parts_add_up(
+    page: Page, sweeps: FilePayload
+) -> None:
     opened(page, sweeps)
     key, rows = page.locator(".heat-key"), page.locator(".heat tbody th[scope='row']")
     expect(rows).to_have_count(len(REACH))  # the measured levels
@@ -138,31 +148,16 @@ def test_the_map_is_dark_when_bad_and_plain_when_solved(page: Page, sweeps: File
     scale, bad = key.inner_text(), depths(page)
     assert max(bad) > 80
     expect(page.locator(".heat .half[data-way='□']").first).to_be_visible()  # the directions disagree
+    parts = page.get_by_role("list", name="What the squared residual is made of")
+    shares = [int(one) for one in re.findall(r"(\d+)\s%", parts.inner_text())]
+    assert sum(shares) == pytest.approx(100, abs=2)
     changed(page, page.locator("#add-all").click)
     expect(page.locator(".heat .half[data-way]")).to_have_count(0)
     solved = depths(page)
     assert max(solved) < 20
     assert sum(share == 0 for share in solved) > 0.8 * len(solved)
     assert key.inner_text() == scale  # one scale, fixed by the first error
-
-
-def test_the_squared_residual_is_split_into_parts_of_100_percent(page: Page, sweeps: FilePayload) -> None:
-    opened(page, sweeps)
-    parts = page.get_by_role("list", name="What the squared residual is made of")
-    shares = [int(one) for one in re.findall(r"(\d+)\s%", parts.inner_text())]
-    assert sum(shares) == pytest.approx(100, abs=2)
-    changed(page, page.locator("#add-all").click)
     expect(parts).to_contain_text(re.compile(r"(9\d|100) % noise"))
-
-
-def test_r_fits_again_after_a_value_was_changed(page: Page, sweeps: FilePayload) -> None:
-    opened(page, sweeps)
-    noise = changed(page, page.locator("#add-all").click)
-    value = page.locator(".model-card .parameter input").first
-    value.fill("0.1")
-    assert changed(page, lambda: value.press("Enter")) > 5 * noise
-    page.locator("h1").click()
-    assert changed(page, lambda: page.keyboard.press("r")) == pytest.approx(noise, rel=0.05)
 
 
 def test_a_range_of_the_residual_and_a_cell_of_the_map(page: Page, sweeps: FilePayload) -> None:
@@ -275,6 +270,7 @@ def test_a_diagnosis_can_be_cancelled_and_asked_for_again(page: Page, sweeps: Fi
     page.get_by_role("button", name="Stop").click(timeout=20_000)
     expect(page.locator("#next-what")).to_contain_text("Stopped")
     page.unroute("**/api/diagnoses")
+    remember(page)
     page.get_by_role("button", name="Diagnose", exact=True).click()
     diagnosed(page)
 

@@ -171,6 +171,17 @@ export const stepOf = (c, rmse, holdout) => ({
   ...(c.twins.length ? { twins: c.twins, tells: c.tells } : {}),
 });
 
+/** The files of now with what a step says of their experiments: files brought or removed since stay so.
+ * @param {Compare["files"]} files @param {import("../../types.js").Context | undefined} context
+ * @returns {Compare["files"]} */
+export const filesOf = (files, context) =>
+  files.map((file) => {
+    const then = context?.files.find((one) => one.id === file.id);
+    if (!then) return file;
+    const { experiment: _now, ...rest } = file;
+    return then.experiment ? { ...rest, experiment: then.experiment } : rest;
+  });
+
 /** The document with the model of a step. @param {Compare} c @param {Step} step
  * @param {Step[]} history @returns {Compare} */
 export const withStep = (c, step, history) => ({
@@ -183,7 +194,8 @@ export const withStep = (c, step, history) => ({
   holdout: step.holdout,
   twins: step.twins ?? [],
   tells: step.tells ?? [],
-  ...step.context,
+  files: filesOf(c.files, step.context),
+  decisions: step.context?.decisions ?? c.decisions,
   history: history.slice(-MOST_STEPS),
   before: false,
 });

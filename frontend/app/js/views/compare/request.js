@@ -1,5 +1,6 @@
 // @ts-check
 // Requests of this view, from the document. Pure functions.
+import { filesOf } from "./document.js";
 import { muscleInput } from "../../muscle/document.js";
 
 /** @typedef {import("../../types.js").Compare} Compare */
@@ -31,7 +32,7 @@ export const decided = (c) =>
 /** Data and model as every request of this view takes them; the model is the current one or a step of the history.
  * @param {Compare} c @param {Asked} [model] */
 export function modelBody(c, model = { effects: c.effects, freed: c.freed, values: c.muscle.values }) {
-  const { files, decisions: taken } = model.context ?? c;
+  const files = filesOf(c.files, model.context), taken = model.context?.decisions ?? c.decisions;
   const muscle = muscleInput({ ...c.muscle, values: model.values }),
     decisions = decided({ files, decisions: taken });
   return {
@@ -52,7 +53,7 @@ export function modelBody(c, model = { effects: c.effects, freed: c.freed, value
 
 /** The request as text; null: there is no file to fit to. @param {Compare} c @param {Asked} [model] */
 export const keyOf = (c, model) =>
-  used(model?.context ?? c).some((file) => file.use === "fit") ? JSON.stringify(modelBody(c, model)) : null;
+  used(c).some((file) => file.use === "fit") ? JSON.stringify(modelBody(c, model)) : null;
 
 const GEOMETRY = ["nominal_length", "braid_diameter", "braid_angle", "wall_thickness", "inside_diameter"];
 

@@ -3,7 +3,7 @@
 import { computed, effect, signal } from "../../../reactive.js";
 import { doc, edit, view } from "../../../state.js";
 import { ApiError } from "../../../server/client.js";
-import { muscles, references } from "../../../store.js";
+import { muscles, references, status } from "../../../store.js";
 import { MOST_FILES, withStartModel } from "../document.js";
 import { driveFor, needsDrive, startOf } from "../drive-document.js";
 import { compare, editCompare, files } from "../answers.js";
@@ -60,6 +60,8 @@ export async function addFiles(list) {
     ...d,
     compare: kept.reduce((c, one) => withFile(c, one, null), d.compare),
   }), kept.length > 1 ? `${kept.length} measurements` : `measurement ${names}`);
+  const like = read.find((one) => one.kept)?.kept;
+  if (like) status.value = `Read like ${like.name}; the panel of files can undo that.`;
 }
 
 /** Imports a file of this session again, with its answers. @param {string} id
