@@ -3,7 +3,7 @@
 import { h, icon } from "../../../dom.js";
 import { units } from "../../../state.js";
 import { effectsById } from "../../../store.js";
-import { brief, capitalized, readable } from "../../../format.js";
+import { brief, capitalized, number, readable } from "../../../format.js";
 import { aboutButton } from "../../../muscle/effects.js";
 import { answer, preview, stale } from "../answers.js";
 import { fitting } from "../model/history.js";
@@ -53,7 +53,11 @@ export const tellings = (tells) =>
       h(
         "span",
         null,
-        h("b", null, `Would tell${t.minutes === null ? "" : ` (${brief(t.minutes)} min)`}: `),
+        h(
+          "b",
+          null,
+          `Would tell${t.minutes === null ? "" : ` (${number(t.minutes, t.minutes < 3 ? 1 : 0)} min)`}: `,
+        ),
         tellingText(t),
       ),
     )
