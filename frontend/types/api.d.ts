@@ -196,6 +196,8 @@ export interface components {
       excluded: { [key: string]: number };
       where: components["schemas"]["ResidualProfile"][];
       heat_map: components["schemas"]["HeatMap"] | null;
+      /** What the squared residual is made of. */
+      parts: components["schemas"]["ResidualPart"][];
       whiteness: components["schemas"]["WhitenessAnswer"];
       loops: components["schemas"]["Loop"][];
       /** Where the model fails, as sentences. */
@@ -1941,6 +1943,13 @@ export interface components {
       title?: string;
       /** Include a diagnosis; takes some seconds. */
       diagnose?: boolean;
+    };
+    /** A part of the squared residual; the shares of all parts add up to 1. */
+    ResidualPart: {
+      /** 'offset', a variable, 'together' (several variables) or 'rest': what follows none. */
+      of: string;
+      /** 0 to 1; each part has only what the ones before it left. */
+      share: number;
     };
     /** The residual over one variable. */
     ResidualProfile: {

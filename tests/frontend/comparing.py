@@ -10,7 +10,7 @@ import random
 import re
 from collections.abc import Callable
 
-from playwright.sync_api import FilePayload, Page, expect
+from playwright.sync_api import FilePayload, Locator, Page, expect
 
 from tests.frontend.diagnoses import remember
 from tests.frontend.views import marked, open_compare, run
@@ -95,8 +95,24 @@ def use(page: Page) -> None:
 
 def diagnosed(page: Page, within: float = 60_000) -> None:
     """Wait (at most so many ms) until the numbers belong to the model and the diagnosis is complete."""
-    expect(page.locator(".error-card")).not_to_have_class(re.compile("stale"), timeout=20_000)
+    expect(page.locator(".error-value")).not_to_have_class(re.compile("stale"), timeout=20_000)
     marked(page, '[data-diagnosis="done"]', within)
+    expect(page.locator("#error-now")).not_to_have_class(re.compile("counting"))
+
+
+def setup(page: Page, field: str = "") -> Locator:
+    """The panel of files and experiment, opened at a field of the strip or at the files."""
+    panel = page.locator(".setup-panel")
+    if not panel.is_visible():
+        fact = page.locator(f".strip [data-fact='{field}']")
+        (fact if field else page.locator(".strip button.name")).click()
+    expect(panel).to_be_visible()
+    return panel
+
+
+def state(page: Page) -> str | None:
+    """The state of the case."""
+    return page.locator(".strip").get_attribute("data-state")
 
 
 def opened(page: Page, *files: FilePayload) -> None:
@@ -118,8 +134,32 @@ def error(page: Page) -> float:
 
 def changed(page: Page, act: Callable[[], object]) -> float:
     """Do something that changes the model; the error after it."""
-    before = page.locator("#error-now").inner_text()
+    number = page.locator("#error-now")
+    before = number.inner_text()
     act()
-    expect(page.locator("#error-now")).not_to_have_text(before, timeout=20_000)
+    expect(number).not_to_have_text(before, use_inner_text=True, timeout=20_000)
     diagnosed(page)
     return error(page)
+
+
+WATCH = """
+window.shifts = [];
+new PerformanceObserver((list) => {
+  for (const entry of list.getEntries()) {
+    const what = entry.sources.map(({ node }) => node?.outerHTML?.slice(0, 80) ?? node?.textContent);
+    window.shifts.push({ value: entry.value, what });
+  }
+}).observe({ type: "layout-shift" });
+"""
+
+
+def watch_shifts(page: Page) -> None:
+    """Remember from now on what moves on the page."""
+    run(page, WATCH)
+
+
+def shifts(page: Page) -> list[dict[str, object]]:
+    """What moved without being asked to: also within half a second of a click, as the drop is one."""
+    found = run(page, "return window.shifts;")
+    assert isinstance(found, list)
+    return found

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import FilePayload, Locator, Page, expect
 
-from tests.frontend.comparing import choose, drop, error, use
+from tests.frontend.comparing import choose, drop, error, setup, use
 from tests.frontend.guard import PageGuard
 from tests.frontend.importing import (
     CORPUS,
@@ -111,6 +111,7 @@ def test_a_run_of_a_valve_asks_for_its_valve(case: Page) -> None:
     assert body["measurements"][0]["experiment"] == {"valve": "MHE2"}
     assert body["drive"]["valve"] == {"preset": "MHE2"}
     assert (body["drive"]["load"]["mass"], body["drive"]["supply"]["pressure"]) == (8.0, 6e5)
+    setup(case)
     expect(case.get_by_role("region", name="Rig").get_by_label("Valve")).to_have_value("MHE2")
 
 
@@ -235,13 +236,14 @@ def test_a_mapping_is_remembered_for_the_next_file_of_its_kind(case: Page) -> No
     use(case)
     expect(case.locator(".file")).to_have_count(1)
     choose(case, laboratory("second.csv", scale=0.9, rest="250 mm"))
-    expect(case.locator(".file").or_(case.locator("dialog.import")).nth(1)).to_be_visible()
+    expect(case.locator(".file").or_(case.locator("dialog.import")).nth(1)).to_be_attached()
     if case.locator("dialog.import").count():  # something of the experiment is to be seen once more
         expect(panel(case).locator(".kept")).to_contain_text("Read as first.csv")
         answer_everything(case)
         use(case)
     second = case.locator(".file").nth(1)
     expect(second).to_contain_text("Mapping of first.csv used")
+    setup(case)
     # Undo asks anew, without the mapping.
     second.get_by_role("button", name="Undo").click()
     expect(accept_button(case)).to_be_disabled()
@@ -340,7 +342,7 @@ def test_bad_rows_are_left_out_only_when_the_user_says_so(case: Page) -> None:
     answer_everything(case)
     use(case)
     expect(case.locator(".file")).to_contain_text("left out: 1 not a number")
-    case.get_by_role("button", name="Import…").click()
+    setup(case).get_by_role("button", name="Import…").click()
     expect(panel(case).get_by_label("Leave out 1 row")).to_be_checked()
 
 
@@ -435,6 +437,7 @@ def test_a_length_that_contradicts_the_file_is_decided_in_the_view(case: Page, p
     expect(case.locator("#error-now")).to_be_visible(timeout=20_000)
     length = case.locator("[data-field='compare.nominal_length'] input")
     expect(length).to_have_value("250")
+    setup(case)
     length.fill("320")
     with case.expect_response("**/api/comparisons") as answer:
         length.press("Enter")

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Locator, Page, Route, expect
 
-from tests.frontend.comparing import choose, use
+from tests.frontend.comparing import choose, setup, use
 from tests.frontend.importing import panel, plain
 
 NOTHING: dict[str, Any] = {
@@ -177,7 +177,7 @@ def test_an_assumption_or_a_suggestion_is_taken_over_by_a_click(case: Page) -> N
     expect(accept(case)).to_be_focused()
     (measurement,) = compared(case)
     assert "experiment" not in measurement  # nobody said anything: the server goes on assuming
-    case.get_by_role("button", name="Import…").click()
+    setup(case).get_by_role("button", name="Import…").click()
     length.get_by_role("button", name="251.2 mm is suggested by the data").click()
     expect(length).to_contain_text("suggested, taken over")
     (measurement,) = compared(case)
@@ -222,12 +222,13 @@ def test_the_length_in_the_view_and_that_of_the_import_are_one(case: Page) -> No
     compared(case)
     field = case.locator("[data-field='compare.nominal_length'] input")
     expect(field).to_have_value("260")
+    setup(case)
     field.fill("270")
     with case.expect_request("**/api/comparisons") as asked:
         field.press("Enter")
     body = asked.value.post_data_json
     assert body["measurements"][0]["experiment"]["rest_length"] == "0.27 m"
-    case.get_by_role("button", name="Import…").click()
+    setup(case).get_by_role("button", name="Import…").click()
     expect(row(case, "rest_length").get_by_label("Rest length")).to_have_value("270 mm")
 
 

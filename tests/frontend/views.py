@@ -51,7 +51,7 @@ def open_compare(page: Page) -> None:
     page.goto("about:blank")
     page.goto("/")
     page.get_by_role("button", name="Compare & diagnose", exact=True).click()
-    expect(page.get_by_role("button", name="Guided example")).to_be_visible(timeout=20_000)
+    expect(page.get_by_role("button", name="Example measurement")).to_be_visible(timeout=20_000)
 
 
 def open_compared(page: Page) -> None:

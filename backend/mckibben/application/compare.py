@@ -34,6 +34,7 @@ from mckibben.identification.fit.comparison import (
 )
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.identification.predict.specimens import own_muscle
+from mckibben.identification.residual.parts import ResidualPart, residual_parts
 from mckibben.identification.residual.profiles import (
     Profile,
     ResidualLoop,
@@ -88,6 +89,7 @@ class ComparisonResult:
         parameters, correlations: of the model; of its fit.
         geometry: of the muscle, fitted where it was freed.
         where, heat_map, whiteness, loops, sentences: where the model fails, in figures and words.
+        parts: what the squared residual is made of; the shares add up to 1.
         series: the points, at most 400 per curve.
         validation: the error for other data.
         model: effects and values in the form of a request.
@@ -118,6 +120,7 @@ class ComparisonResult:
     geometry: GeometrySummary
     where: list[Profile]
     heat_map: ResidualMap | None
+    parts: list[ResidualPart]
     whiteness: Whiteness
     loops: list[ResidualLoop]
     sentences: list[str]
@@ -214,6 +217,7 @@ def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
         geometry=geometry_of(start, comparison.fit_model.muscle),
         where=where,
         heat_map=heat_map(residual, variables),
+        parts=residual_parts(residual, variables),
         whiteness=white,
         loops=_loops(comparison, residual),
         sentences=_sentences(where, white, predictor.unit),

@@ -69,6 +69,18 @@ export function append(el, kid) {
 
 const SVG = "http://www.w3.org/2000/svg";
 
+/** An element of a drawing; null and undefined attributes are left out.
+ * @param {string} tag @param {Record<string, string | number | null | undefined>} attributes
+ * @param {(Node | string | null)[]} kids @returns {SVGElement} */
+export function svg(tag, attributes, ...kids) {
+  const el = /** @type {SVGElement} */ (document.createElementNS(SVG, tag));
+  for (const [key, value] of Object.entries(attributes)) {
+    if (value != null) el.setAttribute(key, String(value));
+  }
+  el.append(...kids.filter((kid) => kid !== null));
+  return el;
+}
+
 /** Line icons on a 20 × 20 grid, drawn with the text's colour. */
 const ICONS = {
   undo: "M8 5 4 9l4 4M4.5 9H12a4 4 0 0 1 0 8H9",
@@ -93,6 +105,13 @@ const ICONS = {
   play: "M7 4.5v11l8.5-5.5Z",
   pause: "M7 5v10M13 5v10",
   grip: "M7.5 5h.1M12.5 5h.1M7.5 10h.1M12.5 10h.1M7.5 15h.1M12.5 15h.1",
+  file: "M5.5 3h6l3.5 3.5V17h-9.5ZM11.5 3v3.5H15",
+  person: "M10 3.5a3 3 0 1 1 0 6 3 3 0 0 1 0-6M4 16.5c.7-3.300 3.200-4.600 6-4.600s5.300 1.300 6 4.600",
+  flask: "M7.5 3h5M8.300 3v5L4 15.5a1 1 0 0 0 .9 1.5h10.200a1 1 0 0 0 .9-1.5L11.700 8V3M6.300 12.5h7.400",
+  page: "M5 3h8l2.5 2.5V17H5ZM7.5 9.5h5M7.5 12.5h5M7.5 6.5h3",
+  table: "M3.5 4.5h13v11h-13ZM3.5 8.5h13M3.5 12h13M8 8.5v7",
+  braces: "M8 3.5c-2.5 0-1 5.5-3.5 6.5 2.5 1 1 6.5 3.5 6.5M12 3.5c2.5 0 1 5.5 3.5 6.5-2.5 1-1 6.5-3.5 6.5",
+  wave: "M3 14c2-9 4-9 5-4s3 5 4 0 2-4 5 3",
   pin: "M7.5 3.5h5l-.7 5 2.7 2.5v1.5h-9V11l2.7-2.5ZM10 12.5v4.5",
 };
 

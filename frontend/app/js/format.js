@@ -47,11 +47,19 @@ export const SCALES = {
   frequency: same(scale("Hz", 1, 3)),
   mass: { si: scale("kg", 1, 3), bar: scale("kg", 1, 3), us: scale("lb", POUND, 3) },
   speed: { si: scale("m/s", 1, 3), bar: scale("m/s", 1, 3), us: scale("in/s", INCH, 2) },
+  sweep: { si: scale("mm/s", 1e-3, 1), bar: scale("mm/s", 1e-3, 1), us: scale("in/s", INCH, 2) },
   acceleration: { si: scale("m/s²", 1, 2), bar: scale("m/s²", 1, 2), us: scale("ft/s²", 12 * INCH, 2) },
   conductance: same(scale("l/(s·bar)", 1e-8, 4)),
   flow: { si: scale("g/s", 1e-3, 3), bar: scale("g/s", 1e-3, 3), us: scale("lb/min", POUND / 60, 3) },
   air: { si: scale("g", 1e-3, 3), bar: scale("g", 1e-3, 3), us: scale("oz", POUND / 16, 4) },
   normal: same(scale("l (ANR)", 1e-3, 3)),
+  area: { si: scale("N/bar", 1e-5, 2), bar: scale("N/bar", 1e-5, 2), us: scale("lbf/psi", LBF / PSI, 4) },
+  compliance: same(scale("mm/kN", 1e-6, 2)),
+  softness: same(scale("%/kN", 1e-5, 3)),
+  damping: same(scale("N/(m/s)", 1, 1)),
+  pressureDamping: same(scale("N/(m/s·bar)", 1e-5, 3)),
+  perKelvin: same(scale("%/K", 1e-2, 3)),
+  resistance: same(scale("bar/(l/s)", 1e8, 3)),
 };
 
 /** Units a user may type, by the quantity they belong to.
@@ -141,6 +149,14 @@ const OF_SI = {
   kg: "mass",
   Hz: "frequency",
   "m/s": "speed",
+  m2: "area",
+  "m/N": "compliance",
+  "1/N": "softness",
+  "N*s/m": "damping",
+  "N*s/(m*Pa)": "pressureDamping",
+  "1/K": "perKelvin",
+  "Pa*s/m3": "resistance",
+  "m3/(s*Pa)": "conductance",
 };
 
 /** The quantity of a parameter by its SI unit; a modulus is shown in N/mm², not in bar.
@@ -250,7 +266,13 @@ export function parse(text, s, quantity, sample, counted = {}) {
 
 /** The same quantity may be shown on different scales. @param {Quantity | null} quantity */
 const basicQuantity = (quantity) =>
-  quantity === "modulus" ? "pressure" : quantity === "lapse" ? "time" : quantity;
+  quantity === "modulus"
+    ? "pressure"
+    : quantity === "lapse"
+    ? "time"
+    : quantity === "sweep"
+    ? "speed"
+    : quantity;
 
 /** @param {Quantity | null} quantity */
 function noun(quantity) {

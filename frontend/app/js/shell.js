@@ -102,6 +102,7 @@ export function shell(views, { examples, help }) {
       ...views.map((v) =>
         h("button", {
           type: "button",
+          "data-title": v.title,
           "aria-current": () => view.value === v.id ? "page" : null,
           onclick: () => goTo(v.id),
         }, v.title)

@@ -45,24 +45,32 @@
 /** A measurement file or preset. @typedef {{id: string, name: string, use: Use, experiment?: Experiment}} Chosen */
 /** Errors of fitted values: effect -> parameter -> standard error, and whether the fit stopped at a bound.
  * @typedef {Record<string, Record<string, {stderr: number | null, at_bound: boolean}>>} Fit */
-/** A model and its error; `values`: of the geometry; `label`: the change that led to this model.
+/** What is said of the data: the files with their experiments, and the decisions about doubtful entries.
+ * @typedef {{files: Chosen[], decisions: Decisions}} Context */
+/** A test that would tell two effects apart; `minutes` null: not known.
+ * @typedef {{pair: string[], declared: string, protocol: string, separation: number | null,
+ *   minutes: number | null}} Telling */
+/** A model and its error; `values`: of the geometry; `label`: the change that led to this model; `context`: what
+ * was said of the data, where that has changed since; `twins`: effects that the data cannot tell from the one this
+ * step added, itself among them, and `tells`: the tests that would.
  * @typedef {{label: string, effects: Effects | null, freed: string[], values: Record<string, number>,
- *   fit: Fit, rmse: number | null, holdout: number | null}} Step */
+ *   fit: Fit, rmse: number | null, holdout: number | null, context?: Context, twins?: string[],
+ *   tells?: Telling[]}} Step */
+/** A model on the board, with the data it was fitted to. @typedef {Step & {name: string, of: string}} Pinned */
 /** What the residual is plotted over; "auto": the variable of the overlay.
- * @typedef {"auto" | "contraction" | "pressure" | "velocity" | "time" | "histogram" | "autocorrelation" |
- *   "loops"} Tab */
-/** The colour scale of the heat map: that of the first model ("start") or that of this map ("own"); "auto": the
- * former as long as it shows anything. @typedef {"auto" | "start" | "own"} Heat */
+ * @typedef {"auto" | "contraction" | "pressure" | "velocity" | "direction" | "time" | "histogram" |
+ *   "autocorrelation" | "loops"} Tab */
 /** Ranges of variables in SI. @typedef {Record<string, [number, number]>} Brush */
 /** Decisions about entries that may be wrong; they hold for the files `of`, their ids joined by commas.
  * @typedef {{of: string, use: string[], keep: string[]}} Decisions */
 /** The Compare view's part of the document. `effects`: null = those of the preset. `history`: the models before
- * this one, the first one first.
+ * this one, the first one first. `twins`, `tells`: of the current step. `pins`: the models of the board; `board`:
+ * it is open, with rows that differ only where `differing`; `traces`: indices of pins drawn in the overlay.
  * @typedef {{files: Chosen[], muscle: Muscle, start: "ideal" | "preset", effects: Effects | null,
  *   freed: string[], free: string[], fit: Fit, label: string, holdout: number | null, history: Step[],
- *   drive: Drive | null, noise: number | null, decisions: Decisions, mystery: string | null, guided: boolean,
- *   tab: Tab, over: string | null, channel: string | null, heat: Heat, brush: Brush | null,
- *   before: boolean}} Compare */
+ *   drive: Drive | null, noise: number | null, decisions: Decisions, mystery: string | null, tab: Tab,
+ *   over: string | null, channel: string | null, brush: Brush | null, before: boolean, twins: string[],
+ *   tells: Telling[], pins: Pinned[], board: boolean, differing: boolean, traces: number[]}} Compare */
 
 /** Supply, valve, tube, load, command, controller, …; numbers in SI. @typedef {Record<string, any>} Drive */
 /** How the load of a drive is arranged.

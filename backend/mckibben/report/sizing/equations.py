@@ -30,8 +30,8 @@ _BASE = (
     ),
     _Law(
         "Force",
-        (r"F = P\,\frac{3L^2 - b^2}{4\pi n^2}, \quad \kappa = 1 - \frac{L}{L_0}",),
-        "Gauge pressure P, contraction κ; modified by the effects below. A muscle never pushes.",
+        (r"F = P\,\frac{3L^2 - b^2}{4\pi n^2}, \quad \varepsilon = 1 - \frac{L}{L_0}",),
+        "Gauge pressure P, contraction ε; modified by the effects below. A muscle never pushes.",
     ),
     _Law(
         "Stiffness",
@@ -78,7 +78,7 @@ _TUBE = _Law(
 _SIZING = (
     _Law(
         "Force reserve",
-        (r"\min_s \frac{N r\,F(P, \kappa(s))}{F_{load}(s)} - 1",),
+        (r"\min_s \frac{N r\,F(P, \varepsilon(s))}{F_{load}(s)} - 1",),
         "N parallel muscles, smallest value over the stroke, static while shortening; in a pair the empty "
         "second muscle is part of the load.",
     ),
@@ -91,15 +91,16 @@ _SIZING = (
         "Life (an estimate)",
         (
             r"N_{life} = 10^{7 - 2u}, \quad "
-            r"u = \max\Bigl(\frac{\kappa}{\kappa_{max}}, \frac{F}{F_{max}}\Bigr)",
+            r"u = \max\Bigl(\frac{\varepsilon}{\varepsilon_{max}}, \frac{F}{F_{max}}\Bigr)",
         ),
         "General knowledge, not verified; not a curve of the maker.",
     ),
     _Law(
         "Specimens",
         (
-            r"F_i(\kappa) = F(\kappa + \Delta_i), \quad "
-            r"\Delta_i \sim \mathcal{N}\Bigl(0, \frac{\sigma_F F_0}{\lvert\partial_\kappa F(0)\rvert}\Bigr)",
+            r"F_i(\varepsilon) = F(\varepsilon + \Delta_i), \quad "
+            r"\Delta_i \sim \mathcal{N}\Bigl(0, "
+            r"\frac{\sigma_F F_0}{\lvert\partial_\varepsilon F(0)\rvert}\Bigr)",
         ),
         "The force curve is shifted along the contraction so that the blocked force F₀ has the relative "
         "standard deviation σ_F; friction and supply pressure are uniformly distributed.",

@@ -172,6 +172,15 @@ class HeatMap(Strict):
     count: list[list[int]]
 
 
+class ResidualPart(Strict):
+    """A part of the squared residual; the shares of all parts add up to 1."""
+
+    of: str = Field(
+        description="'offset', a variable, 'together' (several variables) or 'rest': what follows none."
+    )
+    share: float = Field(description="0 to 1; each part has only what the ones before it left.")
+
+
 class WhitenessAnswer(Strict):
     """Whether the residual looks like noise."""
 
@@ -222,6 +231,7 @@ class ComparisonAnswer(Strict):
     excluded: dict[str, int] = Field(description="Reason for leaving rows out -> number of rows.")
     where: list[ResidualProfile]
     heat_map: HeatMap | None
+    parts: list[ResidualPart] = Field(description="What the squared residual is made of.")
     whiteness: WhitenessAnswer
     loops: list[Loop]
     sentences: list[str] = Field(description="Where the model fails, as sentences.")

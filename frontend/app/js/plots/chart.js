@@ -5,7 +5,9 @@ import { canPatch, patch } from "./patch.js";
 import { plotly } from "./library.js";
 
 /** @typedef {import("./theme.js").Palette} Palette */
-/** @typedef {{title: string, range: [number, number], right?: boolean}} Axis */
+/** `marks`: where it has marks, with their texts, instead of round numbers.
+ * @typedef {{title: string, range: [number, number], right?: boolean,
+ *   marks?: {at: number, text: string}[]}} Axis */
 /** A line or a set of points. `axis: 2` draws against the right axis; `column` is its name in the table.
  * @typedef {{id: string, x: (number | null)[], y: (number | null)[], line?: {color: string, width?: number,
  *   dash?: string}, marker?: {size: number, symbol: string | string[], color: string | string[],
@@ -14,11 +16,11 @@ import { plotly } from "./library.js";
 /** @typedef {{text: string, x: number, y: number, color: string}} Label */
 /** A shaded range of x; `kind` is its CSS class. @typedef {{x: [number, number], kind: string}} Band */
 /** What both axes show, in shown units. @typedef {{x: [number, number], y: [number, number]}} Ranges */
-/** `level`: the load line; `marks`: vertical lines; `brush`: dragging chooses a range of x, null: all of it;
+/** `room`: width at the right for names of the lines; `level`: the load line; `marks`: vertical lines; `brush`: dragging chooses a range of x, null: all of it;
  * `zoomed`: called with the zoom, which the caller gives back as the ranges of the axes; `table`: the values to
  * export if they are not simply the lines.
  * @typedef {{x: Axis, y: Axis, y2?: Axis, traces: Trace[], zones: Zone[], labels?: Label[],
- *   revision: string, level?: {y: number, text: string}, bands?: Band[], marks?: number[],
+ *   revision: string, room?: number, level?: {y: number, text: string}, bands?: Band[], marks?: number[],
  *   states?: {title: string, isSo: boolean[]}[],
  *   brush?: (range: [number, number] | null) => void, zoomed?: (ranges: Ranges | null) => void,
  *   table?: import("../ui/table.js").Table}} Spec */
@@ -38,7 +40,13 @@ const axisLayout = (axis, p) => ({
   zeroline: axis.range[0] < 0 && !axis.right,
   zerolinecolor: p.line,
   nticks: 7,
-  tickmode: "auto",
+  ...(axis.marks
+    ? {
+      tickmode: "array",
+      tickvals: axis.marks.map((m) => m.at),
+      ticktext: axis.marks.map((m) => m.text),
+    }
+    : { tickmode: "auto" }),
   tickfont: { color: p.soft },
   automargin: false,
   showgrid: !axis.right,
@@ -64,7 +72,7 @@ export function figure(spec, p, box) {
   const layout = {
     width: box.width,
     height: box.height,
-    margin: { l: 58, r: spec.y2 ? 54 : 14, t: 10, b: 44 },
+    margin: { l: 58, r: spec.y2 ? 54 : spec.room ?? 14, t: 10, b: 44 },
     paper_bgcolor: "rgba(0,0,0,0)",
     plot_bgcolor: "rgba(0,0,0,0)",
     font: { family: box.font, size: 12, color: p.ink },

@@ -100,7 +100,7 @@ export function dragLine(chart, o) {
   return place;
 }
 
-const CLEAR_PX = 15;
+const CLEAR_PX = 15, NAME_PX = 13;
 
 /** Writes the name of each line beside its start, and the name of each shaded zone into it.
  * @param {Chart} chart */
@@ -117,9 +117,14 @@ export function writeLabels(chart) {
     const lines = [...chart.spec.labels ?? []].sort((a, b) => b.y - a.y);
     for (const { text, x, y, color } of lines) {
       const px = axes.xaxis.c2p(x), py = axes.yaxis.c2p(y);
-      if (!inside(axes.xaxis, px) || !inside(axes.yaxis, py) || py - above < CLEAR_PX) continue;
-      above = py;
+      if (!inside(axes.xaxis, px) || !inside(axes.yaxis, py)) continue;
+      if (!chart.spec.room && py - above < CLEAR_PX) continue;
+      above = Math.max(py, chart.spec.room ? above + NAME_PX : py);
       const label = h("span", { style: `color:${color}` }, text);
+      if (chart.spec.room) {
+        nodes.push(place(label, axes, axes.xaxis._length + 4, above - 8));
+        continue;
+      }
       const right = px > 0.5 * axes.xaxis._length;
       nodes.push(
         place(label, axes, px + (right ? -4 : 4), Math.max(0, py - 18), right ? "translateX(-100%)" : ""),

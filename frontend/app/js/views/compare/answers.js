@@ -2,7 +2,7 @@
 // The answers of the server: first the comparison of model and measurement, then the diagnosis.
 import { batch, computed, signal } from "../../reactive.js";
 import { doc, edit, look, view } from "../../state.js";
-import { fieldMessages, post, postForEvents } from "../../server/client.js";
+import { ApiError, fieldMessages, post, postForEvents } from "../../server/client.js";
 import { Memory, Question } from "../../server/question.js";
 import { musclesById } from "../../store.js";
 import { keyOf, used } from "./request.js";
@@ -32,7 +32,10 @@ export const lookCompare = (patch) => look(patchCompare(patch));
 
 // ---- the comparison
 
-const REMEMBERED = 16, AFTER_MS = 30;
+const REMEMBERED = 48, AFTER_MS = 30;
+
+/** How long an entry must be looked at before it is drawn [ms]. */
+const GLANCE_MS = 90;
 
 /** Without a fit. @type {Memory<Comparison>} */
 const comparisons = new Memory(REMEMBERED);
@@ -49,7 +52,9 @@ const comparison = new Question(compareWith, { memory: comparisons, patience: 0 
 /** The comparison with the model of now, why there is none, and whether it belongs to other data or another
  * model than those chosen. */
 export const { answer, error: fault, stale } = comparison;
-const isCompared = computed(() => comparison.answered.value === modelText.value && fault.value === null);
+export const isCompared = computed(() =>
+  comparison.answered.value === modelText.value && fault.value === null
+);
 
 const previousText = computed(() => {
   const last = steps.value.at(-1);
@@ -59,9 +64,65 @@ const previousText = computed(() => {
 const comparisonBefore = new Question(compareWith, { memory: comparisons, patience: 0 });
 export const previous = computed(() => comparisonBefore.error.value ? null : comparisonBefore.answer.value);
 
-/** What is drawn: the model of now, or with "before" the one it came from. */
-export const shown = computed(() => compare.value.before && previous.value ? previous.value : answer.value);
-export const isBefore = computed(() => compare.value.before && previous.value !== null);
+const firstText = computed(() => {
+  const [first] = steps.value;
+  return first ? keyOf(compare.value, first) : null;
+});
+const comparisonFirst = new Question(compareWith, { memory: comparisons, patience: 0 });
+/** The comparison with the first model: it fixes the scale of colours and residuals. */
+export const first = computed(() => {
+  if (firstText.value === null) return answer.value;
+  return comparisonFirst.error.value ? null : comparisonFirst.answer.value;
+});
+
+/** A model that is looked at before it is added: its request and its name.
+ * @typedef {{text: string | null, label: string}} Preview */
+const previewed = signal(/** @type {Preview | null} */ (null));
+const comparisonAhead = new Question(compareWith, { memory: comparisons, patience: 0 });
+const isAhead = computed(() =>
+  previewed.value !== null && comparisonAhead.answered.value === previewed.value.text &&
+  comparisonAhead.error.value === null
+);
+/** The name of the model that is looked at; "": none. */
+export const previewLabel = computed(() => isAhead.value ? previewed.value?.label ?? "" : "");
+/** Shows a model in the plots before it is added; null: the current one again.
+ * @param {import("./request.js").Asked | null} model @param {string} [label] */
+export const preview = (
+  model,
+  label = "",
+) => (previewed.value = model && { text: keyOf(compare.peek(), model), label });
+
+/** Comparisons with several models, one after the other; null where the server refused one.
+ * @param {(string | null)[]} texts @param {AbortSignal} signal @returns {Promise<(Comparison | null)[]>} */
+export async function comparisonsWith(texts, signal) {
+  /** @type {(Comparison | null)[]} */
+  const found = [];
+  for (const text of texts) {
+    const known = text === null ? null : comparisons.get(text);
+    if (signal.aborted) break;
+    if (known !== undefined || text === null) {
+      found.push(known ?? null);
+      continue;
+    }
+    try {
+      const got = await compareWith(text, signal);
+      comparisons.set(text, got);
+      found.push(got);
+    } catch (error) {
+      if (signal.aborted) break;
+      if (!(error instanceof ApiError)) throw error;
+      found.push(null);
+    }
+  }
+  return found;
+}
+
+/** What is drawn: a model that is looked at, the model of now, or with "before" the one it came from. */
+export const shown = computed(() => {
+  if (isAhead.value) return comparisonAhead.answer.value;
+  return compare.value.before && previous.value ? previous.value : answer.value;
+});
+export const isBefore = computed(() => compare.value.before && previous.value !== null && !isAhead.value);
 
 // ---- the diagnosis
 
@@ -144,5 +205,7 @@ export function startComparing() {
   const isShown = () => view.value === "compare";
   comparison.follow(() => modelText.value, { delay: AFTER_MS, active: isShown });
   comparisonBefore.follow(() => previousText.value, { active: () => isCompared.value });
+  comparisonFirst.follow(() => firstText.value, { active: () => isCompared.value });
+  comparisonAhead.follow(() => previewed.value?.text ?? null, { delay: GLANCE_MS, active: isShown });
   diagnosisQuestion.follow(() => fault.value ? null : modelText.value, { active: () => isCompared.value });
 }

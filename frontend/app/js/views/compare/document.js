@@ -14,14 +14,13 @@ const TABS = [
   "contraction",
   "pressure",
   "velocity",
+  "direction",
   "time",
   "histogram",
   "autocorrelation",
   "loops",
 ];
-/** @type {import("../../types.js").Heat[]} */
-const HEATS = ["auto", "start", "own"];
-export const MOST_FILES = 16;
+export const MOST_FILES = 16, MOST_PINS = 6;
 const MOST_STEPS = 40;
 /** Labels of start models: the ideal one, and one that comes with a measurement or drive document. */
 export const IDEAL = "Ideal muscle", PROVIDED = "Start model";
@@ -42,13 +41,17 @@ const defaultCompare = () => ({
   noise: null,
   decisions: { of: "", use: [], keep: [] },
   mystery: null,
-  guided: false,
   tab: "auto",
   over: null,
   channel: null,
-  heat: "auto",
   brush: null,
   before: false,
+  twins: [],
+  tells: [],
+  pins: [],
+  board: false,
+  differing: false,
+  traces: [],
 });
 
 /** @param {unknown} x @returns {x is number} */
@@ -76,21 +79,38 @@ const isFit = (x) =>
 /** @param {unknown} x */
 const isRange = (x) => Array.isArray(x) && x.length === 2 && x.every(isNumber);
 /** @param {unknown} x */
-const isStep = (x) =>
-  isObject(x) && isText(x.label) && isEffects(x.effects) && isTexts(x.freed) && isValues(x.values) &&
-  isFit(x.fit) && (x.rmse === null || isNumber(x.rmse)) && (x.holdout === null || isNumber(x.holdout));
-/** @param {unknown} x */
 const isSaid = (x) => isText(x) || (isObject(x) && isText(x.value) && x.origin === "suggested");
 /** @param {unknown} x */
 const isChosen = (x) =>
   isObject(x) && isText(x.id) && isText(x.name) && ["fit", "validation", "off"].includes(x.use) &&
   (x.experiment === undefined || (isObject(x.experiment) && Object.values(x.experiment).every(isSaid)));
 /** @param {unknown} x */
+const isFiles = (x) => Array.isArray(x) && x.length <= MOST_FILES && x.every(isChosen);
+/** @param {unknown} x */
+const isDecisions = (x) => isObject(x) && isText(x.of) && isTexts(x.use) && isTexts(x.keep);
+/** @param {unknown} x */
+const isError = (x) => x === null || isNumber(x);
+/** @param {unknown} x */
+const isTelling = (x) =>
+  isObject(x) && isTexts(x.pair) && isText(x.declared) && isText(x.protocol) && isError(x.separation) &&
+  isError(x.minutes);
+/** @param {unknown} x */
+const areTellings = (x) => Array.isArray(x) && x.every(isTelling);
+/** @param {unknown} x */
+const isStep = (x) =>
+  isObject(x) && isText(x.label) && isEffects(x.effects) && isTexts(x.freed) && isValues(x.values) &&
+  isFit(x.fit) && isError(x.rmse) && isError(x.holdout) &&
+  (x.context === undefined ||
+    (isObject(x.context) && isFiles(x.context.files) && isDecisions(x.context.decisions))) &&
+  (x.twins === undefined || isTexts(x.twins)) && (x.tells === undefined || areTellings(x.tells));
+/** @param {unknown} x */
+const isPinned = (x) => isStep(x) && isObject(x) && isText(x.name) && isText(x.of);
+/** @param {unknown} x */
 const isBoolean = (x) => typeof x === "boolean";
 
 /** @type {Record<keyof Compare, (x: unknown) => boolean>} */
 const CHECKS = {
-  files: (x) => Array.isArray(x) && x.length <= MOST_FILES && x.every(isChosen),
+  files: isFiles,
   muscle: (x) =>
     isObject(x) && isName(x.preset) && ["braid", "thread", "rhombus"].includes(x.form) && isValues(x.values),
   start: (x) => x === "ideal" || x === "preset",
@@ -99,19 +119,23 @@ const CHECKS = {
   free: isTexts,
   fit: isFit,
   label: isText,
-  holdout: (x) => x === null || isNumber(x),
+  holdout: isError,
   history: (x) => Array.isArray(x) && x.length <= MOST_STEPS && x.every(isStep),
   drive: (x) => x === null || isObject(x),
-  noise: (x) => x === null || isNumber(x),
-  decisions: (x) => isObject(x) && isText(x.of) && isTexts(x.use) && isTexts(x.keep),
+  noise: isError,
+  decisions: isDecisions,
   mystery: isName,
-  guided: isBoolean,
   tab: (x) => TABS.some((one) => one === x),
   over: isName,
   channel: isName,
-  heat: (x) => HEATS.some((one) => one === x),
   brush: (x) => x === null || (isObject(x) && Object.values(x).every(isRange)),
   before: isBoolean,
+  twins: isTexts,
+  tells: areTellings,
+  pins: (x) => Array.isArray(x) && x.length <= MOST_PINS && x.every(isPinned),
+  board: isBoolean,
+  differing: isBoolean,
+  traces: (x) => Array.isArray(x) && x.every((i) => Number.isInteger(i)),
 };
 
 /** Reads the Compare part of a link or file; a missing part takes its default.
@@ -131,6 +155,9 @@ function readCompare(raw) {
 
 addPart("compare", { start: defaultCompare, read: readCompare });
 
+/** What is said of the data now. @param {Compare} c @returns {import("../../types.js").Context} */
+export const contextOf = ({ files, decisions }) => ({ files, decisions });
+
 /** The current model as a step of the history. @param {Compare} c @param {number | null} rmse
  * @param {number | null} holdout @returns {Step} */
 export const stepOf = (c, rmse, holdout) => ({
@@ -141,7 +168,19 @@ export const stepOf = (c, rmse, holdout) => ({
   fit: c.fit,
   rmse,
   holdout: c.holdout ?? holdout,
+  ...(c.twins.length ? { twins: c.twins, tells: c.tells } : {}),
 });
+
+/** The files of now with what a step says of their experiments: files brought or removed since stay so.
+ * @param {Compare["files"]} files @param {import("../../types.js").Context | undefined} context
+ * @returns {Compare["files"]} */
+export const filesOf = (files, context) =>
+  files.map((file) => {
+    const then = context?.files.find((one) => one.id === file.id);
+    if (!then) return file;
+    const { experiment: _now, ...rest } = file;
+    return then.experiment ? { ...rest, experiment: then.experiment } : rest;
+  });
 
 /** The document with the model of a step. @param {Compare} c @param {Step} step
  * @param {Step[]} history @returns {Compare} */
@@ -153,6 +192,10 @@ export const withStep = (c, step, history) => ({
   muscle: { ...c.muscle, values: step.values },
   fit: step.fit,
   holdout: step.holdout,
+  twins: step.twins ?? [],
+  tells: step.tells ?? [],
+  files: filesOf(c.files, step.context),
+  decisions: step.context?.decisions ?? c.decisions,
   history: history.slice(-MOST_STEPS),
   before: false,
 });
@@ -168,7 +211,8 @@ export const withStartModel = (c, start = c.start) => ({
   label: start === "ideal" ? IDEAL : "Effects of the preset",
   holdout: null,
   history: [],
-  heat: "auto",
+  twins: [],
+  tells: [],
   brush: null,
   before: false,
 });

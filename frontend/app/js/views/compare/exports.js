@@ -7,12 +7,12 @@ import { scaleOf, toShown } from "../../format.js";
 import { status } from "../../store.js";
 import { saveSheet } from "../../plots/export.js";
 import { downloadText, fileName, toCsv } from "../../ui/table.js";
-import { answer, compare, files, preset } from "./answers.js";
+import { answer, compare, diagnosis, files, preset } from "./answers.js";
 import { effectValues } from "../../muscle/preset.js";
-import { overlays } from "./error/overlay.js";
-import { allSeries } from "./error/pictures.js";
+import { overlays } from "./where/overlay.js";
+import { allSeries } from "./where/pictures.js";
 import { modelBody, used } from "./request.js";
-import { chart as residual, TITLE } from "./error/residual.js";
+import { chart as residual, TITLE } from "./where/residual.js";
 import { channelScale, titleOf, VARIABLES } from "./words.js";
 
 /** Every point with its residual, in shown units. @param {import("./types.js").Comparison} a
@@ -64,6 +64,26 @@ export const savePlots = (format) =>
       status.value = `The plots could not be saved: ${error.message}`;
     },
   );
+
+/** Saves the model as a file that the command line takes with --model. */
+export function saveModel() {
+  const c = compare.peek(), a = answer.peek();
+  if (!a) return void (status.value = "There is no model to save.");
+  const { muscle, effects, freed = [], free = [], drive } = /** @type {Record<string, any>} */ (modelBody(c));
+  const document = {
+    schema: 1,
+    kind: "model",
+    muscle: muscle ?? drive?.muscle ?? {},
+    effects: effects ?? effectValues(preset.peek()),
+    freed,
+    free,
+    ...(drive ? { drive: { ...drive, effects: effects ?? effectValues(preset.peek()) } } : {}),
+    envelope: diagnosis.peek()?.envelope ?? {},
+    assumed: a.assumptions,
+  };
+  downloadText(fileName("model", "json"), `${JSON.stringify(document, null, 2)}\n`, "application/json");
+  status.value = "The model is saved.";
+}
 
 /** Saves data, model, plots and verdict as one file. */
 export async function saveReport() {

@@ -16,7 +16,7 @@ export const COMPARE_KEYS = [
     keys: "B",
     what: "Compare: switch between the model before and after",
     match: inView("b"),
-    run: async () => (await import("./error/overlay.js")).toggleBefore(),
+    run: async () => (await import("./where/overlay.js")).toggleBefore(),
   },
   {
     keys: "R",
@@ -37,6 +37,11 @@ export const compareExports = () => [
     label: "Report as HTML",
     note: "data, model, plots, verdict",
     run: async () => (await import("./exports.js")).saveReport(),
+  },
+  {
+    label: "Model as JSON",
+    note: "muscle and effects, for --model",
+    run: async () => (await import("./exports.js")).saveModel(),
   },
   {
     label: "Plots as PNG",

@@ -1,99 +1,60 @@
 // @ts-check
-// The page of the Compare & diagnose view: data and model, overlay and residual, error and missing effects.
-import { h, icon } from "../../dom.js";
+// The page of the Compare & diagnose view: one case, from a file to the noise of its data. The strip holds what is
+// known and what comes next; under it plots, map and the list of what is missing.
+import { h } from "../../dom.js";
 import { computed, effect } from "../../reactive.js";
-import { candidatesCard } from "./verdict/candidates.js";
-import { emptyCard, guide } from "./measurement/empty.js";
-import { errorCard } from "./error/card.js";
+import { answer, compare, fault, files, stage, startComparing } from "./answers.js";
+import { boardCard } from "./board/card.js";
+import { ladderCard } from "./ladder.js";
+import { listCard } from "./list/card.js";
+import { followSketches } from "./list/sketch.js";
+import { complaintNotices, measurementsCard } from "./measurement/card.js";
 import { dropping } from "./measurement/drop.js";
+import { emptyCard } from "./measurement/empty.js";
 import { followFiles } from "./measurement/files.js";
-import { whereCard } from "./error/heat.js";
-import { measurementsCard } from "./measurement/card.js";
-import { faultNotice, goToField } from "../../ui/fault.js";
-import {
-  again,
-  answer,
-  chosen,
-  diagnosis,
-  fault,
-  faultField,
-  files,
-  stage,
-  startComparing,
-} from "./answers.js";
-import { modelCard } from "./model/card.js";
 import { fetchMysteries, mysteryCard } from "./measurement/mysteries.js";
-import { overlayCards } from "./error/overlay.js";
-import { pathCard } from "./error/path.js";
-import { residualCard } from "./error/residual.js";
+import { modelCard } from "./model/card.js";
 import { rigCard } from "./model/rig.js";
 import { setupCard } from "./model/setup.js";
-import { unknownCard } from "./verdict/unknown.js";
-import { verdictCard } from "./verdict/card.js";
+import { followPins } from "./pinned.js";
+import { setupPanel } from "./setup-panel.js";
+import { caseCard, strip } from "./strip/strip.js";
+import { takeCard } from "./take.js";
+import { whereCard } from "./where/heat.js";
+import { overlayCards } from "./where/overlay.js";
+import { residualCard } from "./where/residual.js";
 
-/** The field of the page for a path of the request. @param {string} path */
-const keyOf = (path) => path.replace(/^(muscle|effects)\./, "compare.").replace(/^drive\./, "rig.");
-
-function notice() {
-  const error = fault.value, field = faultField();
-  if (!error) return null;
-  const kept = answer.value ? " The plots show the last valid comparison." : "";
-  return faultNotice(`${error.words}${kept}`, {
-    goTo: field === null || field.includes("measurement")
-      ? null
-      : () => goToField(keyOf(field), ".compare") || goToField("compare-preset"),
-    retry: again,
-  });
-}
+/** Why the newest comparison failed, in full: the strip has room for a line. */
+const faultWords = () =>
+  fault.value
+    ? h(
+      "p",
+      { class: "notice bad", role: "alert" },
+      `${fault.value.words}${answer.value ? " The plots show the last valid comparison." : ""}`,
+    )
+    : null;
 
 export function comparePage() {
   const empty = computed(() => files.value.length === 0);
-  const idle = computed(() => !empty.value && !chosen.value.some((f) => f.use === "fit"));
-  const results = h(
-    "div",
-    { class: "column results", hidden: () => empty.value },
-    errorCard(),
-    verdictCard(),
-    h("div", { class: "column" }, mysteryCard),
-    // Missing effects of the catalogue come first.
-    h(
-      "div",
-      { class: () => `column${diagnosis.value?.verdict.effects.length ? " after" : ""}` },
-      unknownCard(),
-    ),
-    candidatesCard(),
-  );
   const page = h(
     "div",
     { class: () => `compare${empty.value ? " is-empty" : ""}` },
+    strip(),
+    setupPanel(measurementsCard(), setupCard(), h("div", { class: "column" }, rigCard)),
+    h("div", { class: "case-notices" }, complaintNotices, faultWords),
+    h("div", { class: "case-start", hidden: () => !empty.value }, emptyCard()),
     h(
       "div",
-      { class: "column inputs" },
-      measurementsCard(),
-      setupCard(),
-      h("div", { class: "column" }, rigCard),
-      h("div", { hidden: () => empty.value }, modelCard()),
+      { class: () => `case-body${compare.value.board ? " is-board" : ""}`, hidden: () => empty.value },
+      caseCard(),
+      h("div", { class: "area-over" }, overlayCards()),
+      h("div", { class: "area-where" }, whereCard()),
+      h("div", { class: "area-list" }, mysteryCard, listCard()),
+      h("div", { class: "area-residual" }, residualCard()),
+      h("div", { class: "area-ladder" }, ladderCard()),
+      h("div", { class: "area-take" }, takeCard(), modelCard()),
+      h("div", { class: "area-board" }, boardCard()),
     ),
-    h("div", { class: "column plots", hidden: () => !empty.value }, emptyCard()),
-    h(
-      "div",
-      { class: "column plots", hidden: () => empty.value },
-      guide,
-      notice,
-      () =>
-        idle.value
-          ? h(
-            "p",
-            { class: "notice" },
-            icon("info"),
-            h("span", null, "No file is used for the fit. Set one of them to “Fit”."),
-          )
-          : null,
-      overlayCards(),
-      residualCard(),
-      h("div", { class: "pair-row" }, whereCard(), pathCard()),
-    ),
-    results,
     h(
       "div",
       { class: "drop-here", hidden: () => !dropping.value },
@@ -102,6 +63,8 @@ export function comparePage() {
   );
   followFiles();
   startComparing();
+  followSketches();
+  followPins();
   fetchMysteries();
   effect(() => {
     document.documentElement.dataset.diagnosis = stage.value;

@@ -1,11 +1,13 @@
 // @ts-check
 // Requests of this view, from the document. Pure functions.
+import { filesOf } from "./document.js";
 import { muscleInput } from "../../muscle/document.js";
 
 /** @typedef {import("../../types.js").Compare} Compare */
 /** @typedef {import("../../types.js").Step} Step */
+/** What a request needs of a step. @typedef {Pick<Step, "effects" | "freed" | "values" | "context">} Asked */
 
-/** The files that are not switched off. @param {Compare} c */
+/** The files that are not switched off. @param {Pick<Compare, "files">} c */
 export const used = (c) => c.files.filter((file) => file.use !== "off");
 
 /** What is said of an experiment, as requests take it: the accuracies of the channels in one text.
@@ -23,18 +25,20 @@ function experimentInput(experiment) {
 }
 
 /** The decisions about entries of the present files; those about other files do not count.
- * @param {Compare} c @returns {import("../../types.js").Decisions} */
+ * @param {Pick<Compare, "files" | "decisions">} c @returns {import("../../types.js").Decisions} */
 export const decided = (c) =>
   c.decisions.of === used(c).map((file) => file.id).join() ? c.decisions : { of: "", use: [], keep: [] };
 
 /** Data and model as every request of this view takes them; the model is the current one or a step of the history.
- * @param {Compare} c @param {Pick<Step, "effects" | "freed" | "values">} [model] */
+ * @param {Compare} c @param {Asked} [model] */
 export function modelBody(c, model = { effects: c.effects, freed: c.freed, values: c.muscle.values }) {
-  const muscle = muscleInput({ ...c.muscle, values: model.values }), decisions = decided(c);
+  const files = filesOf(c.files, model.context), taken = model.context?.decisions ?? c.decisions;
+  const muscle = muscleInput({ ...c.muscle, values: model.values }),
+    decisions = decided({ files, decisions: taken });
   return {
     ...(c.drive ? { drive: { schema: 1, ...c.drive, muscle } } : { muscle }),
     effects: model.effects,
-    measurements: used(c).map(({ id, use, experiment }) => ({
+    measurements: used({ files }).map(({ id, use, experiment }) => ({
       id,
       use,
       ...(experiment ? { experiment: experimentInput(experiment) } : {}),
@@ -47,8 +51,7 @@ export function modelBody(c, model = { effects: c.effects, freed: c.freed, value
   };
 }
 
-/** The request as text; null: there is no file to fit to.
- * @param {Compare} c @param {Pick<Step, "effects" | "freed" | "values">} [model] */
+/** The request as text; null: there is no file to fit to. @param {Compare} c @param {Asked} [model] */
 export const keyOf = (c, model) =>
   used(c).some((file) => file.use === "fit") ? JSON.stringify(modelBody(c, model)) : null;
 

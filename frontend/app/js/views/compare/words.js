@@ -52,9 +52,10 @@ export function errorText(si, unit, channel, system, withUnit = true) {
 /** Variables the residual is shown over, by their name in answers.
  * @type {Record<string, {title: string, quantity: Quantity, of: (s: Series) => (number | null)[] | null}>} */
 export const VARIABLES = {
-  contraction: { title: "Contraction", quantity: "ratio", of: (s) => s.contraction },
+  contraction: { title: "Contraction ε", quantity: "ratio", of: (s) => s.contraction },
   pressure: { title: "Pressure", quantity: "pressure", of: (s) => s.x_pressure },
-  velocity: { title: "Velocity", quantity: "speed", of: (s) => s.velocity },
+  velocity: { title: "Velocity", quantity: "sweep", of: (s) => s.velocity },
+  direction: { title: "Direction", quantity: "number", of: (s) => s.direction },
   time: { title: "Time", quantity: "time", of: (s) => s.time },
   length: { title: "Length", quantity: "length", of: (s) => s.length },
 };
@@ -80,8 +81,10 @@ export function rangeText(name, [from, to], system) {
   const v = VARIABLES[name];
   if (!v) return "";
   const s = scaleOf(v.quantity, system);
-  const asText = (/** @type {number} */ si) => number(toShown(si, s), 2);
-  return `${v.title.toLowerCase()} ${asText(from)} to ${asText(to)} ${s.unit}`.trim();
+  const asText = (/** @type {number} */ si) => number(toShown(si, s), s.unit === "%" ? 1 : 2);
+  const low = asText(from), high = asText(to);
+  const shownName = name === "contraction" ? "ε" : v.title.toLowerCase();
+  return `${shownName} ${low === high ? low : `${low} to ${high}`} ${s.unit}`.trim();
 }
 
 /** @param {Series} s @param {number} i @param {import("../../types.js").Brush | null} brush */
@@ -137,6 +140,36 @@ export function figures(x, digits) {
   const raised = [...String(Number(power))].map((c) => c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]).join("");
   return `${lead.replace("-", "−")}·10${raised}`;
 }
+
+/** The scale of a parameter. @param {{unit: string, name: string}} p @param {System} system */
+export function parameterScale({ unit, name }, system) {
+  const quantity = quantityOf(unit, name);
+  return quantity ? scaleOf(quantity, system) : plainScale(unit);
+}
+
+/** Smaller than this share of a value, a standard error says nothing: the value is exact. */
+const EXACT = 1e-9;
+
+/** "0.2183 ± 0.0021 N/mm²": to the digit that the standard error allows.
+ * @param {number} si @param {number | null} stderr @param {import("../../format.js").Scale} s */
+export function measuredText(si, stderr, s) {
+  const value = toShown(si, s), sigma = stderr === null ? 0 : stderr / s.factor;
+  const unit = s.unit ? `\u00a0${s.unit}` : "";
+  if (!(sigma > EXACT * Math.max(Math.abs(value), 1e-6))) return `${figures(value, 4)}${unit}`;
+  const places = 1 - Math.floor(Math.log10(sigma));
+  if (places > 6) return `${figures(value, 4)}${unit}`;
+  const fixed = (/** @type {number} */ x) => {
+    if (places < 0) return String(Math.round(x / 10 ** -places) * 10 ** -places);
+    return x.toFixed(places);
+  };
+  return `${fixed(value).replace("-", "−")} ± ${fixed(sigma)}${unit}`;
+}
+
+/** A standard error with two digits, "" where it says nothing. @param {number} sigma in shown units */
+export const sigmaText = (sigma) => {
+  const places = sigma > 0 ? 1 - Math.floor(Math.log10(sigma)) : 99;
+  return places > 7 ? "" : `± ${places < 0 ? Math.round(sigma) : sigma.toFixed(places)}`;
+};
 
 /** "−41 %" @param {number} percent */
 export const signed = (percent) =>

@@ -136,6 +136,17 @@ function leftOut() {
   return h("p", { class: "muted" }, `Compared: ${a.rows_used} of ${a.rows} rows${why}.`);
 }
 
+/** What is wrong with files that were brought. */
+export const complaintNotices = () =>
+  complaints.value.map(({ name, words }) =>
+    h(
+      "p",
+      { class: "flag bad", role: "alert" },
+      icon("warn"),
+      h("span", null, h("b", null, name), `: ${words}`),
+    )
+  );
+
 export function measurementsCard() {
   const input = h("input", {
     type: "file",
@@ -165,15 +176,6 @@ export function measurementsCard() {
       ),
       h("small", null, "CSV, JSON, .xlsx, .mat, .h5, .tdms"),
     ),
-    () =>
-      complaints.value.map(({ name, words }) =>
-        h(
-          "p",
-          { class: "flag bad", role: "alert" },
-          icon("warn"),
-          h("span", null, h("b", null, name), `: ${words}`),
-        )
-      ),
     () => files.value.length ? h("ul", { class: "files" }, ...files.value.map(fileRow)) : null,
     leftOut,
   );

@@ -3,7 +3,7 @@
 import { computed, effect, signal } from "../../../reactive.js";
 import { doc, edit, view } from "../../../state.js";
 import { ApiError } from "../../../server/client.js";
-import { muscles, references } from "../../../store.js";
+import { muscles, references, status } from "../../../store.js";
 import { MOST_FILES, withStartModel } from "../document.js";
 import { driveFor, needsDrive, startOf } from "../drive-document.js";
 import { compare, editCompare, files } from "../answers.js";
@@ -60,6 +60,8 @@ export async function addFiles(list) {
     ...d,
     compare: kept.reduce((c, one) => withFile(c, one, null), d.compare),
   }), kept.length > 1 ? `${kept.length} measurements` : `measurement ${names}`);
+  const like = read.find((one) => one.kept)?.kept;
+  if (like) status.value = `Read like ${like.name}; the panel of files can undo that.`;
 }
 
 /** Imports a file of this session again, with its answers. @param {string} id
@@ -144,7 +146,7 @@ function withFile(c, { info, experiment }, instead) {
   const files = [...kept, added].slice(0, MOST_FILES);
   if (kept.length) return { ...c, files, muscle: withOneLength(c.muscle, files) };
   const drive = needsDrive(info) ? driveFor(doc.peek().transient.drive, conditions) : null;
-  return { ...withStartModel(c), files, muscle, drive, mystery: null, guided: false };
+  return { ...withStartModel(c), files, muscle, drive, mystery: null };
 }
 
 /** The muscle a file names, if there is no preset for it.
@@ -154,8 +156,8 @@ export function unknownMuscle(info) {
   return typeof name === "string" && !presetNamed(muscles.value, name) ? name : null;
 }
 
-/** Opens a measurement that comes with the program. @param {string} id @param {boolean} [guided] */
-export function openBuiltIn(id, guided = false) {
+/** Opens a measurement that comes with the program. @param {string} id */
+export function openBuiltIn(id) {
   const preset = references.peek().find((r) => r.id === id);
   if (!preset) return;
   complaints.value = [];
@@ -176,7 +178,6 @@ export function openBuiltIn(id, guided = false) {
       muscle,
       drive: null,
       mystery: null,
-      guided,
     },
   }), `measurement ${preset.title}`);
 }
@@ -199,7 +200,7 @@ export function removeFile(id) {
   if (left.length) return editCompare({ files: left }, `remove ${file?.name}`);
   edit((d) => ({
     ...d,
-    compare: { ...withStartModel(d.compare), files: [], drive: null, mystery: null, guided: false },
+    compare: { ...withStartModel(d.compare), files: [], drive: null, mystery: null },
   }), `remove ${file?.name}`);
 }
 

@@ -45,7 +45,6 @@ function openMystery(m) {
         )
         : null,
       mystery: m.id,
-      guided: false,
     },
   }), `mystery ${m.title}`);
 }

@@ -20,7 +20,7 @@ import { answer, compare, diagnosis, messageFor, patchCompare, preset } from "..
 import { fitOf } from "../document.js";
 import { effectValues } from "../../../muscle/preset.js";
 import { newTerm } from "./own-term.js";
-import { figures, FORMULA, OWN_TERM, titleOf } from "../words.js";
+import { FORMULA, OWN_TERM, sigmaText, titleOf } from "../words.js";
 
 /** What a field needs of a parameter.
  * @typedef {Pick<import("../../../types.js").Parameter,
@@ -51,7 +51,7 @@ function range(id, p) {
   return h(
     "p",
     { class: "hint" },
-    fit?.stderr == null ? "" : `± ${figures(fit.stderr / s.factor, 2)} · `,
+    fit?.stderr == null ? "" : `${sigmaText(fit.stderr / s.factor)} · `.replace(/^ · $/, ""),
     bounds,
     fit?.at_bound ? h("span", { class: "at-bound" }, " · at its bound") : null,
   );

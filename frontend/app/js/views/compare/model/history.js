@@ -4,15 +4,14 @@ import { signal } from "../../../reactive.js";
 import { edit } from "../../../state.js";
 import { ApiError } from "../../../server/client.js";
 import { status } from "../../../store.js";
-import { ahead, answer, compare, diagnosis, fitWith, preset } from "../answers.js";
-import { fitOf, stepOf, withStep } from "../document.js";
+import { answer, compare, diagnosis, fitWith, preset, preview } from "../answers.js";
+import { contextOf, fitOf, stepOf, withStep } from "../document.js";
 import { keyOf, valuesOf } from "../request.js";
 import { effectValues } from "../../../muscle/preset.js";
 import { OWN_TERM, titleOf } from "../words.js";
 
 /** @typedef {import("../../../types.js").Compare} Compare */
 /** @typedef {import("../../../types.js").Step} Step */
-/** @typedef {import("../types.js").Candidate} Candidate */
 /** @typedef {import("../types.js").Comparison} Comparison */
 /** @typedef {import("../../../types.js").Effects} Effects */
 /** @typedef {import("../types.js").Model} Model */
@@ -24,48 +23,23 @@ export const fitting = signal(false);
 export const here = () =>
   stepOf(compare.value, answer.value?.rmse ?? null, diagnosis.value?.baseline.holdout_rmse ?? null);
 
+/** The models so far, the current one last. */
+export const models = () => [...compare.value.history, here()];
+
 /** The geometry with the values of a fit. @param {Model} model */
-const geometryOf = (model) => ({ ...compare.peek().muscle.values, ...valuesOf(model.muscle) });
+export const geometryOf = (model) => ({ ...compare.peek().muscle.values, ...valuesOf(model.muscle) });
+
+/** The effects of the model of now, with their values. */
+export const effectsNow = () => compare.peek().effects ?? effectValues(preset.peek());
 
 /** @param {Step[]} added steps after the current one; the last is the new model @param {string} label */
-function go(added, label) {
-  const all = [...compare.peek().history, here(), ...added];
-  const last = /** @type {Step} */ (all.pop());
-  edit((d) => ({ ...d, compare: withStep(d.compare, last, all) }), label);
-}
+export const go = (added, label) => replace([...compare.peek().history, here(), ...added], label);
 
-/** @param {Candidate} c */
-export function add(c) {
-  const title = titleOf(c.effect);
-  go([{
-    label: `+ ${title}`,
-    effects: c.model.effects,
-    freed: c.freed,
-    values: geometryOf(c.model),
-    fit: fitOf({ [c.effect]: c.parameters }),
-    rmse: c.rmse,
-    holdout: c.holdout_rmse,
-  }], `add ${title}`);
-}
-
-/** Adds every effect the diagnosis found missing, in one undo step. */
-export function addAll() {
-  const result = diagnosis.peek();
-  const path = ahead.peek();
-  if (!result || !path.length) return;
-  const names = path.map((s) => s.added ? titleOf(s.added) : "Values fitted");
-  go(
-    path.map((s, i) => ({
-      label: `+ ${names[i]}`,
-      effects: s.model.effects,
-      freed: s.freed,
-      values: geometryOf(s.model),
-      fit: i === path.length - 1 ? fitOf(result.parameters) : {},
-      rmse: s.rmse,
-      holdout: s.holdout_rmse,
-    })),
-    path.length === 1 ? `add ${names[0]}` : `add ${path.length} effects`,
-  );
+/** @param {Step[]} all the models, of which the last becomes the current one @param {string} label */
+export function replace(all, label) {
+  const history = [...all], last = /** @type {Step} */ (history.pop());
+  preview(null);
+  edit((d) => ({ ...d, compare: withStep(d.compare, last, history) }), label);
 }
 
 /** Adds a model with a formula of the user. @param {Model} model @param {string} label */
@@ -91,74 +65,98 @@ const fittedValues = (effects, got) =>
 
 const MOST_FITS = 4;
 
-/** Fits the parameters of a model and makes it the current one.
- * @param {Effects | null} effects @param {string} label of the undo step @param {string} step of the history
+/** A model with its parameters fitted; null: the document has changed meanwhile, or there is nothing to fit to.
+ * @param {Pick<Step, "label" | "effects" | "freed" | "values" | "context">} model @returns {Promise<Step | null>}
  * @throws {ApiError} why the server cannot fit it */
-export async function takeFitted(effects, label, step) {
-  const c = compare.peek();
-  const freed = effects === null ? c.freed : c.freed.filter((name) => name.split(".")[0] in effects);
-  const start = { freed, values: c.muscle.values };
-  if (!keyOf(c, { effects, ...start })) return;
+export async function fittedStep(model) {
+  const c = compare.peek(), { effects } = model;
+  const freed = effects === null ? model.freed : model.freed.filter((name) => name.split(".")[0] in effects);
+  if (!keyOf(c, { ...model, freed })) return null;
+  let values = effects, tries = 0, atBound = true;
+  let got = /** @type {Comparison | null} */ (null);
+  // The bounds of the constants of a formula depend on their start values: at a bound, the fit is continued.
+  while (atBound && tries++ < MOST_FITS) {
+    got = await fitWith(keyOf(c, { ...model, effects: values, freed }) ?? "");
+    if (compare.peek() !== c && keyOf(compare.peek()) !== keyOf(c)) return null;
+    values = fittedValues(values ?? {}, got);
+    atBound = Object.values(got.parameters[OWN_TERM] ?? {}).some((p) => p.at_bound);
+  }
+  if (!got) return null;
+  const free = Object.fromEntries(
+    Object.entries(valuesOf(got.geometry)).filter(([name]) => c.free.includes(name)),
+  );
+  return {
+    ...model,
+    effects: values,
+    freed,
+    values: { ...model.values, ...free },
+    fit: fitOf(got.parameters),
+    rmse: got.rmse,
+    holdout: got.holdout_rmse,
+  };
+}
+
+/** Runs a change that asks the server for fits; a failure is shown in the status line.
+ * @param {() => Promise<void>} change */
+export async function whileFitting(change) {
+  if (fitting.peek()) return;
   fitting.value = true;
   try {
-    let values = effects, tries = 0, atBound = true;
-    let got = /** @type {Comparison | null} */ (null);
-    // The bounds of the constants of a formula depend on their start values: at a bound, the fit is continued.
-    while (atBound && tries++ < MOST_FITS) {
-      got = await fitWith(keyOf(c, { effects: values, ...start }) ?? "");
-      if (compare.peek() !== c && keyOf(compare.peek()) !== keyOf(c)) return;
-      values = fittedValues(values ?? {}, got);
-      atBound = Object.values(got.parameters[OWN_TERM] ?? {}).some((p) => p.at_bound);
-    }
-    if (!got) return;
-    const free = Object.fromEntries(
-      Object.entries(valuesOf(got.geometry)).filter(([name]) => c.free.includes(name)),
-    );
-    go([{
-      label: step,
-      effects: values,
-      freed,
-      values: { ...c.muscle.values, ...free },
-      fit: fitOf(got.parameters),
-      rmse: got.rmse,
-      holdout: got.holdout_rmse,
-    }], label);
+    await change();
+  } catch (error) {
+    if (!(error instanceof ApiError)) throw error;
+    status.value = `The fit did not succeed: ${error.words}`;
   } finally {
     fitting.value = false;
   }
 }
 
-/** Like takeFitted; a failure is shown in the status line.
- * @param {Effects | null} effects @param {string} label @param {string} step */
-async function fitted(effects, label, step) {
+/** The current model with other effects. @param {Effects | null} effects @param {string} label */
+const modelWith = (effects, label) => {
+  const c = compare.peek();
+  return { label, effects, freed: c.freed, values: c.muscle.values };
+};
+
+/** Fits the parameters of a model and makes it the current one.
+ * @param {Effects | null} effects @param {string} label of the undo step @param {string} step of the history
+ * @param {Partial<Step>} [more] @throws {ApiError} why the server cannot fit it */
+export async function takeFitted(effects, label, step, more = {}) {
+  fitting.value = true;
   try {
-    await takeFitted(effects, label, step);
-  } catch (error) {
-    if (!(error instanceof ApiError)) throw error;
-    status.value = `The fit did not succeed: ${error.words}`;
+    const got = await fittedStep(modelWith(effects, step));
+    if (got) go([{ ...got, ...more }], label);
+  } finally {
+    fitting.value = false;
   }
 }
 
 /** Fits every parameter of the model again. */
-export const refit = () => fitted(compare.peek().effects, "refit", "Refit");
+export const refit = () =>
+  whileFitting(async () => {
+    const got = await fittedStep(modelWith(compare.peek().effects, "Refit"));
+    if (got) go([got], "refit");
+  });
 export const refitByKey = () => {
   if (answer.peek() && !fitting.peek()) refit();
 };
 
 /** Removes an effect and fits the others again. @param {string} id */
-export function remove(id) {
-  const title = titleOf(id);
-  const all = compare.peek().effects ?? effectValues(preset.peek());
-  const effects = Object.fromEntries(Object.entries(all).filter(([name]) => name !== id));
-  return fitted(effects, `remove ${title}`, `− ${title}`);
-}
+export const remove = (id) =>
+  whileFitting(async () => {
+    const title = titleOf(id);
+    const effects = Object.fromEntries(Object.entries(effectsNow()).filter(([name]) => name !== id));
+    const got = await fittedStep(modelWith(effects, `− ${title}`));
+    if (got) go([got], `remove ${title}`);
+  });
 
 /** Goes back to a model of the history and removes the later ones; undo brings them back. @param {number} index */
 export function goBack(index) {
   const { history } = compare.peek();
-  const step = history[index];
-  edit(
-    (d) => ({ ...d, compare: withStep(d.compare, step, history.slice(0, index)) }),
-    `back to ${step.label}`,
-  );
+  replace(history.slice(0, index + 1), `back to ${history[index].label}`);
 }
+
+/** The models so far, each with what is said of the data now: for a change of that. @returns {Step[]} */
+export const stamped = () => {
+  const context = contextOf(compare.peek());
+  return models().map((step) => ({ ...step, context: step.context ?? context }));
+};

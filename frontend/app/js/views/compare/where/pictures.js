@@ -2,8 +2,8 @@
 // What the plots are drawn from: the comparison shown, by channel.
 import { computed } from "../../../reactive.js";
 import { units } from "../../../state.js";
-import { answer, brush, chosen, compare, isBefore, previous, shown, tab } from "../answers.js";
-import { usualOver } from "./specs.js";
+import { answer, brush, chosen, compare, isBefore, previewLabel, previous, shown, tab } from "../answers.js";
+import { pinned } from "../pinned.js";
 import { VARIABLES, varies } from "../words.js";
 
 /** @typedef {import("../types.js").Comparison} Comparison */
@@ -21,7 +21,7 @@ const channelsOf = (a) => [...new Set(allSeries(a).map((s) => s.channel ?? a.pre
 const ofChannel = (a, channel) => allSeries(a).filter((s) => (s.channel ?? a.predicted) === channel);
 
 /** Noise of one channel [SI]. @param {Comparison} a @param {string} channel */
-function noiseOf(a, channel) {
+export function noiseOf(a, channel) {
   const floor = a.channels?.[channel]?.noise_floor;
   return floor ?? (a.channels && Object.keys(a.channels).length ? null : a.noise_floor);
 }
@@ -39,9 +39,16 @@ export const variables = computed(() => {
   return a ? Object.keys(VARIABLES).filter((name) => varies(allSeries(a), name)) : [];
 });
 
+/** The x variable of the overlay for a kind of test. @param {string} kind */
+const usualOver = (kind) =>
+  kind === "transient" ? "time" : kind === "isometric" || kind === "isotonic" ? "pressure" : "contraction";
+
+/** Variables that the overlay can be drawn over. */
+export const across = computed(() => variables.value.filter((name) => name !== "direction"));
+
 /** The x variable of the overlay. */
 export const over = computed(() => {
-  const all = variables.value, wanted = compare.value.over;
+  const all = across.value, wanted = compare.value.over;
   if (wanted && all.includes(wanted)) return wanted;
   const usual = usualOver(shown.value?.kind ?? "");
   return all.includes(usual) ? usual : all[0] ?? usual;
@@ -64,10 +71,11 @@ export function viewOf(name, x) {
   const a = shown.value;
   if (!a) return null;
   const series = ofChannel(a, name);
-  const other = isBefore.value ? answer.value : previous.value;
+  const other = isBefore.value || previewLabel.value ? answer.value : previous.value;
   return {
     series,
     ghost: other ? ofChannel(other, name) : [],
+    pinned: pinned.value.map((one) => ({ name: one.name, series: ofChannel(one.comparison, name) })),
     channel: name,
     unit: series[0]?.unit ?? a.unit,
     over: x,

@@ -14,7 +14,9 @@ import { brushLayer } from "./brush-layer.js";
 import { brush, lookCompare, shown, stale } from "../answers.js";
 import { channel, channels, residualOver, residuals, variables, viewOf } from "./pictures.js";
 import { autocorrelation, histogram, loops } from "./leftover.js";
-import { residualSpec } from "./specs.js";
+import { partsBar } from "./parts.js";
+import { scale } from "./scale.js";
+import { residualSpec } from "./residual-spec.js";
 import { errorText, rangeText, rmsInside, VARIABLES } from "../words.js";
 
 /** @typedef {import("../../../types.js").Tab} Tab */
@@ -22,10 +24,11 @@ import { errorText, rangeText, rmsInside, VARIABLES } from "../words.js";
 
 /** @type {[Tab, string, string][]} */
 const TABS = [
-  ["contraction", "κ", "Residual over contraction"],
-  ["pressure", "p", "Residual over pressure"],
-  ["velocity", "v", "Residual over velocity"],
-  ["time", "t", "Residual over time"],
+  ["contraction", "ε", "Residual over contraction"],
+  ["pressure", "Pressure", "Residual over pressure"],
+  ["direction", "Direction", "Residual over direction"],
+  ["velocity", "Speed", "Residual over velocity"],
+  ["time", "Time", "Residual over time"],
   ["histogram", "Histogram", "How often each size of residual occurs"],
   ["autocorrelation", "Autocorrelation", "Autocorrelation of the residual"],
   ["loops", "Loops", "Area of each loop of the residual"],
@@ -40,20 +43,21 @@ const host = h("div", {
 export const chart = new Chart(host, "compare-residual");
 export const TITLE = "Residual: measured − model";
 
-const scale = () => {
+/** The scale of the x axis. */
+const across = () => {
   const v = VARIABLES[residualOver.peek()];
   return v ? scaleOf(v.quantity, units.peek()) : null;
 };
 
 /** @returns {[number, number] | null} the brush in shown units */
 function brushed() {
-  const range = brush.peek()?.[residualOver.peek()], s = scale();
+  const range = brush.peek()?.[residualOver.peek()], s = across();
   return range && s ? [toShown(range[0], s), toShown(range[1], s)] : null;
 }
 
 /** @param {[number, number] | null} range */
 function setBrush(range) {
-  const s = scale();
+  const s = across();
   if (!range) return lookCompare({ brush: null });
   if (!s || !(range[1] > range[0])) return;
   const si = range.map((x) => Number(toSi(x, s).toPrecision(6)));
@@ -135,16 +139,16 @@ export function residualCard() {
   const place = brushLayer(chart, {
     get: brushed,
     set: setBrush,
-    usable: () => residualOver.peek() in VARIABLES,
-    text: (x) => `${number(x, 2)} ${scale()?.unit ?? ""}`,
+    usable: () => residualOver.peek() in VARIABLES && residualOver.peek() !== "direction",
+    text: (x) => `${number(x, 2)} ${across()?.unit ?? ""}`,
   });
   effect(() => {
     palette.value;
     const all = whole.value, x = residualOver.value;
-    const v = all ? null : viewOf(channel.value, x);
+    const v = all ? null : viewOf(channel.value, x), fixed = scale.value;
     if (!plotlyReady.value || view.value !== "compare") return;
     if (all?.spec) chart.show(all.spec);
-    else if (v) chart.show((p) => residualSpec(v, p));
+    else if (v && fixed && x in VARIABLES) chart.show((p) => residualSpec(v, p, fixed));
     apart(place);
   });
   return h(
@@ -153,7 +157,11 @@ export function residualCard() {
     h(
       "div",
       { class: "card-head" },
-      h("h2", null, TITLE),
+      h(
+        "h2",
+        { title: "On the scale of the first model: linear inside the noise, logarithmic outside" },
+        TITLE,
+      ),
       channelChoice,
       tabs,
       menuButton({
@@ -165,5 +173,6 @@ export function residualCard() {
     ),
     h("p", { class: "brush-line", role: "status" }, inside),
     h("div", { hidden: () => whole.value !== null && whole.value.spec === null }, host),
+    partsBar(),
   );
 }

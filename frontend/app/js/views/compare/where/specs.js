@@ -1,5 +1,5 @@
 // @ts-check
-// What the plots show: measured points, model lines, residuals with the band of the noise.
+// What the overlay shows: measured points and model lines.
 import { axisTitle, extent, shown, steadyRange, steadyX } from "../../../plots/axes.js";
 import { capitalized, number, scaleOf, toShown } from "../../../format.js";
 import { pressureColour } from "../../../plots/theme.js";
@@ -11,13 +11,11 @@ import { channelScale, column, isInside, VARIABLES } from "../words.js";
 /** @typedef {import("../../../format.js").System} System */
 /** @typedef {import("../types.js").Series} Series */
 /** @typedef {import("../../../types.js").Brush} Brush */
-/** `ghost`: the series of the other one of the models before and after; `picture`: changes with the data.
- * @typedef {{series: Series[], ghost: Series[], channel: string, unit: string, over: string, system: System,
- *   brush: Brush | null, noise: number | null, picture: string}} View */
-
-/** The x variable of the overlay for a kind of test. @param {string} kind */
-export const usualOver = (kind) =>
-  kind === "transient" ? "time" : kind === "isometric" || kind === "isotonic" ? "pressure" : "contraction";
+/** `ghost`: the series of the model one step before; `pinned`: those of models of the board; `picture`: changes
+ * with the data.
+ * @typedef {{series: Series[], ghost: Series[], pinned: {name: string, series: Series[]}[], channel: string,
+ *   unit: string, over: string, system: System, brush: Brush | null, noise: number | null,
+ *   picture: string}} View */
 
 /** A single series without a pressure: data and model then have different colours.
  * @param {Series[]} series */
@@ -62,8 +60,11 @@ const isScattered = (s, over) =>
 /** A range with room for the points at its ends. @param {[number, number]} range @returns {[number, number]} */
 export const padded = ([low, high]) => [low - 0.015 * (high - low), high + 0.015 * (high - low)];
 
+/** How the lines of pinned models are told apart. */
+export const PIN_DASHES = ["dot", "dashdot", "longdash", "dash", "longdashdot", "5px,2px"];
+
 /** More points than this are drawn small and faint, because they would hide the model. */
-const MANY = 300;
+export const MANY = 300;
 
 /** The colour half transparent. @param {string} color "rgb(…)" */
 const faint = (color) => color.replace("rgb(", "rgba(").replace(")", ",0.5)");
@@ -88,6 +89,16 @@ export function overlaySpec(v, p) {
       column: "other model",
     });
   }
+  v.pinned.forEach(({ name, series }, i) => {
+    const lines = series.map((one) => pieces(one, v.over, () => true));
+    traces.push({
+      id: `pin${i}`,
+      x: x(lines.flatMap((line) => [...line.x, null])),
+      y: y(lines.flatMap((line) => [...line.y, null])),
+      line: { color: p.second, width: 1.6, dash: PIN_DASHES[i % PIN_DASHES.length] },
+      column: name,
+    });
+  });
   traces.push(points(v, p, tints, x, y));
   v.series.forEach((one, i) => {
     if (isScattered(one, v.over)) {
@@ -131,13 +142,45 @@ export function overlaySpec(v, p) {
     traces,
     zones: brushZone(v),
     revision: `${v.picture}${v.over}${system}`,
+    ...names(v, tints, x, y),
     table: table(v, ["measured", "predicted"]),
+  };
+}
+
+/** Lines whose ends are this share of the axis apart end together. */
+const TOGETHER = 0.2;
+
+/** The pressure of each line: at the right ends where they end together, else where they begin.
+ * @param {View} v @param {string[]} tints @param {(values: (number | null)[]) => (number | null)[]} x
+ * @param {(values: (number | null)[]) => (number | null)[]} y
+ * @returns {Pick<Spec, "room" | "labels">} */
+function names(v, tints, x, y) {
+  const isNamed = v.over !== "time" && v.series.length > 1 &&
+    v.series.every((s) => s.pressure !== null && s.use !== "validation");
+  if (!isNamed) return {};
+  const ends = v.series.flatMap((s, i) => {
+    const across = x(column(s, v.over)), up = y(s.predicted);
+    const rows = [...across.keys()].filter((k) => across[k] !== null && up[k] !== null)
+      .sort((a, b) => (across[a] ?? 0) - (across[b] ?? 0));
+    const at = (/** @type {number | undefined} */ k) =>
+      k === undefined ? null : { x: across[k] ?? 0, y: up[k] ?? 0 };
+    const start = at(rows[0]), end = at(rows.at(-1));
+    return start && end
+      ? [{ start, end, text: pressureText(s.pressure ?? 0, v.system), color: tints[i] }]
+      : [];
+  });
+  const all = ends.flatMap((e) => [e.start.x, e.end.x]), right = ends.map((e) => e.end.x);
+  const span = Math.max(...all) - Math.min(...all);
+  const together = Math.max(...right) - Math.min(...right) <= TOGETHER * span;
+  return {
+    ...(together ? { room: 52 } : {}),
+    labels: ends.map(({ start, end, text, color }) => ({ ...(together ? end : start), text, color })),
   };
 }
 
 /** Every point of a plot. @param {View} v @param {("measured" | "predicted" | "residual")[]} what
  * @returns {import("../../../ui/table.js").Table} */
-function table(v, what) {
+export function table(v, what) {
   const { title, quantity } = VARIABLES[v.over], s = channelScale(v.unit, v.channel, v.system);
   const asText = (/** @type {number | null} */ si, /** @type {string} */ name) =>
     si == null ? null : name === "residual" ? si / s.factor : toShown(si, s);
@@ -172,7 +215,7 @@ function points(v, p, tints, x, y) {
     marker: {
       size: many ? 4 : 5,
       symbol: each((s, i) =>
-        s.use === "validation" ? "triangle-up" : (s.direction?.[i] ?? 0) < 0 ? "square" : "circle"
+        s.use === "validation" ? "triangle-up" : (s.direction?.[i] ?? 0) < 0 ? "square-open" : "circle"
       ),
       color: each((s, i, k) =>
         !isInside(s, i, v.brush) ? p.line : alone ? p.soft : many ? faint(tints[k]) : tints[k]
@@ -188,45 +231,6 @@ function brushZone({ brush, over, system }) {
   if (!range) return [];
   const [from, to] = shown(range, VARIABLES[over].quantity, system);
   return [{ x: /** @type {[number, number]} */ ([from, to]), y: null, text: "" }];
-}
-
-const BAND = 2;
-
-/** @param {View} v @param {Palette} p @returns {Spec} */
-export function residualSpec(v, p) {
-  const { title, quantity } = VARIABLES[v.over], { system } = v;
-  const s = channelScale(v.unit, v.channel, system), tints = colours(v.series, p);
-  const y = v.series.flatMap((one) => one.residual.map((r) => r == null ? null : r / s.factor));
-  const band = v.noise === null ? null : (BAND * v.noise) / s.factor;
-  const x = shown(v.series.flatMap((one) => column(one, v.over)), quantity, system);
-  const [xLow, xHigh] = extent([x]);
-  const size = Math.max(...y.map((r) => Math.abs(r ?? 0)), band ?? 0);
-  const [, high] = steadyRange(`res${v.picture}${v.channel}${system}`, 0, size || 1);
-  return {
-    x: {
-      title: axisTitle(title, quantity, system),
-      range: padded(steadyX(`res${v.picture}${v.over}`, xLow, xHigh)),
-    },
-    y: { title: `Residual (${s.unit})`, range: [-high, high] },
-    traces: [{
-      id: "residual",
-      x,
-      y,
-      marker: {
-        size: y.length > 300 ? 4 : 5,
-        symbol: v.series.flatMap((one) =>
-          one.residual.map((_r, i) => (one.direction?.[i] ?? 0) < 0 ? "square" : "circle")
-        ),
-        color: v.series.flatMap((one, k) =>
-          one.residual.map((_r, i) => isInside(one, i, v.brush) ? tints[k] : p.line)
-        ),
-      },
-      column: "residual",
-    }],
-    zones: band === null ? [] : [{ x: null, y: [-band, band], text: "±2σ of the noise" }],
-    revision: `${v.picture}${v.over}${system}`,
-    table: table(v, ["measured", "residual"]),
-  };
 }
 
 /** @param {number} pressure @param {System} system */

@@ -1,21 +1,20 @@
 // @ts-check
-// The part of the residual that no effect of the catalogue explains, and a formula that would.
+// The part of the residual that no effect of the catalogue explains, and a formula that would, over a variable.
 import { h } from "../../../dom.js";
 import { computed, effect } from "../../../reactive.js";
 import { units } from "../../../state.js";
-import { brief, scaleOf, toShown } from "../../../format.js";
+import { scaleOf, toShown } from "../../../format.js";
 import { Chart } from "../../../plots/chart.js";
 import { palette } from "../../../plots/theme.js";
 import { extent } from "../../../plots/axes.js";
 import { plotlyReady } from "../../../plots/library.js";
 import { diagnosis } from "../answers.js";
-import { proposedTerm } from "../model/own-term.js";
-import { padded } from "../error/specs.js";
-import { channelScale, VARIABLES, whatIsLeft } from "../words.js";
+import { padded } from "../where/specs.js";
+import { channelScale, VARIABLES } from "../words.js";
 
 const term = computed(() => diagnosis.value?.verdict.proposed_term ?? null);
 
-function plot() {
+export function termPlot() {
   const host = h("div", { class: "plot", role: "figure", "aria-label": "Residual and proposed term" });
   const chart = new Chart(host, "compare-term");
   effect(() => {
@@ -55,37 +54,4 @@ function plot() {
     }));
   });
   return host;
-}
-
-export function unknownCard() {
-  const unexplained = computed(() => {
-    const verdict = diagnosis.value?.verdict;
-    return verdict && (verdict.status === "unknown_effect" || verdict.proposed_term) ? verdict : null;
-  });
-  return () => {
-    const verdict = unexplained.value;
-    if (!verdict) return null;
-    const proposed = verdict.proposed_term;
-    return h(
-      "section",
-      { class: "card unknown", "aria-label": "Unknown effect" },
-      h("div", { class: "card-head" }, h("h2", null, "Not in the catalogue")),
-      h(
-        "p",
-        null,
-        `${verdict.effects.length ? "After adding the missing effects, " : ""}${whatIsLeft(verdict)}.`,
-        verdict.where_to_look ? ` ${verdict.where_to_look}` : null,
-      ),
-      proposed
-        ? [
-          proposed.curve ? plot() : null,
-          proposedTerm(
-            proposed,
-            `A formula that explains ${brief(100 * proposed.share)} % of this part`,
-            verdict.effects.length > 0,
-          ),
-        ]
-        : null,
-    );
-  };
 }

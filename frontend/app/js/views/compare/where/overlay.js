@@ -2,7 +2,7 @@
 // Measured points and model; one plot for each predicted channel.
 import { capitalized, readable } from "../../../format.js";
 import { h, icon } from "../../../dom.js";
-import { computed, effect } from "../../../reactive.js";
+import { computed, effect, signal } from "../../../reactive.js";
 import { units, view } from "../../../state.js";
 import { Chart } from "../../../plots/chart.js";
 import { writeLabels } from "../../../plots/overlay.js";
@@ -10,10 +10,21 @@ import { palette } from "../../../plots/theme.js";
 import { chartMenu } from "../../../plots/export.js";
 import { menuButton } from "../../../ui/menu.js";
 import { plotlyReady } from "../../../plots/library.js";
-import { compare, fault, isBefore, lookCompare, previous, shown, stale, steps } from "../answers.js";
-import { channels, over, variables, viewOf } from "./pictures.js";
-import { colours, overlaySpec, pressureText } from "./specs.js";
-import { VARIABLES } from "../words.js";
+import {
+  brush,
+  compare,
+  fault,
+  isBefore,
+  lookCompare,
+  previewLabel,
+  previous,
+  shown,
+  stale,
+  steps,
+} from "../answers.js";
+import { across, channels, over, viewOf } from "./pictures.js";
+import { overlaySpec } from "./specs.js";
+import { rangeText, VARIABLES } from "../words.js";
 
 /** The plots on the page, for the export. @type {{title: string, chart: Chart}[]} */
 export const overlays = [];
@@ -24,22 +35,6 @@ export function toggleBefore() {
   if (previous.peek()) lookCompare({ before: !compare.peek().before });
 }
 
-const flip = () =>
-  h(
-    "div",
-    { class: "group", role: "group", "aria-label": "Model shown" },
-    ...[true, false].map((before) =>
-      h("button", {
-        type: "button",
-        id: before ? "show-before" : "show-after",
-        title: "Switch with B",
-        disabled: () => previous.value === null,
-        "aria-pressed": () => String(isBefore.value === before),
-        onclick: () => lookCompare({ before }),
-      }, before ? "Before" : "After")
-    ),
-  );
-
 const overChoice = () =>
   h("select", {
     "aria-label": "Quantity along the x axis",
@@ -47,7 +42,7 @@ const overChoice = () =>
     onchange: (/** @type {Event} */ e) =>
       lookCompare({ over: /** @type {HTMLSelectElement} */ (e.target).value, brush: null }),
   }, () =>
-    variables.value.map((name) =>
+    across.value.map((name) =>
       h(
         "option",
         { value: name, selected: name === over.value },
@@ -55,29 +50,83 @@ const overChoice = () =>
       )
     ));
 
-const SHOWN = 6;
+/** Whether the model one step before is drawn too; it is, until its name in the legend is pressed. */
+export const ghostShown = signal(true);
 
-/** Pressures by colour: the lowest, the highest and some between. */
+/** A name in the legend that draws or hides its line. @param {string} name @param {() => boolean} isOn
+ * @param {() => void} flip @param {import("../../../dom.js").Child} sign */
+const toggle = (name, isOn, flip, sign) =>
+  h(
+    "li",
+    null,
+    h(
+      "button",
+      {
+        type: "button",
+        class: "legend-toggle",
+        "aria-pressed": () => String(isOn()),
+        onclick: flip,
+      },
+      sign,
+      name,
+    ),
+  );
+
+/** What the signs mean; lines that can be drawn or not are buttons. */
 function legend() {
-  const a = shown.value, system = units.value, p = palette.value;
+  const a = shown.value;
   if (!a) return null;
-  const known = a.series.filter((s) => s.pressure !== null);
-  const tints = colours(a.series, p);
-  const all = [...new Map(known.map((s) => [s.pressure, tints[a.series.indexOf(s)]])).entries()]
-    .sort((one, other) => (one[0] ?? 0) - (other[0] ?? 0));
-  const step = Math.max(1, Math.ceil((all.length - 1) / (SHOWN - 1)));
-  const some = all.filter((_one, i) => i % step === 0 || i === all.length - 1);
   const turns = a.series.some((s) => s.direction?.some((d) => (d ?? 0) < 0));
+  const { pins, traces } = compare.value;
   return h(
     "ul",
     { class: "legend" },
-    h("li", null, h("i", { class: "ring" }), "measured"),
-    h("li", null, h("i"), turns ? "model, lengthening" : "model"),
-    turns ? h("li", null, h("i", { class: "dash" }), "shortening") : null,
-    previous.value ? h("li", null, h("i", { class: "ghost" }), isBefore.value ? "after" : "before") : null,
-    ...some.map(([pressure, color]) =>
-      h("li", null, h("i", { style: `background:${color}` }), pressureText(pressure ?? 0, system))
+    h("li", null, h("i", { class: "dot" }), turns ? "lengthening" : "measured"),
+    turns ? h("li", null, h("i", { class: "square" }), "shortening") : null,
+    h("li", null, h("i"), "model"),
+    previous.value
+      ? toggle(
+        "one step before",
+        () => ghostShown.value,
+        () => (ghostShown.value = !ghostShown.peek()),
+        h("i", { class: "ghost" }),
+      )
+      : null,
+    ...traces.flatMap((i) =>
+      pins[i]
+        ? [toggle(
+          pins[i].name,
+          () => true,
+          () => lookCompare({ traces: compare.peek().traces.filter((k) => k !== i) }),
+          h("i", { class: "pin" }),
+        )]
+        : []
     ),
+  );
+}
+
+/** What is drawn instead of the model of now, or which points are chosen. */
+function tag() {
+  if (previewLabel.value) return h("p", { class: "on-tag" }, `Preview: ${previewLabel.value}`);
+  if (isBefore.value) {
+    return h("p", { class: "on-tag before-tag" }, `Before: ${steps.value.at(-1)?.label ?? ""}`);
+  }
+  const b = brush.value;
+  if (!b) return null;
+  const ranges = Object.entries(b).map(([name, range]) => rangeText(name, range, units.value)).filter(
+    Boolean,
+  );
+  return h(
+    "button",
+    {
+      type: "button",
+      class: "on-tag",
+      "aria-label": "Show all points",
+      title: "Show all points (Esc)",
+      onclick: () => lookCompare({ brush: null }),
+    },
+    ranges.join(", "),
+    icon("close"),
   );
 }
 
@@ -95,7 +144,8 @@ function plotCard(name, first) {
   overlays.push({ title, chart });
   effect(() => {
     palette.value;
-    const v = viewOf(name, over.value);
+    const found = viewOf(name, over.value);
+    const v = found && !ghostShown.value && !previewLabel.value ? { ...found, ghost: [] } : found;
     if (!plotlyReady.value || !v || view.value !== "compare") return;
     chart.show((p) => overlaySpec(v, p));
     if (chart.axes) document.documentElement.dataset.compared = String(++drawings);
@@ -108,7 +158,6 @@ function plotCard(name, first) {
       { class: "card-head" },
       h("h2", null, title),
       first ? overChoice() : null,
-      first ? flip() : null,
       menuButton({
         label: icon("more"),
         name: `${title}: save or show as table`,
@@ -117,12 +166,7 @@ function plotCard(name, first) {
       }),
     ),
     first ? legend : null,
-    h(
-      "div",
-      { class: "on-plot" },
-      () =>
-        isBefore.value ? h("p", { class: "before-tag" }, `Before: ${steps.value.at(-1)?.label ?? ""}`) : null,
-    ),
+    h("div", { class: "on-plot" }, first ? tag : null),
     host,
   );
 }
@@ -143,7 +187,8 @@ export function overlayCards() {
 const skeleton = () =>
   h(
     "section",
-    { class: "card chart", "aria-label": "Overlay" },
-    h("div", { class: "card-head" }, h("h2", null, "Overlay")),
+    { class: "card chart overlay", "aria-label": "Overlay" },
+    h("div", { class: "card-head" }, h("h2", null, "Measured and model")),
+    h("ul", { class: "legend", "aria-hidden": "true" }),
     h("div", { class: "plot skeleton", role: "status" }, h("span", { class: "unseen" }, "Comparing…")),
   );

@@ -1,0 +1,102 @@
+// @ts-check
+// Nothing is missing: what that rests on, what was chosen without proof, what this file never tested.
+import { h, icon } from "../../../dom.js";
+import { goTo, units } from "../../../state.js";
+import { withUnit } from "../../../format.js";
+import { answer } from "../answers.js";
+import { useInDesign } from "../exports.js";
+import { exchange } from "../model/steps.js";
+import { fitting } from "../model/history.js";
+import { errorText, titleOf } from "../words.js";
+import { tellings, twinChoice } from "./entry.js";
+import { openSteps } from "./state.js";
+
+/** @typedef {import("../types.js").Diagnosis} Diagnosis */
+
+/** Choices that the data do not decide: they stay open. */
+export function openChoices() {
+  if (!openSteps.value.length) return null;
+  return h(
+    "section",
+    { class: "list-part", "aria-label": "Chosen, not proven" },
+    h("h3", null, "Chosen, not proven"),
+    h("p", { class: "why" }, "The data fit with either. Outside the measured range they differ."),
+    ...openSteps.value.map(({ index, group, chosen, tells }) =>
+      h(
+        "div",
+        { class: "twin-box" },
+        twinChoice(`step${index}`, group, chosen, (id) => {
+          if (!fitting.peek()) exchange(index, chosen, id);
+        }, `${titleOf(chosen)}, or one that these data cannot tell from it`),
+        ...tellings(tells),
+      )
+    ),
+  );
+}
+
+/** @type {[string, string][]} */
+const RANGES = [["pressure", "pressure"], ["contraction", "ε"], ["speed", "speed"], [
+  "temperature",
+  "temperature",
+]];
+
+/** The range that the file covers, and what it does not show at all. @param {Diagnosis} result */
+function covered({ envelope }) {
+  const system = units.value;
+  const quantities = /** @type {const} */ ({
+    pressure: "pressure",
+    contraction: "ratio",
+    speed: "sweep",
+    temperature: "temperature",
+  });
+  const known = RANGES.filter(([key]) => key in envelope);
+  const untested = RANGES.filter(([key]) =>
+    !(key in envelope) || envelope[key].most - envelope[key].least <= 1e-9 * Math.abs(envelope[key].most)
+  );
+  const texts = known.map(([key, name]) => {
+    const range = envelope[key], q = quantities[/** @type {keyof typeof quantities} */ (key)];
+    return `${name} ${withUnit(range.least, q, system)} to ${withUnit(range.most, q, system)}`;
+  });
+  return h(
+    "section",
+    { class: "list-part", "aria-label": "Measured range" },
+    h("h3", null, "It holds where it was measured"),
+    h("p", { class: "why" }, `${texts.join(", ")}.`),
+    untested.length
+      ? h("p", { class: "why" }, `Never varied in this file: ${untested.map(([, name]) => name).join(", ")}.`)
+      : null,
+    h(
+      "div",
+      { class: "row" },
+      h("button", { type: "button", onclick: useInDesign }, "Predict other conditions"),
+      h("button", { type: "button", class: "link", onclick: () => goTo("transient") }, "Transient view"),
+    ),
+  );
+}
+
+/** @param {Diagnosis} result */
+export function adequate(result) {
+  const a = answer.value;
+  const asText = (/** @type {number | null | undefined} */ si) =>
+    errorText(si, result.unit, result.predicted, units.value);
+  return [
+    h(
+      "div",
+      { class: "conclusion good" },
+      icon("check"),
+      h(
+        "div",
+        null,
+        h("b", { id: "verdict-status" }, "Nothing is missing"),
+        h(
+          "p",
+          null,
+          `${asText(a?.rmse)} is the noise of the data, held-out ${asText(result.baseline.holdout_rmse)}. `,
+          "No effect left lowers it by more than chance.",
+        ),
+      ),
+    ),
+    openChoices(),
+    covered(result),
+  ];
+}

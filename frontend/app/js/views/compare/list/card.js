@@ -1,0 +1,211 @@
+// @ts-check
+// "What is missing": the verdict is this list. Entries that may be wrong come first, then the effects in the order of
+// the joint proposal, then everything else that was tried.
+import { h } from "../../../dom.js";
+import { units } from "../../../state.js";
+import { answer, brush, diagnosis, diagnosisError, lookCompare, stale } from "../answers.js";
+import { fitting } from "../model/history.js";
+import { errorText, rangeText } from "../words.js";
+import { adequate, openChoices } from "./adequate.js";
+import { contextBlock, contextLine } from "./context.js";
+import { entryRow, skeletonRow, soFarRow } from "./entry.js";
+import { addAll, entries, refits, soFar } from "./plan.js";
+import { hasSketches } from "./sketch.js";
+import { insideOf } from "./selection.js";
+import { share, state } from "./state.js";
+import { triedFold, triedText } from "./tried.js";
+import { unknown } from "./unknown.js";
+
+const SKELETONS = 3;
+
+/** @param {number | null} si */
+const asText = (si) => {
+  const a = answer.value;
+  return errorText(si, a?.unit ?? "N", a?.predicted ?? "force", units.value);
+};
+
+/** The noise in the unit of the error. */
+const noise = () => {
+  const a = answer.value;
+  return a && Object.keys(a.channels).length > 1 ? 1 : diagnosis.value?.noise_floor.rmse ?? null;
+};
+
+const AT_FLOOR = 1.15;
+
+/** "All 3: 1.91 N, the noise is 1.85 N", with the button. */
+function allRow() {
+  const all = entries.value, last = all.at(-1), floor = noise();
+  if (!last) return null;
+  const isNoise = floor !== null && last.to <= AT_FLOOR * floor;
+  return h(
+    "div",
+    { class: "all-row" },
+    h(
+      "span",
+      { id: "verdict-fall" },
+      all.length > 1 ? `All ${all.length}: ` : "With it: ",
+      h("b", null, asText(last.to)),
+      floor === null ? "" : isNoise ? `, the noise is ${asText(floor)}` : `; the noise is ${asText(floor)}`,
+    ),
+    all.length > 1
+      ? h("button", {
+        type: "button",
+        id: "add-all",
+        disabled: () => stale.value || fitting.value,
+        onclick: addAll,
+      }, `Add all ${all.length}`)
+      : null,
+  );
+}
+
+/** What the chosen range asks, with the way back. */
+function question() {
+  const b = brush.value;
+  if (!b || !entries.value.length) return null;
+  const ranges = Object.entries(b).map(([name, range]) => rangeText(name, range, units.value)).filter(
+    Boolean,
+  );
+  const known = entries.value.map((e) => insideOf(e.effect));
+  const hidden = known.filter((one) => one && !one.cause).length;
+  return h(
+    "div",
+    { class: "asked-range" },
+    h(
+      "span",
+      null,
+      h("b", null, "What would cause this? "),
+      ranges.join(", "),
+      hidden
+        ? ` · ${hidden === known.length ? "none of these effects shows" : `${hidden} not shown`} there`
+        : "",
+    ),
+    h("button", {
+      type: "button",
+      class: "link",
+      onclick: () => lookCompare({ brush: null }),
+    }, "Show all"),
+  );
+}
+
+/** The entries; with a range chosen, those that explain what is seen there. */
+function rows() {
+  const all = entries.value, floor = noise();
+  const inside = all.filter((e) => insideOf(e.effect)?.cause ?? true);
+  return inside.map((e) => entryRow(e, all.indexOf(e), floor));
+}
+
+const key = () =>
+  h(
+    "p",
+    { class: "sketch-key", "aria-hidden": "true" },
+    h("i", { class: "line" }),
+    "what it would explain",
+    h("i", { class: "dot" }),
+    "seen, over ε",
+  );
+
+/** @param {string} words */
+const quiet = (words) => h("p", { class: "list-part muted" }, words);
+
+function body() {
+  const result = diagnosis.value;
+  switch (state.value) {
+    case "empty":
+    case "idle":
+      return quiet("Nothing to compare yet. Drop a file anywhere on this page.");
+    case "fault":
+      return quiet("There is no comparison to diagnose.");
+    case "failed":
+      return quiet(diagnosisError.value?.words ?? "The diagnosis failed.");
+    case "comparing":
+    case "running": {
+      const best = soFar.value;
+      const waiting = [...Array(SKELETONS).keys()].slice(best ? 1 : 0);
+      return [
+        contextLine(),
+        key(),
+        h("ol", { class: "plain" }, best ? soFarRow(best) : null, ...waiting.map(skeletonRow)),
+      ];
+    }
+    case "stopped": {
+      const best = soFar.value;
+      return [
+        quiet("The diagnosis was stopped before all effects were tried."),
+        best ? soFarRow(best) : null,
+      ];
+    }
+    case "context":
+      return result && contextBlock(result);
+    case "verdict":
+      return result && [
+        contextLine(),
+        h("p", { class: "unseen", id: "verdict-status" }, result.verdict.title),
+        question(),
+        hasSketches.value ? key() : null,
+        h("ol", { class: "plain found-missing" }, ...rows()),
+        refits.value && !entries.value.length
+          ? quiet("The values of the model fit better after a refit.")
+          : null,
+        allRow(),
+        result.verdict.status === "unknown_effect" ? quiet(`${result.verdict.sentence}`) : null,
+        openChoices(),
+      ];
+    case "adequate":
+      return result && [contextLine(), ...adequate(result)];
+    case "unknown":
+      return result && [contextLine(), ...unknown(result)];
+  }
+}
+
+function notes() {
+  const messages = diagnosis.value?.messages ?? [];
+  if (!messages.length || state.value === "running") return null;
+  return h(
+    "details",
+    { class: "notes" },
+    h("summary", null, "Notes"),
+    h("ul", { class: "plain muted" }, ...messages.map((m) => h("li", null, m))),
+  );
+}
+
+/** What stands at the right of the heading. */
+const aside = () => {
+  const result = diagnosis.value;
+  if (state.value === "running") return `${triedText()} · order may still change`;
+  if (state.value === "context") return "entries first";
+  if (state.value === "verdict" && result) {
+    const n = entries.value.length;
+    return `${n} effect${n === 1 ? "" : "s"} of ${triedText()}`;
+  }
+  return triedText();
+};
+
+export function listCard() {
+  return h(
+    "section",
+    {
+      class: "card missing-card",
+      "aria-label": "What is missing",
+      "aria-busy": () => String(state.value === "running"),
+    },
+    h(
+      "div",
+      { class: "card-head" },
+      h("h2", null, "What is missing"),
+      h("small", null, () => h("span", null, aside())),
+    ),
+    h(
+      "div",
+      {
+        class: "progress",
+        role: "progressbar",
+        "aria-label": "Diagnosis",
+        "aria-valuenow": () => state.value === "running" ? Math.round(100 * share.value) : null,
+        style: () => `visibility:${state.value === "running" ? "visible" : "hidden"}`,
+      },
+      h("i", { style: () => `width:${Math.max(3, 100 * share.value)}%` }),
+    ),
+    body,
+    h("div", { class: "list-fold" }, () => state.value === "context" ? null : triedFold(), notes),
+  );
+}

@@ -1,0 +1,146 @@
+// @ts-check
+// What the diagnosis found missing, as the entries of the list; and adding them.
+import { computed, signal } from "../../../reactive.js";
+import { ahead, candidates, compare, diagnosis, stage } from "../answers.js";
+import { fitOf } from "../document.js";
+import { fittedStep, geometryOf, go, takeFitted, whileFitting } from "../model/history.js";
+import { exchanged } from "../model/steps.js";
+import { titleOf } from "../words.js";
+
+/** @typedef {import("../../../types.js").Step} Step */
+/** @typedef {import("../../../types.js").Telling} Telling */
+/** @typedef {import("../types.js").Candidate} Candidate */
+/** @typedef {import("../types.js").PathStep} PathStep */
+/** @typedef {import("../types.js").Diagnosis} Diagnosis */
+/** An effect of the joint proposal. `group`: the effects that the data cannot tell from it, itself first; `chosen`:
+ * one of them; `from`, `to`: the error before and after it, with the entries above already in.
+ * @typedef {{effect: string, group: string[], chosen: string, from: number, to: number, holdout: number,
+ *   probability: number | null, reason: string, tells: Telling[], step: PathStep,
+ *   candidate: Candidate | null}} Entry */
+
+/** Effect of the proposal -> the one chosen among those that the data cannot tell from it. */
+const choices = signal(/** @type {Record<string, string>} */ ({}));
+/** @param {string} effect @param {string} chosen */
+export const choose = (effect, chosen) => (choices.value = { ...choices.peek(), [effect]: chosen });
+
+/** Fields that newer servers add to a verdict.
+ * @typedef {{probabilities?: Record<string, number>, applied?: Record<string, string>}} Newer */
+
+/** The tests that would tell the effects of a group apart. @param {Diagnosis["verdict"]} verdict
+ * @param {string[]} group @returns {Telling[]} */
+const tellsOf = ({ experiments }, group) =>
+  experiments.filter((e) => e.pair.every((id) => group.includes(id))).map((e) => ({
+    pair: e.pair,
+    declared: e.declared,
+    protocol: e.protocol,
+    separation: e.separation,
+    minutes: /** @type {{minutes?: number | null}} */ (e).minutes ?? null,
+  }));
+
+/** @param {string} id @returns {Candidate | null} */
+const candidateOf = (id) => candidates.value.find((c) => c.effect === id) ?? null;
+
+/** The entries of the verdict, in the order of the joint proposal. @type {import("../../../reactive.js").Signal<Entry[]>} */
+export const entries = computed(() => {
+  const result = diagnosis.value;
+  if (!result) return [];
+  const { verdict } = result, newer = /** @type {Newer} */ (verdict), steps = ahead.value;
+  return steps.flatMap((step, i) => {
+    const { added } = step;
+    if (!added) return [];
+    const group = verdict.indistinguishable.find(([one]) => one === added) ?? [added];
+    const chosen = choices.value[added] ?? added;
+    const own = group.includes(chosen) ? chosen : added;
+    const before = i ? steps[i - 1].rmse : result.baseline.rmse;
+    const candidate = candidateOf(own);
+    const likely = newer.probabilities?.[added] ??
+      /** @type {{probability?: number | null}} */ (candidateOf(added) ?? {}).probability ?? null;
+    return [{
+      effect: added,
+      group,
+      chosen: own,
+      from: before,
+      to: step.rmse,
+      holdout: step.holdout_rmse,
+      probability: likely,
+      reason: newer.applied?.[added] ?? "",
+      tells: tellsOf(verdict, group),
+      step,
+      candidate,
+    }];
+  });
+});
+
+/** The step of the proposal that fits the model's own numbers again, if that is the first one. */
+export const refits = computed(() => ahead.value[0]?.refitted ? ahead.value[0] : null);
+
+/** The best candidate while the diagnosis runs. */
+export const soFar = computed(() =>
+  ["running", "cancelled"].includes(stage.value) ? candidates.value[0] ?? null : null
+);
+
+/** What the history keeps of an entry's open choice. @param {Entry} entry */
+const open = ({ group, tells }) => group.length > 1 ? { twins: group, tells } : {};
+
+/** The step of a candidate. @param {Candidate} c @returns {Step} */
+const stepOfCandidate = (c) => ({
+  label: `+ ${titleOf(c.effect)}`,
+  effects: c.model.effects,
+  freed: c.freed,
+  values: geometryOf(c.model),
+  fit: fitOf({ [c.effect]: c.parameters }),
+  rmse: c.rmse,
+  holdout: c.holdout_rmse,
+});
+
+/** Adds an effect that was tried. @param {Candidate} c */
+export const addCandidate = (c) => go([stepOfCandidate(c)], `add ${titleOf(c.effect)}`);
+
+/** Adds an entry, alone; a chosen twin that was not tried by itself is fitted. @param {Entry} entry */
+export function add(entry) {
+  const { chosen, candidate, step } = entry, title = titleOf(chosen);
+  if (candidate) return go([{ ...stepOfCandidate(candidate), ...open(entry) }], `add ${title}`);
+  return whileFitting(() =>
+    takeFitted(exchanged(step.model.effects, entry.effect, chosen), `add ${title}`, `+ ${title}`, open(entry))
+  );
+}
+
+/** Adds every effect the diagnosis found missing, in one undo step. */
+export function addAll() {
+  const result = diagnosis.peek(), all = entries.peek(), path = ahead.peek();
+  if (!result || !path.length) return;
+  const label = all.length === 1 ? `add ${titleOf(all[0].chosen)}` : `add ${all.length} effects`;
+  const asFound = path.map((s, i) => {
+    const entry = all.find((e) => e.step === s);
+    return {
+      label: entry ? `+ ${titleOf(entry.chosen)}` : "Values fitted",
+      effects: s.model.effects,
+      freed: s.freed,
+      values: geometryOf(s.model),
+      fit: i === path.length - 1 ? fitOf(result.parameters) : {},
+      rmse: s.rmse,
+      holdout: s.holdout_rmse,
+      ...(entry ? open(entry) : {}),
+    };
+  });
+  const others = all.filter((e) => e.chosen !== e.effect);
+  if (!others.length) return go(asFound, label);
+  return whileFitting(async () => {
+    /** @type {Step[]} */
+    const fitted = [];
+    for (const step of asFound) {
+      const effects = others.reduce((now, e) => exchanged(now, e.effect, e.chosen), step.effects);
+      const got = effects === step.effects ? step : await fittedStep({ ...step, effects });
+      if (!got) return;
+      fitted.push(got);
+    }
+    go(fitted, label);
+  });
+}
+
+/** The model of an entry added alone, for a look at it. @param {Entry} entry */
+export const modelOf = ({ candidate, step, effect, chosen }) => ({
+  effects: candidate?.model.effects ?? exchanged(step.model.effects, effect, chosen),
+  freed: candidate?.freed ?? step.freed,
+  values: candidate ? geometryOf(candidate.model) : compare.peek().muscle.values,
+});

@@ -1,0 +1,40 @@
+// @ts-check
+// Which of its states the case is in: everything on the page that says so reads it here.
+import { computed } from "../../../reactive.js";
+import { chosen, compare, diagnosis, fault, files, progress, stage } from "../answers.js";
+import { asked } from "./context.js";
+import { entries, refits } from "./plan.js";
+
+/** `idle`: no file is used for the fit; `stopped`: the user ended the diagnosis; `context`: an entry may be wrong;
+ * `verdict`: effects are missing; `unknown`: none of the catalogue helps.
+ * @typedef {"empty" | "idle" | "fault" | "comparing" | "running" | "stopped" | "failed" | "context" | "verdict" |
+ *   "adequate" | "unknown"} Case */
+
+/** @type {import("../../../reactive.js").Signal<Case>} */
+export const state = computed(() => {
+  if (!files.value.length) return "empty";
+  if (!chosen.value.some((file) => file.use === "fit")) return "idle";
+  if (fault.value) return "fault";
+  if (stage.value === "waiting" || stage.value === "idle") return "comparing";
+  if (stage.value === "running") return "running";
+  if (stage.value === "cancelled") return "stopped";
+  const result = diagnosis.value;
+  if (stage.value === "failed" || !result) return "failed";
+  if (asked(result).length) return "context";
+  const { status } = result.verdict;
+  if (entries.value.length || (refits.value && status !== "unknown_effect")) return "verdict";
+  return status === "adequate" ? "adequate" : "unknown";
+});
+
+/** Whether an open choice among effects was made in a step so far. */
+export const openSteps = computed(() => {
+  const { history, twins, tells, label, effects } = compare.value;
+  return [...history, { twins, tells, label, effects }].flatMap((step, index) => {
+    const { twins = [], tells = [] } = step;
+    const chosen = twins.find((id) => id in (effects ?? {}));
+    return twins.length > 1 && chosen ? [{ index, group: twins, chosen, tells }] : [];
+  });
+});
+
+/** How far the diagnosis is, 0 to 1. */
+export const share = computed(() => progress.value.share);

@@ -1,0 +1,149 @@
+// @ts-check
+// An effect that the catalogue does not have: what is left, where, what to measure, and a formula as the last resort.
+import { h, icon } from "../../../dom.js";
+import { units } from "../../../state.js";
+import { brief, capitalized } from "../../../format.js";
+import { answer, lookCompare } from "../answers.js";
+import { proposedTerm } from "../model/own-term.js";
+import { errorText, titleOf, VARIABLES, whatIsLeft } from "../words.js";
+import { tellingText } from "./entry.js";
+import { refits } from "./plan.js";
+import { openChoices } from "./adequate.js";
+import { termPlot } from "./term-plot.js";
+
+/** @typedef {import("../types.js").Diagnosis} Diagnosis */
+
+/** What to measure next, each with what it shows. @param {Diagnosis} result */
+export function plan({ verdict }) {
+  const steps = verdict.experiments.map((e) => ({
+    what: e.pair.map(titleOf).join(" or "),
+    why: tellingText({ ...e, minutes: null }),
+  }));
+  const look = verdict.where_to_look;
+  return [
+    ...(look
+      ? [{ what: `Repeat ${where(look)} in finer steps`, why: "Shows the shape of what is left." }]
+      : []),
+    {
+      what: "Repeat the whole run with the clamps turned or the sensor exchanged",
+      why: "What moves with them belongs to the rig, what stays to the muscle.",
+    },
+    ...steps,
+  ];
+}
+
+/** The place alone, of "look where it is largest: …". @param {string} text */
+const where = (text) => text.replace(/^[^:]*: */, "").replace(/ \([^)]*\)/g, "").replace(/\.$/, "");
+
+/** In few words, for the strip. @param {Diagnosis} result */
+export const nextMeasurement = (result) => {
+  const look = result.verdict.where_to_look;
+  return look ? `Measure ${where(look)} again` : capitalized(plan(result)[0].what);
+};
+
+/** @param {Diagnosis} result */
+export const copyPlan = (result) =>
+  navigator.clipboard.writeText(plan(result).map((s, i) => `${i + 1}. ${s.what}. ${s.why}`).join("\n"));
+
+/** The catalogued effect that comes closest, and why it was not added. @param {Diagnosis} result */
+function nearest(result) {
+  const best = [...result.candidates].sort((a, b) => a.rmse - b.rmse)[0];
+  if (!best) return "";
+  const asText = (/** @type {number} */ si) => errorText(si, result.unit, result.predicted, units.value);
+  const worse = best.holdout_rmse >= result.baseline.holdout_rmse;
+  return `${best.title}: ${asText(result.baseline.rmse)} → ${asText(best.rmse)}, held-out ${
+    asText(best.holdout_rmse)
+  }${worse ? ", which is no better" : ""}: not added`;
+}
+
+const FEWEST_ROWS = 3;
+
+/** The range of a variable with the largest error. @param {string} name @returns {[number, number] | null} */
+function worstRange(name) {
+  const profile = answer.value?.where.find((one) => one.over === name);
+  if (!profile || profile.edges.length < FEWEST_ROWS) return null;
+  const sizes = profile.rms.map((rms, i) => (profile.count[i] ?? 0) >= FEWEST_ROWS ? rms ?? 0 : 0);
+  const at = sizes.indexOf(Math.max(...sizes)), from = profile.edges[at], to = profile.edges[at + 1];
+  return from == null || to == null ? null : [from, to];
+}
+
+/** Shows the residual over a variable, with the worst range chosen. @param {string} name */
+function showWorst(name) {
+  const range = worstRange(name);
+  lookCompare({
+    tab: /** @type {import("../../../types.js").Tab} */ (name),
+    ...(range && name !== "direction" ? { brush: { [name]: range } } : {}),
+  });
+}
+
+/** @param {Diagnosis} result */
+export function unknown(result) {
+  const { verdict, noise_floor: floor } = result, a = answer.value;
+  const over = floor.rmse && a?.rmse ? `, ${brief(a.rmse / floor.rmse)} × the noise` : "";
+  const term = verdict.proposed_term, variable = verdict.unexplained_in.find((name) => name in VARIABLES);
+  return [
+    h(
+      "div",
+      { class: "conclusion bad" },
+      icon("warn"),
+      h(
+        "div",
+        null,
+        h("b", { id: "verdict-status" }, capitalized(verdict.title)),
+        h("p", null, `${errorText(a?.rmse, result.unit, result.predicted, units.value)} are left${over}.`),
+      ),
+    ),
+    h(
+      "section",
+      { class: "list-part unknown", "aria-label": "What is left" },
+      h("h3", null, "What is left"),
+      h("p", { class: "why" }, `${whatIsLeft(verdict)}.`),
+      verdict.where_to_look ? h("p", { class: "why" }, capitalized(verdict.where_to_look)) : null,
+      refits.value
+        ? h(
+          "p",
+          { class: "why" },
+          `The values of the model fitted again alone leave ${
+            errorText(refits.value.rmse, result.unit, result.predicted, units.value)
+          }.`,
+        )
+        : null,
+      h("p", { class: "why" }, `Nearest in the catalogue: ${nearest(result)}.`),
+      variable
+        ? h("button", {
+          type: "button",
+          class: "link",
+          onclick: () => showWorst(variable),
+        }, `Show where, over ${VARIABLES[variable].title.toLowerCase()}`)
+        : null,
+    ),
+    h(
+      "section",
+      { class: "list-part", "aria-label": "Measure next" },
+      h("h3", null, "Measure next"),
+      h(
+        "ol",
+        { class: "plan" },
+        ...plan(result).map((s) => h("li", null, h("b", null, s.what), h("p", { class: "why" }, s.why))),
+      ),
+    ),
+    term
+      ? h(
+        "section",
+        { class: "list-part unknown", "aria-label": "Describe it for now" },
+        h("h3", null, "Or describe it for now"),
+        h(
+          "p",
+          { class: "why" },
+          `This formula explains ${
+            brief(100 * term.share)
+          } % of what is left, also in the groups left out of ` +
+            "its fit. It describes, it does not explain: it holds inside the measured range only.",
+        ),
+        term.curve ? termPlot() : null,
+        proposedTerm(term, "Formula", true),
+      )
+      : null,
+    openChoices(),
+  ];
+}

@@ -1,0 +1,85 @@
+// @ts-check
+// What the squared residual is made of: one bar of 100 %, never the same thing twice; and the errors of channels.
+import { h } from "../../../dom.js";
+import { units } from "../../../state.js";
+import { brief, readable } from "../../../format.js";
+import { shown } from "../answers.js";
+import { channelScale, errorText, VARIABLES } from "../words.js";
+
+/** @typedef {import("../types.js").Comparison} Comparison */
+
+/** A part smaller than this share is not named. */
+const LEAST = 0.005;
+
+/** More than this many times the noise is not noise alone. */
+const NOISE = 1.3;
+
+/** @param {string} of @param {number} share @param {Comparison} a */
+function nameOf(of, share, a) {
+  if (of === "offset") return "the same everywhere";
+  const noise = a.unit === "1" ? 1 : a.noise_floor;
+  if (of === "rest") {
+    return noise && Math.sqrt(share) * (a.rmse ?? 0) <= NOISE * noise ? "noise" : "follows none of these";
+  }
+  if (of === "together") return "follows several together";
+  if (of === "contraction") return "follows ε";
+  return `follows ${VARIABLES[of]?.title.toLowerCase() ?? readable(of)}`;
+}
+
+/** @param {Comparison} a */
+function bar(a) {
+  const parts = (a.parts ?? []).filter((part) => part.share >= LEAST);
+  if (!parts.length) return null;
+  return [
+    h(
+      "div",
+      { class: "parts-bar", "aria-hidden": "true" },
+      ...parts.map((part) => h("i", { "data-part": part.of, style: `flex:${part.share} 0 0` })),
+    ),
+    h(
+      "ul",
+      { class: "parts-key", "aria-label": "What the squared residual is made of" },
+      h("li", null, "The squared residual is"),
+      ...parts.map((part) =>
+        h(
+          "li",
+          null,
+          h("i", { "data-part": part.of }),
+          h("b", null, `${Math.round(100 * part.share)} %`),
+          ` ${nameOf(part.of, part.share, a)}`,
+        )
+      ),
+    ),
+  ];
+}
+
+/** The error of each channel; that of a stroke also as its share. @param {Comparison} a */
+function channels(a) {
+  const all = Object.entries(a.channels);
+  if (all.length < 2) return null;
+  return h(
+    "ul",
+    { class: "parts-key", "aria-label": "Error of each channel" },
+    ...all.map(([name, c]) => {
+      const isStroke = channelScale(c.unit, name, units.value).unit !== "" && c.unit === "m";
+      const percent = isStroke && c.full_scale
+        ? `, ${brief((100 * c.rmse) / c.full_scale)} % of the stroke`
+        : "";
+      return h(
+        "li",
+        null,
+        h("b", null, `${readable(name)} `),
+        `${errorText(c.rmse, c.unit, name, units.value)}${percent}, noise ${
+          errorText(c.noise_floor, c.unit, name, units.value)
+        }`,
+      );
+    }),
+  );
+}
+
+/** Under the residual; of constant height. */
+export const partsBar = () =>
+  h("div", { class: "parts" }, () => {
+    const a = shown.value;
+    return a ? [bar(a), channels(a)].flat() : null;
+  });

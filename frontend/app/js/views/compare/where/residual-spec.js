@@ -1,0 +1,67 @@
+// @ts-check
+// What the residual plot shows: every residual with the band of the noise, on the scale of the case.
+import { axisTitle, extent, shown, steadyX } from "../../../plots/axes.js";
+import { colours, MANY, padded, table } from "./specs.js";
+import { marksOf, placeOf } from "./scale.js";
+import { channelScale, column, isInside, VARIABLES } from "../words.js";
+
+/** @typedef {import("../../../plots/chart.js").Spec} Spec */
+/** @typedef {import("../../../plots/theme.js").Palette} Palette */
+/** @typedef {import("./specs.js").View} View */
+
+const BAND = 2;
+/** Where the points of a direction stand along the axis of directions. */
+const JITTER = 0.18;
+
+/** The residual on the scale of the case: linear inside the noise, logarithmic outside.
+ * @param {View} v @param {Palette} p @param {import("./scale.js").Scale} fixed @returns {Spec} */
+export function residualSpec(v, p, fixed) {
+  const { title, quantity } = VARIABLES[v.over], { system } = v;
+  const s = channelScale(v.unit, v.channel, system), tints = colours(v.series, p);
+  const at = (/** @type {number | null} */ r) => r == null ? null : placeOf(r, fixed);
+  const y = v.series.flatMap((one) => one.residual.map(at));
+  const band = v.noise === null ? null : placeOf(BAND * v.noise, fixed);
+  const ways = v.over === "direction";
+  const x = ways
+    ? v.series.flatMap((one) =>
+      one.direction.map((d, i) => d === null ? null : Math.sign(d) + JITTER * Math.sin(12.9898 * i))
+    )
+    : shown(v.series.flatMap((one) => column(one, v.over)), quantity, system);
+  const [xLow, xHigh] = ways ? [-1.5, 1.5] : extent([x]);
+  const size = Math.max(1, ...y.map((r) => Math.abs(r ?? 0)));
+  return {
+    x: ways
+      ? {
+        title: "Direction of motion",
+        range: [-1.5, 1.5],
+        marks: [{ at: -1, text: "shortening" }, { at: 0, text: "at rest" }, { at: 1, text: "lengthening" }],
+      }
+      : {
+        title: axisTitle(title, quantity, system),
+        range: padded(steadyX(`res${v.picture}${v.over}`, xLow, xHigh)),
+      },
+    y: {
+      title: `Residual (${s.unit || "× noise"})`,
+      range: [-1.04 * size, 1.04 * size],
+      marks: marksOf(fixed, s.factor),
+    },
+    traces: [{
+      id: "residual",
+      x,
+      y,
+      marker: {
+        size: y.length > MANY ? 4 : 5,
+        symbol: v.series.flatMap((one) =>
+          one.residual.map((_r, i) => (one.direction?.[i] ?? 0) < 0 ? "square-open" : "circle")
+        ),
+        color: v.series.flatMap((one, k) =>
+          one.residual.map((_r, i) => isInside(one, i, v.brush) ? tints[k] : p.line)
+        ),
+      },
+      column: "residual",
+    }],
+    zones: band === null ? [] : [{ x: null, y: [-band, band], text: "±2σ of the noise" }],
+    revision: `${v.picture}${v.over}${system}`,
+    table: table(v, ["measured", "residual"]),
+  };
+}
