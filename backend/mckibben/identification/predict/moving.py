@@ -28,8 +28,7 @@ from mckibben.simulation.command.signals import TableSignal
 from mckibben.simulation.drive.driven import driven_motion
 from mckibben.simulation.drive.neighbours import neighbours
 from mckibben.simulation.drive.parts import Drive
-from mckibben.simulation.drive.transient import segments_of, simulate
-from mckibben.simulation.integrate.engine import engine_by_size
+from mckibben.simulation.drive.transient import simulate
 from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.statics.model import StaticModel
@@ -284,8 +283,9 @@ class TransientPredictor(Predictor):
     def _run(self, drive: Drive, record: Record) -> dict[str, np.ndarray]:
         try:
             if self.commanded:
-                engine = engine_by_size(len(segments_of(drive)[0]))
-                run = simulate(drive, grid=record.time, watch=Watch(time_limit=_TIME_LIMIT), engine=engine)
+                # Fits run thousands of times: always the compiled engine, so that digits never depend on what
+                # is loaded.
+                run = simulate(drive, grid=record.time, watch=Watch(time_limit=_TIME_LIMIT), engine="rodas")
                 if run.outcome is Outcome.CANCELLED:
                     return {}
                 results = run.outputs
