@@ -122,8 +122,8 @@ def constant_questions(evidence: Evidence, columns: Sequence[Constant]) -> list[
         asked.append(
             Question(
                 name,
-                f"{evidence.noun} '{header}' holds {len(column.values)} values, {shown}, a measurement has one "
-                f"{name}; split the file by it, or which one counts for all rows",
+                f"{evidence.noun} '{header}' holds {len(column.values)} values, {shown}, a measurement has "
+                f"one {name}; split the file by it, or which one counts for all rows",
                 f'{option} "{column.values[0]}"',
                 header,
                 column.values[0],
