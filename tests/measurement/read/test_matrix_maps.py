@@ -53,7 +53,7 @@ def test_cells_without_a_reading_are_left_out_and_counted() -> None:
 
 
 def test_a_square_map_is_refused_as_either_side_could_be_the_pressure() -> None:
-    with pytest.raises(InputError, match="'F_N': a map of 5 x 5 cells .* either of which could be its rows"):
+    with pytest.raises(InputError, match=r"'F_N': a map of 5 x 5 cells .* either of which could be its rows"):
         read(p_bar=PRESSURE, contraction_pct=SHARE[:5], F_N=FORCE[:5])
 
 

@@ -55,7 +55,7 @@ def maps_apart(values: Mapping[str, Any], *, place: str, noun: str) -> tuple[dic
             f"{place}, {noun} '{first}': a map of {shape[0]} x {shape[1]} cells over "
             f"{' and '.join(repr(key) for key in pairs[0])}, either of which could be its rows",
             field=f"{noun} {first}",
-            hint="save its cells as vectors of equal length, e.g. by [X, Y] = ndgrid(x, y); X = X(:); Y = Y(:)",
+            hint="save its cells as vectors of equal length, e.g. [X, Y] = ndgrid(x, y); X = X(:); Y = Y(:)",
         )
     down, across = pairs[0]
     by_pressure = _kind(across) == "pressure"  # listed pressure by pressure
@@ -70,8 +70,8 @@ def maps_apart(values: Mapping[str, Any], *, place: str, noun: str) -> tuple[dic
         columns[key] = (cells.T if by_pressure else cells).reshape(-1)
     names = " and ".join(f"'{key}'" for key in matrices)
     message = (
-        f"{noun} {names}: a map of {shape[0]} x {shape[1]} cells, a row for each value of '{down}' and a column "
-        f"for each of '{across}'"
+        f"{noun} {names}: a map of {shape[0]} x {shape[1]} cells, a row for each value of '{down}' and a "
+        f"column for each of '{across}'"
     )
     return {key: columns.get(key, value) for key, value in values.items()}, [message]
 
