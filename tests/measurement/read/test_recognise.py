@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mckibben.measurement.read.recognise import held_quantities, recognise, taken_apart
+from mckibben.measurement.read.recognise import held_quantities, recognise, taken_apart, without_run
 
 #: Head -> (channel, unit, absolute).
 HEADS = {
@@ -109,3 +109,35 @@ def test_a_head_with_its_pressure() -> None:
     assert head.unit == "mm"
     assert head.held is not None
     assert (head.held.value, head.held.text) == (2.0, "bei 2 bar")
+
+
+@pytest.mark.parametrize(
+    ("head", "channel", "unit"),
+    [
+        ("Length (mm) inflating", "length", "mm"),
+        ("Kraft [kN] oben", "force", "kN"),
+        ("Contraction (%) Run 2", "contraction", "%"),
+        ("Force, tension positive (N) Run #1", "force", "N"),
+        ("Pressure (in) muscle [bar]", "pressure", "bar"),
+        ("Pressure (in) muscle", "pressure", None),  # the inlet, no inches
+    ],
+)
+def test_a_unit_in_brackets_counts_wherever_it_stands(head: str, channel: str, unit: str | None) -> None:
+    assert recognise(head)[:2] == (channel, unit)
+
+
+def test_two_units_within_a_head_are_none() -> None:
+    assert recognise("Ratio (mm) to (bar) raw").unit is None
+
+
+@pytest.mark.parametrize(
+    ("head", "name", "run"),
+    [
+        ("Pressure (kPa) Run #2", "Pressure (kPa)", "2"),
+        ("Kraft Versuch 3 [N]", "Kraft [N]", "3"),
+        ("Run #1", "Run #1", ""),
+        ("Druck Sensor 1", "Druck Sensor 1", ""),
+    ],
+)
+def test_the_number_of_the_run_is_no_part_of_the_name(head: str, name: str, run: str) -> None:
+    assert without_run(head) == (name, run)

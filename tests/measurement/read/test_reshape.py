@@ -92,6 +92,22 @@ def test_labels_before_each_channel_are_heads() -> None:
     assert found.columns["time"][-1] == pytest.approx(TIME[-1] / 1e3)
 
 
+@pytest.mark.parametrize("numbers", [("ScaleFactor", "1"), ("Port", "851"), ("Rate", "100")])
+def test_a_number_among_the_labels_is_no_unit(numbers: tuple[str, str]) -> None:
+    label, value = numbers
+    rows = "\n".join(
+        f"{1e3 * t:g};{p};{1e3 * t:g};{f};{1e3 * t:g};{x}"
+        for t, p, f, x in zip(TIME, PRESSURE, FORCE, STROKE, strict=True)
+    )
+    text = (
+        "Name;rP;Name;rF;Name;rX\nComment;Druck (Überdruck);Comment;Kraft;Comment;Hub, positiv = Verkürzung\n"
+        f"SampleTime[ms];4;SampleTime[ms];4;SampleTime[ms];4\n{label};{value};{label};{value};{label};{value}\n"
+        f"Unit;bar;Unit;N;Unit;mm\n\n{rows}\n"
+    )
+    result = read(text)
+    assert_is_the_test(result, rest=False)
+
+
 def test_two_equal_names_of_forces_are_asked_about() -> None:
     with pytest.raises(InputError, match="Force"):
         read(f"Force,Pressure,Force,Stroke\nN,bar,N,mm\n{table(FORCE, PRESSURE, 0.8 * FORCE, STROKE)}")

@@ -424,3 +424,44 @@ def test_names_that_occur_twice() -> None:
         read(english)
     assert '--ignore "column 5"' in str(caught.value.hint)
     assert_read(read(english, ignore=["column 5"]))
+
+
+def _beside(heads: Sequence[str], parts: Sequence[Sequence[str]], shared: Sequence[str] = ()) -> list[str]:
+    """A text with the readings cut in as many pieces as there are parts, each in columns of its own."""
+    rows = numbers(["pressure", "force", "length"])
+    count = len(rows) // len(parts)
+    index = {"pressure": 0, "force": 1, "length": 2}
+    result = [";".join([*shared, *heads])]
+    for row in range(count):
+        cells = [rows[row + count * n][index[c]] for n, part in enumerate(parts) for c in part]
+        result.append(";".join(f"{cell:.5f}".replace(".", ",") for cell in cells))
+    return result
+
+
+@pytest.mark.parametrize("run", ["Run #{}", "Versuch {}", "trial no. {}"])
+def test_runs_side_by_side_are_parts(run: str) -> None:
+    heads = [f"{name} {run.format(n)}" for n in (1, 2) for name in ("Druck (bar)", "Kraft (N)", "Länge (mm)")]
+    result = read(_beside(heads, [["pressure", "force", "length"]] * 2))
+    count = len(R.time) // 2
+    assert len(result.columns["group"]) == 2 * count
+    np.testing.assert_array_equal(result.columns["group"], np.repeat([0, 1], count))
+    assert_read(result, but=("time",), order=np.arange(2 * count))
+
+
+def test_the_way_there_and_back_in_two_columns_beside_one_pressure() -> None:
+    pressure = np.linspace(1.0, 6.0, 26)
+    filling, venting = 200.0 - 8.0 * pressure, 198.0 - 8.0 * pressure
+    rows = [f"{p:.1f};{f:.2f};{v:.2f}" for p, f, v in zip(pressure, filling, venting, strict=True)]
+    for ways in (("inflating", "deflating"), ("(mm) auf", "(mm) ab")):
+        heads = [f"Länge {way}" if "mm" in way else f"Länge (mm) {way}" for way in ways]
+        result = read([";".join(["Druck (bar)", *heads]), *rows])
+        np.testing.assert_allclose(
+            result.columns["length"], np.concatenate([filling, venting]) * 1e-3, atol=1e-5
+        )
+        np.testing.assert_allclose(result.columns["pressure"], np.tile(pressure, 2) * 1e5, atol=1.0)
+
+
+def test_two_ways_beside_one_time_are_two_sensors() -> None:
+    rows = [f"{n / 10:.1f};{1 + n / 20:.2f};{200 - n / 3:.2f};{199 - n / 3:.2f}" for n in range(40)]
+    with pytest.raises(InputError, match="both length and differ"):
+        read(["Zeit (s);Druck (bar);Länge (mm) auf;Länge (mm) ab", *rows])

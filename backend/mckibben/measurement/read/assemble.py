@@ -17,6 +17,7 @@ from mckibben.measurement.read.cells import CellTable, Skip
 from mckibben.measurement.read.channels import ChannelReading, read_channels
 from mckibben.measurement.read.checks import questions_of
 from mckibben.measurement.read.conditions import ATMOSPHERE, key_of, read_conditions
+from mckibben.measurement.read.constants import notes_with_constants, with_constants
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.evidence import Evidence, is_numeric
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning, map_headers
@@ -52,12 +53,15 @@ def meaning_of(source: RawTable, correction: Correction, *, collect: bool = Fals
         collect=collect,
         units=source.units,
     )
-    return with_proposed_stroke(source, with_clock(source, meaning), correction.conditions)
+    meaning = with_constants(source, with_clock(source, meaning))
+    return with_proposed_stroke(source, meaning, correction.conditions)
 
 
-def conditions_of(source: RawTable, correction: Correction, messages: list[str]) -> dict[str, float | str]:
+def conditions_of(
+    source: RawTable, meaning: Meaning, correction: Correction, messages: list[str]
+) -> dict[str, float | str]:
     """Conditions of the file, the user's over them."""
-    conditions = read_conditions(source.notes, messages)
+    conditions = read_conditions(notes_with_constants(source, meaning, messages), messages)
     for key, value in correction.conditions.items():
         if value is None:
             conditions.pop(key, None)
@@ -92,8 +96,8 @@ def assemble(
             without an answer.
     """
     messages = list(source.messages)
-    conditions = conditions_of(source, correction, messages)
     meaning = meaning or meaning_of(source, correction)
+    conditions = conditions_of(source, meaning, correction, messages)
     messages += meaning.messages
     skip = correction.skip_bad_rows or str(conditions.get("bad_rows", "")).lower() == "skip"
     table = rows_of(source, meaning.columns, skip=skip)
@@ -136,7 +140,7 @@ def assemble(
     measurement = replace(
         measurement,
         unread=unread_columns(source, meaning, reading.ignored),
-        stated=stated_values(source, conditions, correction),
+        stated=stated_values(source, meaning, conditions, correction),
         questions=tuple(questions),
     )
     return Read(measurement, list(by_use.values()), skipped, questions)
@@ -189,6 +193,7 @@ def unread_columns(source: RawTable, meaning: Meaning, dropped: Sequence[str]) -
     """All columns that nothing is read from, and why; ``dropped`` are those whose numbers showed it."""
     ignored = set(dropped)
     taken = {column.place for column in meaning.columns if column.header not in ignored}
+    taken |= {column.place for column in meaning.constants if len(column.values) == 1}
     found = [
         (header or f"column {index + 1}", _why_unread(meaning, index))
         for index, header in enumerate(source.headers)
@@ -208,10 +213,10 @@ def _why_unread(meaning: Meaning, index: int) -> str:
 
 
 def stated_values(
-    source: RawTable, conditions: Mapping[str, float | str], correction: Correction
+    source: RawTable, meaning: Meaning, conditions: Mapping[str, float | str], correction: Correction
 ) -> tuple[StatedValue, ...]:
     """What the test was, each value with its origin."""
-    where = {key_of(note.key)[0]: note.where for note in source.notes}
+    where = {key_of(note.key)[0]: note.where for note in notes_with_constants(source, meaning)}
     return tuple(
         StatedValue(key, value, "you", "")
         if correction.conditions.get(key) is not None

@@ -11,10 +11,11 @@ from mckibben.measurement.read.cells import Cell
 from mckibben.measurement.read.grid import Grid
 from mckibben.measurement.read.header import plainly_known
 from mckibben.measurement.read.locate import Run, TableHead, texts_of
+from mckibben.measurement.read.qualified import qualified_groups, without_way
 from mckibben.measurement.read.recognise import HeldQuantity, held_quantities, recognise, taken_apart
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.values import GAP, NUMBER, TEXT, kind_of
-from mckibben.measurement.read.vocabulary import WAYS, folded
+from mckibben.measurement.read.vocabulary import folded
 
 UNNAMED = "values at each pressure"  # a column of which only the pressure is said
 
@@ -246,7 +247,7 @@ def _groups(
     groups = list(by_pressure.values())
     if len(groups) > 1:
         bases = {c: _without_held(names[c]) for group in groups for c in group}
-        ways = {c: _without_way(base) for c, base in bases.items()}
+        ways = {c: without_way(base) for c, base in bases.items()}
         if all(len({folded(ways[c]) for c in group}) == 1 for group in groups) and ways != bases:
             groups, bases = [[c] for group in groups for c in group], ways
         keys = [[folded(bases[c]) for c in group] for group in groups]
@@ -255,7 +256,7 @@ def _groups(
                 [group[key.index(k)] for k in keys[0]] for group, key in zip(groups, keys, strict=True)
             ]
             return [c for c in shared if names[c]], ordered, bases
-    return _repeated(names, used, run)
+    return qualified_groups(names, used) or _repeated(names, used, run)
 
 
 def _repeated(
@@ -290,12 +291,6 @@ def _without_held(name: str) -> str:
     held = taken_apart(name).held
     text = name if held is None else name.replace("_", " ").replace(held.text, " ")
     return " ".join(text.split())
-
-
-def _without_way(name: str) -> str:
-    """``"Kraft hin [N]"`` -> ``"Kraft [N]"``."""
-    kept = [word for word in name.split() if folded(word.strip("()-,")) not in WAYS]
-    return " ".join(kept) if kept else name
 
 
 def _map(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[int, int, str]]) -> Table | None:

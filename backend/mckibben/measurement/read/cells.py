@@ -241,6 +241,8 @@ def _number(cell: Cell) -> tuple[float | str, str]:
     if isinstance(cell, (datetime, timedelta)):
         return cell.total_seconds() if isinstance(cell, timedelta) else cell.timestamp(), ""
     text = "" if cell is None else str(cell).strip()
+    if text[:1] in ("+", "-"):  # loggers set the sign apart: "+    2.003"
+        text = text[0] + text[1:].lstrip()
     if _POINT.fullmatch(text):
         sign = "." if "." in text else ""
     elif _COMMA.fullmatch(text):

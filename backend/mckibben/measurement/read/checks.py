@@ -11,6 +11,7 @@ from mckibben.measurement.kind import turning_points
 from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.blocks import UNNAMED
+from mckibben.measurement.read.constants import constant_questions
 from mckibben.measurement.read.correction import SAMPLE
 from mckibben.measurement.read.evidence import Evidence, bare_name
 from mckibben.measurement.read.header import HeaderColumn
@@ -50,7 +51,7 @@ def _questions(evidence: Evidence) -> list[Question]:
         unit_doubts = {question.about for question in asked}
         if not any(about.startswith("unit of") for about in unit_doubts):
             asked += [*physical_questions(evidence)]
-    asked += context_questions(evidence)
+    asked += [*constant_questions(evidence, evidence.meaning.constants), *context_questions(evidence)]
     return sorted(asked, key=lambda question: not question.stops)
 
 

@@ -38,6 +38,14 @@ class Note(NamedTuple):
     value: str | float
 
 
+class Constant(NamedTuple):
+    """A column that is named like a condition: where it stands, its key, its different values as texts."""
+
+    place: int
+    key: str
+    values: tuple[str, ...]
+
+
 def note_of_line(line: str, where: str) -> Note | None:
     """The condition in a comment line ``# key: value``; None = a plain comment."""
     found = _LINE.fullmatch(line)

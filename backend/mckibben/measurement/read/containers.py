@@ -16,6 +16,7 @@ import numpy as np
 from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.read.conditions import Note
 from mckibben.measurement.read.header import map_headers
+from mckibben.measurement.read.matrix_maps import maps_apart
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.source import HeaderColumn
 from mckibben.measurement.read.unit_words import dimension_of, reference_of, unit_of
@@ -120,7 +121,9 @@ def _tables(values: Mapping[str, Any], path: str, name: str, noun: str, depth: i
     own = _with_units(_matrices_apart(own), inner)
     inner = _alike_together(inner)
     try:
+        own, said = maps_apart(own, place=place, noun=noun)
         table.columns, table.notes, table.messages = sorted_out(own, place=place, noun=noun)
+        table.messages[:0] = said
     except InputError as error:
         table.problem = error
     table.rest += [

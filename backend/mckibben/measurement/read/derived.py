@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -17,6 +18,7 @@ from mckibben.measurement.read.vocabulary import words_of
 from mckibben.physics.units import convert
 
 _PARTS = {"ms": 1e3, "us": 1e6, "µs": 1e6, "ns": 1e9}  # of a second, and how many it has
+_FRACTION = re.compile(r":[0-9]{2}:[0-9]{2}[.,:][0-9]+\s*$")  # of a second
 _MOST_SCALED = 40  # columns
 
 
@@ -121,6 +123,21 @@ def _seconds_and_parts(source: RawTable) -> tuple[int, int, float] | None:
         steady = _numbers(source, whole)
         if shown and steady and max(shown) < _PARTS[kind] and all(value == int(value) for value in steady):
             return whole, part, _PARTS[kind]
+    return _clock_and_parts(source)
+
+
+def _clock_and_parts(source: RawTable) -> tuple[int, int, float] | None:
+    """The same for a column of dates or times without fractions and one beside it, named ``ms``."""
+    for part, header in enumerate(source.headers):
+        unit = unit_of(header)
+        beside = [index for index in (part - 1, part + 1) if index in source.clocks]
+        if unit is None or unit.unit not in _PARTS or len(beside) != 1:
+            continue
+        (whole,) = beside
+        times = [row[whole] for row in source.sample if whole < len(row)]
+        shown = _numbers(source, part)
+        if shown and max(shown) < _PARTS[unit.unit] and not any(map(_FRACTION.search, times)):
+            return whole, part, _PARTS[unit.unit]
     return None
 
 

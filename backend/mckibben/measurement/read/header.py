@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from mckibben.measurement.measurement import CHANNEL_UNITS
+from mckibben.measurement.read.conditions import Constant
 from mckibben.measurement.read.correction import SAMPLE, SLACK, Choice
 from mckibben.measurement.read.marks import MARK_WORDS, split_mark
 from mckibben.measurement.read.recognise import BY_UNIT, is_raw, recognise, taken_apart, without_paths
@@ -78,7 +79,7 @@ class Meaning(NamedTuple):
 
     ``problems``: index of a column -> why its header cannot be used, only where they are collected.
     ``reasons``: index of a column that is not used -> why. ``rivals``: (column used, column that could be).
-    ``dismissed``: columns that the user does not want.
+    ``dismissed``: columns that the user does not want. ``constants``: columns of conditions.
     """
 
     columns: list[HeaderColumn]
@@ -88,6 +89,7 @@ class Meaning(NamedTuple):
     reasons: Mapping[int, str] = MappingProxyType({})
     rivals: tuple[tuple[HeaderColumn, HeaderColumn], ...] = ()
     dismissed: frozenset[int] = frozenset()
+    constants: tuple[Constant, ...] = ()
 
 
 def map_headers(

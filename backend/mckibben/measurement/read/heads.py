@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from mckibben.measurement.read.grid import BLANKS, Grid, TextGrid
 from mckibben.measurement.read.locate import Run, TableHead, names_channel, texts_of
@@ -11,6 +11,7 @@ from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 
 _HEAD_ROWS = 8  # most rows of a head
+_LISTED_WITHIN = 200  # rows above a head in which its channels may be listed
 _UNITS_WITHIN = 40  # rows above a head in which its units may stand
 
 
@@ -30,14 +31,20 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
     if not rows:
         return TableHead([""] * run.width, [None] * run.width, None, None, ())
     texts = {index: texts_of(grid.cells(index)) for index in rows}
-    named = at if at is not None else _row_of_names(texts, rows, run)
+    lists = {index: _listed_above(grid, index) for index in rows}
+    named = at if at is not None else _row_of_names(texts, rows, run, lists)
+    listed = lists[named]
     names = _padded(texts[named], run.width)
+    names = [f"{name} {listed[name]}" if name in listed else name for name in names]
     width = len(names)
     if isinstance(grid, TextGrid) and grid.separator == BLANKS:
         for index in rows:
             if index != named and (placed := _placed_units(grid.lines[named], grid.lines[index])):
                 texts[index] = placed
     units_at = _row_of_units(texts, [index for index in rows if index != named], names)
+    if units_at is None and not any(recognise(name).unit for name in names if name):
+        below = [index for index in rows if index > named and _fitting(names, texts[index]) > 1]
+        units_at = below[0] if below else None
     if units_at is None and not any(recognise(name).unit for name in names if name):
         units_at = _units_in_preamble(grid, named, names)
     if units_at is not None and units_at > named and _divides(names, _padded(texts[units_at], width)):
@@ -61,6 +68,20 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
             continue
         names = [name or (o if names_channel(o) else "") for name, o in zip(names, other, strict=False)]
     return TableHead(names, units, named, units_at, tuple(rows))
+
+
+def _listed_above(grid: Grid, index: int) -> dict[str, str]:
+    """The names of a row behind which the file says above what they are: ``CH1`` and ``CH1,Pressure,DC,10V``.
+
+    Two such rows make a list of channels; a word beside the name that is no channel's says nothing.
+    """
+    unknown = {name for name in texts_of(grid.cells(index)) if name and not names_channel(name)}
+    said: dict[str, str] = {}
+    for above in range(max(0, index - _LISTED_WITHIN), index):
+        cells = [cell for cell in texts_of(grid.cells(above)) if cell]
+        if len(cells) > 1 and cells[0] in unknown and names_channel(cells[1]):
+            said[cells[0]] = cells[1]
+    return said if len(said) > 1 else {}
 
 
 def _placed_units(names: str, units: str) -> list[str] | None:
@@ -125,14 +146,16 @@ def _rows_above(grid: Grid, run: Run, after: int) -> list[int]:
     return rows
 
 
-def _row_of_names(texts: dict[int, list[str]], rows: Sequence[int], run: Run) -> int:
+def _row_of_names(
+    texts: dict[int, list[str]], rows: Sequence[int], run: Run, lists: Mapping[int, Mapping[str, str]]
+) -> int:
     def score(index: int) -> tuple[int, int, int]:
         cells = texts[index]
         if len(cells) == 1 and run.width > 1:
             return 0, 0, index
         inside = [cell for column, cell in enumerate(cells) if cell and column < run.width]
         units = sum(unit_of(cell) is not None for cell in inside)
-        known = sum(names_channel(cell) for cell in inside)
+        known = sum(names_channel(cell) or cell in lists[index] for cell in inside)
         return known, 0 if inside and 2 * units > len(inside) else len(inside), index
 
     return max(rows, key=score)
@@ -157,17 +180,21 @@ def _row_of_units(texts: dict[int, list[str]], rows: Sequence[int], names: Seque
 def _units_in_preamble(grid: Grid, named: int, names: Sequence[str]) -> int | None:
     """A row far above that holds the units of the columns, as loggers write it; it begins with its label."""
     for index in range(named - 1, max(-1, named - 1 - _UNITS_WITHIN), -1):
-        cells = texts_of(grid.cells(index))
-        fitting = 0
-        for name, cell in zip(names, cells, strict=False):
-            unit = unit_of(cell) if cell else None
-            channel = recognise(name).channel if name else None
-            fitting += bool(
-                unit and channel and dimension_of(unit.unit) and recognise(name, cell).channel == channel
-            )
-        if fitting >= 2:
+        if _fitting(names, texts_of(grid.cells(index))) >= 2:
             return index
     return None
+
+
+def _fitting(names: Sequence[str], cells: Sequence[str]) -> int:
+    """Number of cells that are the unit of the channel whose name stands in their column."""
+    fitting = 0
+    for name, cell in zip(names, cells, strict=False):
+        unit = unit_of(cell) if cell else None
+        channel = recognise(name).channel if name else None
+        fitting += bool(
+            unit and channel and dimension_of(unit.unit) and recognise(name, cell).channel == channel
+        )
+    return fitting
 
 
 def _padded(cells: Sequence[str], width: int) -> list[str]:

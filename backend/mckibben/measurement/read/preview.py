@@ -129,7 +129,7 @@ def preview(data: bytes, name: str, correction: Correction | None = None) -> Pre
     conditions: dict[str, float | str] = {}
     messages = list(source.messages)
     try:
-        conditions = conditions_of(source, correction, messages)
+        conditions = conditions_of(source, meaning, correction, messages)
     except InputError as error:
         problem = problem or error
     tolerant = replace(correction, skip_bad_rows=True)
@@ -179,7 +179,9 @@ def preview(data: bytes, name: str, correction: Correction | None = None) -> Pre
         messages=tuple(messages),
         questions=tuple(asked),
         unread=unread_columns(source, meaning, ()) if read is None else read.measurement.unread,
-        stated=stated_values(source, conditions, correction) if read is None else read.measurement.stated,
+        stated=stated_values(source, meaning, conditions, correction)
+        if read is None
+        else read.measurement.stated,
         choices=tuple(title for title, _ in source.choices),
         tables=source.tables,
         raw=source.raw,

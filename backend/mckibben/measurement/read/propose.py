@@ -21,6 +21,7 @@ from mckibben.physics.units import convert
 
 #: Reasons with which a column is left out for good; it is neither asked about nor proposed.
 KNOWN_REASONS = (
+    "it is a condition",
     "the supply",
     "the surrounding air",
     "a length at rest",

@@ -19,6 +19,7 @@ from mckibben.measurement.read.unit_words import (
     unit_of,
 )
 from mckibben.measurement.read.vocabulary import (
+    CHANNEL_WORDS,
     LESS_WANTED,
     LETTERS,
     LOADLESS,
@@ -145,7 +146,8 @@ def _channel_of_held(word: str, number: float, unit: str) -> str | None:
 def taken_apart(header: str, unit_below: str | None = None) -> Head:
     """A head into name, unit and reference.
 
-    Units stand in brackets, behind ``/`` or ``,``, behind ``_`` or a blank, or in a row of their own.
+    Units stand in brackets, at the end or before words such as a direction or a run, behind ``/`` or ``,``,
+    behind ``_`` or a blank, or in a row of their own.
     """
     text = " ".join(header.split())
     held = held_pressure(text)
@@ -164,6 +166,8 @@ def taken_apart(header: str, unit_below: str | None = None) -> Head:
             text = f"{found[1]} {inside}".strip()
             continue
         text = found[1]
+    if unit is None:
+        text, unit = _unit_within(text)
     if unit is None:
         text, unit = _unit_behind(text)
     if unit is None and unit_below is not None:
@@ -200,6 +204,14 @@ _SURE_UNITS = frozenset(
         "kg",
     ]
 )  # no name ends like them
+_WITHIN = re.compile(r"[\[({<]([^\[\](){}<>]*(?:\([^()]*\))?)[\])}>](?=[\s,;:.]|$)")
+_WORDS_TOO = ("in",)  # in brackets within a name rather the inlet than inches
+_RUN_WORDS = frozenset({"run", "trial", "test", "series", "messung", *CHANNEL_WORDS["group"]})
+_RUN = re.compile(
+    r"(?P<name>.*?[^\W\d_].*?)[\s_,;:-]+(?P<word>[^\W\d_]+)[\s_]*(?:#|n[or]\.?)?[\s_]*(?P<number>[0-9]{1,3})"
+    r"(?:\s*(?P<unit>[\[(][^\[\]()]*[\])]))?",
+    re.IGNORECASE,
+)
 _NEWTONS = {"n": UnitText("N")}  # behind a name of a force only; alone it counts
 _PATH = re.compile(r"/?(?P<first>[A-Za-z_]\w*)[./](?:[A-Za-z_]\w*[./])*(?P<name>[A-Za-z_]\w*)")
 
@@ -236,7 +248,7 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
     head = taken_apart(header, unit_below)
     dimension = dimension_of(head.unit)
     base = _HELD.sub(" ", head.name.replace("_", " ")) if head.held is not None else head.name
-    words = words_of(base)
+    words = words_of(without_run(base)[0])
     if head.unit == COUNT:
         return Recognised(None, head.unit, None, 0, "it holds counts of a converter, not a physical value")
     if dimension in ("a voltage", "a current"):
@@ -322,6 +334,35 @@ def _of_letter(words: list[str], dimension: str) -> str | None:
         if letter and letter[1] in ("l", "s", "x") and dimension == "a length":
             return "length" if letter[1] == "l" else "displacement"
     return None
+
+
+def _unit_within(text: str) -> tuple[str, UnitText | None]:
+    """The one unit in brackets before other words, and the text without it: "Length (mm) inflating"."""
+    found = [
+        (match, unit)
+        for match in _WITHIN.finditer(text)
+        if (unit := unit_of(match[1])) is not None
+        and dimension_of(unit.unit)
+        and reference_of(match[1]) is None
+        and match[1].strip().lower() not in _WORDS_TOO
+        and not match[1].strip().isdigit()
+    ]
+    if len({unit.unit for _, unit in found}) != 1:
+        return text, None
+    match, unit = found[0]
+    return " ".join(f"{text[: match.start()]} {text[match.end() :]}".split()), unit
+
+
+def without_run(name: str) -> tuple[str, str]:
+    """A name without the number of the run behind it, and that number ("" = it has none).
+
+    >>> without_run("Pressure (kPa) Run #2")
+    ('Pressure (kPa)', '2')
+    """
+    found = _RUN.fullmatch(name.strip())
+    if found is None or folded(found["word"]) not in _RUN_WORDS:
+        return name, ""
+    return f"{found['name'].strip(' _,;:-')} {found['unit'] or ''}".strip(), found["number"]
 
 
 def _unit_behind(text: str) -> tuple[str, UnitText | None]:

@@ -203,7 +203,7 @@ def in_known_words(notes: Iterable[Note]) -> list[Note]:
                 _key_of(_Quantity(words, "", unit)) if quantity or not isinstance(note.value, str) else None
             )
             if known is None and words and words[0] in _SAMPLES and isinstance(note.value, str):
-                renamed += [note._replace(key="sample"), *_notes_of_code(note)]
+                renamed += [note._replace(key="sample"), *notes_of_code(note)]
                 continue
             if known is None:
                 renamed.append(note)
@@ -217,7 +217,8 @@ def in_known_words(notes: Iterable[Note]) -> list[Note]:
     return renamed
 
 
-def _notes_of_code(note: Note) -> list[Note]:
+def notes_of_code(note: Note) -> list[Note]:
+    """Muscle and rest length in the order code of a value."""
     return [Note(note.where, key, value) for key, value in _of_code(str(note.value))]
 
 

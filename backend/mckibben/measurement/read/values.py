@@ -13,7 +13,7 @@ from mckibben.measurement.read.cells import Cell, marker_of
 
 NUMBER, CLOCK, TEXT, GAP = "n", "c", "t", ""
 
-_PLAIN = re.compile(r"[+-]?(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:[eE][+-]?[0-9]+)?")
+_PLAIN = re.compile(r"(?:[+-] *)?(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:[eE][+-]?[0-9]+)?")
 _GROUPED = re.compile(
     r"[+-]?[0-9]{1,3}(?:(?P<mark>[.,'’ \u00a0\u202f])[0-9]{3})(?:(?P=mark)[0-9]{3})*(?P<rest>[.,][0-9]*)?"
 )
@@ -99,7 +99,7 @@ def number_of(cell: Cell, style: NumberStyle) -> Cell:
         if style.thousands in " \u00a0\u202f":
             text = re.sub(r"[ \u00a0\u202f]", "", text)
     if _PLAIN.fullmatch(text) and (style.decimal in text or not re.search("[.,]", text)):
-        return float(text.replace(",", "."))
+        return float(text.replace(",", ".").replace(" ", ""))
     return cell
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from mckibben.measurement.read.cells import Cell
@@ -12,6 +13,7 @@ from mckibben.measurement.read.reshape.rows import SAMPLED, Rewritten, RowsGrid
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.values import CLOCK, NUMBER, kind_of
 
+_UNIT_LABEL = re.compile(r"(?i)unit|einheit|dim(?!ension)|unidad|unité|unità")
 _WITHIN = 60  # rows
 _FEWEST = 2  # channels, and rows of labels
 
@@ -67,7 +69,13 @@ def _is_body(cells: Sequence[Cell], width: int) -> bool:
 
 def _head(said: Sequence[tuple[str, str]]) -> str:
     """Name, remark and unit of a channel; the remark alone where it says what it is."""
-    unit = next((text for _, text in said if (u := unit_of(text)) is not None and dimension_of(u.unit)), None)
+    units = [
+        (label, text)
+        for label, text in said
+        if kind_of(text) != NUMBER and (u := unit_of(text)) is not None and dimension_of(u.unit)
+    ]
+    labelled = [text for label, text in units if _UNIT_LABEL.search(label)]
+    unit = next(iter(labelled or [text for _, text in units]), None)
     texts = [text for _, text in said if text != unit and kind_of(text) != NUMBER][:2]
     known = next((text for text in texts[::-1] if recognise(text, unit).channel is not None), None)
     why = next((text for text in texts[::-1] if recognise(text, unit).why.startswith("it is")), None)
