@@ -18,7 +18,8 @@ README = Path(__file__).parents[2] / "README.md"
 @pytest.fixture(scope="session")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
     """A server with the README's example effect in a folder of the user's."""
-    (example,) = re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), flags=re.DOTALL)
+    blocks = re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), flags=re.DOTALL)
+    (example,) = (block for block in blocks if "EFFECT = " in block)
     folder = tmp_path_factory.mktemp("new-effect")
     (folder / "effects").mkdir()
     strong = example.replace("default=5.0", "default=40.0")

@@ -17,6 +17,9 @@ SEED = 20261121
 FIRST = 3  # row of the first reading in a CSV file and a sheet
 
 
+_NO_READING = ("nan", "NaN", "inf", "-Infinity", "")  # the row is left out and counted
+
+
 class Variant(NamedTuple):
     """A file and what must become of it.
 
@@ -68,7 +71,10 @@ def _cells(random: np.random.Generator) -> Iterator[Variant]:
             rows[row][column] = cell
             # A thousands separator brings a comma: the row has a cell too many.
             names = (f"row {row + FIRST}", *(() if "," in cell else (HEADERS[column],)))
-            yield Variant(f"cell {cell!r}", "cell.csv", files.csv(rows), names)
+            if cell in _NO_READING:
+                yield Variant(f"cell {cell!r}", "cell.csv", files.csv(rows), None, 1)
+            else:
+                yield Variant(f"cell {cell!r}", "cell.csv", files.csv(rows), names)
     for column, value, what in (
         (2, "-250", "negative length"), (2, "0", "length 0"),
         (1, "-1.5", "below vacuum"), (3, "1e308", "huge"),
@@ -118,7 +124,9 @@ def _csv_structure(random: np.random.Generator) -> Iterator[Variant]:
     for number in range(len(HEADERS)):
         twice = list(HEADERS)
         twice[number] = HEADERS[number - 1].upper()
-        yield Variant("duplicate", "twice.csv", files.csv(header=twice), ("row 2", "occurs twice"))
+        # A second time may be that of another signal: what is wrong is said in other words.
+        names = () if number == 1 else ("row 2", "occurs twice")
+        yield Variant("duplicate", "twice.csv", files.csv(header=twice), names)
         wrong = list(HEADERS)
         wrong[number] = wrong[number].split("_")[0] + "_Hz"
         yield Variant("wrong unit", "unit.csv", files.csv(header=wrong), ("row 2", wrong[number]))
@@ -207,14 +215,18 @@ def _workbooks(random: np.random.Generator) -> Iterator[Variant]:
             rows = files.number_rows()
             rows[row][column] = cell
             names = ("sheet 'run'", f"row {row + FIRST}", HEADERS[column])
-            yield Variant(f"cell {cell!r}", "cell.xlsx", files.xlsx(rows), names)
+            left_out = cell in (None, "#DIV/0!", "=1/0")
+            yield Variant(
+                f"cell {cell!r}", "cell.xlsx", files.xlsx(rows), None if left_out else names, int(left_out)
+            )
     for _ in range(8):
         yield Variant("truncated", "cut.xlsx", good[: int(random.integers(4, len(good) - 30))], ())
         yield Variant("damaged", "damaged.xlsx", _damaged(good, random, begin=30), ())
     for number in range(len(HEADERS)):
         twice = list(HEADERS)
         twice[number] = HEADERS[number - 1]
-        yield Variant("duplicate", "twice.xlsx", files.xlsx(header=twice), ("row 2", "occurs twice"))
+        names = () if number == 1 else ("row 2", "occurs twice")
+        yield Variant("duplicate", "twice.xlsx", files.xlsx(header=twice), names)
     parts = _parts(good)
     sheet = "xl/worksheets/sheet2.xml"
     bomb = {**parts, sheet: parts[sheet].replace(b"</sheetData>", b" " * 60_000_000 + b"</sheetData>")}

@@ -271,9 +271,9 @@ def _other_time(evidence: Evidence, winner: HeaderColumn, other: HeaderColumn) -
     return [
         Question(
             "second time",
-            f"{evidence.noun}s '{winner.header}' and '{other.header}' are times of different signals and "
-            f"differ by up to {apart:.3g}: the rows hold readings of different instants; bring them to one "
-            "time axis, or leave one signal out with its time",
+            f"{evidence.noun} '{winner.header}' and {evidence.noun} '{other.header}' are times of different "
+            f"signals and differ by up to {apart:.3g}: the rows hold readings of different instants; bring "
+            "them to one time axis, or leave one signal out with its time",
             ignore_option(f"column {other.place + 1}"),
             other.header,
         )

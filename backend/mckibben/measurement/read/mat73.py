@@ -68,8 +68,10 @@ def open_mat73(data: bytes, name: str, correction: Correction | None = None) -> 
 
 
 def _of_matlab(file: Any) -> bool:
-    """Whether variables say their MATLAB class."""
-    return any("MATLAB_class" in file[key].attrs for key in list(file)[:20] if file.get(key) is not None)
+    """Whether variables say their MATLAB class, or there are MATLAB's cells."""
+    return "#refs#" in file or any(
+        "MATLAB_class" in file[key].attrs for key in list(file)[:20] if file.get(key) is not None
+    )
 
 
 class _Mat73Reader:
@@ -140,7 +142,7 @@ class _Mat73Reader:
         units = next((v for k, v in attributes.items() if isinstance(v, list) and "unit" in k.lower()), None)
         unit = next((v for k, v in attributes.items() if isinstance(v, str) and _IS_UNIT.fullmatch(k)), None)
         if dataset.shape is None or dataset.dtype.kind not in "biufSOV":
-            return {}
+            return {key: None}
         if dataset.dtype.kind in "SO":
             return self._words(key, dataset)
         if dataset.dtype.kind == "V":
@@ -174,7 +176,7 @@ class _Mat73Reader:
             or int(dataset.size) > _MAX_WORDS
             or (dataset.id.get_storage_size() > _MAX_PIECE or dataset.is_virtual or dataset.external)
         ):
-            return {}
+            return {key: None}
         self._words_seen += int(dataset.size)
         if self._words_seen > _MAX_WORDS:
             raise self._refused(
