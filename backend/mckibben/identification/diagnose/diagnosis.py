@@ -251,7 +251,8 @@ def _diagnose(
     searched = best
     best, corrections = without_corrections(fitter, best, root, level)
     added = tuple(effect for effect in best.fit_model.ids if effect not in start_names)
-    best, exchangeable = likeliest(fitter, best, added, level)
+    corrected = {item.effect for item in corrections}
+    best, exchangeable = likeliest(fitter, best, added, level, never=corrected)
     path = path_to(fitter, start, root, best, gauge_zero)
     added = tuple(step.added for step in path if step.added)
     fit = _final_fit(predictor, best)

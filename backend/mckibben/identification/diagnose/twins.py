@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -68,7 +68,12 @@ def alternatives(fitter: Fitter, best: FittedModel, added: Sequence[str], noise:
 
 
 def likeliest(
-    fitter: Fitter, best: FittedModel, added: Sequence[str], noise: float
+    fitter: Fitter,
+    best: FittedModel,
+    added: Sequence[str],
+    noise: float,
+    *,
+    never: Collection[str] = (),
 ) -> tuple[FittedModel, list[Alternative]]:
     """The likeliest of the models that fit as well, and the alternatives to its effects.
 
@@ -79,12 +84,17 @@ def likeliest(
         best: its best model.
         added: effects that may be replaced.
         noise: of the scaled residual.
+        never: effects that only corrected another one's form, and so do not take its place.
     """
     names = list(added)
     rows = effective_rows(best.residual, fitter.predictor.sweeps, fitter.predictor.folds)
     others = alternatives(fitter, best, names, noise)
     for _ in range(len(names)):
-        plausible = [other for other in others if other.fitted_model.implausible <= best.implausible]
+        plausible = [
+            other
+            for other in others
+            if other.fitted_model.implausible <= best.implausible and other.effect not in never
+        ]
         weights = [log_weight(o.fitted_model, rows=rows, noise=fitter.noise) for o in plausible]
         if not weights or max(weights) <= log_weight(best, rows=rows, noise=fitter.noise):
             break
