@@ -8,9 +8,9 @@ import typer
 
 from mckibben.application.convert import converted
 from mckibben.application.measurement_files import read_file
+from mckibben.application.text_file import write_text
 from mckibben.cli.output import remark
 from mckibben.measurement.read import Correction
-from mckibben.physics.errors import InputError
 
 
 def run(*, file: str, correction: Correction, out: Path | None) -> None:
@@ -23,11 +23,6 @@ def run(*, file: str, correction: Correction, out: Path | None) -> None:
     if out is None:
         typer.echo(result.text, nl=False)
     else:
-        try:
-            out.write_text(result.text, encoding="utf-8")
-        except OSError as error:
-            raise InputError(
-                f"--out {out}: cannot be written: {error.strerror}", hint="name a writable file"
-            ) from error
+        write_text(out, result.text, named=f"--out {out}")
     for message in result.messages:
         remark(message)

@@ -11,11 +11,10 @@ from mckibben.application.next_experiment import NO_EXPERIMENT, schedule_csv
 from mckibben.application.saved_model import model_text, saved_model
 from mckibben.cli.model import model_question
 from mckibben.cli.options import ModelOptions
-from mckibben.cli.output import check_folder, progress, remark, write_json, write_summary
+from mckibben.cli.output import check_folder, progress, remark, write_file, write_json, write_summary
 from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import ExperimentValue
 from mckibben.measurement.read import Correction
-from mckibben.physics.errors import InputError
 from mckibben.report.summary.diagnosis import summary_of
 
 
@@ -52,29 +51,14 @@ def run(
 
         write(report, studio, question, result)
     if save is not None:
-        _write_file(save, "--save", "model", model_text(saved_model(question, result, studio)))
+        write_file(save, "--save", "model", model_text(saved_model(question, result, studio)))
     if schedule is not None:
         designed = result.verdict.next_experiments
         if designed:
-            _write_file(schedule, "--schedule", "set points", schedule_csv(designed[0]))
+            write_file(schedule, "--schedule", "set points", schedule_csv(designed[0]))
         else:
             remark(f"--schedule {schedule}: not written, because {NO_EXPERIMENT}")
     if as_json:
         write_json(result)
         return
     write_summary(summary_of(result))
-
-
-def _write_file(path: Path, option: str, what: str, text: str) -> None:
-    """Write a file that an option names, and print its path.
-
-    Raises:
-        InputError: the file cannot be written.
-    """
-    try:
-        path.write_text(text, encoding="utf-8", newline="\n")
-    except OSError as error:
-        raise InputError(
-            f"{option} {path}: cannot be written: {error.strerror or error}", hint="name a file in a folder"
-        ) from error
-    remark(f"{what}: {path}")

@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.table import Table as RichTable
 
 from mckibben.application.json_text import to_json
+from mckibben.application.text_file import write_text
 from mckibben.physics.errors import InputError
 from mckibben.report.summary import Summary, Table
 from mckibben.simulation.outcome import Watch
@@ -36,6 +37,16 @@ def check_folder(path: Path, option: str) -> None:
         )
     if not path.parent.is_dir():
         raise InputError(f"{option} {path}: there is no folder {path.parent}", hint="name an existing folder")
+
+
+def write_file(path: Path, option: str, what: str, text: str) -> None:
+    """Write the file that an option names, and say so: "model: muscle.json".
+
+    Raises:
+        InputError: it cannot be written.
+    """
+    write_text(path, text, named=f"{option} {path}")
+    remark(f"{what}: {path}")
 
 
 def write_summary(summary: Summary) -> None:

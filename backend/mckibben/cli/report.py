@@ -6,9 +6,8 @@ from pathlib import Path
 
 from mckibben.application.diagnosis_result import DiagnosisResult
 from mckibben.application.model_question import ModelQuestion
-from mckibben.cli.output import remark
+from mckibben.cli.output import write_file
 from mckibben.documents.studio import Studio
-from mckibben.physics.errors import InputError
 from mckibben.report.diagnosis.gather import ReportOptions, report_of
 
 
@@ -27,10 +26,4 @@ def save(path: Path, text: str) -> None:
     Raises:
         InputError: the file cannot be written.
     """
-    try:
-        path.write_text(text, encoding="utf-8", newline="\n")
-    except OSError as error:
-        raise InputError(
-            f"--report {path}: cannot be written: {error.strerror or error}", hint="name a file in a folder"
-        ) from error
-    remark(f"report: {path}")
+    write_file(path, "--report", "report", text)

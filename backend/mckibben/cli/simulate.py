@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from mckibben.application.simulate import SimulationQuestion, simulate, single_run_engine
+from mckibben.application.text_file import write_text
 from mckibben.application.trace import trace_text
 from mckibben.cli.output import remark, write_json, write_summary
 from mckibben.documents.drive_files import named_document
@@ -28,10 +29,7 @@ def run(studio: Studio, *, drive: str, out: Path | None, as_json: bool) -> None:
     except InputError as error:
         raise InputError(f"{drive}: {located(error.field, error.message)}", hint=error.hint) from error
     if out is not None:
-        try:
-            out.write_text(trace_text(document, result), encoding="utf-8")
-        except OSError as error:
-            raise InputError(f"--out {out}: cannot be written: {error.strerror or error}") from error
+        write_text(out, trace_text(document, result), named=f"--out {out}")
     if not as_json:
         write_summary(summary_of(result, drive))
         return

@@ -67,10 +67,9 @@ class Diagnosis(Result):
     @property
     def probabilities(self) -> Mapping[str, float]:
         """Effect id -> probability that it is missing, 0 to 1; effects that the data cannot distinguish share
-        theirs. Empty where the diagnosis states none.
+        theirs.
         """
-        stated: Mapping[str, float] = getattr(self._result.verdict, "probabilities", None) or {}
-        return MappingProxyType(dict(stated))
+        return MappingProxyType(dict(self._result.verdict.probabilities))
 
     @property
     def indistinguishable(self) -> Sequence[Sequence[str]]:
@@ -136,18 +135,19 @@ class Diagnosis(Result):
 
     def to_frame(self) -> pd.DataFrame:
         """The candidates, the best first: effect, rmse, holdout_rmse, gain_percent, score_change,
-        indistinguishable, and probability where the diagnosis states it.
+        indistinguishable, probability that it or one of its group is missing.
         """
-        names = ["effect", "rmse", "holdout_rmse", "gain_percent", "score_change", "indistinguishable"]
+        names = [
+            "effect", "rmse", "holdout_rmse", "gain_percent", "score_change", "indistinguishable",
+            "probability",
+        ]  # fmt: skip
         rows: list[list[object]] = [
-            [c.effect, c.rmse, c.holdout_rmse, c.gain_percent, c.score_change, ", ".join(c.twins)]
+            [
+                c.effect, c.rmse, c.holdout_rmse, c.gain_percent, c.score_change, ", ".join(c.twins),
+                c.probability,
+            ]
             for c in self._result.candidates
-        ]
-        probabilities = [getattr(c, "probability", None) for c in self._result.candidates]
-        if any(value is not None for value in probabilities):
-            names.append("probability")
-            for row, value in zip(rows, probabilities, strict=True):
-                row.append(value)
+        ]  # fmt: skip
         return frame_of_rows(names, rows)
 
     def plot(self) -> Figure:

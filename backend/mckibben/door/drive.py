@@ -6,9 +6,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from os import PathLike, fspath
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 from mckibben.application.simulate import POINTS, SimulationQuestion, prepare, single_run_engine
+from mckibben.application.text_file import write_text
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_files import named_document, preset_document, read_document
 from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
@@ -17,7 +19,7 @@ from mckibben.door.model import Model
 from mckibben.door.model_files import model_of_document
 from mckibben.door.problem import reported
 from mckibben.door.rendering import notebook_cell, plain_text
-from mckibben.door.result import Frozen, write_file
+from mckibben.door.result import Frozen
 from mckibben.door.run import Run
 from mckibben.door.values import Quantity, number_of
 from mckibben.door.workspace import studio
@@ -194,7 +196,7 @@ class Drive(Frozen):
         Raises:
             Problem: the file cannot be written.
         """
-        write_file(path, document_text(self._document))
+        write_text(Path(path), document_text(self._document))
 
     def _summary(self) -> Summary:
         return summary_of(self._document, self._name)

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mckibben.application.compare import compared_whole
@@ -13,6 +14,7 @@ from mckibben.application.curves import DEFAULT_PRESSURES, CurvesQuestion, curve
 from mckibben.application.diagnose import prepare
 from mckibben.application.muscle_summary import GeometrySummary, geometry_of
 from mckibben.application.saved_model import fitted_model, model_text, saved_model
+from mckibben.application.text_file import write_text
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
@@ -27,7 +29,7 @@ from mckibben.door.questions import (
     watch_of,
 )
 from mckibben.door.rendering import notebook_cell, plain_text
-from mckibben.door.result import Frozen, write_file
+from mckibben.door.result import Frozen
 from mckibben.door.statics import at_least_two, force_of, optional_number, pressures_in
 from mckibben.door.values import FloatArray, Quantities, Quantity
 from mckibben.door.workspace import studio
@@ -366,7 +368,7 @@ class Model(Frozen):
         Raises:
             Problem: the file cannot be written.
         """
-        write_file(path, model_text(self._saved()))
+        write_text(Path(path), model_text(self._saved()))
 
     def _saved(self) -> SavedModel:
         return self._stated.to_saved(self._studio)

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mckibben.application.json_text import to_json
+from mckibben.application.text_file import write_text
 from mckibben.door.frames import csv_of
 from mckibben.door.problem import reported
 from mckibben.door.rendering import notebook_cell, plain_text
@@ -84,7 +85,7 @@ class Result(Frozen, ABC):
         Raises:
             Problem: the file cannot be written, or its ending is neither.
         """
-        write_file(path, self._files(Path(path)))
+        write_text(Path(path), self._files(Path(path)))
 
     def _files(self, path: Path) -> str:
         """The content of a file with this ending."""
@@ -107,17 +108,3 @@ class Result(Frozen, ABC):
 def unknown_ending(path: Path, known: Sequence[str]) -> InputError:
     """A file is to be written in a form that is not known."""
     return InputError(f"{path}: '{path.suffix}' is not a known ending", hint=f"one of {', '.join(known)}")
-
-
-def write_file(path: str | PathLike[str], text: str) -> None:
-    """Write a text file.
-
-    Raises:
-        InputError: it cannot be written.
-    """
-    try:
-        Path(path).write_text(text, encoding="utf-8", newline="\n")
-    except OSError as error:
-        raise InputError(
-            f"{path}: cannot be written: {error.strerror or error}", hint="name a file in an existing folder"
-        ) from error

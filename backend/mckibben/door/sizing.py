@@ -17,6 +17,7 @@ from mckibben.application.size import (
     prepare_search,
     sizing_question,
 )
+from mckibben.application.text_file import write_text
 from mckibben.documents.located import at_file
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
@@ -24,7 +25,7 @@ from mckibben.documents.task_files import named_task, read_task
 from mckibben.door.drive import Drive
 from mckibben.door.frames import frame_of_rows
 from mckibben.door.problem import reported
-from mckibben.door.result import Frozen, Result, write_file
+from mckibben.door.result import Frozen, Result
 from mckibben.door.workspace import studio
 from mckibben.physics.errors import InputError
 from mckibben.presets.reading import BadDocumentError
@@ -186,7 +187,7 @@ class Sizing(Result):
         """
         from mckibben.report.sizing.gather import report_of
 
-        write_file(path, report_of(self._search, self._studio, proposal=proposal, title=title))
+        write_text(Path(path), report_of(self._search, self._studio, proposal=proposal, title=title))
 
     def _answer(self) -> object:
         return self._result
