@@ -6,12 +6,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Generic
 
 from mckibben.application.compare import Compared, ComparisonResult
 from mckibben.application.compared_series import rows_of
 from mckibben.door.frames import frame_of
-from mckibben.door.result import Result
+from mckibben.door.result import ModelT, Result
 from mckibben.identification.fit.comparison import Correlation, ParameterValue
 from mckibben.report.summary import Summary
 from mckibben.report.summary.comparison import summary_of
@@ -19,8 +19,6 @@ from mckibben.report.summary.comparison import summary_of
 if TYPE_CHECKING:
     import pandas as pd
     from plotly.graph_objects import Figure
-
-    from mckibben.door.model import Model
 
 #: Effect id -> parameter -> value with its standard error; "geometry" holds what belongs to no effect.
 Parameters = Mapping[str, Mapping[str, ParameterValue]]
@@ -31,16 +29,16 @@ def parameters_of(table: Mapping[str, Mapping[str, ParameterValue]]) -> Paramete
     return MappingProxyType({name: MappingProxyType(dict(values)) for name, values in table.items()})
 
 
-class Comparison(Result):
+class Comparison(Result, Generic[ModelT]):
     """The error of a model on measurements, from `Model.compare`; SI."""
 
     __slots__ = ("_compared", "_model", "_name")
 
     _compared: Compared
-    _model: Model
+    _model: ModelT
     _name: str
 
-    def __init__(self, compared: Compared, model: Model, name: str) -> None:
+    def __init__(self, compared: Compared, model: ModelT, name: str) -> None:
         self._set(_compared=compared, _model=model, _name=name)
 
     @property
@@ -123,7 +121,7 @@ class Comparison(Result):
         return tuple(self._result.messages)
 
     @property
-    def model(self) -> Model:
+    def model(self) -> ModelT:
         """The compared model; after a fit with the fitted numbers and the range it was measured in."""
         return self._model
 

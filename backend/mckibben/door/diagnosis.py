@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Generic
 
 from mckibben.application.diagnosis_result import (
     Baseline,
@@ -22,7 +22,7 @@ from mckibben.application.model_question import ModelQuestion
 from mckibben.documents.studio import Studio
 from mckibben.door.comparison import Parameters, parameters_of
 from mckibben.door.frames import frame_of_rows
-from mckibben.door.result import Result
+from mckibben.door.result import ModelT, Result
 from mckibben.report.summary import Summary
 from mckibben.report.summary.diagnosis import summary_of
 
@@ -30,22 +30,20 @@ if TYPE_CHECKING:
     import pandas as pd
     from plotly.graph_objects import Figure
 
-    from mckibben.door.model import Model
 
-
-class Diagnosis(Result):
+class Diagnosis(Result, Generic[ModelT]):
     """The missing effects of a model with the evidence, from `Model.diagnose`; SI."""
 
     __slots__ = ("_model", "_name", "_question", "_result", "_studio")
 
     _result: DiagnosisResult
-    _model: Model
+    _model: ModelT
     _name: str
     _question: ModelQuestion
     _studio: Studio
 
     def __init__(
-        self, result: DiagnosisResult, model: Model, name: str, question: ModelQuestion, of: Studio
+        self, result: DiagnosisResult, model: ModelT, name: str, question: ModelQuestion, of: Studio
     ) -> None:
         self._set(_result=result, _model=model, _name=name, _question=question, _studio=of)
 
@@ -129,7 +127,7 @@ class Diagnosis(Result):
         return tuple(self._result.messages)
 
     @property
-    def model(self) -> Model:
+    def model(self) -> ModelT:
         """The best model: fitted muscle, effects and constants, of a transient with its drive."""
         return self._model
 

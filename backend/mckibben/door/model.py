@@ -22,12 +22,7 @@ from mckibben.door.comparison import Comparison
 from mckibben.door.curves import Curves
 from mckibben.door.diagnosis import Diagnosis
 from mckibben.door.problem import reported
-from mckibben.door.questions import (
-    Data,
-    StatedModel,
-    question_of,
-    watch_of,
-)
+from mckibben.door.questions import Data, DocumentedDrive, StatedModel, question_of, watch_of
 from mckibben.door.rendering import notebook_cell, plain_text
 from mckibben.door.result import Frozen
 from mckibben.door.statics import at_least_two, force_of, optional_number, pressures_in
@@ -40,7 +35,6 @@ from mckibben.report.summary.model import summary_of
 if TYPE_CHECKING:
     from plotly.graph_objects import Figure
 
-    from mckibben.door.drive import Drive
 
 _SHORTEST = 0.05  # shortest length accepted, share of the nominal length; no muscle contracts so far
 
@@ -302,9 +296,9 @@ class Model(Frozen):
         free: str | Sequence[str] = (),
         use: str | Sequence[str] = (),
         keep: str | Sequence[str] = (),
-        drive: Drive | None = None,
+        drive: DocumentedDrive | None = None,
         strict: bool = False,
-    ) -> Comparison:
+    ) -> Comparison[Model]:
         """The error of this model on measurements, with or without a fit.
 
         Args:
@@ -312,7 +306,7 @@ class Model(Frozen):
             fit: fit the parameters of the effects.
             free: geometry, or constants as "effect.parameter", to be fitted as well.
             use, keep: entries that are wrong, or right, as stated: an answer to ``doubts`` of a diagnosis.
-            drive: valve, tube, supply and load of a transient measurement.
+            drive: a `mckibben.Drive`: valve, tube, supply and load of a transient measurement.
             strict: refuse instead of assuming what nobody states.
 
         Raises:
@@ -338,10 +332,10 @@ class Model(Frozen):
         noise: float | None = None,
         use: str | Sequence[str] = (),
         keep: str | Sequence[str] = (),
-        drive: Drive | None = None,
+        drive: DocumentedDrive | None = None,
         strict: bool = False,
         progress: Callable[[float], object] | None = None,
-    ) -> Diagnosis:
+    ) -> Diagnosis[Model]:
         """Which physical effect this model of the measurements is missing.
 
         Args:

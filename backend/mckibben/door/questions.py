@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
-from typing import Any, TypeAlias, cast
+from typing import Any, Protocol, TypeAlias, cast
 
 from mckibben.application.experiment import SaidModel
 from mckibben.application.measurement_files import ARGUMENT
@@ -33,6 +33,16 @@ from mckibben.simulation.outcome import Watch
 
 #: What is compared with a model: a measurement, the path of a file, or several.
 Data: TypeAlias = "Measurement | str | PathLike[str] | Sequence[Measurement | str | PathLike[str]]"
+
+
+class DocumentedDrive(Protocol):
+    """What a question needs of a `mckibben.Drive`, which is made of models."""
+
+    @property
+    def parsed(self) -> DriveDocument:
+        """The drive document, checked."""
+        ...
+
 
 _SAMPLE_LENGTH = 0.3  # m; to check a model that has no length of its own
 _NAME = "the model"  # in messages

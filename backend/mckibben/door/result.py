@@ -9,7 +9,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from mckibben.application.json_text import to_json
 from mckibben.application.text_file import write_text
@@ -39,6 +39,10 @@ class Frozen:
 
     def __delattr__(self, name: str) -> None:
         raise AttributeError(f"a {type(self).__name__} does not change; make another one")
+
+
+#: The model of a comparison or diagnosis. `Model` makes these results, so they do not import it.
+ModelT = TypeVar("ModelT")
 
 
 class Result(Frozen, ABC):
