@@ -13,9 +13,9 @@ from mckibben.measurement.read.conditions import Constant
 from mckibben.measurement.read.correction import SAMPLE, SLACK, Choice
 from mckibben.measurement.read.marks import MARK_WORDS, split_mark
 from mckibben.measurement.read.recognise import BY_UNIT, is_raw, recognise, taken_apart, without_paths
-from mckibben.measurement.read.unit_words import CLOCK, unit_of
+from mckibben.measurement.read.unit_words import CLOCK, fits, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
-from mckibben.physics.units import factor, is_unit, meaning
+from mckibben.physics.units import is_unit, meaning
 
 #: Words of a header -> channel; the case of a single letter counts only between t (time) and T (temperature).
 SYNONYMS = {
@@ -278,7 +278,7 @@ def _chosen(index: int, header: str, choice: Choice | None, apart: str | None) -
         if (
             guess is not None
             and guess.unit is not None
-            and (guess.unit == CLOCK or _fits(guess.unit, CHANNEL_UNITS[choice.channel]))
+            and (guess.unit == CLOCK or fits(guess.unit, CHANNEL_UNITS[choice.channel]))
         ):
             unit, absolute = guess.unit, guess.absolute if absolute is None else absolute
     name = header or f"column {index + 1}"
@@ -355,9 +355,9 @@ def _with_unit(
     use, unit = column.use, column.unit
     if letter in ("t", "T"):
         use = "time" if letter == "t" else "temperature"
-        if unit is not None and _fits(unit, "s"):
+        if unit is not None and fits(unit, "s"):
             use = "time"
-        elif unit is not None and (_fits(unit, "K") or unit in ("C", "F")):
+        elif unit is not None and (fits(unit, "K") or unit in ("C", "F")):
             use = "temperature"
     if unit is None:
         return column._replace(use=use)
@@ -366,20 +366,21 @@ def _with_unit(
     if use == "force" and unit in _WEIGHTS:
         messages.append(f"{noun} '{column.header}' is a mass: its weight is the force")
         unit = _WEIGHTS[unit]
-    if use == "contraction" and _fits(unit, "m"):
+    if use == "contraction" and fits(unit, "m"):
         use = "displacement"
-    elif use == "displacement" and _fits(unit, "1"):
+    elif use == "displacement" and fits(unit, "1"):
         use = "contraction"
-    if _fits(unit, CHANNEL_UNITS[use]):
+    if column.header.isupper() and fits(unit.lower(), CHANNEL_UNITS[use]):
+        unit = unit.lower()  # "TIME_S" is no siemens
+    if fits(unit, CHANNEL_UNITS[use]):
         return column._replace(use=use, unit=unit)
     measured = meaning(unit)
     if measured in ("a voltage", "a current") or letter or use in ("direction", "group"):
         what = f"{measured}, not a {use}" if measured else f"no unit of a {use}"
         messages.append(f"{noun} '{column.header}' is not used: '{unit}' is {what}")
         return None
-    problem = f"the unit '{unit}' is {measured}" if measured else f"the unit '{unit}' is not known"
     raise InputError(
-        f"{where}: {problem}, a unit of {use} is needed",
+        f"{where}: the unit '{unit}' is {measured or 'not known'}, a unit of {use} is needed",
         field=f"{noun} {column.header}",
         hint=f"e.g. '{use}_{_UNIT_EXAMPLES.get(use, CHANNEL_UNITS[use])}'",
     )
@@ -390,11 +391,3 @@ _UNIT_EXAMPLES = {
     "pressure": "bar", "length": "mm", "displacement": "mm", "diameter": "mm", "contraction": "pct",
     "command": "pct", "temperature": "degC",
 }  # fmt: skip
-
-
-def _fits(unit: str, si_unit: str) -> bool:
-    try:
-        factor(unit, si_unit)
-    except ValueError:
-        return False
-    return True

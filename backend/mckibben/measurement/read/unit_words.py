@@ -9,7 +9,7 @@ from typing import NamedTuple
 from mckibben.measurement.read.marks import split_mark
 from mckibben.measurement.read.vocabulary import REFERENCE_WORDS, folded, word_set
 from mckibben.measurement.read.words import UNITS
-from mckibben.physics.units import is_unit, meaning
+from mckibben.physics.units import factor, is_unit, meaning
 
 #: Spellings that the unit library lacks, lower case.
 _SPELLINGS = {spelling: unit for unit, text in UNITS.items() for spelling in text.split()}
@@ -65,6 +65,15 @@ def unit_of(text: str) -> UnitText | None:
     if bare in ("-", "–", "—"):
         return UnitText("1")
     return None
+
+
+def fits(unit: str, si_unit: str) -> bool:
+    """Whether a unit measures the same as an SI unit."""
+    try:
+        factor(unit, si_unit)
+    except ValueError:
+        return False
+    return True
 
 
 def reference_of(text: str) -> bool | None:

@@ -116,7 +116,7 @@ export const next = computed(() => {
       return {
         tone: "idle",
         what: "Bring a measurement",
-        effect: ".csv, .xlsx, .mat, .tdms: open or drop it",
+        effect: "a file of any laboratory: open or drop it",
         label: "Open…",
         run: chooseFiles,
       };
