@@ -12,6 +12,7 @@ from mckibben.identification.diagnose.probability import LIKELY, Evidence, Loss,
 from mckibben.identification.diagnose.score import score
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict.fit_model import FitModel
+from mckibben.identification.predict.free import Free
 from mckibben.physics.effect import Prior
 from tests.identification.synthetic import CATALOGUE, MUSCLE
 
@@ -87,3 +88,14 @@ def test_the_weight_of_evidence_is_half_the_score() -> None:
     weights = model_weights([one], root, rows=ROWS, noise=0.1)
     share = weights.share(["prestress"])
     assert log(share / (1.0 - share)) == pytest.approx(0.05 * ROWS, abs=0.02)
+
+
+def test_models_less_plausible_than_the_best_do_not_count() -> None:
+    """A better fit with a parameter at its bound is none that a search would choose."""
+    free = Free("force_offset.offset", 100.0, 0.0, 100.0, "N", off=0.0)
+    wild = replace(fitted(0.5, "force_offset"), free=(free,), jacobian=np.ones((60, 1)))
+    assert wild.implausible == 1
+    root, best = fitted(3.0), fitted(1.0, "prestress")
+    weights = model_weights([wild, best], root, rows=ROWS, noise=0.1, implausible=0)
+    assert weights.share(["prestress"]) == pytest.approx(1.0)
+    assert weights.share(["force_offset"]) == 0.0

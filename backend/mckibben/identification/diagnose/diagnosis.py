@@ -67,7 +67,8 @@ class Diagnosis:
         root: the start model refitted.
         noise: of the scaled residual; None when it cannot be estimated.
         noise_how: how it was obtained.
-        noise_interval: from the scatter of neighbouring readings to all that no variable explains.
+        noise_interval: from the scatter of neighbouring readings to all that no variable explains; None
+            where an effect is unknown.
         where: the start model's residual over each variable.
         left_where: the best model's residual over each variable.
         candidates: single additions, the best first.
@@ -257,7 +258,9 @@ def _diagnose(
     added = tuple(step.added for step in path if step.added)
     fit = _final_fit(predictor, best)
     rows = effective_rows(best.residual, predictor.sweeps, predictor.folds)
-    weights = model_weights(fitter.known.values(), root, rows=rows, noise=fitter.noise)
+    weights = model_weights(
+        fitter.known.values(), root, rows=rows, noise=fitter.noise, implausible=best.implausible
+    )
     support = []
     for name in added:
         group = (name, *(other.effect for other in exchangeable if other.of == name))
@@ -307,7 +310,7 @@ def _diagnose(
         root=root,
         noise=fitter.noise,
         noise_how=how,
-        noise_interval=noise_interval(best, fitter.noise, remaining),
+        noise_interval=None if status == "unknown_effect" else noise_interval(best, fitter.noise, remaining),
         where=tuple(where),
         left_where=tuple(profiles(best.residual, variables, predictor.folds[0])),
         candidates=tuple(ranked),

@@ -39,7 +39,12 @@ class ModelWeights:
 
 
 def model_weights(
-    models: Iterable[FittedModel], root: FittedModel, *, rows: float, noise: float | None
+    models: Iterable[FittedModel],
+    root: FittedModel,
+    *,
+    rows: float,
+    noise: float | None,
+    implausible: int = 0,
 ) -> ModelWeights:
     """Weights of models, one for each set of effects: the best of those that differ in freed constants.
 
@@ -48,12 +53,16 @@ def model_weights(
         root: the fitted start model.
         rows: effective number of rows, the same for all.
         noise: of the scaled residual.
+        implausible: most parameters at bounds or not separable, those of the best model; models with more
+            do not count, because no search would choose them.
     """
     start = frozenset(root.fit_model.ids)
     logarithms: dict[frozenset[str], float] = {}
     for model in (root, *models):
         present = frozenset(model.fit_model.ids)
         if not start <= present or not np.isfinite(model.mean_square):
+            continue
+        if model is not root and model.implausible > implausible:
             continue
         value = log_weight(model, rows=rows, noise=noise)
         key = present - start
