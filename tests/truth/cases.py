@@ -11,6 +11,21 @@ import numpy as np
 
 
 @dataclass(frozen=True)
+class Held:
+    """Another test of the same muscle and rig, to predict.
+
+    Attributes:
+        text: of its file.
+        drive: its drive document, None where there is none.
+        noise: as of a case.
+    """
+
+    text: str
+    drive: dict[str, Any] | None
+    noise: dict[str, float]
+
+
+@dataclass(frozen=True)
 class Case:
     """One synthetic measurement with its answer.
 
@@ -32,6 +47,7 @@ class Case:
         rows: data rows of all files.
         clean: predicted channel -> the truth at the measured inputs, SI.
         measured: predicted channel -> the readings, SI.
+        held: the same rig under conditions that the diagnosis does not see; None where there are none.
     """
 
     name: str
@@ -49,6 +65,7 @@ class Case:
     rows: int
     clean: dict[str, np.ndarray] = field(repr=False)
     measured: dict[str, np.ndarray] = field(repr=False)
+    held: Held | None = field(default=None, repr=False)
 
     @property
     def id(self) -> str:

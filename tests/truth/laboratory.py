@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 from typing import Any
+from zlib import crc32
 
 import numpy as np
 
 from tests.truth.bench import Measured, diameter_rows, force_rows, length_rows
-from tests.truth.cases import Case, file_name
+from tests.truth.cases import Case, Held, file_name
 from tests.truth.composition import Record, Truth
+from tests.truth.held_out import other_conditions
 from tests.truth.muscle import FULL_PRESSURE
 from tests.truth.sensors import Noise
 from tests.truth.tables import STYLES, text_of
@@ -86,39 +88,52 @@ def case_of(
     noise = noise or usual_noise(truth, rng)
     if kind in ("isobaric", "isometric", "isotonic") and rng.random() < 0.3:
         record = jittered(record, rng)
-    rows_of = {"isotonic": length_rows, "diameter": diameter_rows}.get(kind, force_rows)
-    measured = rows_of(truth, record, noise, rng)
-    if kind == "static":
-        measured = shuffled(measured, rng)
-    columns = dict(measured.columns)
-    columns["temperature"] = record.temperature[record.kept]
-    columns["way"] = (record.length if kind == "isobaric" else -record.pressure)[record.kept]
-    channels = tuple(
-        channel
-        for channel, wanted in (
-            ("time", timed and kind != "static"),
-            ("pressure", True),
-            ("force", "force" in columns),
-            ("diameter", kind == "diameter"),
-            ("temperature", temperature),
+
+    def written(record: Record, rng: np.random.Generator) -> tuple[Measured, str]:
+        rows_of = {"isotonic": length_rows, "diameter": diameter_rows}.get(kind, force_rows)
+        measured = rows_of(truth, record, noise, rng)
+        if kind == "static":
+            measured = shuffled(measured, rng)
+        columns = dict(measured.columns)
+        columns["temperature"] = record.temperature[record.kept]
+        columns["way"] = (record.length if kind == "isobaric" else -record.pressure)[record.kept]
+        channels = tuple(
+            channel
+            for channel, wanted in (
+                ("time", timed and kind != "static"),
+                ("pressure", True),
+                ("force", "force" in columns),
+                ("diameter", kind == "diameter"),
+                ("temperature", temperature),
+            )
+            if wanted
         )
-        if wanted
+        draw = rng.random(3)
+        with_direction = bool(draw[0] < 0.4) if directed is None else directed
+        with_group = bool(draw[1] < 0.4) if grouped is None else grouped
+        said = bool(draw[2] < 0.5) if say_kind is None else say_kind
+        if kind in ("isotonic", "diameter"):
+            said = True
+        text = text_of(
+            columns,
+            nominal=truth.muscle.nominal,
+            style=STYLES[int(rng.integers(len(STYLES))) if style is None else style],
+            conditions={"kind": kind} if said else {},
+            channels=channels,
+            direction=str(rng.choice(_DIRECTIONS))
+            if with_direction and kind not in ("static", "diameter")
+            else "",
+            group=with_group and kind != "static",
+        )
+        return measured, text
+
+    measured, text = written(record, rng)
+    rows = int(np.count_nonzero(record.kept))
+    # Random numbers of its own: what the diagnosis sees does not depend on what it does not see.
+    held_measured, held_text = written(
+        other_conditions(record, truth, kind), np.random.default_rng([crc32(name.encode()), seed, 1])
     )
-    draw = rng.random(3)
-    directed = bool(draw[0] < 0.4) if directed is None else directed
-    grouped = bool(draw[1] < 0.4) if grouped is None else grouped
-    said = bool(draw[2] < 0.5) if say_kind is None else say_kind
-    if kind in ("isotonic", "diameter"):
-        said = True
-    text = text_of(
-        columns,
-        nominal=truth.muscle.nominal,
-        style=STYLES[int(rng.integers(len(STYLES))) if style is None else style],
-        conditions={"kind": kind} if said else {},
-        channels=channels,
-        direction=str(rng.choice(_DIRECTIONS)) if directed and kind not in ("static", "diameter") else "",
-        group=grouped and kind != "static",
-    )
+    held = Held(held_text, None, held_measured.noise)
     known = truth.hidden[:-1] if unknown else truth.hidden
     return Case(
         name=name,
@@ -133,7 +148,8 @@ def case_of(
         seed=seed,
         truths=tuple(part.name for part in truth.hidden),
         ratios=measured.ratios,
-        rows=len(columns["pressure"]),
+        rows=rows,
         clean=measured.clean,
         measured={channel: measured.columns[channel] for channel in measured.noise},
+        held=held,
     )

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
+from zlib import crc32
 
 import numpy as np
 
 from tests.truth import valves
 from tests.truth.bench import rms
-from tests.truth.cases import Case, file_name
+from tests.truth.cases import Case, Held, file_name
 from tests.truth.composition import Hidden
-from tests.truth.drive import STEP, run
+from tests.truth.drive import STEP
+from tests.truth.drive import run as simulated
 from tests.truth.muscle import FULL_PRESSURE, GRAVITY, ROOM, Array, Muscle
 from tests.truth.plant import Plant, Trace
 from tests.truth.sensors import Noise
@@ -173,7 +175,7 @@ def simulate(rig: Setup, parts: tuple[Hidden, ...], test: Test, pressure: Array 
     for part in (*rig.known, *parts):
         if part.elastic:
             table = table + part.elastic(length, room)
-    return run(
+    return simulated(
         plant,
         rows=rows,
         every=test.every,
@@ -197,6 +199,65 @@ def _shown(rig: Setup, parts: tuple[Hidden, ...], trace: Trace) -> dict[str, Arr
     return channels
 
 
+@dataclass(frozen=True)
+class _Run:
+    """One run: what happened, what ideal sensors show, what was read, the noise of what is predicted."""
+
+    trace: Trace
+    shown: dict[str, Array]
+    columns: dict[str, Array]
+    clean: dict[str, Array]
+    level: dict[str, float]
+
+
+def _run(rig: Setup, hidden: tuple[Hidden, ...], test: Test, noise: Noise, rng: np.random.Generator) -> _Run:
+    trace = simulate(rig, hidden, test)
+    shown = _shown(rig, hidden, trace)
+    rows = len(shown["time"])
+    columns = {"time": shown["time"], "group": np.zeros(rows)}
+    errors = {}
+    for channel in ("pressure", "length", "force"):
+        columns[channel] = noise.quantised(channel, shown[channel] + noise.white(channel, rows, rng))
+        errors[channel] = columns[channel] - shown[channel]
+    columns["command"] = command_at(shown["time"], test.corners)
+    if test.commanded:
+        predicted = ("pressure", "length", "force") if test.forced else ("pressure", "length")
+        clean = shown
+    else:
+        predicted = ("length",)
+        pressure = np.asarray(trace.pressure) + errors["pressure"]
+        clean = _shown(rig, hidden, simulate(rig, hidden, test, pressure))
+    level = {channel: rms(columns[channel] - clean[channel]) for channel in predicted}
+    return _Run(trace, shown, columns, clean, level)
+
+
+def _text(rig: Setup, test: Test, run: _Run, rng: np.random.Generator, *, said: bool) -> str:
+    conditions = {"kind": "transient"} if said else {}
+    if not test.commanded:
+        conditions["load_mass"] = rig.document["load"]["mass"]
+    return text_of(
+        run.columns,
+        nominal=rig.muscle.nominal,
+        style=STYLES[int(rng.integers(len(STYLES)))],
+        conditions=conditions,
+        stroke="displacement",
+        channels=("time", "pressure")
+        + (("command",) if test.commanded else ())
+        + (("force",) if test.forced else ()),
+    )
+
+
+def _document(rig: Setup, test: Test) -> dict[str, Any]:
+    return rig.document | {
+        "command": {
+            "shape": "table",
+            "times": [corner[0] for corner in test.corners],
+            "values": [corner[1] for corner in test.corners],
+        },
+        "duration": test.corners[-1][0],
+    }
+
+
 def transient_case(
     name: str,
     seed: int,
@@ -210,8 +271,6 @@ def transient_case(
 ) -> Case:
     """Run, add noise, write the file. Arguments as for `tests.truth.laboratory.case_of`."""
     test = test or Test()
-    trace = simulate(rig, hidden, test)
-    shown = _shown(rig, hidden, trace)
     full = rig.muscle.blocked
     noise = Noise(
         levels={
@@ -222,61 +281,33 @@ def transient_case(
         ranges={"pressure": 1e6, "length": 0.5, "force": 1.5 * full},
         bits=int(rng.choice([12, 14, 16])),
     )
-    rows = len(shown["time"])
-    columns = {"time": shown["time"], "group": np.zeros(rows)}
-    errors = {}
-    for channel in ("pressure", "length", "force"):
-        columns[channel] = noise.quantised(channel, shown[channel] + noise.white(channel, rows, rng))
-        errors[channel] = columns[channel] - shown[channel]
-    columns["command"] = command_at(shown["time"], test.corners)
-    pressure = None
-    if test.commanded:
-        predicted = ("pressure", "length", "force") if test.forced else ("pressure", "length")
-        clean = shown
-    else:
-        predicted = ("length",)
-        pressure = np.asarray(trace.pressure) + errors["pressure"]
-        clean = _shown(rig, hidden, simulate(rig, hidden, test, pressure))
-    level = {channel: rms(columns[channel] - clean[channel]) for channel in predicted}
+    run = _run(rig, hidden, test, noise, rng)
     ratios = []
     for index, part in enumerate(hidden):
         rest = hidden[:index] + hidden[index + 1 :]
         if test.commanded:
             other = _shown(rig, rest, simulate(rig, rest, test))
         else:
-            seen = np.asarray(trace.pressure)
+            seen = np.asarray(run.trace.pressure)
             if part.reading:
-                seen = part.reading(dict(shown))["pressure"] + rig.plant.ambient
+                seen = part.reading(dict(run.shown))["pressure"] + rig.plant.ambient
             other = _shown(rig, rest, simulate(rig, rest, test, seen))
-        shares = [rms(shown[channel] - other[channel]) / level[channel] for channel in predicted]
+        shares = [rms(run.shown[channel] - other[channel]) / level for channel, level in run.level.items()]
         ratios.append(float(np.sqrt(np.mean(np.square(shares)))))
     named = {"length": "displacement"}
     stroke = {"length": lambda values: rig.muscle.nominal - values}
-    keep = {channel: stroke.get(channel, np.asarray) for channel in predicted}
+    keep = {channel: stroke.get(channel, np.asarray) for channel in run.level}
     said = bool(rng.random() < 0.5) if said is None else said
-    conditions = {"kind": "transient"} if said else {}
-    if not test.commanded:
-        conditions["load_mass"] = rig.document["load"]["mass"]
-    style = STYLES[int(rng.integers(len(STYLES)))]
-    text = text_of(
-        columns,
-        nominal=rig.muscle.nominal,
-        style=style,
-        conditions=conditions,
-        stroke="displacement",
-        channels=("time", "pressure")
-        + (("command",) if test.commanded else ())
-        + (("force",) if test.forced else ()),
+    text = _text(rig, test, run, rng, said=said)
+    # Random numbers of its own: what the diagnosis sees does not depend on what it does not see.
+    other_test = replace(test, corners=STEPS if test.corners == PULSES else PULSES)
+    own = np.random.default_rng([crc32(name.encode()), seed, 1])
+    other_run = _run(rig, hidden, other_test, noise, own)
+    held = Held(
+        _text(rig, other_test, other_run, own, said=True),
+        _document(rig, other_test) if test.commanded else None,
+        {named.get(channel, channel): level for channel, level in other_run.level.items()},
     )
-    duration = test.corners[-1][0]
-    document = rig.document | {
-        "command": {
-            "shape": "table",
-            "times": [corner[0] for corner in test.corners],
-            "values": [corner[1] for corner in test.corners],
-        },
-        "duration": duration,
-    }
     answers = hidden[:-1] if unknown else hidden
     return Case(
         name=name,
@@ -284,14 +315,15 @@ def transient_case(
         hidden=tuple(part.accepted for part in answers),
         unknown=unknown,
         muscle=rig.muscle.document(),
-        drive=document if test.commanded else None,
+        drive=_document(rig, test) if test.commanded else None,
         effects=rig.effects,
         files={file_name(text): text},
-        noise={named.get(channel, channel): level[channel] for channel in predicted},
+        noise={named.get(channel, channel): level for channel, level in run.level.items()},
         seed=seed,
         truths=tuple(part.name for part in hidden),
         ratios=tuple(ratios),
-        rows=rows,
-        clean={named.get(c, c): keep[c](clean[c]) for c in predicted},
-        measured={named.get(c, c): keep[c](columns[c]) for c in predicted},
+        rows=len(run.columns["time"]),
+        clean={named.get(c, c): keep[c](run.clean[c]) for c in run.level},
+        measured={named.get(c, c): keep[c](run.columns[c]) for c in run.level},
+        held=held,
     )
