@@ -1,0 +1,172 @@
+"""How well the repaired model predicts what it was not fitted to: a second test of the rig of every case.
+
+    python -m tests.benchmarks.held_out [--seeds 0] [--only TEXT] [--kind transient]
+
+The diagnosis sees the first test of a case alone. Then its model predicts the second one, at levels between
+the measured ones and at twice the speed, or of a transient another command, without fitting anything again.
+Errors are over the true noise of the second test. *Twins part*: models that fit the first test as well
+predict the second one differently by more than half the noise; the band over them is then what is judged.
+"""
+
+from __future__ import annotations
+
+import argparse
+import multiprocessing
+import os
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from mckibben.measurement.points import Points, joined
+from mckibben.measurement.read import read_measurement
+from tests.benchmarks.diagnosis import _studio, say, subject_and_start
+from tests.truth.cases import Case
+from tests.truth.generate import all_cases
+
+WANTED = 1.2  # largest error over the noise of a prediction that holds
+_PART = 0.5  # difference of two predictions over the noise from which they part
+_NORMAL_90 = 1.645  # standard deviations of a normal distribution that hold 90 %
+
+
+@dataclass
+class Line:
+    """What became of one case; errors over the true noise of the second test."""
+
+    case: str
+    kind: str
+    known: bool
+    start: float = float("nan")
+    repaired: float = float("nan")
+    fitted: float = float("nan")
+    added: tuple[str, ...] = ()
+    corrections: tuple[str, ...] = ()
+    parting: int = 0
+    spread: float = 0.0
+    covered: float = float("nan")
+    problem: str = ""
+
+
+def predicted(case: Case) -> Line:
+    """Diagnose the first test of a case and predict the second one."""
+    from mckibben.identification.diagnose.diagnosis import diagnose
+
+    line = Line(case.id, case.kind, case.unknown is None)
+    studio = _studio()
+    try:
+        predictor, fit_model = subject_and_start(case, studio)
+        result = diagnose(predictor, fit_model, catalogue=studio.catalogue)
+        test, sigma = second_test(case, studio)
+        readings = test.prepared(fit_model, tuple(studio.catalogue.values()))
+
+        def error(model: Any) -> np.ndarray:
+            return (readings.measured - readings.predict(model)) / sigma
+
+        line.fitted = result.best.rmse * float(np.mean(predictor.scale)) if len(predictor.channels) == 1 else 0.0
+        best = error(result.best.fit_model)
+        line.start, line.repaired = _rms(error(result.root.fit_model)), _rms(best)
+        line.added = result.added
+        line.corrections = tuple(item.effect for item in result.corrections)
+        twins = [error(twin.fitted_model.fit_model) for twin in result.alternatives]
+        differences = [_rms(twin - best) for twin in twins]
+        line.parting = sum(difference > _PART for difference in differences)
+        line.spread = max(differences, default=0.0)
+        band = np.array([best, *twins])
+        line.covered = float(
+            np.mean((band.min(axis=0) < _NORMAL_90) & (band.max(axis=0) > -_NORMAL_90))
+        )
+    except Exception as failure:  # a case that breaks is a line of the table, not its end
+        line.problem = f"{type(failure).__name__}: {failure}"[:120]
+    return line
+
+
+def second_test(case: Case, studio: Any) -> tuple[Any, np.ndarray]:
+    """Predictor of the second test, and its true noise for each value."""
+    from mckibben.identification.predict import predictor_of
+
+    assert case.held is not None
+    name = next(iter(case.files))
+    measurement = joined([Points(read_measurement(case.held.text.encode(), name))]).measurement
+    shown = replace(case, drive=case.held.drive, files={name: case.held.text})
+    predictor, fit_model = subject_and_start(shown, studio)
+    del measurement, fit_model, predictor_of
+    sigma = np.empty(len(predictor.measured))
+    for channel in predictor.channels:
+        sigma[channel.rows] = case.held.noise[channel.name] if len(predictor.channels) > 1 else next(
+            iter(case.held.noise.values())
+        )
+    return predictor, sigma
+
+
+def _rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--seeds", default="0")
+    parser.add_argument("--only", default="", help="part of the case's name")
+    parser.add_argument("--kind", default="", help="transient, isobaric, ...; 'static' is all but transient")
+    given = parser.parse_args()
+    chosen = [
+        case
+        for case in all_cases(seeds=tuple(int(seed) for seed in given.seeds.split(",")))
+        if given.only in case.name
+        and case.unknown is None
+        and case.hidden
+        and (
+            not given.kind
+            or case.kind == given.kind
+            or (given.kind == "static") == (case.kind != "transient")
+        )
+    ]
+    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+        os.environ.setdefault(name, "1")
+    lines = []
+    with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
+        for line in pool.imap_unordered(predicted, chosen):
+            lines.append(line)
+            say(text_of(line))
+    say("")
+    for text in summary(lines):
+        say(text)
+
+
+def text_of(line: Line) -> str:
+    """A line of the table."""
+    good = "ok" if line.repaired <= WANTED else "--"
+    parts = [
+        f"{good} {line.case:46}{line.start:7.1f} ->{line.repaired:6.2f}",
+        f"twins part {line.parting} by {line.spread:.1f} band {100.0 * line.covered:.0f} %" if line.parting else "",
+        ", ".join(line.added),
+        f"corrections {', '.join(line.corrections)}" if line.corrections else "",
+        line.problem,
+    ]
+    return "  ".join(part for part in parts if part)
+
+
+def summary(lines: Sequence[Line]) -> list[str]:
+    """What was promised."""
+    agreeing = [line for line in lines if not line.parting]
+    parting = [line for line in lines if line.parting]
+    good = sum(line.repaired <= WANTED for line in agreeing)
+    better = sum(line.repaired < line.start for line in lines)
+    texts = [
+        f"twins agree: error <= {WANTED} x noise  {good} of {len(agreeing)}, wanted 85 %",
+        f"better than the start model        {better} of {len(lines)}",
+    ]
+    if parting:
+        covered = np.mean([line.covered for line in parting])
+        of_all = sum(line.repaired <= WANTED for line in parting)
+        texts.append(
+            f"twins part: 90 % band over them holds {100.0 * covered:.0f} % of the readings, wanted 85-95 %; "
+            f"the applied one <= {WANTED} x noise  {of_all} of {len(parting)}"
+        )
+    return texts
+
+
+if __name__ == "__main__":
+    sys.exit(main())
