@@ -1640,6 +1640,8 @@ export interface components {
       added: string | null;
       /** The start model with its own numbers fitted, before any effect. */
       refitted: boolean;
+      /** The added effect is kept, but not called missing. */
+      correction: boolean;
       rmse: number;
       holdout_rmse: number;
       model: components["schemas"]["ModelJson"];
@@ -2195,6 +2197,8 @@ export interface components {
       rmse_after: number;
       /** That it is missing nevertheless. */
       probability: number;
+      /** Whether the model keeps it, because it predicts better with it. */
+      kept: boolean;
     };
     /** Source of a figure, and its grade. */
     SourceText: {

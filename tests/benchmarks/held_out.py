@@ -20,8 +20,6 @@ from typing import Any
 
 import numpy as np
 
-from mckibben.measurement.points import Points, joined
-from mckibben.measurement.read import read_measurement
 from tests.benchmarks.diagnosis import _studio, say, subject_and_start
 from tests.truth.cases import Case
 from tests.truth.generate import all_cases
@@ -37,10 +35,8 @@ class Line:
 
     case: str
     kind: str
-    known: bool
     start: float = float("nan")
     repaired: float = float("nan")
-    fitted: float = float("nan")
     added: tuple[str, ...] = ()
     corrections: tuple[str, ...] = ()
     parting: int = 0
@@ -53,7 +49,7 @@ def predicted(case: Case) -> Line:
     """Diagnose the first test of a case and predict the second one."""
     from mckibben.identification.diagnose.diagnosis import diagnose
 
-    line = Line(case.id, case.kind, case.unknown is None)
+    line = Line(case.id, case.kind)
     studio = _studio()
     try:
         predictor, fit_model = subject_and_start(case, studio)
@@ -64,19 +60,16 @@ def predicted(case: Case) -> Line:
         def error(model: Any) -> np.ndarray:
             return (readings.measured - readings.predict(model)) / sigma
 
-        line.fitted = result.best.rmse * float(np.mean(predictor.scale)) if len(predictor.channels) == 1 else 0.0
-        best = error(result.best.fit_model)
+        best, lean = error(result.best.fit_model), error(result.lean.fit_model)
         line.start, line.repaired = _rms(error(result.root.fit_model)), _rms(best)
         line.added = result.added
         line.corrections = tuple(item.effect for item in result.corrections)
         twins = [error(twin.fitted_model.fit_model) for twin in result.alternatives]
-        differences = [_rms(twin - best) for twin in twins]
+        differences = [_rms(twin - lean) for twin in twins]
         line.parting = sum(difference > _PART for difference in differences)
         line.spread = max(differences, default=0.0)
         band = np.array([best, *twins])
-        line.covered = float(
-            np.mean((band.min(axis=0) < _NORMAL_90) & (band.max(axis=0) > -_NORMAL_90))
-        )
+        line.covered = float(np.mean((band.min(axis=0) < _NORMAL_90) & (band.max(axis=0) > -_NORMAL_90)))
     except Exception as failure:  # a case that breaks is a line of the table, not its end
         line.problem = f"{type(failure).__name__}: {failure}"[:120]
     return line
@@ -84,19 +77,13 @@ def predicted(case: Case) -> Line:
 
 def second_test(case: Case, studio: Any) -> tuple[Any, np.ndarray]:
     """Predictor of the second test, and its true noise for each value."""
-    from mckibben.identification.predict import predictor_of
-
     assert case.held is not None
-    name = next(iter(case.files))
-    measurement = joined([Points(read_measurement(case.held.text.encode(), name))]).measurement
-    shown = replace(case, drive=case.held.drive, files={name: case.held.text})
-    predictor, fit_model = subject_and_start(shown, studio)
-    del measurement, fit_model, predictor_of
+    other = replace(case, drive=case.held.drive, files={"second-test.csv": case.held.text})
+    predictor, _ = subject_and_start(other, studio)
+    noise = case.held.noise
     sigma = np.empty(len(predictor.measured))
     for channel in predictor.channels:
-        sigma[channel.rows] = case.held.noise[channel.name] if len(predictor.channels) > 1 else next(
-            iter(case.held.noise.values())
-        )
+        sigma[channel.rows] = noise[channel.name] if len(noise) > 1 else next(iter(noise.values()))
     return predictor, sigma
 
 
@@ -108,13 +95,13 @@ def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--seeds", default="0")
-    parser.add_argument("--only", default="", help="part of the case's name")
+    parser.add_argument("--only", default="", help="parts of names, separated by commas")
     parser.add_argument("--kind", default="", help="transient, isobaric, ...; 'static' is all but transient")
     given = parser.parse_args()
     chosen = [
         case
         for case in all_cases(seeds=tuple(int(seed) for seed in given.seeds.split(",")))
-        if given.only in case.name
+        if any(part in case.name for part in given.only.split(","))
         and case.unknown is None
         and case.hidden
         and (
@@ -140,7 +127,7 @@ def text_of(line: Line) -> str:
     good = "ok" if line.repaired <= WANTED else "--"
     parts = [
         f"{good} {line.case:46}{line.start:7.1f} ->{line.repaired:6.2f}",
-        f"twins part {line.parting} by {line.spread:.1f} band {100.0 * line.covered:.0f} %" if line.parting else "",
+        f"twins part by {line.spread:.1f}, band {100.0 * line.covered:.0f} %" if line.parting else "",
         ", ".join(line.added),
         f"corrections {', '.join(line.corrections)}" if line.corrections else "",
         line.problem,

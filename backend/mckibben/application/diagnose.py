@@ -195,6 +195,7 @@ def _result(
             PathPoint(
                 added=step.added,
                 refitted=step.refitted,
+                correction=step.correction,
                 rmse=step.fitted_model.rmse,
                 holdout_rmse=step.fitted_model.holdout_rmse,
                 model=_model(question, step.fitted_model),
@@ -253,7 +254,7 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
         probabilities={name: item.probability for item in diagnosis.evidence for name in item.group},
         applied=applied_reasons(diagnosis, catalogue),
         corrections=[
-            CorrectionResult(item.effect, item.before, item.after, item.probability)
+            CorrectionResult(item.effect, item.before, item.after, item.probability, item.kept)
             for item in diagnosis.corrections
         ],
         unexplained_share=unexplained_share(

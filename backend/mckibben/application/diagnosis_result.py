@@ -86,21 +86,26 @@ class CandidateResult:
 class CorrectionResult:
     """An effect that lowers the error, but not by more than an inexact form of another effect explains.
 
-    ``probability``: that it is missing nevertheless.
+    ``probability``: that it is missing nevertheless; ``kept``: whether the model keeps it.
     """
 
     effect: str
     rmse_before: float
     rmse_after: float
     probability: float
+    kept: bool
 
 
 @dataclass(frozen=True, slots=True)
 class PathPoint:
-    """The error after each addition; the first is the start model as given, then its own numbers refitted."""
+    """The error after each addition; the first is the start model as given, then its own numbers refitted.
+
+    Corrections, which are kept but not called missing, come last.
+    """
 
     added: str | None
     refitted: bool
+    correction: bool
     rmse: float
     holdout_rmse: float
     model: ModelDocument
@@ -139,7 +144,7 @@ class Verdict:
         indistinguishable: groups of effects that the data cannot distinguish.
         probabilities: effect -> probability that it, or one of its group, is missing; a group shares one.
         applied: effect of the model with a group -> why this one of its group.
-        corrections: effects that lower the error but are not called missing.
+        corrections: effects that lower the error but are not called missing; the model keeps some of them.
         unexplained_share, unexplained_in: what is left to explain of the residual, and the variables it
             depends on; of an unknown effect at least all above the noise.
         proposed_term: a short formula for it that halves the error of the groups left out.

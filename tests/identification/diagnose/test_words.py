@@ -35,6 +35,7 @@ def result(
         start=SimpleNamespace(rmse=before),
         root=SimpleNamespace(rmse=before if refitted is None else refitted, free=refitted is not None),
         best=SimpleNamespace(rmse=after),
+        lean=SimpleNamespace(rmse=after),
         added=added,
         noise=noise,
         noise_interval=None if highest is None else Interval(noise or 0.0, highest),
@@ -146,10 +147,17 @@ def test_the_applied_effect_has_a_reason_from_the_data_where_another_is_likelier
 
 def test_a_correction_is_said_with_its_errors_and_probability() -> None:
     found = result("missing_effects", 40.0, 2.1, "creep")
-    found.corrections = (SimpleNamespace(effect="leak", before=2.1, after=1.9, probability=0.12),)
+    leak = SimpleNamespace(effect="leak", before=2.1, after=1.9, probability=0.12, kept=True)
+    found.corrections = (leak,)
     assert corrections_sentence(found, TITLES) == (
-        "Not called missing: Leak (from 2.1 to 1.9 N, 12 %); a slightly inexact form of the effects above "
-        "explains as much."
+        "Not called missing, but kept in the model as a correction: Leak (from 2.1 to 1.9 N, 12 %); a "
+        "slightly inexact form of the effects above explains as much, but the model predicts groups left out "
+        "better so."
+    )
+    found.corrections = (SimpleNamespace(effect="leak", before=2.1, after=1.9, probability=0.12, kept=False),)
+    assert corrections_sentence(found, TITLES) == (
+        "Neither called missing nor kept: Leak (from 2.1 to 1.9 N, 12 %); an inexact form of the effects "
+        "above explains as much, and these data do not test what it would predict elsewhere."
     )
     assert corrections_sentence(result("adequate", 2.0, 2.0), TITLES) == ""
 

@@ -3,15 +3,22 @@
 A search adds whatever lowers the error on the groups left out by more than chance. Where a formula of the
 catalogue differs a little from the real muscle, that includes effects that the muscle does not have. They are
 small beside the noise and beside what the whole model explains, so their calibrated probability is low.
+
+They are not called missing. The model keeps them where it predicts better with them: an inexact form is an
+error too.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from mckibben.identification.diagnose.probability import LIKELY, Loss, loss
+from mckibben.identification.diagnose.score import better, effective_rows
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
+
+_IN_TIME = frozenset({"rate", "dynamic"})  # types of effects that depend on speed or time
 
 
 @dataclass(frozen=True)
@@ -22,12 +29,14 @@ class Correction:
         effect: its id.
         before, after: error of the model without and with it, scaled as the residual.
         loss: what the model loses without it.
+        kept: whether the model keeps it.
     """
 
     effect: str
     before: float
     after: float
     loss: Loss
+    kept: bool = False
 
     @property
     def probability(self) -> float:
@@ -59,3 +68,39 @@ def without_corrections(
             return best, tuple(corrections)
         corrections.append(Correction(least, trials[least].rmse, best.rmse, losses[least]))
         best = trials[least]
+
+
+def refined(
+    fitter: Fitter, lean: FittedModel, searched: FittedModel, corrections: Sequence[Correction]
+) -> tuple[list[tuple[str, FittedModel]], tuple[Correction, ...]]:
+    """The models with one more kept correction each, and all corrections with what they do to the lean model.
+
+    A correction is kept where it improves the score, which weighs the error on groups left out, and makes no
+    parameter implausible. It brings no dependence on speed or time into a quasi-static model that has none:
+    data that call for such an effect would have it among the missing ones, and other speeds than the measured
+    ones would be predicted by a guess.
+
+    Args:
+        fitter: of the search.
+        lean: the best model without corrections.
+        searched: the best model of the search, with them.
+        corrections: as found, the least likely first.
+    """
+    steps: list[tuple[str, FittedModel]] = []
+    told: list[Correction] = []
+    here = lean
+    types = {effect.type for effect in lean.fit_model.effects}
+    for correction in reversed(corrections):
+        effect = next(e for e in searched.fit_model.effects if e.id == correction.effect)
+        own = {name for name in searched.freed if name.startswith(f"{effect.id}.")}
+        trial = fitter.adding(here, effect)
+        if own - trial.freed:
+            trial = fitter.fit(trial.fit_model, trial.freed | own)
+        rows = effective_rows(trial.residual, fitter.predictor.sweeps, fitter.predictor.folds)
+        foreign = effect.type in _IN_TIME and not fitter.predictor.simulated and not types & _IN_TIME
+        kept = not foreign and better(trial, here, rows=rows, noise=fitter.noise)
+        told.append(replace(correction, before=here.rmse, after=trial.rmse, kept=kept))
+        if kept:
+            steps.append((effect.id, trial))
+            here = trial
+    return steps, tuple(told)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mckibben.identification.diagnose.contest import WrongEntry, contest
-from mckibben.identification.diagnose.corrections import Correction, without_corrections
+from mckibben.identification.diagnose.corrections import Correction, refined, without_corrections
 from mckibben.identification.diagnose.design import DesignedExperiment, Designer
 from mckibben.identification.diagnose.entries import Statements
 from mckibben.identification.diagnose.gauge_zero import vented
@@ -72,8 +72,9 @@ class Diagnosis:
         where: the start model's residual over each variable.
         left_where: the best model's residual over each variable.
         candidates: single additions, the best first.
-        path: steps to the best model; each adds the effect that lowers the error most.
-        best: the best model.
+        path: steps to the best model; each adds the effect that lowers the error most, corrections last.
+        best: the best model, with the corrections that it keeps.
+        lean: the same without corrections.
         fit: its parameters with standard errors.
         status: adequate, missing_effects, ambiguous or unknown_effect.
         added: effects of the best model that the start model does not have.
@@ -102,6 +103,7 @@ class Diagnosis:
     candidates: tuple[SingleAddition, ...]
     path: tuple[PathStep, ...]
     best: FittedModel
+    lean: FittedModel
     fit: FitResult | None
     status: Status
     added: tuple[str, ...]
@@ -250,21 +252,24 @@ def _diagnose(
     progress.share, progress.end = 0.85, 0.95
     start_names = set(root.fit_model.ids)
     searched = best
-    best, corrections = without_corrections(fitter, best, root, level)
-    added = tuple(effect for effect in best.fit_model.ids if effect not in start_names)
+    lean, corrections = without_corrections(fitter, best, root, level)
+    added = tuple(effect for effect in lean.fit_model.ids if effect not in start_names)
     corrected = {item.effect for item in corrections}
-    best, exchangeable = likeliest(fitter, best, added, level, never=corrected)
-    path = path_to(fitter, start, root, best, gauge_zero)
+    lean, exchangeable = likeliest(fitter, lean, added, level, never=corrected)
+    path = path_to(fitter, start, root, lean, gauge_zero)
     added = tuple(step.added for step in path if step.added)
+    refinements, corrections = refined(fitter, lean, searched, corrections)
+    path += tuple(PathStep(name, model, correction=True) for name, model in refinements)
+    best = refinements[-1][1] if refinements else lean
     fit = _final_fit(predictor, best)
-    rows = effective_rows(best.residual, predictor.sweeps, predictor.folds)
+    rows = effective_rows(lean.residual, predictor.sweeps, predictor.folds)
     weights = model_weights(
-        fitter.known.values(), root, rows=rows, noise=fitter.noise, implausible=best.implausible
+        fitter.known.values(), root, rows=rows, noise=fitter.noise, implausible=lean.implausible
     )
     support = []
     for name in added:
         group = (name, *(other.effect for other in exchangeable if other.of == name))
-        lost = loss(best, fitter.dropping(best, name), root, noise=level)
+        lost = loss(lean, fitter.dropping(lean, name), root, noise=level)
         support.append(Evidence(name, group, weights.share(group), lost))
     changing = [
         (effect.id, fitted_model)
@@ -287,8 +292,8 @@ def _diagnose(
         )
     doubted = any(entry.stands for entry in context)
     # What a correction explains is not an unknown effect.
-    explained = best if searched is best else searched
-    unexplained = remaining if searched is best else left_structure(predictor, searched.residual, variables)
+    explained = best if best.rmse <= searched.rmse else searched
+    unexplained = remaining if explained is best else left_structure(predictor, searched.residual, variables)
     status = status_of(
         start, explained, fitter.noise, added, exchangeable, unexplained, full_scale, doubted=doubted
     )
@@ -301,8 +306,8 @@ def _diagnose(
             basis=best.jacobian[:, best.inner],
             weigh=predictor.weighted,
         )
-    designer = Designer.of(predictor, best, level) if exchangeable else Designer((), level)
-    pairs, designs = next_measurements(designer, best, exchangeable, catalogue)
+    designer = Designer.of(predictor, lean, level) if exchangeable else Designer((), level)
+    pairs, designs = next_measurements(designer, lean, exchangeable, catalogue)
     progress.share = 0.95
     return Diagnosis(
         predictor=predictor,
@@ -316,6 +321,7 @@ def _diagnose(
         candidates=tuple(ranked),
         path=path,
         best=best,
+        lean=lean,
         fit=fit,
         status=status,
         added=added,

@@ -39,11 +39,13 @@ class PathStep:
     """One step of the path: the added effect, and the model fitted with it.
 
     ``refitted``: the start model with its own numbers fitted; effects are credited only with what is left.
+    ``correction``: the added effect is not called missing, but the model predicts better with it.
     """
 
     added: str | None
     fitted_model: FittedModel
     refitted: bool = False
+    correction: bool = False
 
 
 def single_addition(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from mckibben.identification.diagnose.corrections import Correction
 from mckibben.identification.diagnose.diagnosis import Diagnosis
 from mckibben.identification.diagnose.score import AT_FLOOR
 from mckibben.identification.diagnose.verdict import Status, is_force
@@ -46,7 +47,7 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     titles = {name: effect.title for name, effect in catalogue.items()}
     scaled = result.predictor.unit == "1"
     unit, scale = _unit_of(result)
-    before, after = scale * result.start.rmse, scale * result.best.rmse
+    before, after = scale * result.start.rmse, scale * result.lean.rmse
     refitted = scale * result.root.rmse
     names = _joined([f"{titles.get(name, name)} ({_percent(result, name)})" for name in result.added])
     noise = None if result.noise is None else scale * result.noise
@@ -85,7 +86,8 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
         )
     if result.status == "unknown_effect":
         return f"{text} No catalogued effect explains the rest: {rest}. {where_to_look(result)}".rstrip()
-    if noise is not None and not at_floor and result.structure.share >= _WORTH_TELLING:
+    unexplained = highest is not None and scale * result.best.rmse > AT_FLOOR * highest
+    if unexplained and result.structure.share >= _WORTH_TELLING:
         text += f" Of the rest, {_structured(result)}."
     if result.status == "ambiguous" and result.alternatives:
         pairs = []
@@ -126,7 +128,7 @@ def applied_reasons(result: Diagnosis, catalogue: Mapping[str, Effect]) -> dict[
         else:
             unit, scale = _unit_of(result)
             errors = {a.effect: a.fitted_model.rmse for a in result.alternatives if a.of == item.effect}
-            here, there = scale * result.best.rmse, scale * errors[likelier.id]
+            here, there = scale * result.lean.rmse, scale * errors[likelier.id]
             reasons[item.effect] = (
                 f"its error of {here:.4g} {unit} is a little lower than the {there:.4g} {unit} of "
                 f"{likelier.title}, which is likelier without these data"
@@ -136,16 +138,29 @@ def applied_reasons(result: Diagnosis, catalogue: Mapping[str, Effect]) -> dict[
 
 def corrections_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:
     """Which effects lower the error and are not called missing; empty without any."""
-    if not result.corrections:
-        return ""
     unit, scale = _unit_of(result)
-    parts = [
-        f"{titles.get(item.effect, item.effect)} (from {scale * item.before:.3g} to "
-        f"{scale * item.after:.3g} {unit}, {_share(item.probability)})"
-        for item in reversed(result.corrections)
-    ]
-    inexact = "a slightly inexact form of the effects above explains as much"
-    return f"Not called missing: {_joined(parts)}; {inexact}."
+
+    def listed(items: list[Correction]) -> str:
+        return _joined([
+            f"{titles.get(item.effect, item.effect)} (from {scale * item.before:.3g} to "
+            f"{scale * item.after:.3g} {unit}, {_share(item.probability)})"
+            for item in items
+        ])  # fmt: skip
+
+    kept = [item for item in result.corrections if item.kept]
+    others = [item for item in result.corrections if not item.kept and item.after < item.before]
+    texts = []
+    if kept:
+        texts.append(
+            f"Not called missing, but kept in the model as a correction: {listed(kept)}; a slightly inexact "
+            "form of the effects above explains as much, but the model predicts groups left out better so."
+        )
+    if others:
+        texts.append(
+            f"Neither called missing nor kept: {listed(others)}; an inexact form of the effects above "
+            "explains as much, and these data do not test what it would predict elsewhere."
+        )
+    return " ".join(texts)
 
 
 def _percent(result: Diagnosis, effect: str) -> str:

@@ -87,7 +87,8 @@ def path_section(material: DiagnosisMaterial) -> Html:
                 add("refitted", step.rmse, step.holdout_rmse, "its parameters fitted", pale=True)
             else:
                 name = f"+ {material.title_of(step.added)}"
-                add(name, step.rmse, step.holdout_rmse, "added by the diagnosis", pale=True)
+                how = "kept as a correction" if step.correction else "added by the diagnosis"
+                add(name, step.rmse, step.holdout_rmse, how, pale=True)
     floor = answer.noise_floor if diagnosis is None else diagnosis.noise_floor.rmse
     level = None if floor is None else (scale.of(floor), "noise")
     unit = f" [{scale.unit}]" if scale.unit else ""

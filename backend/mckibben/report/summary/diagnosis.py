@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.application.diagnosis_result import DiagnosisResult, PathPoint
 from mckibben.report.summary.parts import (
     Summary,
     Table,
@@ -42,7 +42,7 @@ def path_table(result: DiagnosisResult) -> Table:
     """The error after each addition, and the noise."""
     rows = [
         [
-            step.added or ("start model" if number == 0 else "refitted"),
+            _step_name(number, step),
             _error(result, step.rmse),
             _error(result, step.holdout_rmse),
         ]
@@ -51,6 +51,12 @@ def path_table(result: DiagnosisResult) -> Table:
     rows.append(["noise floor", _error(result, result.noise_floor.rmse), result.noise_floor.how])
     title = f"Error of the predicted {result.predicted} ({result.kind}, {rows_of(result)})"
     return Table(title, ["after adding", "RMS error", "left-out groups"], rows)
+
+
+def _step_name(number: int, step: PathPoint) -> str:
+    if step.added is None:
+        return "start model" if number == 0 else "refitted"
+    return f"{step.added} (correction)" if step.correction else step.added
 
 
 def candidate_table(result: DiagnosisResult) -> Table:

@@ -97,6 +97,7 @@ class SmallCorrection(Strict):
     rmse_before: float
     rmse_after: float
     probability: float = Field(description="That it is missing nevertheless.")
+    kept: bool = Field(description="Whether the model keeps it, because it predicts better with it.")
 
 
 class PathStep(Strict):
@@ -104,6 +105,7 @@ class PathStep(Strict):
 
     added: str | None
     refitted: bool = Field(description="The start model with its own numbers fitted, before any effect.")
+    correction: bool = Field(description="The added effect is kept, but not called missing.")
     rmse: float
     holdout_rmse: float
     model: ModelJson
