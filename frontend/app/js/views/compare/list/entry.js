@@ -30,6 +30,9 @@ const signedText = (si) => `${si < 0 ? "−" : "+"}${asText(Math.abs(si))}`;
 /** "31.8 → 15.0 N" @param {number} from @param {number} to */
 export const fallText = (from, to) => `${asText(from, false)} → ${asText(to)}`;
 
+const CORRECTION = "Not called missing: a slightly inexact form of the effects above explains as much. " +
+  "The model keeps it, because it predicts groups left out better with it.";
+
 /** How likely an effect is missing. @param {number} probability 0…1 */
 export const likelyText = (probability) =>
   `${probability >= 0.995 ? "> 99" : Math.max(1, Math.round(100 * probability))} % likely`;
@@ -144,7 +147,11 @@ export function entryRow(entry, index, noise) {
       h("span", { class: "rank", "aria-hidden": "true" }, index + 1),
       h("h3", null, title),
       known ? aboutButton(known) : null,
-      probability === null ? null : h("span", { class: "likely" }, likelyText(probability)),
+      probability === null ? null : h(
+        "span",
+        { class: "likely" },
+        `${entry.correction ? "correction, " : ""}${likelyText(probability)}`,
+      ),
     ),
     h(
       "div",
@@ -173,6 +180,7 @@ export function entryRow(entry, index, noise) {
       `Would explain ${signedText(inside.mean)} of the ${signedText(inside.seen)} there.`,
     ),
     entry.reason ? h("p", { class: "why" }, capitalized(entry.reason)) : null,
+    entry.correction ? h("p", { class: "why" }, CORRECTION) : null,
     group.length > 1
       ? h(
         "div",

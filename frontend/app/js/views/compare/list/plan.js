@@ -13,8 +13,9 @@ import { titleOf } from "../words.js";
 /** @typedef {import("../types.js").PathStep} PathStep */
 /** @typedef {import("../types.js").Diagnosis} Diagnosis */
 /** An effect of the joint proposal. `group`: the effects that the data cannot tell from it, itself first; `chosen`:
- * one of them; `from`, `to`: the error before and after it, with the entries above already in.
- * @typedef {{effect: string, group: string[], chosen: string, from: number, to: number, holdout: number,
+ * one of them; `from`, `to`: the error before and after it, with the entries above already in; `correction`: it is
+ * not called missing, but the model predicts better with it.
+ * @typedef {{effect: string, group: string[], chosen: string, correction: boolean, from: number, to: number, holdout: number,
  *   probability: number | null, reason: string, tells: Telling[], step: PathStep,
  *   candidate: Candidate | null}} Entry */
 
@@ -54,11 +55,13 @@ export const entries = computed(() => {
     const before = i ? steps[i - 1].rmse : result.baseline.rmse;
     const candidate = candidateOf(own);
     const likely = newer.probabilities?.[added] ??
+      verdict.corrections.find((c) => c.effect === added)?.probability ??
       /** @type {{probability?: number | null}} */ (candidateOf(added) ?? {}).probability ?? null;
     return [{
       effect: added,
       group,
       chosen: own,
+      correction: step.correction,
       from: before,
       to: step.rmse,
       holdout: step.holdout_rmse,
