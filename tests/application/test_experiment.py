@@ -219,9 +219,19 @@ def test_a_weight_on_an_incline_counts_along_it(studio: Studio) -> None:
     assert upright == pytest.approx(inclined)
 
 
-def test_files_of_different_kinds_are_refused(studio: Studio) -> None:
-    with pytest.raises(InputError, match="is of kind isometric"):
-        asked(studio, [specimen(0.2), plateaus(np.zeros(4))])
+def test_files_of_forces_and_strokes_are_refused_together(studio: Studio) -> None:
+    with pytest.raises(InputError, match="is of kind isotonic"):
+        asked(studio, [specimen(0.2), isotonic("load_mass: 5 kg", "nominal_length: 300 mm")])
+
+
+def test_forces_measured_at_held_lengths_and_held_pressures_are_one_question(studio: Studio) -> None:
+    texts = [specimen(0.2), plateaus(np.zeros(4))]
+    result = compare(asked(studio, texts))
+    assert result.kind == "static"
+    alone = [compare(asked(studio, [text])) for text in texts]
+    squares = sum(each.rmse**2 * each.rows_used for each in alone)
+    assert result.rows_used == sum(each.rows_used for each in alone)
+    assert result.rmse == pytest.approx((squares / result.rows_used) ** 0.5, rel=1e-6)
 
 
 def test_a_preset_measurement_brings_its_own_length(studio: Studio) -> None:

@@ -154,10 +154,10 @@ def test_several_files_are_compared_together(run: Run) -> None:
     assert answer["rmse"] == pytest.approx((together / 18) ** 0.5)
 
 
-def test_files_of_different_kinds_are_not_compared_together(run: Run) -> None:
+def test_forces_and_strokes_are_not_predicted_together(run: Run) -> None:
     write("a.csv", CSV)
-    write("b.csv", CSV.replace("static", "isobaric"))
-    assert "b.csv is of kind isobaric" in refused(run("compare", "a.csv", "b.csv", "--muscle", "DMSP-20"))
+    write("b.csv", CSV.replace("static", "isotonic"))
+    assert "b.csv is of kind isotonic" in refused(run("compare", "a.csv", "b.csv", "--muscle", "DMSP-20"))
 
 
 def test_the_file_may_name_the_muscle_and_presets_may_be_data(run: Run) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 from zlib import crc32
@@ -16,6 +18,8 @@ from tests.truth.muscle import FULL_PRESSURE
 from tests.truth.sensors import Noise
 from tests.truth.tables import STYLES, text_of
 
+#: Called with the truth and the noise of each case that is made.
+_watchers: list[Callable[[Truth, Noise], None]] = []
 _DIRECTIONS = ("up/down", "shortening/lengthening", "-1/1")
 
 
@@ -34,6 +38,16 @@ def usual_noise(truth: Truth, rng: np.random.Generator, *, force: float | None =
         bits=int(rng.choice([12, 14, 16])),
         drift=0.6 if truth.hidden and rng.random() < 0.15 else 0.0,
     )
+
+
+@contextmanager
+def watched(watch: Callable[[Truth, Noise], None]) -> Iterator[None]:
+    """Shows the truth and the noise of the cases that are made meanwhile."""
+    _watchers.append(watch)
+    try:
+        yield
+    finally:
+        _watchers.remove(watch)
 
 
 def jittered(record: Record, rng: np.random.Generator) -> Record:
@@ -127,6 +141,8 @@ def case_of(
         )
         return measured, text
 
+    for watch in _watchers:
+        watch(truth, noise)
     measured, text = written(record, rng)
     rows = int(np.count_nonzero(record.kept))
     # Random numbers of its own: what the diagnosis sees does not depend on what it does not see.

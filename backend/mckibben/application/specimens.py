@@ -16,6 +16,7 @@ from mckibben.identification.predict.specimens import (
     zero_errors,
 )
 from mckibben.measurement.experiment import Experiment
+from mckibben.measurement.measurement import STROKES, lengths
 from mckibben.measurement.points import Points, joined
 from mckibben.measurement.reduction import reduced
 from mckibben.physics.muscle import Muscle
@@ -77,10 +78,14 @@ class Specimens:
 
     @property
     def several(self) -> bool:
-        """Whether they differ in geometry, load or drive, or have errors of their own."""
+        """Whether they differ in kind, geometry, load or drive, or have errors of their own."""
         first = self.each[0]
         return any(
-            not _alike(specimen, first) or specimen.accuracy or specimen.zeros for specimen in self.each[1:]
+            not _alike(specimen, first)
+            or specimen.points.measurement.kind != first.points.measurement.kind
+            or specimen.accuracy
+            or specimen.zeros
+            for specimen in self.each[1:]
         )
 
     def predictor(
@@ -125,7 +130,21 @@ def specimens_of(each: Sequence[Specimen], reference: Muscle) -> Specimens:
     Raises:
         InputError: they are of different kinds.
     """
-    return Specimens(tuple(each), reference, joined([specimen.points for specimen in each]))
+    return Specimens(tuple(each), reference, joined(_with_a_common_stroke(each)))
+
+
+def _with_a_common_stroke(each: Sequence[Specimen]) -> list[Points]:
+    """The data of each; where some state the length, others contraction or displacement, all by length."""
+    measurements = [specimen.points.measurement for specimen in each]
+    strokes = [set(STROKES) & set(measurement.columns) for measurement in measurements]
+    if set.intersection(*strokes) or not all(strokes):
+        return [specimen.points for specimen in each]
+    changed = []
+    for specimen, measurement in zip(each, measurements, strict=True):
+        columns = {name: values for name, values in measurement.columns.items() if name not in STROKES}
+        columns["length"] = lengths(measurement, float(specimen.muscle.nominal_length))
+        changed.append(replace(specimen.points, measurement=replace(measurement, columns=columns)))
+    return changed
 
 
 def _predictor(

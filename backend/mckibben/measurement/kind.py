@@ -25,6 +25,16 @@ _FEWEST_IN_RUN = 5  # rows with the same load
 _MANY_EXTREMES = 200_000  # limit of the loop over extremes; longer signals are reduced to blocks
 
 
+def common_kind(one: str, other: str) -> str | None:
+    """The kind of two measurements taken together; None where different quantities are predicted.
+
+    Those whose force is predicted are together a static one: neither pressure nor length is held in all rows.
+    """
+    if one == other:
+        return one
+    return "static" if {one, other} <= set(FORCE_KINDS) else None
+
+
 def detect_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float | str]) -> str:
     """The kind of a measurement that does not state it; see :func:`explain_kind`.
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.measurement.kind import common_kind
 from mckibben.measurement.measurement import Measurement, build
 from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError, did_you_mean
@@ -124,14 +125,16 @@ def joined(all_points: Sequence[Points]) -> Points:
     if len(all_points) == 1:
         return all_points[0]
     parts = [points.measurement for points in all_points]
-    first = parts[0]
+    first, kind = parts[0], parts[0].kind
     for part in parts[1:]:
-        if part.kind != first.kind:
+        together = common_kind(kind, part.kind)
+        if together is None:
             raise InputError(
                 f"{part.name} is of kind {part.kind}, {first.name} of kind {first.kind}",
                 field="kind",
-                hint="compare them one after the other",
+                hint="compare them one after the other; files whose force is predicted go together",
             )
+        kind = together
     shared = [name for name in first.columns if all(name in part.columns for part in parts)]
     columns = {name: np.concatenate([part.columns[name] for part in parts]) for name in shared}
     offset, labels = 0, []
@@ -144,7 +147,7 @@ def joined(all_points: Sequence[Points]) -> Points:
         columns,
         name=", ".join(part.name for part in parts),
         id=hashlib.sha256("".join(part.id for part in parts).encode()).hexdigest(),
-        kind=first.kind,
+        kind=kind,
         conditions={
             key: value
             for key, value in first.conditions.items()

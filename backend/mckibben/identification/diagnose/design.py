@@ -23,6 +23,7 @@ from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict.moving import TransientPredictor
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.predict.quasistatic import QuasistaticPredictor
+from mckibben.identification.predict.specimens import SpecimensPredictor
 from mckibben.physics.errors import InputError
 
 DECISIVE = 3.0  # separation [sigma] from which an experiment decides
@@ -178,7 +179,7 @@ class Designer:
 def _possible(predictor: Predictor, best: FittedModel) -> list[Protocol]:
     if isinstance(predictor, TransientPredictor):
         return drive_protocols(predictor)
-    if isinstance(predictor, QuasistaticPredictor):
+    if isinstance(predictor, QuasistaticPredictor | SpecimensPredictor) and not predictor.simulated:
         rig: Rig = rig_of(predictor, best.fit_model)
         return protocols(rig, best.fit_model, channel=predictor.channels[0].name)
     return []

@@ -79,13 +79,13 @@ class Protocol:
         return self.schedule.seconds / 60.0
 
 
-def rig_of(predictor: QuasistaticPredictor, fit_model: FitModel) -> Rig:
-    """What the rig of a measurement did."""
+def rig_of(predictor: Predictor, fit_model: FitModel) -> Rig:
+    """What the rig of one or more measurements did, all of the same predicted channel."""
     inputs, rest = predictor.inputs, float(fit_model.muscle.nominal_length)
     length = inputs.get("length", predictor.measured)
-    contraction = 1.0 - length / rest
+    contraction = 1.0 - length / predictor.rest_length(fit_model)
     speed = _USUAL_SPEED * rest
-    if predictor.task.time is not None:
+    if "time" in inputs:
         speed = float(np.percentile(np.abs(inputs["velocity"]), _FASTEST)) or speed
     loads = np.unique(np.round(inputs["load"], 1)) if "load" in inputs else np.empty(0)
     if len(loads) > _MOST_LOADS:

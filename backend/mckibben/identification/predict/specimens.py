@@ -18,6 +18,7 @@ from mckibben.identification.predict.folds import folds_of
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.identification.predict.reading_errors import ReadingError
+from mckibben.measurement.kind import common_kind
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.physics.muscle import GEOMETRY, Muscle
@@ -43,30 +44,33 @@ def own_muscle(muscle: Muscle, *, reference: Muscle, own: Muscle) -> Muscle:
 
 
 class SpecimensPredictor(Predictor):
-    """Predicts several measurements of the same kind.
+    """Predicts several measurements of the same kind, or of kinds whose force is predicted.
 
     Args:
         specimens: at least two, with the same predicted channels.
         reference: the muscle of the model.
 
     Raises:
-        InputError: the specimens are of different kinds, or different channels were measured.
+        InputError: different channels of the specimens are predicted.
     """
 
     def __init__(self, specimens: Sequence[SpecimenData], *, reference: Muscle) -> None:
         self._specimens, self._reference = tuple(specimens), reference
         parts = [specimen.predictor for specimen in specimens]
         first = parts[0]
+        kind = first.kind
         for specimen in specimens[1:]:
             other = specimen.predictor
-            if other.kind != first.kind or other.predicted != first.predicted:
+            together = common_kind(kind, other.kind)
+            if together is None or other.predicted != first.predicted:
                 raise InputError(
                     f"of {specimen.name} {other.predicted} is predicted ({other.kind}), of "
                     f"{specimens[0].name} {first.predicted} ({first.kind})",
                     field="kind",
                     hint="compare them one after the other",
                 )
-        self.kind, self.simulated, self.step = first.kind, first.simulated, first.step
+            kind = together
+        self.kind, self.simulated, self.step = kind, first.simulated, first.step
         # The values are ordered by channel, then by specimen.
         sizes = [len(part.measured) for part in parts]
         begins = np.cumsum([0, *sizes[:-1]])

@@ -1,0 +1,136 @@
+"""Whether the designed experiment decides: played on the rig of every ambiguous case, its result fed back.
+
+    python -m tests.benchmarks.decided [--seeds 0,1,2] [--only TEXT]
+
+A case counts where the data cannot tell a hidden effect from one that is not there, and an experiment of the
+rig is said to tell them apart, by a standard deviation of a reading. It is decided where the diagnosis of both files
+together names the hidden effect, and none of those any more.
+"""
+
+from __future__ import annotations
+
+import argparse
+import multiprocessing
+import os
+import sys
+from dataclasses import dataclass
+from typing import Any
+
+from tests.benchmarks.diagnosis import _studio, say, subject_and_start
+from tests.truth.again import played
+from tests.truth.cases import Case
+from tests.truth.generate import all_cases
+
+_APART = 1.0  # separation [sigma of a reading, rms of a run] from which an experiment is proposed
+
+
+@dataclass
+class Line:
+    """What became of one ambiguous group of a case."""
+
+    case: str
+    effect: str
+    rivals: tuple[str, ...] = ()
+    promised: tuple[str, ...] = ()
+    words: str = ""
+    named: tuple[str, ...] = ()
+    left: tuple[str, ...] = ()
+    problem: str = ""
+
+    @property
+    def decided(self) -> bool:
+        """Whether the hidden effect is named and no promised rival is left."""
+        return self.effect in self.named and not set(self.promised) & {*self.left, *self.named}
+
+
+def decided(case: Case) -> list[Line]:
+    """Diagnose a case, play the experiments that it designs, and diagnose both files together."""
+    from mckibben.identification.diagnose.diagnosis import diagnose
+
+    studio = _studio()
+    predictor, fit_model = subject_and_start(case, studio)
+    result = diagnose(predictor, fit_model, catalogue=studio.catalogue)
+    lines = []
+    accepted = frozenset().union(*case.hidden)
+    for design in result.designs:
+        true = [name for name in design.group if name in accepted]
+        rivals = [name for name in design.group if name not in accepted]
+        if not true or not rivals:
+            continue
+        promised = [
+            name for name in rivals if max((design.between(one, name) or 0.0) for one in true) >= _APART
+        ]
+        line = Line(case.id, true[0], tuple(rivals), tuple(promised), design.words)
+        lines.append(line)
+        if not promised:
+            continue
+        try:
+            text = played(case, design.schedule.run, design.schedule.columns)
+            both = together(predictor, case, text, fit_model, studio)
+            after = diagnose(both, fit_model, catalogue=studio.catalogue)
+        except Exception as failure:  # a case that breaks is a line of the table, not its end
+            line.problem = f"{type(failure).__name__}: {failure}"[:120]
+            continue
+        named = [name for name in after.added if name in accepted]
+        line.effect = next((name for name in (*true, *named) if name in named), line.effect)
+        line.named = after.added
+        line.left = tuple(other.effect for other in after.alternatives if other.of == line.effect)
+    return lines
+
+
+def together(predictor: Any, case: Case, text: str, fit_model: Any, studio: Any) -> Any:
+    """Predictor of the first file and of the new one."""
+    from dataclasses import replace
+
+    from mckibben.identification.predict.specimens import SpecimenData, SpecimensPredictor
+
+    new, _ = subject_and_start(replace(case, files={"next.csv": text}), studio)
+    data = [
+        SpecimenData(name, part, fit_model.muscle) for name, part in (("first", predictor), ("next", new))
+    ]
+    return SpecimensPredictor(data, reference=fit_model.muscle)
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--seeds", default="0,1,2")
+    parser.add_argument("--only", default="", help="parts of names, separated by commas")
+    given = parser.parse_args()
+    chosen = [
+        case
+        for case in all_cases(seeds=tuple(int(seed) for seed in given.seeds.split(",")))
+        if any(part in case.name for part in given.only.split(","))
+        and case.kind not in ("transient", "diameter")
+        and case.unknown is None
+        and case.hidden
+    ]
+    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+        os.environ.setdefault(name, "1")
+    lines: list[Line] = []
+    with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
+        for some in pool.imap_unordered(decided, chosen):
+            for line in some:
+                lines.append(line)
+                say(text_of(line))
+    played_ones = [line for line in lines if line.promised]
+    count = sum(line.decided for line in played_ones)
+    say(f"\ndecided  {count} of {len(played_ones)}, wanted 80 %")
+    say(f"groups that no experiment of the rig is said to separate: {len(lines) - len(played_ones)}")
+
+
+def text_of(line: Line) -> str:
+    """A line of the table."""
+    mark = "  " if not line.promised else "ok" if line.decided else "--"
+    what = line.words if line.promised else "no experiment of the rig separates them"
+    parts = [
+        f"{mark} {line.case:44}{line.effect} or {', '.join(line.rivals)}: {what}",
+        f"named {', '.join(line.named)}" if line.named else "",
+        f"left {', '.join(line.left)}" if line.left else "",
+        line.problem,
+    ]
+    return "; ".join(part for part in parts if part)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
