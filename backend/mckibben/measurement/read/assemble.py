@@ -21,9 +21,9 @@ from mckibben.measurement.read.constants import notes_with_constants, with_const
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.evidence import Evidence, is_numeric
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning, map_headers
+from mckibben.measurement.read.held import held_pressure
 from mckibben.measurement.read.propose import with_clock, with_proposed_stroke
 from mckibben.measurement.read.questions import refusal
-from mckibben.measurement.read.recognise import held_pressure
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import KIND_SAID, NAME, SIGN
 from mckibben.physics.errors import InputError

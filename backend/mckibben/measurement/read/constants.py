@@ -11,8 +11,8 @@ from mckibben.measurement.question import Question
 from mckibben.measurement.read.conditions import CONDITION_UNITS, Constant, Note, condition_value, key_of
 from mckibben.measurement.read.correction import SAMPLE
 from mckibben.measurement.read.evidence import Evidence, is_numeric
+from mckibben.measurement.read.head_text import taken_apart
 from mckibben.measurement.read.header import Meaning
-from mckibben.measurement.read.recognise import taken_apart
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import NAME, in_known_words, notes_of_code
 from mckibben.physics.errors import InputError

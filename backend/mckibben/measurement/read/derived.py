@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.measurement.read.cells import CellTable
-from mckibben.measurement.read.recognise import recognise, taken_apart
+from mckibben.measurement.read.head_text import taken_apart
+from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.scales import Scale, scale_of
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.unit_words import dimension_of, unit_of

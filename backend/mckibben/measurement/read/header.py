@@ -11,8 +11,9 @@ from typing import NamedTuple
 from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.read.conditions import Constant
 from mckibben.measurement.read.correction import SAMPLE, SLACK, Choice
+from mckibben.measurement.read.head_text import taken_apart, without_paths
 from mckibben.measurement.read.marks import MARK_WORDS, split_mark
-from mckibben.measurement.read.recognise import BY_UNIT, is_raw, recognise, taken_apart, without_paths
+from mckibben.measurement.read.recognise import BY_UNIT, is_raw, recognise
 from mckibben.measurement.read.unit_words import CLOCK, fits, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import is_unit, meaning

@@ -12,8 +12,8 @@ from mckibben.measurement.read.blocks import Table
 from mckibben.measurement.read.conditions import note_of_line
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.grid import TextGrid, separator_of
+from mckibben.measurement.read.head_text import taken_apart, without_paths
 from mckibben.measurement.read.limits import check_columns, check_rows
-from mckibben.measurement.read.recognise import taken_apart, without_paths
 from mckibben.measurement.read.reshape import Regular, regular
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import in_known_words, statements

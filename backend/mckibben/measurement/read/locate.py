@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 
 from mckibben.measurement.read.cells import Cell
 from mckibben.measurement.read.grid import BLANKS, Grid, TextGrid
+from mckibben.measurement.read.held import held_quantities
 from mckibben.measurement.read.limits import MAX_BLOCKS
-from mckibben.measurement.read.recognise import BY_UNIT, held_quantities, recognise
+from mckibben.measurement.read.recognise import BY_UNIT, recognise
 from mckibben.measurement.read.unit_words import unit_of
 from mckibben.measurement.read.values import CLOCK, GAP, NUMBER, TEXT, kind_of
 from mckibben.measurement.read.vocabulary import STATISTICS, words_of

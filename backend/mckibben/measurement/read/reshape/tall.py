@@ -10,8 +10,9 @@ from typing import NamedTuple
 
 from mckibben.measurement.read.cells import Cell, marker_of
 from mckibben.measurement.read.grid import Grid
+from mckibben.measurement.read.head_text import taken_apart
 from mckibben.measurement.read.locate import texts_of
-from mckibben.measurement.read.recognise import BY_UNIT, Recognised, recognise, taken_apart
+from mckibben.measurement.read.recognise import BY_UNIT, Recognised, recognise
 from mckibben.measurement.read.reshape.rows import MAX_CELLS, SAMPLED, Rewritten, RowsGrid
 from mckibben.measurement.read.unit_words import unit_of
 from mckibben.measurement.read.values import CLOCK, GAP, NUMBER, TEXT, kind_of
