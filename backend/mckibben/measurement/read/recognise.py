@@ -55,6 +55,8 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
         return Recognised(None, head.unit, None, 0, f"'{head.unit}' is {dimension}, no calibrated value")
     meant = _without_statistic(words, dimension)
     named = [channel for word in meant if (channel := channel_of_word(word)) is not None]
+    if dimension or len(set(named)) > 1:
+        named = [channel for channel in named if channel != "direction"]
     for word in words:
         reason = other_quantity(word, named[-1] if named else None)
         if reason == "a length at rest" and set(named) & _STROKES_FROM_REST:

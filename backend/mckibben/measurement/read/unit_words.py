@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -30,7 +31,7 @@ DIMENSIONS = {
     "extension": ("a length", "a plain number or a share"),
     "contraction": ("a plain number or a share", "a length"), "diameter": ("a length",),
     "velocity": ("a speed",), "command": ("a plain number or a share",), "temperature": ("a temperature",),
-    "group": ("a plain number or a share",),
+    "group": ("a plain number or a share",), "direction": ("a plain number or a share",),
 }  # fmt: skip
 CLOCK = "clock"  # times of day or dates; they count from the first row
 COUNT = "count"  # of a converter: no physical unit
@@ -55,6 +56,8 @@ def unit_of(text: str) -> UnitText | None:
     bare = _without_brackets(text.strip())
     if not bare or len(bare) > 40:
         return None
+    if any(character >= "\u3000" for character in bare):  # "ｋＰａ", "㎜"
+        bare = unicodedata.normalize("NFKC", bare)
     if _CLOCK.fullmatch(bare):
         return UnitText(CLOCK)
     if bare.lower() in _COUNTS:

@@ -9,15 +9,19 @@ from __future__ import annotations
 
 from mckibben.measurement.read.words.cells import MARKERS, UNITS
 from mckibben.measurement.read.words.channels import CHANNELS
-from mckibben.measurement.read.words.columns import DIRECTIONS, NO_CHANNELS, STATISTIC, WAYS
-from mckibben.measurement.read.words.conditions import OTHERS, REFERENCES, REMARKS
+from mckibben.measurement.read.words.columns import NO_CHANNELS, OTHERS, STATISTIC
+from mckibben.measurement.read.words.conditions import REFERENCES, REMARKS
+from mckibben.measurement.read.words.ways import DIRECTIONS, HOLDS, MOVES, PHASES, WAYS
 
 __all__ = [
     "CHANNELS",
     "DIRECTIONS",
+    "HOLDS",
     "MARKERS",
+    "MOVES",
     "NO_CHANNELS",
     "OTHERS",
+    "PHASES",
     "REFERENCES",
     "REMARKS",
     "STATISTIC",
