@@ -24,8 +24,9 @@ from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning
 from mckibben.measurement.read.held import held_pressure
 from mckibben.measurement.read.propose import with_clock, with_proposed_stroke
 from mckibben.measurement.read.questions import refusal
+from mckibben.measurement.read.signs import FORCE_SIGN, STROKE_SIGN
 from mckibben.measurement.read.source import RawTable
-from mckibben.measurement.read.stated import KIND_SAID, NAME, SIGN
+from mckibben.measurement.read.stated import KIND_SAID, NAME
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
 
@@ -123,7 +124,8 @@ def assemble(
         kind = said
         messages.append(f"kind {said}: a text of the file says so")
     order = {header: index for index, header in reversed(list(enumerate(source.headers)))}
-    conditions.pop(SIGN, None)
+    for sign in (FORCE_SIGN, STROKE_SIGN):
+        conditions.pop(sign, None)
     measurement = build(
         columns,
         name=name,

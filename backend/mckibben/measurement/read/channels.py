@@ -17,7 +17,12 @@ from mckibben.measurement.read.correction import SAMPLE, SLACK
 from mckibben.measurement.read.directions import direction_of
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn
 from mckibben.measurement.read.plausible import ENOUGH, proposal
-from mckibben.measurement.read.stated import SIGN
+from mckibben.measurement.read.signs import (
+    COMPRESSION_POSITIVE,
+    EXTENSION_POSITIVE,
+    FORCE_SIGN,
+    STROKE_SIGN,
+)
 from mckibben.measurement.read.unit_words import CLOCK
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
@@ -158,8 +163,8 @@ def _with_known_unit(column: HeaderColumn, reading: ChannelReading) -> HeaderCol
         return None
     if use == "pressure":
         column = column._replace(absolute=_absolute(column, reading.conditions))
-    if use == "force":
-        column = _signed_force(column, reading)
+    if use in ("force", "displacement", "contraction"):
+        column = _signed(column, reading)
     return column._replace(unit=unit, unit_origin=origin)
 
 
@@ -178,14 +183,16 @@ def _are_serial_days(raw: NDArray[np.float64]) -> bool:
     return bool(np.ptp(raw) < _LONGEST_TEST and np.any(raw != np.round(raw)))
 
 
-def _signed_force(column: HeaderColumn, reading: ChannelReading) -> HeaderColumn:
-    """A force that the file counts positive in compression is turned: a pulling muscle is positive here."""
-    if column.origin == "you" or reading.conditions.get(SIGN) != "compression positive":
+def _signed(column: HeaderColumn, reading: ChannelReading) -> HeaderColumn:
+    """A force or stroke, turned where the file says that it counts the other way."""
+    said = COMPRESSION_POSITIVE if column.use == "force" else EXTENSION_POSITIVE
+    key = FORCE_SIGN if column.use == "force" else STROKE_SIGN
+    if column.origin == "you" or reading.conditions.get(key) != said:
         return column
-    message = f"{reading.noun} '{column.header}' is turned: the file says that compression is positive"
+    message = f"{reading.noun} '{column.header}' is turned: the file says that {said.replace(' ', ' is ')}"
     if message not in reading.messages:
         reading.messages.append(message)
-    return column._replace(sign=-1)
+    return column._replace(sign=-1, extends=False)
 
 
 def _absolute(column: HeaderColumn, conditions: Mapping[str, float | str]) -> bool | None:

@@ -16,6 +16,7 @@ _UNKNOWN = {"", "-", "unknown", "none", "nan", "na", "n/a"}
 _SURE = {"shortening": -1.0, "lengthening": 1.0}
 #: Ways of the test; what they do to the muscle is told by the readings: +1, -1 of a pair.
 _OF_TEST = {"pressure rises": 1.0, "pressure falls": -1.0, "one way": 1.0, "other way": -1.0}
+_PAIRS = (("shortening", "lengthening"), ("pressure rises", "pressure falls"), ("one way", "other way"))
 _STEM = 6  # letters from which a word counts as the beginning of its other forms
 _MOST = 40  # different words
 _CLEAR = 0.2  # of the range of a channel, from which its change on the way shows a direction
@@ -36,8 +37,8 @@ def direction_of(
         return None
     sides = np.array([_OF_TEST.get(way, 0.0) for way in ways])
     sign = _sign_of_sides(sides[labels.codes], columns) if sides.any() else 0.0
-    values = [
-        float(way) if re.fullmatch(r"-?[01]", way) else _SURE.get(way, side * sign)
+    values: list[float] = [
+        float(way) if re.fullmatch(r"-?[01]", way) else _SURE.get(way, float(side * sign))
         for way, side in zip(ways, sides, strict=True)
     ]
     meaning = {-1.0: "shortening", 1.0: "lengthening", 0.0: "unknown"}
@@ -47,7 +48,7 @@ def direction_of(
 
 
 def _way_of(word: str) -> str | None:
-    """The way that a word says: a key of `MOVES`, ``"0"``, ``"1"`` or ``"-1"``; None = it is not understood."""
+    """The way that a word says: a key of `MOVES`, ``"0"``, ``"1"`` or ``"-1"``; None = not understood."""
     low = word.strip().lower()
     if low in _UNKNOWN:
         return "0"

@@ -317,6 +317,8 @@ def _column(index: int, header: str, where: str, noun: str, messages: list[str])
     unit = None
     if bracketed is not None:
         text, inside = bracketed.groups()
+        if re.search(r"[\])][^\[(]*[\[(]", inside):
+            return None  # two brackets, "[kPa] (gauge)"
         words = inside.lower().split()
         if words and all(word in _QUALIFIERS or word in MARK_WORDS for word in words):
             text = f"{text} {inside}"

@@ -34,7 +34,8 @@ _BARE_LENGTH = 80.0  # mm; a title that says less without a word names a stroke,
 class HeldQuantity(NamedTuple):
     """A quantity that a head or a title names: channel, value, unit, reference, the words themselves.
 
-    ``named``: a word beside it says what it is.
+    ``named``: a word beside it says what it is, and it is no condition of the whole test; ``worded``: a word
+    or letter stands before it.
     """
 
     channel: str
@@ -43,6 +44,7 @@ class HeldQuantity(NamedTuple):
     absolute: bool | None
     text: str
     named: bool = False
+    worded: bool = False
 
 
 def held_pressure(text: str) -> HeldQuantity | None:
@@ -72,11 +74,13 @@ def held_quantities(text: str) -> list[HeldQuantity]:
     at_rest = any(other_quantity(word, "length") is not None for word in words_of(text))
     for match in _HELD_OTHER.finditer(text.replace("_", " ")):
         number, unit = float(match["number"].replace(",", ".")), match["unit"]
-        channel = _channel_of_held(folded(match["word"] or ""), number, unit)
+        word = folded(match["word"] or "")
+        channel = _channel_of_held(word, number, unit)
         if channel is not None and not (at_rest and channel in STROKES):
             if channel in found:
                 return []
-            found[channel] = HeldQuantity(channel, number, unit, None, match[0].strip())
+            worded = channel_of_word(word) is not None or word in LETTERS
+            found[channel] = HeldQuantity(channel, number, unit, None, match[0].strip(), worded=worded)
     return list(found.values())
 
 

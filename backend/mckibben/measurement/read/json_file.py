@@ -269,9 +269,13 @@ def _with_quantities(value: Any, depth: int) -> Any:
     if not isinstance(value, dict) or depth > _DEEPEST:
         return value
     numbers = [v for v in value.values() if isinstance(v, (int, float)) and not isinstance(v, bool)]
-    texts = [v for v in value.values() if isinstance(v, str)]
-    if len(value) == 2 and len(numbers) == 1 and len(texts) == 1 and unit_of(texts[0]) is not None:
-        return f"{numbers[0]:.10g} {texts[0]}"
+    units = [v for k, v in value.items() if isinstance(v, str) and (len(value) == 2 or "unit" in k.lower())]
+    if (
+        len(numbers) == len(units) == 1
+        and unit_of(units[0]) is not None
+        and all(isinstance(v, (str, int, float)) for v in value.values())
+    ):
+        return f"{numbers[0]:.10g} {units[0]}"
     return {key: _with_quantities(item, depth + 1) for key, item in value.items()}
 
 

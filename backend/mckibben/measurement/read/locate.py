@@ -168,7 +168,7 @@ def _row_above(grid: Grid, run: Run) -> list[str]:
 def _is_titled(grid: Grid, first: int, last: int) -> bool:
     """Whether a text between two runs says which pressure, stroke or load the next one holds."""
     return last - first <= _TITLE_ROWS and any(
-        quantity.channel == "pressure" or quantity.named
+        quantity.channel == "pressure" or quantity.named or quantity.worded
         for index in range(first, last)
         for _, text in titles_of(grid, index)
         if not recognise(text).why.startswith("it is")

@@ -5,6 +5,7 @@ It comes after the plain way (``pressure_bar``) and never overrules it.
 
 from __future__ import annotations
 
+import re
 from typing import NamedTuple
 
 from mckibben.measurement.read.head_text import channel_of_letter, taken_apart, without_run
@@ -20,6 +21,7 @@ from mckibben.measurement.read.vocabulary import (
 )
 
 BY_WORDS, BY_UNIT = 10, 60  # how much less such a column is wanted than one named the plain way
+_VALUE = re.compile(r"[^\W\d_]{1,12}0?\s*[=≈]\s*[0-9]+(?:[.,][0-9]+)?\s*[^\W\d_%]{0,4}%?")  # "L = 280 mm"
 _CHANGES = frozenset(("change", "delta", "anderung", "variation", "difference"))
 _ALSO_VOLTAGE = frozenset(("tension", "tensione", "tensao"))  # a voltage in other languages
 _STROKES_FROM_REST = frozenset(("displacement", "contraction", "extension"))  # "shortening from rest length"
@@ -49,6 +51,8 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
     dimension = dimension_of(head.unit)
     base = without_pressure(head.name) if head.held is not None else head.name
     words = words_of(without_run(base)[0])
+    if _VALUE.fullmatch(header.strip()):
+        return Recognised(None, None, None, 0, "it names a value, not what was measured")
     if head.unit == COUNT:
         return Recognised(None, head.unit, None, 0, "it holds counts of a converter, not a physical value")
     if dimension in ("a voltage", "a current"):

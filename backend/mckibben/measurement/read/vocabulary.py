@@ -99,6 +99,10 @@ WAYS = frozenset(all_words(words.WAYS))
 MOVES = {way: frozenset(all_words(texts)) for way, texts in (words.DIRECTIONS | words.MOVES).items()}
 #: Words for a state without motion in cells.
 HOLDS = frozenset(all_words(words.HOLDS))
+#: Words of texts about signs: "positive", "negative", "tension", "compression", "extension", "shortening".
+SIGN_WORDS = {what: frozenset(all_words(texts)) for what, texts in words.SIGNS.items()}
+#: State of a valve, "closed", "open" (fills the muscle), "exhaust" -> words for it.
+VALVE_WORDS = {state: frozenset(all_words(texts)) for state, texts in words.VALVES.items()}
 #: Words of heads that name the phase of a test.
 PHASES = frozenset(all_words(words.PHASES))
 #: Words for the reference of a pressure: True = absolute.

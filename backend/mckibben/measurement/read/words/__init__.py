@@ -11,6 +11,8 @@ from mckibben.measurement.read.words.cells import MARKERS, UNITS
 from mckibben.measurement.read.words.channels import CHANNELS
 from mckibben.measurement.read.words.columns import NO_CHANNELS, OTHERS, STATISTIC
 from mckibben.measurement.read.words.conditions import REFERENCES, REMARKS
+from mckibben.measurement.read.words.signs import SIGNS
+from mckibben.measurement.read.words.valves import VALVES
 from mckibben.measurement.read.words.ways import DIRECTIONS, HOLDS, MOVES, PHASES, WAYS
 
 __all__ = [
@@ -24,7 +26,9 @@ __all__ = [
     "PHASES",
     "REFERENCES",
     "REMARKS",
+    "SIGNS",
     "STATISTIC",
     "UNITS",
+    "VALVES",
     "WAYS",
 ]
