@@ -63,6 +63,11 @@ def listed_columns(grid: Grid, until: int, width: int) -> ColumnList | None:
     return plain if plain is not None and _name_channels(plain.names) else None
 
 
+def is_column_list(line: str) -> bool:
+    """Whether a comment lists columns, which is no condition of the test."""
+    return _LIST.fullmatch(line.strip().lstrip("#%/ ").strip()) is not None
+
+
 def _text_of(grid: Grid, index: int) -> str:
     filled = [cell for cell in texts_of(grid.cells(index)) if cell]
     blanks = isinstance(grid, TextGrid) and grid.separator == BLANKS

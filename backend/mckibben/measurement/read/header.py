@@ -366,9 +366,9 @@ def _with_unit(
         return column._replace(use=use)
     if use == "temperature" and unit in ("C", "F"):
         unit = f"deg{unit}"
-    if use == "force" and unit in _WEIGHTS:
+    if use == "force" and unit in WEIGHTS:
         messages.append(f"{noun} '{column.header}' is a mass: its weight is the force")
-        unit = _WEIGHTS[unit]
+        unit = WEIGHTS[unit]
     if use == "contraction" and fits(unit, "m"):
         use = "displacement"
     elif use == "displacement" and fits(unit, "1"):
@@ -389,7 +389,8 @@ def _with_unit(
     )
 
 
-_WEIGHTS = {"kg": "kgf", "g": "gf", "lb": "lbf"}
+#: Unit of a mass -> that of its weight.
+WEIGHTS = {"kg": "kgf", "g": "gf", "lb": "lbf"}
 _UNIT_EXAMPLES = {
     "pressure": "bar", "length": "mm", "displacement": "mm", "diameter": "mm", "contraction": "pct",
     "command": "pct", "temperature": "degC",

@@ -9,6 +9,7 @@ import re
 from collections.abc import Sequence
 
 from mckibben.measurement.read.blocks import Table
+from mckibben.measurement.read.column_lists import is_column_list
 from mckibben.measurement.read.conditions import note_of_line
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.grid import TextGrid, separator_of
@@ -48,6 +49,7 @@ def located_text(text: str, name: str, correction: Correction, messages: Sequenc
         for row, line in enumerate(lines[:_FIRST_LINES], start=1)
         if line.lstrip(' "').startswith("#")
         and (note := note_of_line(line.strip(';,\t "'), f"{name}, row {row}")) is not None
+        and not is_column_list(line)
     ]
     values = {}
     for note in notes:

@@ -59,6 +59,10 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
         return Recognised(None, head.unit, None, 0, f"'{head.unit}' is {dimension}, no calibrated value")
     meant = _without_statistic(words, dimension)
     named = [channel for word in meant if (channel := channel_of_word(word)) is not None]
+    if "command" in named:
+        named = [
+            c for word in meant if word not in _ALSO_VOLTAGE and (c := channel_of_word(word)) is not None
+        ]
     if dimension or len(set(named)) > 1:
         named = [channel for channel in named if channel != "direction"]
     for word in words:
