@@ -113,6 +113,7 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
         and not words
         and not gaps
         and len(pressures) < 2
+        and "\n#" not in body  # titles of blocks
         and not _has_thousands(body, separator)
     )
 

@@ -10,6 +10,7 @@ from mckibben.measurement.read.unit_words import DIMENSIONS, dimension_of, refer
 from mckibben.measurement.read.vocabulary import (
     LETTERS,
     LOADLESS,
+    REMARK_WORDS,
     channel_of_word,
     folded,
     other_quantity,
@@ -79,7 +80,7 @@ def held_quantities(text: str) -> list[HeldQuantity]:
         if channel is not None and not (at_rest and channel in STROKES):
             if channel in found:
                 return []
-            worded = channel_of_word(word) is not None or word in LETTERS
+            worded = channel_of_word(word) is not None or word in LETTERS or word in REMARK_WORDS["load"]
             found[channel] = HeldQuantity(channel, number, unit, None, match[0].strip(), worded=worded)
     return list(found.values())
 

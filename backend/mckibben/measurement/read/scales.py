@@ -60,7 +60,8 @@ def valve_scale_of(text: str, where: str) -> Scale | None:
     shown: list[str] = []
     for found in _STATE.finditer(text):
         before, number, raw, behind = found["before"], found["number"], found["raw"], found["behind"]
-        state = _state_of(behind or "") or _state_of(before or "")
+        sides = (before, behind) if found["link"] else (behind, before)
+        state = next(filter(None, (_state_of(side or "") for side in sides)), None)
         if state is not None:
             states.setdefault(state, set()).add((_float(number), raw))
             shown.append(found[0].strip(" ,;"))
@@ -78,7 +79,7 @@ def valve_scale_of(text: str, where: str) -> Scale | None:
 
 
 _STATE = re.compile(
-    rf"(?P<before>[^\W\d_]+)?\s*(?:[=:@(]|at|bei|à|a|bij|vid|ved)?\s*(?<![\d.,])(?P<number>{_NUMBER})\s*(?P<raw>mV|V|mA|A)\b\)?"
+    rf"(?P<before>[^\W\d_]+)?\s*(?P<link>[=:@(]|\b(?:at|bei|à|a|bij|vid|ved)\b)?\s*(?<![\d.,])(?P<number>{_NUMBER})\s*(?P<raw>mV|V|mA|A)\b\)?"
     r"(?:\s*(?:=|≙|:|->|→|is)?\s*(?P<behind>[^\W\d_]+(?:\s+[^\W\d_]+)?))?"
 )
 

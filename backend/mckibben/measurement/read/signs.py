@@ -13,6 +13,7 @@ STROKE_SIGN, EXTENSION_POSITIVE = "stroke_sign", "extension positive"
 
 _EXTENSION = frozenset(CHANNEL_WORDS["extension"]) | SIGN_WORDS["extension"]
 _CLAUSES = re.compile(r"[,;.|()\[\]]|\s[/–-]\s|\b(?:and|und|et|e|y|og|och|en|i|a|ve|и|та)\b")
+_SHORT = 3  # words
 _ASIDE = re.compile(r"\(([^()]*)\)")
 
 
@@ -29,7 +30,8 @@ def signs_of(text: str) -> Iterator[tuple[str, str]]:
     force, stroke = set[bool](), set[bool]()
     for clause in _CLAUSES.split(plain):
         words = words_of(clause)
-        positive, negative = (has_word(words, SIGN_WORDS[sign]) for sign in ("positive", "negative"))
+        said = words if len(words) <= _SHORT else words[-2:]  # "positive displacement sensor" says no sign
+        positive, negative = (has_word(said, SIGN_WORDS[sign]) for sign in ("positive", "negative"))
         if positive == negative:
             continue
         if has_word(words, SIGN_WORDS["tension"]) != has_word(words, SIGN_WORDS["compression"]):

@@ -11,7 +11,8 @@ SIGNS = {
         "ru": "положительный положительное положительная положительно", "uk": "додатний додатне додатна",
         "nl": "positief positieve", "sv": "positiv positivt", "fi": "positiivinen", "hu": "pozitív",
         "ro": "pozitiv pozitivă", "tr": "pozitif artı", "el": "θετική θετικό",
-        "hr": "pozitivno pozitivan pozitivna", "ja": "正 プラス", "zh": "正 为正", "ko": "양수 양의",
+        "hr": "pozitivno pozitivan pozitivna", "ja": "正 は正 が正 を正 プラス", "zh": "正 为正 為正",
+        "ko": "양수 양의",
     },
     "negative": {
         "en": "negative negatively minus", "de": "negativ negative", "fr": "négatif négative",
@@ -20,7 +21,8 @@ SIGNS = {
         "ru": "отрицательный отрицательное отрицательная отрицательно", "uk": "від'ємний від'ємне",
         "nl": "negatief negatieve", "sv": "negativ negativt", "fi": "negatiivinen", "hu": "negatív",
         "ro": "negativ negativă", "tr": "negatif eksi", "el": "αρνητική αρνητικό",
-        "hr": "negativno negativan negativna", "ja": "負 マイナス", "zh": "负 为负", "ko": "음수 음의",
+        "hr": "negativno negativan negativna", "ja": "負 は負 が負 を負 マイナス", "zh": "负 为负 為負",
+        "ko": "음수 음의",
     },
     "tension": {
         "en": "tension tensile pull pulling traction", "de": "zug zugkraft zugkräfte zugbelastung",
