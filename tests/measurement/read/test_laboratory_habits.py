@@ -170,7 +170,7 @@ def test_values_across_in_the_heads(
 
 
 def test_a_head_that_is_a_value_is_no_channel() -> None:
-    with pytest.raises(InputError, match="'L = 280 mm'.*it names a value.*--ignore"):
+    with pytest.raises(InputError, match=r"'L = 280 mm'.*it names a value.*--ignore"):
         read("p [bar];L = 280 mm;F [N];x [mm]\n" + lines(";", BAR, R.time, R.force, MM))
 
 

@@ -80,7 +80,7 @@ def valve_scale_of(text: str, where: str) -> Scale | None:
 
 _STATE = re.compile(
     rf"(?P<before>[^\W\d_]+)?\s*(?P<link>[=:@(]|\b(?:at|bei|à|a|bij|vid|ved)\b)?\s*(?<![\d.,])(?P<number>{_NUMBER})\s*(?P<raw>mV|V|mA|A)\b\)?"
-    r"(?:\s*(?:=|≙|:|->|→|is)?\s*(?P<behind>[^\W\d_]+(?:\s+[^\W\d_]+)?))?"
+    r"(?=(?:\s*(?:=|≙|:|->|→|is)?\s*(?P<behind>[^\W\d_]+(?:\s+[^\W\d_]+)?))?)"
 )
 
 
