@@ -9,7 +9,8 @@ import pytest
 
 from mckibben.measurement.read import read_measurement
 from mckibben.measurement.read.encodings import decoded_otherwise
-from mckibben.measurement.read.recognise import recognise, without_paths
+from mckibben.measurement.read.head_text import without_paths
+from mckibben.measurement.read.recognise import recognise
 from tests.measurement.read.muscle_test import isobaric
 
 R = isobaric(2e5, 3e5, 4e5)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from mckibben.measurement.read.recognise import held_quantities, recognise, taken_apart, without_run
+from mckibben.measurement.read.head_text import taken_apart, without_run
+from mckibben.measurement.read.held import held_quantities
+from mckibben.measurement.read.recognise import recognise
 
 #: Head -> (channel, unit, absolute).
 HEADS = {

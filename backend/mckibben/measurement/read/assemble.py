@@ -21,11 +21,12 @@ from mckibben.measurement.read.constants import notes_with_constants, with_const
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.evidence import Evidence, is_numeric
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning, map_headers
+from mckibben.measurement.read.held import held_pressure
 from mckibben.measurement.read.propose import with_clock, with_proposed_stroke
 from mckibben.measurement.read.questions import refusal
-from mckibben.measurement.read.recognise import held_pressure
+from mckibben.measurement.read.signs import FORCE_SIGN, STROKE_SIGN
 from mckibben.measurement.read.source import RawTable
-from mckibben.measurement.read.stated import KIND_SAID, NAME, SIGN
+from mckibben.measurement.read.stated import KIND_SAID, NAME
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
 
@@ -77,6 +78,45 @@ def rows_of(source: RawTable, columns: list[HeaderColumn], *, skip: bool) -> Cel
     return source.read(numeric, text, skip)
 
 
+def rows_of_needed(
+    source: RawTable, columns: list[HeaderColumn], *, skip: bool
+) -> tuple[CellTable, list[HeaderColumn], list[str]]:
+    """(rows, columns that are read, what was left out): a column that no row needs costs none.
+
+    A temperature, a speed, or a second stroke with cells that hold no reading is left out, not those rows.
+    """
+    optional = _optional(columns)
+    try:
+        table = rows_of(source, columns, skip=skip)
+        if not optional or not table.skipped:
+            return table, columns, []
+    except InputError:
+        if not optional:
+            raise
+    said = []
+    for column in optional:
+        if column not in _optional(columns):
+            continue
+        without = [c for c in columns if c is not column]
+        kept = len(rows_of(source, without, skip=True).lines)
+        try:
+            lost = kept - len(rows_of(source, columns, skip=True).lines)
+        except InputError:
+            lost = kept
+        if lost > 0:
+            columns = without
+            said.append(f"{source.noun} '{column.header}' is not used: it holds no number in {lost} rows")
+    return rows_of(source, columns, skip=skip), columns, said
+
+
+def _optional(columns: list[HeaderColumn]) -> list[HeaderColumn]:
+    """Columns that the reading can do without, given the others."""
+    strokes = [column for column in columns if column.use in STROKES]
+    again = strokes if len(strokes) > 1 else []
+    beside = ("temperature", "velocity", *(("diameter",) if strokes else ()))
+    return [c for c in columns if c.origin != "you" and (c.use in beside or c in again)]
+
+
 def assemble(
     source: RawTable, *, name: str, id: str, correction: Correction, meaning: Meaning | None = None,
     asked: list[Question] | None = None,
@@ -100,11 +140,13 @@ def assemble(
     conditions = conditions_of(source, meaning, correction, messages)
     messages += meaning.messages
     skip = correction.skip_bad_rows or str(conditions.get("bad_rows", "")).lower() == "skip"
-    table = rows_of(source, meaning.columns, skip=skip)
+    table, used, said = rows_of_needed(source, meaning.columns, skip=skip)
+    messages += said
+    ignored = [*meaning.ignored, *(c.header for c in meaning.columns if c not in used)]
     reading = ChannelReading(
-        source.place, source.noun, table, conditions, messages, list(meaning.ignored), skip, source.clocks
+        source.place, source.noun, table, conditions, messages, ignored, skip, source.clocks
     )
-    columns, by_use, slack = read_channels(meaning.columns, reading)
+    columns, by_use, slack = read_channels(used, reading)
     slack = _oldest_first(columns, by_use, slack, source, messages)
     _hold_pressure_of_name(columns, by_use, name, messages)
     skipped = dict(reading.table.skipped)
@@ -118,12 +160,13 @@ def assemble(
     messages += [f"{question.text} ({question.option})" for question in questions if not question.stops]
     kind = conditions.pop("kind", None) if correction.kind is None else correction.kind
     conditions.pop("kind", None)
-    said = str(conditions.pop(KIND_SAID, ""))
-    if kind is None and said and _suits(said, columns):
-        kind = said
-        messages.append(f"kind {said}: a text of the file says so")
+    kind_said = str(conditions.pop(KIND_SAID, ""))
+    if kind is None and kind_said and _suits(kind_said, columns):
+        kind = kind_said
+        messages.append(f"kind {kind_said}: a text of the file says so")
     order = {header: index for index, header in reversed(list(enumerate(source.headers)))}
-    conditions.pop(SIGN, None)
+    for sign in (FORCE_SIGN, STROKE_SIGN):
+        conditions.pop(sign, None)
     measurement = build(
         columns,
         name=name,
@@ -208,7 +251,7 @@ def _why_unread(meaning: Meaning, index: int) -> str:
     if index in meaning.problems:
         return meaning.problems[index].message
     if any(column.place == index for column in meaning.columns):
-        return "its numbers are not what its name says"
+        return "its cells are not what its name says"
     return "its name is not known"
 
 

@@ -9,10 +9,12 @@ from itertools import islice
 
 from mckibben.measurement.read.cells import Cell
 from mckibben.measurement.read.grid import Grid
+from mckibben.measurement.read.head_text import taken_apart
 from mckibben.measurement.read.header import plainly_known
+from mckibben.measurement.read.held import HeldQuantity, held_quantities
 from mckibben.measurement.read.locate import Run, TableHead, texts_of
 from mckibben.measurement.read.qualified import qualified_groups, without_way
-from mckibben.measurement.read.recognise import HeldQuantity, held_quantities, recognise, taken_apart
+from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.values import GAP, NUMBER, TEXT, kind_of
 from mckibben.measurement.read.vocabulary import folded
@@ -144,9 +146,10 @@ def tables_of_run(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[
     first = groups[0]
     order = [*shared, *first]
     table.names = [bases.get(c, names[c]) for c in order]
-    if bases and not any(bases.values()) and len(first) == 1:  # heads of nothing but pressures
+    if bases and not any(bases.values()) and len(first) == 1:  # heads of nothing but values
         known = [recognise(names[c]).channel for c in shared]
-        value = _value_of_map([*(text for _, _, text in titles), grid.title], ["pressure", *known])
+        held = [quantity.channel for quantity in _held_in(names[first[0]])]
+        value = _value_of_map([*(text for _, _, text in titles), grid.title], [*held, *known])
         table.names[-1] = value or UNNAMED
     table.names = _told_apart(table.names)
     table.units = [units[c] for c in order]
@@ -229,34 +232,52 @@ def _held_of_group(
         if span is None or span[0] <= column < span[1]
         for quantity in held_quantities(text)
     }
-    inside = {(h.value, h.unit): h for c in group if (h := taken_apart(names[c]).held) is not None}
-    if len(inside) == 1 and head.row is not None:
-        found["pressure"] = Held(next(iter(inside.values())), grid.where(head.row))
+    inside: dict[str, dict[tuple[float, str], HeldQuantity]] = {}
+    for quantity in (q for c in group for q in _held_in(names[c])):
+        inside.setdefault(quantity.channel, {})[quantity.value, quantity.unit] = quantity
+    for channel, values in inside.items():
+        if len(values) == 1 and head.row is not None:
+            found[channel] = Held(next(iter(values.values())), grid.where(head.row))
     return found
+
+
+def _held_in(name: str) -> list[HeldQuantity]:
+    """The quantities that a head names: a pressure, else a stroke or a load."""
+    held = taken_apart(name).held if name else None
+    return [held] if held is not None else held_quantities(name) if name else []
 
 
 def _groups(
     names: Sequence[str], used: Sequence[int], run: Run
 ) -> tuple[list[int], list[list[int]], dict[int, str]]:
     """(columns of all parts, columns of each part in the same order, their names without the pressure)."""
-    by_pressure: dict[tuple[float, str], list[int]] = {}
+    for channel in ("pressure", "length", "contraction", "displacement", "force"):
+        if (found := _groups_by(channel, names, used)) is not None:
+            return found
+    return qualified_groups(names, used) or _repeated(names, used, run)
+
+
+def _groups_by(
+    channel: str, names: Sequence[str], used: Sequence[int]
+) -> tuple[list[int], list[list[int]], dict[int, str]] | None:
+    """The groups of the values of one quantity that heads name, "L = 280 mm"; None = there are none."""
+    by_value: dict[tuple[float, str], list[int]] = {}
     shared: list[int] = []
     for c in used:
-        held = taken_apart(names[c]).held if names[c] else None
-        by_pressure.setdefault((held.value, held.unit), []).append(c) if held else shared.append(c)
-    groups = list(by_pressure.values())
-    if len(groups) > 1:
-        bases = {c: _without_held(names[c]) for group in groups for c in group}
-        ways = {c: without_way(base) for c, base in bases.items()}
-        if all(len({folded(ways[c]) for c in group}) == 1 for group in groups) and ways != bases:
-            groups, bases = [[c] for group in groups for c in group], ways
-        keys = [[folded(bases[c]) for c in group] for group in groups]
-        if all(sorted(key) == sorted(keys[0]) and len(set(key)) == len(key) for key in keys):
-            ordered = [
-                [group[key.index(k)] for k in keys[0]] for group, key in zip(groups, keys, strict=True)
-            ]
-            return [c for c in shared if names[c]], ordered, bases
-    return qualified_groups(names, used) or _repeated(names, used, run)
+        held = next((q for q in _held_in(names[c]) if q.channel == channel), None)
+        by_value.setdefault((held.value, held.unit), []).append(c) if held else shared.append(c)
+    groups = list(by_value.values())
+    if len(groups) < 2:
+        return None
+    bases = {c: _without_held(names[c], channel) for group in groups for c in group}
+    ways = {c: without_way(base) for c, base in bases.items()}
+    if all(len({folded(ways[c]) for c in group}) == 1 for group in groups) and ways != bases:
+        groups, bases = [[c] for group in groups for c in group], ways
+    keys = [[folded(bases[c]) for c in group] for group in groups]
+    if not all(sorted(key) == sorted(keys[0]) and len(set(key)) == len(key) for key in keys):
+        return None
+    ordered = [[group[key.index(k)] for k in keys[0]] for group, key in zip(groups, keys, strict=True)]
+    return [c for c in shared if names[c]], ordered, bases
 
 
 def _repeated(
@@ -286,9 +307,9 @@ def _repeated(
     return shared, ordered, {}
 
 
-def _without_held(name: str) -> str:
+def _without_held(name: str, channel: str) -> str:
     """``"F bei 2 bar [N]"`` -> ``"F [N]"``."""
-    held = taken_apart(name).held
+    held = next((q for q in _held_in(name) if q.channel == channel), None)
     text = name if held is None else name.replace("_", " ").replace(held.text, " ")
     return " ".join(text.split())
 

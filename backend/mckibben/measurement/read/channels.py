@@ -10,13 +10,19 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
+from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.read.cells import CellTable, Labels, no_rows
 from mckibben.measurement.read.conditions import ATMOSPHERE
 from mckibben.measurement.read.correction import SAMPLE, SLACK
+from mckibben.measurement.read.directions import direction_of
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn
 from mckibben.measurement.read.plausible import ENOUGH, proposal
-from mckibben.measurement.read.stated import SIGN
+from mckibben.measurement.read.signs import (
+    COMPRESSION_POSITIVE,
+    EXTENSION_POSITIVE,
+    FORCE_SIGN,
+    STROKE_SIGN,
+)
 from mckibben.measurement.read.unit_words import CLOCK
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
@@ -30,11 +36,6 @@ _SERIAL = (32_000.0, 62_000.0)  # days; the years 1987 to 2069
 _LONGEST_TEST = 30.0  # days
 _EPOCH = 1e8  # s; a later time counts from 1970, not from the beginning of the test
 _ZERO_CELSIUS = 150.0  # a temperature without unit below it is in °C
-
-_SHORTENING = {"up", "u", "p", "positive", "fill", "filling", "inflation", "inflating", "shortening"}
-_LENGTHENING = {"down", "d", "n", "negative", "vent", "venting", "deflation", "deflating", "lengthening"}
-_UNKNOWN = {"", "-", "unknown", "none", "nan"}
-_LOADING = {"load": 1.0, "loading": 1.0, "unload": -1.0, "unloading": -1.0}
 
 
 @dataclass
@@ -162,8 +163,8 @@ def _with_known_unit(column: HeaderColumn, reading: ChannelReading) -> HeaderCol
         return None
     if use == "pressure":
         column = column._replace(absolute=_absolute(column, reading.conditions))
-    if use == "force":
-        column = _signed_force(column, reading)
+    if use in ("force", "displacement", "contraction"):
+        column = _signed(column, reading)
     return column._replace(unit=unit, unit_origin=origin)
 
 
@@ -182,14 +183,16 @@ def _are_serial_days(raw: NDArray[np.float64]) -> bool:
     return bool(np.ptp(raw) < _LONGEST_TEST and np.any(raw != np.round(raw)))
 
 
-def _signed_force(column: HeaderColumn, reading: ChannelReading) -> HeaderColumn:
-    """A force that the file counts positive in compression is turned: a pulling muscle is positive here."""
-    if column.origin == "you" or reading.conditions.get(SIGN) != "compression positive":
+def _signed(column: HeaderColumn, reading: ChannelReading) -> HeaderColumn:
+    """A force or stroke, turned where the file says that it counts the other way."""
+    said = COMPRESSION_POSITIVE if column.use == "force" else EXTENSION_POSITIVE
+    key = FORCE_SIGN if column.use == "force" else STROKE_SIGN
+    if column.origin == "you" or reading.conditions.get(key) != said:
         return column
-    message = f"{reading.noun} '{column.header}' is turned: the file says that compression is positive"
+    message = f"{reading.noun} '{column.header}' is turned: the file says that {said.replace(' ', ' is ')}"
     if message not in reading.messages:
         reading.messages.append(message)
-    return column._replace(sign=-1)
+    return column._replace(sign=-1, extends=False)
 
 
 def _absolute(column: HeaderColumn, conditions: Mapping[str, float | str]) -> bool | None:
@@ -257,7 +260,7 @@ def _read_labels(
     if "group" in labels:
         columns["group"] = _group(labels["group"])
     if "direction" in labels:
-        direction = _direction(labels["direction"], columns, reading.messages)
+        direction = direction_of(labels["direction"], columns, reading.messages)
         if direction is None:
             reading.drop(by_use["direction"], "its words are not known, e.g. 'filling' and 'venting'")
         else:
@@ -284,38 +287,3 @@ def _group(labels: Labels) -> NDArray[np.int64]:
     numbers = [n for n in whole if n is not None]
     chosen = numbers if len(set(numbers)) == len(labels.words) else range(len(labels.words))
     return np.array(chosen, dtype=np.int64)[labels.codes]
-
-
-def _direction(
-    labels: Labels, columns: Mapping[str, NDArray], messages: list[str]
-) -> NDArray[np.float64] | None:
-    """-1 shortening, +1 lengthening, 0 unknown; None when a word is not understood.
-
-    "load" alone says too little (a weight lengthens, air shortens): there the stroke, else the pressure, of
-    neighbouring rows decides.
-    """
-    values = []
-    for word in (w.lower() for w in labels.words):
-        if word in _SHORTENING or word in _LENGTHENING:
-            values.append(-1.0 if word in _SHORTENING else 1.0)
-        elif word in _LOADING:
-            values.append(_LOADING[word] * _loading_sign(labels, columns))
-        elif re.fullmatch(r"[+-]?[01](\.0*)?", word) or word in _UNKNOWN:
-            values.append(float(word) if word not in _UNKNOWN else 0.0)
-        else:
-            return None
-    meaning = {-1.0: "shortening", 1.0: "lengthening", 0.0: "unknown"}
-    read = ", ".join(f"'{w}' as {meaning[v]}" for w, v in zip(labels.words, values, strict=True))
-    messages.append(f"direction read: {read}")
-    return np.array(values)[labels.codes]
-
-
-def _loading_sign(labels: Labels, columns: Mapping[str, NDArray]) -> float:
-    """Direction of rows called "load": the sign of the summed change of length along them."""
-    side = np.array([_LOADING.get(word.lower(), 0.0) for word in labels.words])[labels.codes]
-    same = (side[1:] == side[:-1]) * side[1:]
-    for channel in (*STROKES, "pressure"):
-        if channel in columns and np.ptp(columns[channel]) > 0.0:
-            change = float(np.sum(np.diff(columns[channel]) * same))
-            return float(np.sign(change)) * (1.0 if channel == "length" else -1.0)
-    return 0.0

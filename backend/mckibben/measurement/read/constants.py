@@ -11,8 +11,9 @@ from mckibben.measurement.question import Question
 from mckibben.measurement.read.conditions import CONDITION_UNITS, Constant, Note, condition_value, key_of
 from mckibben.measurement.read.correction import SAMPLE
 from mckibben.measurement.read.evidence import Evidence, is_numeric
-from mckibben.measurement.read.header import Meaning
-from mckibben.measurement.read.recognise import taken_apart
+from mckibben.measurement.read.head_text import taken_apart
+from mckibben.measurement.read.header import WEIGHTS, HeaderColumn, Meaning
+from mckibben.measurement.read.recognise import BY_WORDS
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import NAME, in_known_words, notes_of_code
 from mckibben.physics.errors import InputError
@@ -26,6 +27,16 @@ _SINGLE = {"nominal_length": ("rest length", "--rest-length"), "load_mass": ("lo
 def with_constants(source: RawTable, meaning: Meaning) -> Meaning:
     """The meaning with the columns that hold conditions; those of one value are no longer ignored."""
     found = _constants(source, meaning)
+    found, loads = _loads_apart(source, meaning, found)
+    if loads is not None:
+        meaning = meaning._replace(
+            columns=sorted([*meaning.columns, loads], key=lambda column: column.place),
+            ignored=[header for header in meaning.ignored if header != loads.header],
+            messages=[
+                *meaning.messages,
+                f"{source.noun} '{loads.header}' is the load of each row: it is the force",
+            ],
+        )
     if not found:
         return meaning
     held = {c.place: f"it is a condition, {c.key} {', '.join(c.values[:_SHOWN])}" for c in found}
@@ -35,6 +46,21 @@ def with_constants(source: RawTable, meaning: Meaning) -> Meaning:
         ignored=[header for header in meaning.ignored if header not in headers],
         reasons={**meaning.reasons, **held},
     )
+
+
+def _loads_apart(
+    source: RawTable, meaning: Meaning, found: list[Constant]
+) -> tuple[list[Constant], HeaderColumn | None]:
+    """The columns of conditions without the one of several loads, which is a force where no other is read."""
+    loads = [c for c in found if c.key in ("load_mass", "load_force") and len(c.values) > 1]
+    if len(loads) != 1 or any(column.use == "force" for column in meaning.columns):
+        return found, None
+    (load,) = loads
+    header = source.headers[load.place]
+    unit = taken_apart(header, source.units[load.place] if load.place < len(source.units) else None).unit
+    unit = unit or key_of(header)[1] or CONDITION_UNITS[load.key]
+    column = HeaderColumn(load.place, header, "force", WEIGHTS.get(unit, unit), penalty=BY_WORDS)
+    return [c for c in found if c is not load], column
 
 
 def _constants(source: RawTable, meaning: Meaning) -> list[Constant]:

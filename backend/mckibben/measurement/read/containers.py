@@ -14,11 +14,12 @@ from typing import Any
 import numpy as np
 
 from mckibben.measurement.measurement import CHANNEL_UNITS
-from mckibben.measurement.read.conditions import Note
+from mckibben.measurement.read.conditions import CONDITION_UNITS, Note, key_of
 from mckibben.measurement.read.header import map_headers
 from mckibben.measurement.read.matrix_maps import maps_apart
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.source import HeaderColumn
+from mckibben.measurement.read.stated import in_known_words
 from mckibben.measurement.read.unit_words import dimension_of, reference_of, unit_of
 from mckibben.measurement.read.vectors import as_column, sorted_out
 from mckibben.physics.errors import InputError
@@ -191,15 +192,33 @@ def stacked(tables: list[NamedTable], title: str) -> NamedTable:
         taken.add(head)
         text = head if recognise(head).channel == channel else f"{channel} [{recognise(head).unit}]"
         columns[text] = np.repeat([found[head] for found in constants], rows)
+    apart = [
+        note.key
+        for note in tables[0].notes
+        if note.key not in taken and len({str(_said(table, note.key)) for table in tables}) > 1
+    ]
+    for key in apart:  # a load of each run; whoever reads the columns says what several values mean
+        values = [found.get(key) for found in constants]
+        if _is_condition(key) and None not in values:
+            columns[key] = np.repeat(np.array(values, dtype=float), rows)
     if not any(recognise(head).channel == "group" for head in columns):
         columns[RUN] = np.repeat(np.arange(len(tables), dtype=float), rows)
     message = f"{len(tables)} parts with the same columns are read one below the other"
     return NamedTable(
         title, columns,
-        [note for note in tables[0].notes if note.key not in taken],
+        [note for note in tables[0].notes if note.key not in taken and note.key not in apart],
         [text for table in tables for text in table.rest],
         [*tables[0].messages, message],
     )  # fmt: skip
+
+
+def _said(table: NamedTable, key: str) -> str | float | None:
+    return next((note.value for note in table.notes if note.key == key), None)
+
+
+def _is_condition(key: str) -> bool:
+    """Whether a name is that of a condition with a unit."""
+    return key_of(in_known_words([Note("", key, "1")])[0].key)[0] in CONDITION_UNITS
 
 
 def _constants(table: NamedTable) -> dict[str, float]:

@@ -17,10 +17,11 @@ from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.encodings import decoded_otherwise
 from mckibben.measurement.read.grid import split_line
 from mckibben.measurement.read.header import HEADER_EXAMPLE, plainly_known
+from mckibben.measurement.read.held import held_pressure
 from mckibben.measurement.read.json_file import is_json, open_json
 from mckibben.measurement.read.lines import located_text
 from mckibben.measurement.read.raw import RawRows, shown_rows
-from mckibben.measurement.read.recognise import held_pressure, recognise
+from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
 from mckibben.measurement.read.stated import in_known_words, statements
 from mckibben.measurement.read.table import first_rows, read_table, split_header
@@ -112,6 +113,7 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
         and not words
         and not gaps
         and len(pressures) < 2
+        and "\n#" not in body  # titles of blocks
         and not _has_thousands(body, separator)
     )
 

@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.measurement.read.cells import CellTable
-from mckibben.measurement.read.recognise import recognise, taken_apart
-from mckibben.measurement.read.scales import Scale, scale_of
+from mckibben.measurement.read.head_text import taken_apart
+from mckibben.measurement.read.recognise import recognise
+from mckibben.measurement.read.scales import Scale, scale_of, valve_scale_of
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
-from mckibben.measurement.read.vocabulary import words_of
+from mckibben.measurement.read.vocabulary import channel_of_word, words_of
 from mckibben.physics.units import convert
 
 _PARTS = {"ms": 1e3, "us": 1e6, "µs": 1e6, "ns": 1e9}  # of a second, and how many it has
@@ -161,4 +162,10 @@ def _scale(source: RawTable, header: str, unit: str | None) -> Scale | None:
         known = recognise(found.name, found.unit)
         name = found.name if known.channel is not None else head.name
         return found._replace(factor=found.factor * per, name=name)
+    if not any(channel_of_word(word) == "command" for word in words_of(head.name)):
+        return None
+    for text, where in source.rest:
+        found = valve_scale_of(text, where)
+        if found is not None and dimension_of(found.raw) == dimension_of(head.unit):
+            return found._replace(factor=found.factor * float(convert([1.0], head.unit, found.raw)[0]))
     return None

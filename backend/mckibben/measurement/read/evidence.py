@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.measurement.read.cells import Labels
+from mckibben.measurement.read.head_text import taken_apart
 from mckibben.measurement.read.header import HeaderColumn, Meaning
-from mckibben.measurement.read.recognise import taken_apart
 from mckibben.measurement.read.values import NUMBER, TEXT, kind_of
 
 Array = NDArray[np.float64]

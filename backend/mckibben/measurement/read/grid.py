@@ -121,7 +121,10 @@ def column_letters(column: int) -> str:
 def split_line(line: str, separator: str) -> list[str]:
     """The cells of a line without blanks around them; quotes that do not match are kept."""
     if separator == BLANKS:
-        return re.sub(r"\s+(?=[\[(])", "", line).split()
+        line = re.sub(r"\s+(?=[\[(])", "", line)
+        if line.count('"') > 1:
+            return [cell.strip('"').strip() for cell in re.findall(r'"[^"]*"\S*|\S+', line)]
+        return line.split()
     if separator == "|":  # tables of notebooks have one at either end, and a line of dashes below the head
         line = line.strip()
         if _RULE.fullmatch(line):

@@ -11,8 +11,9 @@ from typing import NamedTuple
 from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.read.conditions import Constant
 from mckibben.measurement.read.correction import SAMPLE, SLACK, Choice
+from mckibben.measurement.read.head_text import taken_apart, without_paths
 from mckibben.measurement.read.marks import MARK_WORDS, split_mark
-from mckibben.measurement.read.recognise import BY_UNIT, is_raw, recognise, taken_apart, without_paths
+from mckibben.measurement.read.recognise import BY_UNIT, is_raw, recognise
 from mckibben.measurement.read.unit_words import CLOCK, fits, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import is_unit, meaning
@@ -316,6 +317,8 @@ def _column(index: int, header: str, where: str, noun: str, messages: list[str])
     unit = None
     if bracketed is not None:
         text, inside = bracketed.groups()
+        if re.search(r"[\])][^\[(]*[\[(]", inside):
+            return None  # two brackets, "[kPa] (gauge)"
         words = inside.lower().split()
         if words and all(word in _QUALIFIERS or word in MARK_WORDS for word in words):
             text = f"{text} {inside}"
@@ -363,9 +366,9 @@ def _with_unit(
         return column._replace(use=use)
     if use == "temperature" and unit in ("C", "F"):
         unit = f"deg{unit}"
-    if use == "force" and unit in _WEIGHTS:
+    if use == "force" and unit in WEIGHTS:
         messages.append(f"{noun} '{column.header}' is a mass: its weight is the force")
-        unit = _WEIGHTS[unit]
+        unit = WEIGHTS[unit]
     if use == "contraction" and fits(unit, "m"):
         use = "displacement"
     elif use == "displacement" and fits(unit, "1"):
@@ -386,7 +389,8 @@ def _with_unit(
     )
 
 
-_WEIGHTS = {"kg": "kgf", "g": "gf", "lb": "lbf"}
+#: Unit of a mass -> that of its weight.
+WEIGHTS = {"kg": "kgf", "g": "gf", "lb": "lbf"}
 _UNIT_EXAMPLES = {
     "pressure": "bar", "length": "mm", "displacement": "mm", "diameter": "mm", "contraction": "pct",
     "command": "pct", "temperature": "degC",

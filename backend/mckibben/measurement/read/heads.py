@@ -5,10 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
+from mckibben.measurement.read.column_lists import listed_columns
 from mckibben.measurement.read.grid import BLANKS, Grid, TextGrid
+from mckibben.measurement.read.held import held_quantities
 from mckibben.measurement.read.locate import Run, TableHead, names_channel, texts_of
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
+from mckibben.measurement.read.values import NUMBER, TEXT, kind_of
 
 _HEAD_ROWS = 8  # most rows of a head
 _LISTED_WITHIN = 200  # rows above a head in which its channels may be listed
@@ -28,14 +31,19 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
         rows = [index for index in range(at, run.first) if any(texts_of(grid.cells(index)))]
     else:
         rows = _rows_above(grid, run, after)
+        if (listed := _listed(grid, run, rows)) is not None:
+            return listed
     if not rows:
         return TableHead([""] * run.width, [None] * run.width, None, None, ())
     texts = {index: texts_of(grid.cells(index)) for index in rows}
     lists = {index: _listed_above(grid, index) for index in rows}
     named = at if at is not None else _row_of_names(texts, rows, run, lists)
-    listed = lists[named]
-    names = _padded(texts[named], run.width)
-    names = [f"{name} {listed[name]}" if name in listed else name for name in names]
+    said = lists[named]
+    above = texts[named]
+    if _without_row_names(grid, run, above):
+        above = texts[named] = ["", *above]
+    names = _padded(above, run.width)
+    names = [f"{name} {said[name]}" if name in said else name for name in names]
     width = len(names)
     if isinstance(grid, TextGrid) and grid.separator == BLANKS:
         for index in rows:
@@ -68,6 +76,39 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
             continue
         names = [name or (o if names_channel(o) else "") for name, o in zip(names, other, strict=False)]
     return TableHead(names, units, named, units_at, tuple(rows))
+
+
+def _listed(grid: Grid, run: Run, rows: Sequence[int]) -> TableHead | None:
+    """The head that a list of columns in the preamble gives, where no row above the numbers says as much."""
+    found = listed_columns(grid, run.first, run.width)
+    if found is None:
+        return None
+    listed = sum(recognise(name).channel is not None for name in found.names)
+    for index in rows:
+        named = [cell for cell in texts_of(grid.cells(index)) if names_channel(cell)]
+        if index != found.row and len(named) >= listed and _fits(grid, index, run.width):
+            return None
+    return TableHead(found.names, [None] * run.width, found.row, None, ())
+
+
+def _fits(grid: Grid, index: int, width: int) -> bool:
+    """Whether a row has about as many cells as there are columns."""
+    return abs(len([cell for cell in texts_of(grid.cells(index)) if cell]) - width) < 2
+
+
+def _without_row_names(grid: Grid, run: Run, names: Sequence[str]) -> bool:
+    """Whether a head lacks the name of the first column, which numbers or names the rows, as R writes it."""
+    if len(names) != run.width - 1 or not all(names):
+        return False
+    first = [cells[0] for i in range(run.first, min(run.last, run.first + 20)) if (cells := grid.cells(i))]
+    if len({str(cell) for cell in first}) < len(first):
+        return False
+    if all(kind_of(cell) == TEXT for cell in first):
+        return True
+    return all(
+        kind_of(cell) == NUMBER and str(cell).strip().isdecimal() and int(str(cell)) - int(str(first[0])) == n
+        for n, cell in enumerate(first)
+    )
 
 
 def _listed_above(grid: Grid, index: int) -> dict[str, str]:
@@ -137,6 +178,8 @@ def _filled_on(names: Sequence[str]) -> list[str]:
 def _rows_above(grid: Grid, run: Run, after: int) -> list[int]:
     rows: list[int] = []
     for index in range(run.first - 1, after, -1):
+        if _is_title(grid, index):
+            continue
         if any(texts_of(grid.cells(index))):
             rows.insert(0, index)
         elif rows:
@@ -144,6 +187,15 @@ def _rows_above(grid: Grid, run: Run, after: int) -> list[int]:
         if len(rows) == _HEAD_ROWS:
             break
     return rows
+
+
+def _is_title(grid: Grid, index: int) -> bool:
+    """Whether a comment line says which value a block holds, and no more: ``# Last 25 N``."""
+    if not isinstance(grid, TextGrid) or not re.match(r"\s*(#|%|//)", grid.lines[index]):
+        return False
+    text = " ".join(texts_of(grid.cells(index)))
+    held = held_quantities(text)
+    return len(held) == 1 and not re.search(r"\w", text.replace(held[0].text, "", 1))
 
 
 def _row_of_names(

@@ -9,11 +9,12 @@ import re
 from collections.abc import Sequence
 
 from mckibben.measurement.read.blocks import Table
+from mckibben.measurement.read.column_lists import is_column_list
 from mckibben.measurement.read.conditions import note_of_line
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.grid import TextGrid, separator_of
+from mckibben.measurement.read.head_text import taken_apart, without_paths
 from mckibben.measurement.read.limits import check_columns, check_rows
-from mckibben.measurement.read.recognise import taken_apart, without_paths
 from mckibben.measurement.read.reshape import Regular, regular
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import in_known_words, statements
@@ -48,6 +49,7 @@ def located_text(text: str, name: str, correction: Correction, messages: Sequenc
         for row, line in enumerate(lines[:_FIRST_LINES], start=1)
         if line.lstrip(' "').startswith("#")
         and (note := note_of_line(line.strip(';,\t "'), f"{name}, row {row}")) is not None
+        and not is_column_list(line)
     ]
     values = {}
     for note in notes:

@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 
 from mckibben.measurement.read.cells import Cell
 from mckibben.measurement.read.grid import BLANKS, Grid, TextGrid
+from mckibben.measurement.read.held import held_quantities
 from mckibben.measurement.read.limits import MAX_BLOCKS
-from mckibben.measurement.read.recognise import BY_UNIT, held_quantities, recognise
+from mckibben.measurement.read.recognise import BY_UNIT, recognise
 from mckibben.measurement.read.unit_words import unit_of
 from mckibben.measurement.read.values import CLOCK, GAP, NUMBER, TEXT, kind_of
 from mckibben.measurement.read.vocabulary import STATISTICS, words_of
@@ -167,7 +168,7 @@ def _row_above(grid: Grid, run: Run) -> list[str]:
 def _is_titled(grid: Grid, first: int, last: int) -> bool:
     """Whether a text between two runs says which pressure, stroke or load the next one holds."""
     return last - first <= _TITLE_ROWS and any(
-        quantity.channel == "pressure" or quantity.named
+        quantity.channel == "pressure" or quantity.named or quantity.worded
         for index in range(first, last)
         for _, text in titles_of(grid, index)
         if not recognise(text).why.startswith("it is")

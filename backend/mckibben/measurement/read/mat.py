@@ -6,9 +6,11 @@ the file is ever executed; objects are not read.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
+from mckibben.measurement.read.conditions import Note
 from mckibben.measurement.read.containers import NamedTable, matrix_tables, named_tables
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.mat5 import DamagedError, Foreign, read_variables
@@ -75,9 +77,8 @@ def choose(values: dict[str, Any], name: str, correction: Correction | None = No
             field=f"{_NOUN}s", hint="e.g. pressure_bar = [0; 1; 2], length_mm = [300; 290; 280]",
         )  # fmt: skip
     rivals = [t for t in usable if t is not best and most >= 2 and t.known() >= most]
-    notes, rest = list(best.notes), [text for table in tables for text in table.rest]
-    if best.title:  # scalars beside a struct are conditions too
-        notes = tables[0].notes + notes
+    rest = [text for table in tables for text in table.rest]
+    notes = _notes_beside(best, tables)
     known_notes = in_known_words(notes)
     known = {note.key for note in known_notes}
     known_notes += [note for note in statements(rest, name) if note.key not in known]
@@ -93,13 +94,30 @@ def choose(values: dict[str, Any], name: str, correction: Correction | None = No
     )
     others = [table for table in usable if table is not best]
     heads = [f"{table.title}.{head}".lstrip(".") for table in others for head in table.columns]
-    source = replace(source, unread=tuple((head, "it stands in another struct") for head in heads))
+    source = replace(
+        source, rest=tuple(rest), unread=tuple((head, "it stands in another struct") for head in heads)
+    )
     named = [table for table in tables if table.columns and table.problem is None]
     source = replace(source, tables=tuple((t.title or _LOOSE, t is best) for t in named))
     if rivals and wanted is None:
         choices = tuple((t.title or _LOOSE, ", ".join(t.columns)[:80]) for t in (best, *rivals))
         source = replace(source, choices=choices)
     return source
+
+
+def _notes_beside(best: NamedTable, tables: Sequence[NamedTable]) -> list[Note]:
+    """Single values that belong to a table: its own, then those of structs without vectors and of the file.
+
+    What several such structs say differently belongs to none.
+    """
+    apart = [table for table in tables if table is not best and not table.columns]
+    loose: dict[str, list[Note]] = {}
+    for note in [note for table in apart for note in table.notes]:
+        loose.setdefault(note.key, []).append(note)
+    beside = [same[0] for same in loose.values() if len({str(note.value) for note in same}) == 1]
+    own = {note.key for note in best.notes}
+    said = [*(tables[0].notes if best is not tables[0] and best.title else []), *beside]
+    return [*(note for note in dict.fromkeys(said) if note.key not in own), *best.notes]
 
 
 def without_foreign(values: dict[str, Any]) -> dict[str, Any]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mckibben.measurement.read.recognise import recognise, without_run
+from mckibben.measurement.read.head_text import without_run
+from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.vocabulary import WAYS, folded
 
 

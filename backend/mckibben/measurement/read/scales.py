@@ -6,6 +6,7 @@ import re
 from typing import NamedTuple
 
 from mckibben.measurement.read.unit_words import CLOCK, COUNT, dimension_of, unit_of
+from mckibben.measurement.read.vocabulary import MOVES, VALVE_WORDS, has_word, words_of
 
 _NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
 _RAW = r"(?P<raw>mV|V|mA|A)"
@@ -48,6 +49,50 @@ def scale_of(text: str, column: str, where: str) -> Scale | None:
             if said is not None:
                 return said
     return None
+
+
+def valve_scale_of(text: str, where: str) -> Scale | None:
+    """The scale of a valve's signal by its states: ``0 V = exhaust, 5 V = closed, 10 V = fill``.
+
+    The share of opening is 0 where the valve is closed, +1 where it fills, -1 where it exhausts.
+    """
+    states: dict[str, set[tuple[float, str]]] = {}
+    shown: list[str] = []
+    for found in _STATE.finditer(text):
+        before, number, raw, behind = found["before"], found["number"], found["raw"], found["behind"]
+        sides = (before, behind) if found["link"] else (behind, before)
+        state = next(filter(None, (_state_of(side or "") for side in sides)), None)
+        if state is not None:
+            states.setdefault(state, set()).add((_float(number), raw))
+            shown.append(found[0].strip(" ,;"))
+    signals = {raw for values in states.values() for _, raw in values}
+    if len(signals) != 1 or not {"closed", "open"} <= set(states) or any(len(v) > 1 for v in states.values()):
+        return None
+    level = {state: next(iter(values))[0] for state, values in states.items()}
+    span = level["open"] - level["closed"]
+    if span == 0.0 or abs(
+        level.get("exhaust", level["closed"] - span) - (level["closed"] - span)
+    ) > 0.01 * abs(span):
+        return None
+    slope = 1.0 / span
+    return Scale(slope, -level["closed"] * slope, signals.pop(), "1", "valve", f"'{', '.join(shown)}'", where)
+
+
+_STATE = re.compile(
+    rf"(?P<before>[^\W\d_]+)?\s*(?P<link>[=:@(]|\b(?:at|bei|à|a|bij|vid|ved)\b)?\s*(?<![\d.,])(?P<number>{_NUMBER})\s*(?P<raw>mV|V|mA|A)\b\)?"
+    r"(?=(?:\s*(?:=|≙|:|->|→|is)?\s*(?P<behind>[^\W\d_]+(?:\s+[^\W\d_]+)?))?)"
+)
+
+
+def _state_of(text: str) -> str | None:
+    words = words_of(text)
+    known = {
+        "closed": VALVE_WORDS["closed"],
+        "open": VALVE_WORDS["open"] | MOVES["shortening"],
+        "exhaust": VALVE_WORDS["exhaust"] | MOVES["lengthening"],
+    }
+    found = [state for state, among in known.items() if has_word(words, among)]
+    return found[0] if len(found) == 1 else None
 
 
 def _of_description(text: str, where: str) -> Scale | None:

@@ -9,13 +9,13 @@ from pathlib import PurePath
 from typing import NamedTuple
 
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, Note, key_of
-from mckibben.measurement.read.recognise import taken_apart
+from mckibben.measurement.read.head_text import taken_apart
+from mckibben.measurement.read.signs import signs_of
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.vocabulary import (
     LOADLESS,
     REMARK_WORDS,
     channel_of_word,
-    folded,
     has_word,
     reference_among,
     word_set,
@@ -25,7 +25,6 @@ from mckibben.resources import presets_folder
 
 NAME = "the file's name"
 #: Conditions that only these texts say, besides those with a unit.
-SIGN = "force_sign"  # text: "compression positive"
 KIND_SAID = "kind_said"  # text: "isotonic"
 _NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
 _UNIT = r"(?:[^\W\d_]|[°%\"'])+(?:/[^\W\d_]+[2²]?)?"
@@ -44,9 +43,6 @@ _REST_LENGTHS = re.compile(
 _SUPPLY_SYMBOLS = word_set("ps pv psup psupply pversorgung p0 pin")
 #: Kind of a test -> how its name begins in the languages of the heads.
 _KINDS = {"isobaric": "isobar", "isometric": "isometr", "isotonic": "isoton"}
-_COMPRESSION = re.compile(
-    r"(compress\w*|druckkraft)\W+(?:\w+\W+){0,2}positi|(tension|traction|pull\w*|zug\w*|trazione)\W+(?:\w+\W+){0,3}negati"
-)
 _CODE = re.compile(r"(?<![A-Za-z0-9])([A-Z]{2,6}-[0-9]{1,3})(?:-([0-9]{2,4})(?![0-9]))?")
 _CODE_IN_A_WORD = re.compile(r"(?i)(?<![a-z0-9])([a-z]{2,6})[-_ ]?([0-9]{1,3})(?![0-9a-z])")
 
@@ -96,9 +92,7 @@ def statements(rest: Iterable[tuple[str, str]], name: str) -> list[Note]:
 
 
 def _of_text(text: str) -> Iterator[tuple[str, str]]:
-    plain = folded(text)
-    if _COMPRESSION.search(plain):
-        yield SIGN, "compression positive"
+    yield from signs_of(text)
     words = words_of(text)
     reference = reference_among(words)
     about_muscle = not has_word(words, _AMBIENT | _SUPPLIES)
@@ -124,7 +118,7 @@ def _quantities(text: str) -> Iterator[_Quantity]:
     text = _UNIT_FIRST.sub(r" \2 \1", text)
     begin = 0
     for found in _QUANTITY.finditer(text):
-        unit = unit_of(found[2]) if found[2] else None
+        unit = (unit_of(found[2]) or unit_of(found[2].partition("(")[0])) if found[2] else None
         before = re.split(r"[,;](?!\d)\s*(?=[^\W\d])", text[begin : found.start()])[-1]
         begin = found.end()
         behind = re.split(r"[,;.:(]", text[begin : begin + 40])[0]

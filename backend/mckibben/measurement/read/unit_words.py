@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -23,6 +24,15 @@ _CLOCK = re.compile(r"(?i)h{1,2}\s*:\s*m{1,2}(\s*:\s*s{1,2})?([.,:]\s*(m|ms|f|s|
 _COUNTS = word_set("count counts cts digit digits lsb bit bits raw adc inc")
 #: On its own in a head it is a reference as well, "Innendruck (Ü)".
 _OVERPRESSURE = {"ü": False, "ue": False, "r": False, "a": True, "g": False}
+#: Channel -> what its unit measures; a weight may stand for a force, a share or a stroke for a contraction.
+DIMENSIONS = {
+    "time": ("a time",), "pressure": ("a pressure",), "force": ("a force", "a mass"),
+    "length": ("a length",), "displacement": ("a length", "a plain number or a share"),
+    "extension": ("a length", "a plain number or a share"),
+    "contraction": ("a plain number or a share", "a length"), "diameter": ("a length",),
+    "velocity": ("a speed",), "command": ("a plain number or a share",), "temperature": ("a temperature",),
+    "group": ("a plain number or a share",), "direction": ("a plain number or a share",),
+}  # fmt: skip
 CLOCK = "clock"  # times of day or dates; they count from the first row
 COUNT = "count"  # of a converter: no physical unit
 
@@ -46,6 +56,8 @@ def unit_of(text: str) -> UnitText | None:
     bare = _without_brackets(text.strip())
     if not bare or len(bare) > 40:
         return None
+    if any(character >= "\u3000" for character in bare):  # "ｋＰａ", "㎜"
+        bare = unicodedata.normalize("NFKC", bare)
     if _CLOCK.fullmatch(bare):
         return UnitText(CLOCK)
     if bare.lower() in _COUNTS:

@@ -95,6 +95,16 @@ LOADLESS = REMARK_WORDS["loadless"]
 STATISTICS = frozenset(all_words(words.STATISTIC))
 #: Words for the way there and the way back.
 WAYS = frozenset(all_words(words.WAYS))
+#: Way of the muscle or of the test -> words for it in cells.
+MOVES = {way: frozenset(all_words(texts)) for way, texts in (words.DIRECTIONS | words.MOVES).items()}
+#: Words for a state without motion in cells.
+HOLDS = frozenset(all_words(words.HOLDS))
+#: Words of texts about signs: "positive", "negative", "tension", "compression", "extension", "shortening".
+SIGN_WORDS = {what: frozenset(all_words(texts)) for what, texts in words.SIGNS.items()}
+#: State of a valve, "closed", "open" (fills the muscle), "exhaust" -> words for it.
+VALVE_WORDS = {state: frozenset(all_words(texts)) for state, texts in words.VALVES.items()}
+#: Words of heads that name the phase of a test.
+PHASES = frozenset(all_words(words.PHASES))
 #: Words for the reference of a pressure: True = absolute.
 REFERENCE_WORDS = {
     word: reference == "absolute"
@@ -122,12 +132,19 @@ def words_of(text: str) -> list[str]:
     return [folded(word) for word in re.findall(r"[^\W_]+|#", spaced)]
 
 
+_NO_FORCE = ("出力", "入力", "能力", "电力", "電力", "功力")  # "output": no word of a force
+
+
 @lru_cache(maxsize=4096)
 def channel_of_word(word: str) -> str | None:
     """The channel that a folded word stands for, alone or as a part of it."""
     for channel, stems in CHANNEL_WORDS.items():
         if word in stems:
             return channel
+    if word in PHASES:
+        return "direction"
+    if any(word.endswith(end) for end in _NO_FORCE):
+        return None
     best, length = None, 0
     for channel, stems in CHANNEL_WORDS.items():
         for stem in stems:

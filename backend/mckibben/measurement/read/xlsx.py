@@ -21,9 +21,9 @@ from mckibben.measurement.read.conditions import Note, note_of_line
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.grid import Grid, SheetGrid
 from mckibben.measurement.read.header import HEADER_EXAMPLE, map_headers
+from mckibben.measurement.read.held import held_quantities
 from mckibben.measurement.read.limits import WORD, Allowance, check_columns
 from mckibben.measurement.read.locate import texts_of
-from mckibben.measurement.read.recognise import held_quantities
 from mckibben.measurement.read.reshape import regular
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import in_known_words, statements

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 
 from mckibben.measurement.read.cells import Cell
 from mckibben.measurement.read.grid import Grid
+from mckibben.measurement.read.head_text import taken_apart
 from mckibben.measurement.read.locate import texts_of
-from mckibben.measurement.read.recognise import recognise, taken_apart
+from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.reshape.rows import SAMPLED, Rewritten, RowsGrid
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.values import CLOCK, NUMBER, kind_of

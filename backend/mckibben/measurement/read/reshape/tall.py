@@ -10,11 +10,13 @@ from typing import NamedTuple
 
 from mckibben.measurement.read.cells import Cell, marker_of
 from mckibben.measurement.read.grid import Grid
+from mckibben.measurement.read.head_text import taken_apart
 from mckibben.measurement.read.locate import texts_of
-from mckibben.measurement.read.recognise import BY_UNIT, Recognised, recognise, taken_apart
+from mckibben.measurement.read.recognise import BY_UNIT, Recognised, recognise
 from mckibben.measurement.read.reshape.rows import MAX_CELLS, SAMPLED, Rewritten, RowsGrid
 from mckibben.measurement.read.unit_words import unit_of
 from mckibben.measurement.read.values import CLOCK, GAP, NUMBER, TEXT, kind_of
+from mckibben.measurement.read.vocabulary import NO_CHANNEL, words_of
 
 _MOST_TAGS = 60
 _FEWEST_ROWS = 6
@@ -102,6 +104,12 @@ def _columns_of(grid: Grid) -> _Columns | None:
     times = [c for c in numbers if c < len(heads) and recognise(heads[c]).channel == "time"]
     running = [c for c in numbers if c not in times and _counts_on([row[c] for row in rows if c < len(row)])]
     values = [c for c in numbers if c not in times and (c not in running or len(numbers) == 1)]
+    if len(values) > 1:  # beside the values stand marks of their quality, which hardly change
+        values = [
+            c
+            for c in values
+            if not (_is_no_value(heads, c) or len({str(r[c]) for r in rows if c < len(r)}) < 2)
+        ]
     if len(values) != 1:
         return None
     instant = next(iter([*clocks, *times]), None)
@@ -111,6 +119,11 @@ def _columns_of(grid: Grid) -> _Columns | None:
         (c for c in others if c != unit and _judges([str(row[c]) for row in rows if c < len(row)])), None
     )
     return _Columns(tag, values[0], instant, unit, quality, first)
+
+
+def _is_no_value(heads: Sequence[str], column: int) -> bool:
+    """Whether a head says that its column holds a mark or a running number."""
+    return column < len(heads) and any(word in NO_CHANNEL for word in words_of(heads[column]))
 
 
 def _body(grid: Grid) -> tuple[int, list[Sequence[Cell]]]:

@@ -1,0 +1,34 @@
+"""The words of laboratories by what they mean and by language: one table for heads, preambles and remarks.
+
+Written as people write them, compared without case and accents. A word of five letters or more also counts
+as the beginning or end of a longer one; ``*`` says the same of a shorter one (``*weg``, ``усил*``). Chinese,
+Japanese and Korean words of two characters or more count wherever they stand.
+"""
+
+from __future__ import annotations
+
+from mckibben.measurement.read.words.cells import MARKERS, UNITS
+from mckibben.measurement.read.words.channels import CHANNELS
+from mckibben.measurement.read.words.columns import NO_CHANNELS, OTHERS, STATISTIC
+from mckibben.measurement.read.words.conditions import REFERENCES, REMARKS
+from mckibben.measurement.read.words.signs import SIGNS
+from mckibben.measurement.read.words.valves import VALVES
+from mckibben.measurement.read.words.ways import DIRECTIONS, HOLDS, MOVES, PHASES, WAYS
+
+__all__ = [
+    "CHANNELS",
+    "DIRECTIONS",
+    "HOLDS",
+    "MARKERS",
+    "MOVES",
+    "NO_CHANNELS",
+    "OTHERS",
+    "PHASES",
+    "REFERENCES",
+    "REMARKS",
+    "SIGNS",
+    "STATISTIC",
+    "UNITS",
+    "VALVES",
+    "WAYS",
+]

@@ -1,0 +1,134 @@
+"""Words for the conditions of a test, and for what a pressure counts from, by language."""
+
+from __future__ import annotations
+
+#: Words of the texts around a table -> language -> words.
+REMARKS = {
+    "at rest": {
+        "en": (
+            "l0 rest unloaded relaxed free initial nominal gauge start sample specimen original "
+            "undeformed"
+        ),
+        "de": "ruhe anfang anfangs nenn einspann ausgangs ungedehnt drucklos",
+        "fr": "vide repos initiale libre origine", "it": "riposo iniziale libera nominale",
+        "es": "reposo inicial libre original nominal", "pt": "repouso inicial livre original",
+        "pl": "spoczynkowa początkowa swobodna", "cs": "klidová počáteční volná výchozí",
+        "ru": "свободном свободная начальная исходная", "tr": "serbest başlangıç ilk",
+        "nl": "rust begin vrije", "sv": "vila ursprunglig fri", "da": "hvile fri oprindelig",
+        "fi": "lepo alku vapaa", "hu": "nyugalmi kezdeti szabad", "ro": "inițială repaus liberă",
+        "el": "ηρεμίας αρχικό", "uk": "початкова вільна", "bg": "начална свободна",
+        "hr": "početna pocetna slobodna mirovanja nazivna", "sl": "začetna prosta mirovanju",
+        "sk": "počiatočná pokojová voľná", "ko": "초기 자연 무부하", "ja": "自然 初期 無負荷",
+        "zh": "初始 自由 自然", "lt": "pradinis", "et": "alg",
+    },
+    "rest length": {
+        "de": "ruhelänge anfangslänge nennlänge ausgangslänge einspannlänge probenlänge",
+        "nl": "rustlengte beginlengte uitgangslengte", "sv": "vilolängd ursprungslängd",
+        "ja": "自然長 初期長 自由長 基準長 初期長さ 自然長さ",
+        "zh": "初始长度 原长 自由长度 自然长度 自然长 初始长 原始长度 静息长度 静止长度",
+        "ko": "초기길이 자연길이 자유길이 자유장 자연장 초기장", "da": "hvilelængde startlængde",
+        "no": "hvilelengde startlengde", "fi": "lepopituus alkupituus", "hu": "nyugalmihossz",
+        "et": "algpikkus",
+    },
+    "load": {
+        "en": "load mass weight hanging deadweight dead suspended",
+        "de": "last masse gewicht gehängt angehängt gewichtsstück", "fr": "charge poids masse",
+        "it": "carico massa peso appesa", "es": "carga masa peso", "pt": "carga peso massa",
+        "pl": "masa obciążenie ciężar obciążnik", "cs": "hmotnost závaží zátěž břemeno",
+        "ru": "масса груз нагрузка вес гиря груза", "tr": "yük kütle ağırlık", "nl": "massa gewicht",
+        "sv": "massa vikt last", "ja": "質量 おもり 荷重 錘 重り 重錘 分銅 負荷",
+        "zh": "质量 负载 砝码 载荷 重物 配重 重量 悬挂 负荷",
+        "hr": "teret uteg opterećenje opterecenje utega", "sl": "breme utež",
+        "sk": "bremeno závažie hmotnosť", "hu": "tömeg teher terhelés súly", "ro": "masă sarcină greutate",
+        "fi": "kuorma massa paino", "da": "masse vægt belastning lod lodd vekt", "el": "φορτίο μάζα βάρος",
+        "uk": "маса вантаж навантаження вага", "bg": "маса товар тежест", "lt": "masė svoris apkrova",
+        "lv": "masa slodze svars", "et": "mass koormus", "ko": "하중 질량 무게 추 부하 중량",
+        "id": "beban massa", "vi": "tải", "ca": "massa càrrega pes", "fa": "جرم بار", "ar": "حمل كتلة",
+        "he": "משקל מסה",
+    },
+    "supply": {
+        "en": "supply", "de": "versorgung versorgungsdruck speisedruck vordruck netzdruck druckversorgung",
+        "fr": "alimentation réseau", "it": "alimentazione", "es": "alimentación", "pt": "alimentação",
+        "pl": "zasilanie zasilania", "cs": "napájecí napájení",
+        "ru": "питания питание магистрали магистраль", "tr": "besleme",
+        "nl": "voedingsdruk toevoerdruk voeding toevoer",
+        "sv": "matningstryck matning matningstrycket försörjning", "ja": "供給圧 供給圧力 元圧 供給",
+        "zh": "供气压力 气源压力 供气 供给 供压 气源", "da": "forsyning forsyningstryk",
+        "no": "forsyningstrykk mating", "fi": "syöttöpaine syöttö", "hu": "tápnyomás táp hálózati",
+        "ro": "alimentare", "el": "τροφοδοσία τροφοδοσίας", "uk": "живлення", "bg": "захранване захранващо",
+        "hr": "dovod dovodni napajanje opskrba dobava", "sl": "napajanje napajalni",
+        "sk": "napájací napájanie", "ko": "공급 공급압 공급압력", "id": "suplai pasokan",
+        "ca": "alimentació", "lt": "tiekimo",
+    },
+    "ambient": {
+        "en": "ambient baro barometer barometric atmospheric atmosphere",
+        "de": "luftdruck umgebungsdruck umgebung", "fr": "atmosphérique ambiante",
+        "it": "atmosferica ambiente", "es": "atmosférica", "pt": "atmosférica",
+        "pl": "atmosferyczne otoczenia", "cs": "barometrický okolí atmosférický",
+        "ru": "атмосферное барометрическое", "tr": "atmosfer ortam", "nl": "omgevingsdruk luchtdruk",
+        "sv": "lufttryck omgivningstryck atmosfärstryck", "ja": "大気圧 気圧",
+        "zh": "大气压 环境压力 气压计", "ko": "대기압", "da": "lufttryk atmosfæretryk omgivelse",
+        "fi": "ilmanpaine ympäristö", "hu": "légköri légnyomás környezeti", "ro": "atmosferică",
+        "el": "ατμοσφαιρική", "uk": "атмосферний барометричний", "bg": "атмосферно",
+        "hr": "atmosferski okoline", "sl": "atmosferski",
+    },
+    "sample": {
+        "en": "specimen sample dut", "de": "probe prüfling prüfgegenstand", "fr": "éprouvette",
+        "it": "provino campione", "es": "probeta muestra", "pt": "amostra provete", "pl": "próbka",
+        "cs": "vzorek", "ru": "образец", "tr": "numune", "nl": "monster proefstuk", "sv": "prov provstycke",
+        "ja": "試料 試験片", "zh": "试样 样品", "id": "muster", "da": "prøve emne",
+        "fi": "näyte koekappale", "hu": "minta próbatest", "ro": "probă epruvetă", "el": "δείγμα δοκίμιο",
+        "uk": "зразок", "hr": "uzorak", "sl": "vzorec", "sk": "vzorka", "ko": "시편 시료",
+    },
+    "date": {
+        "en": "date", "de": "datum", "fr": "date", "es": "fecha", "it": "data giorno", "ru": "дата",
+        "tr": "tarih", "ja": "日付", "zh": "日期", "pt": "data", "pl": "data", "cs": "datum", "nl": "datum",
+        "sv": "datum", "da": "dato", "fi": "päivämäärä pvm", "hu": "dátum", "ro": "data",
+        "el": "ημερομηνία", "uk": "дата", "ko": "날짜 일자", "hr": "datum",
+    },
+    "loadless": {
+        "en": (
+            "preload max maximum maximal cell capacity limit range pre sensor moving rated accuracy "
+            "resolution transducer loadcell"
+        ),
+        "de": "vorkraft vorlast zelle grenze messbereich sensor kraftmessdose", "ru": "датчик макс",
+        "tr": "sensör", "zh": "传感器 量程", "fr": "capteur précharge maxi",
+        "it": "sensore cella precarico massimo", "es": "sensor célula precarga máxima máximo",
+        "pt": "sensor célula máximo máxima", "pl": "czujnik wstępne", "cs": "snímač předpětí",
+        "nl": "sensor voorspanning", "sv": "givare förspänning", "fi": "anturi", "da": "måler føler",
+        "hu": "érzékelő szenzor cella", "ro": "senzor", "el": "αισθητήρας", "hr": "senzor",
+        "ko": "센서 로드셀 정격", "ja": "センサ 定格 容量",
+    },
+    "constant": {
+        "en": "constant held fixed", "de": "konstant konstante", "fr": "constant", "it": "costante",
+        "es": "constante", "pt": "constante", "pl": "stałe stała", "cs": "konstantní", "nl": "constant",
+        "sv": "konstant", "da": "konstant", "fi": "vakio", "hu": "állandó", "ro": "constant constantă",
+        "hr": "konstantno stalni", "ja": "一定", "zh": "恒定", "ko": "일정", "ru": "постоянная",
+    },
+}  # fmt: skip
+
+#: Words that say what a pressure counts from -> language -> words.
+REFERENCES = {
+    "absolute": {
+        "en": "abs absolute", "de": "absolut absolutdruck", "fr": "absolue absolu",
+        "it": "assoluta assoluto", "es": "absoluta absoluto", "pl": "bezwzględne",
+        "cs": "absolutní absolutně", "ru": "абс абсолютное абсолютных", "tr": "mutlak", "ja": "絶対圧 絶対",
+        "zh": "绝压 绝对压力 绝对", "nl": "absoluut", "sv": "absoluttryck", "da": "absolut",
+        "fi": "absoluuttinen", "hu": "abszolút", "ro": "absolută absolut", "el": "απόλυτη",
+        "uk": "абсолютний абсолютна", "hr": "apsolutni apsolutno", "sl": "absolutni", "sk": "absolútny",
+        "ko": "절대압 절대", "pt": "absoluta",
+    },
+    "gauge": {
+        "en": "gauge gage rel relative", "de": "überdruck ueberdruck relativ",
+        "fr": "effective manométrique relative relatif", "it": "relativa relativo manometrica",
+        "es": "manométrica relativa", "pt": "manométrica relativa",
+        "pl": "nadciśnienie relatywne nadciśnienia", "cs": "přetlak přetlaku relativní",
+        "ru": "изб избыточное избыточных манометрическое", "tr": "bağıl gösterge",
+        "nl": "overdruk relatief", "sv": "övertryck relativt", "ja": "ゲージ圧 ゲージ",
+        "zh": "表压 表压力 相对压力", "da": "overtryk", "no": "overtrykk", "fi": "ylipaine",
+        "hu": "túlnyomás relatív", "ro": "relativă manometrică", "el": "σχετική μανομετρική",
+        "uk": "надлишковий надлишкова манометричний", "bg": "манометрично",
+        "hr": "pretlak pretlaku pretlaka predtlak", "sl": "nadtlak", "sk": "pretlak relatívny",
+        "ko": "게이지압 게이지",
+    },
+}  # fmt: skip
