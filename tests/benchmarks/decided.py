@@ -2,9 +2,9 @@
 
     python -m tests.benchmarks.decided [--seeds 0,1,2] [--only TEXT]
 
-A case counts where the data cannot tell a hidden effect from one that is not there, and an experiment of the
-rig is said to tell them apart, by a standard deviation of a reading. It is decided where the diagnosis of both
-files together names the hidden effect, and none of those any more.
+A case counts where the data cannot tell a hidden effect from one that is not there, and an experiment of
+the rig is said to tell them apart, by a standard deviation of a reading. It is decided where the diagnosis of
+both files together names the hidden effect, and none of those any more.
 """
 
 from __future__ import annotations
