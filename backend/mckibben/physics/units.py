@@ -26,7 +26,7 @@ MAX_TEXT_LENGTH = 100
 _NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
 _QUANTITY = re.compile(rf"\s*({_NUMBER})\s*(.*?)\s*", re.DOTALL)
 
-_NAME = r"[A-Za-zµμΩΩÅ°%_]+(?:2O|Hg)?"  # 2O: cmH2O is a unit name, its digit is not an exponent
+_NAME = r"[A-Za-zµμΩΩÅ°%‰_]+(?:2O|Hg)?"  # 2O: cmH2O is a unit name, its digit is not an exponent
 _TOKEN = re.compile(
     rf"({_NAME})(?:(?:\^|\*\*)?([+-]?[1-9])|([⁺⁻]?[¹²³⁴⁵⁶⁷⁸⁹]))?(?![0-9^⁰¹²³⁴⁵⁶⁷⁸⁹])|([()*/]|\s+)"
 )
@@ -41,7 +41,8 @@ _SUPERSCRIPT = str.maketrans("⁺⁻¹²³⁴⁵⁶⁷⁸⁹", "+-123456789")
 
 # Spellings that pint lacks or reads differently: "pct" as a picocarat, "Nm" as a textile count.
 _ALIASES = {
-    "%": "percent", "pct": "percent", "°": "degree", "Nm": "N*m", "Nmm": "N*mm", "Bar": "bar", "BAR": "bar",
+    "%": "percent", "pct": "percent", "‰": "permille", "°": "degree", "Nm": "N*m", "Nmm": "N*mm",
+    "Bar": "bar", "BAR": "bar",
     "PSI": "psi", "Psi": "psi", "kpa": "kPa", "KPa": "kPa", "KPA": "kPa", "MPA": "MPa", "pa": "Pa",
     "MM": "mm", "CM": "cm", "sec": "s", "Sec": "s",
 }  # fmt: skip

@@ -28,6 +28,7 @@ _NAME = re.compile(r"(?i)(signal_?)?(name|label|title|bezeichnung|channel)")
 _UNIT = re.compile(r"(?i)(signal_?)?(unit|units|einheit|dim|unit_?label)")
 _MAX_COLUMNS = 60  # of a matrix that is taken apart
 _DEEPEST = 4
+_SETTINGS = 4  # most numbers of a setting beside a signal
 _FEWEST_ROWS = 4  # of a matrix that can be readings
 RUN = "group"
 
@@ -241,6 +242,8 @@ def _signals(value: Any) -> dict[str, Any] | None:
     found: dict[str, Any] = {}
     for struct in structs:
         vectors = [v for v in struct.values() if _is_vector(v)]
+        if len(vectors) > 1:  # beside the readings a few settings, "plotStyle = [0 1]"
+            vectors = [v for v in vectors if v.size > _SETTINGS] or vectors
         text = next(
             (v.strip() for k, v in struct.items() if isinstance(v, str) and _NAME.fullmatch(k) and v.strip()),
             "",
@@ -253,13 +256,15 @@ def _signals(value: Any) -> dict[str, Any] | None:
             if unit and unit_of(unit) is not None and recognise(text).unit is None
             else text
         )
-        if reference_of(unit) is None and unit_of(unit) is not None:
-            marks = [
-                v
+        if reference_of(unit) is None and (unit_of(unit) is not None or recognise(head).unit is not None):
+            marks = {
+                word
                 for k, v in struct.items()
-                if isinstance(v, str) and k != "unit" and reference_of(v) is not None
-            ]
-            head = f"{head} ({marks[0]})" if len(marks) == 1 else head
+                if isinstance(v, str) and k != "unit" and v.strip() != text
+                for word in (v, *re.split(r"[\s,;/]+", v))
+                if reference_of(word) is not None
+            }
+            head = f"{head} ({marks.pop()})" if len(marks) == 1 else head
         while head in found:
             head += "'"
         found[head] = vectors[0]

@@ -61,8 +61,11 @@ class TextGrid:
         return len(self.lines)
 
     def cells(self, index: int) -> Sequence[Cell]:
-        """The cells of a line."""
-        return split_line(re.sub(r"^\s*(?:[#%]+|//)\s*", "", self.lines[index]), self.separator)
+        """The cells of a line; a cell that is a percent sign alone is a unit, no comment."""
+        line = self.lines[index]
+        if self.separator != BLANKS and line.partition(self.separator)[0].strip() == "%":
+            return split_line(line, self.separator)
+        return split_line(re.sub(r"^\s*(?:[#%]+|//)\s*", "", line), self.separator)
 
     def line(self, index: int) -> int:
         """Number of the line."""

@@ -67,6 +67,9 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
         if index in (named, units_at):
             continue
         other = _padded(texts[index], width)
+        if index > named and (values := _values_below(names, other)):
+            names = [f"{name} {values[c]}" if c in values else name for c, name in enumerate(names)]
+            continue
         if index > named and _divides(names, other):
             filled = _filled_on(names)
             names = [
@@ -165,6 +168,20 @@ def _divides(names: Sequence[str], below: Sequence[str]) -> bool:
         and (everywhere or not loose)
         and not any(names_channel(b) for b in below if b)
     )
+
+
+def _values_below(names: Sequence[str], below: Sequence[str]) -> dict[int, str]:
+    """Column -> the value that a row below the names holds for one of several columns of the same name.
+
+    Programs that keep a comment with each column write it so: "p = 0.2 MPa" and "p = 0.3 MPa" below "Force".
+    """
+    found: dict[int, str] = {}
+    for column, (name, cell) in enumerate(zip(names, below, strict=False)):
+        if name and sum(other.casefold() == name.casefold() for other in names) > 1:
+            held = held_quantities(cell) if cell else []
+            if len(held) == 1:
+                found[column] = held[0].text
+    return found if len(set(found.values())) > 1 else {}
 
 
 def _filled_on(names: Sequence[str]) -> list[str]:

@@ -23,6 +23,7 @@ from mckibben.measurement.read.mat import choose
 from mckibben.measurement.read.mat5 import Foreign
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.source import RawTable
+from mckibben.measurement.read.unit_lists import names_units, units_of_columns
 from mckibben.measurement.read.unit_words import reference_of, unit_of
 from mckibben.physics.errors import InputError
 
@@ -139,7 +140,6 @@ class _Mat73Reader:
         names = next(
             (v for k, v in attributes.items() if isinstance(v, list) and "unit" not in k.lower()), None
         )
-        units = next((v for k, v in attributes.items() if isinstance(v, list) and "unit" in k.lower()), None)
         unit = next((v for k, v in attributes.items() if isinstance(v, str) and _IS_UNIT.fullmatch(k)), None)
         if dataset.shape is None or dataset.dtype.kind not in "biufSOV":
             return {key: None}
@@ -152,16 +152,15 @@ class _Mat73Reader:
             ):
                 return {}
             table = self._read(key, dataset)
-            units = units if units and len(units) == len(fields) else [None] * len(fields)
+            units = units_of_columns(fields, attributes)
             columns = {_headed(f, u): table[f].astype(float) for f, u in zip(fields, units, strict=True)}
-            return {key: columns}
+            return {key: _beside(attributes, columns)}
         values = self._read(key, dataset)
         if values.ndim == 2 and names is not None and len(names) in values.shape:
             table = values if values.shape[1] == len(names) else values.T
-            units = units if units and len(units) == len(names) else [None] * len(names)
-            return {
-                key: {_headed(n, u): table[:, i] for i, (n, u) in enumerate(zip(names, units, strict=True))}
-            }
+            units = units_of_columns(names, attributes)
+            columns = {_headed(n, u): table[:, i] for i, (n, u) in enumerate(zip(names, units, strict=True))}
+            return {key: _beside(attributes, columns)}
         said = {k: v for k, v in attributes.items() if isinstance(v, str) and not _IS_UNIT.fullmatch(k)}
         reference = next((v for v in said.values() if reference_of(v) is not None), None)
         head = _headed(key, unit)
@@ -301,6 +300,16 @@ def _in_parts(dataset: Any) -> np.ndarray:
 
 def _text(value: Any) -> str:
     return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
+
+
+def _beside(attributes: dict[str, Any], columns: dict[str, Any]) -> dict[str, Any]:
+    """The columns of a table with the single values that its attributes say."""
+    said = {
+        key: value
+        for key, value in attributes.items()
+        if not isinstance(value, list) and not names_units(key) and not key.startswith("FIELD_")
+    }
+    return {**said, **columns}
 
 
 def _headed(name: str, unit: str | None) -> str:
