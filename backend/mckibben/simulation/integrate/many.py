@@ -265,7 +265,7 @@ def _run(
         codes.plan.size,
         codes.clock,
         drive.moved,
-        (drive.least, bounce_of(options[0]), drive.follows),
+        (drive.least, bounce_of(options[0]), drive.follows, drive.watched),
         stops,
         constants,
         given.starts,
@@ -327,7 +327,14 @@ def _arrays(drive: CompiledDrive, entries: int, chosen: _Columns, kernels: LaneK
         aligned(4 * max(len(chosen.kept), 1), lanes),
         np.zeros((lanes, arguments)),
         aligned(lanes, kept, lanes + kernels.window),
-        (np.zeros(n), np.zeros(n), np.zeros((2, n)), np.zeros(kinds), np.zeros(kinds + 1), np.zeros(kinds)),
+        (
+            np.zeros(n),
+            np.zeros(n),
+            np.zeros((2, n)),
+            np.zeros((2, kinds)),
+            np.zeros(kinds + 1),
+            np.zeros(kinds),
+        ),
         (np.zeros((kernels.numbers, lanes), np.int64), np.zeros(kernels.entries, np.int64)),
     )
 

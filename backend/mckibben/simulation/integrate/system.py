@@ -118,6 +118,13 @@ class CompiledDrive:
         return np.array([names.index(s.follows) if s.follows else -1.0 for s in self.model.switches], float)
 
     @cached_property
+    def watched(self) -> np.ndarray:
+        """Numbers of the states that the guards depend on."""
+        arguments, guards = self.functions["guards"]
+        used = set().union(*(guard.free_symbols for guard in guards))
+        return np.array([i for i, symbol in enumerate(arguments[: self.size]) if symbol in used], float)
+
+    @cached_property
     def stop_places(self) -> tuple[int | None, ...]:
         """Position of the parameter that is the end stop of each switch, None for other switches."""
         names = list(self.model.parameters)
