@@ -18,6 +18,7 @@ from mckibben.simulation.integrate.lane_type import (
     load,
     load_any,
     magnitude,
+    reciprocal_estimate,
     smaller,
     splat,
     store,
@@ -114,7 +115,9 @@ def attempt(
         new = load(at_packed, i) + last
         store(at_trial, i, new)
         store(at_packed, i, new)
-        share = last / (splat(atol[i]) + rtol * larger(magnitude(load(at_state, i)), magnitude(new)))
+        scale = splat(atol[i]) + rtol * larger(magnitude(load(at_state, i)), magnitude(new))
+        estimate = reciprocal_estimate(scale)
+        share = last * (estimate + estimate * (1.0 - scale * estimate))  # 8 digits
         errors = errors + share * share
     # A pivot close to zero, or a NaN: `smaller` gives its second argument.
     errors = where_positive(least - 1e-10 * inverse, errors, splat(np.nan))
