@@ -86,7 +86,7 @@ def _gather(
         columns[0, i], columns[1, i] = whole[first_guard + i, lane], ends[first_guard + i, lane]
 
 
-@njit(error_model="numpy")
+@njit(inline="always", error_model="numpy")
 def _event(
     lane: int, q: int, clock: int, whole: np.ndarray, ends: np.ndarray, first_guard: int, room: Any,
     model: Any, lanes: Any, kept: Any,
@@ -118,7 +118,7 @@ def _same_event(
     )  # fmt: skip
 
 
-@njit(error_model="numpy")
+@njit(inline="always", error_model="numpy")
 def settle(
     jacobian: int, whole: np.ndarray, following: np.ndarray, first_guard: int, owner: np.ndarray,
     control: np.ndarray, model: Any, lanes: Any, kept: Any,
@@ -166,7 +166,7 @@ def suspicious(at: int, at_guards: int, at_state: int, at_trial: int, speed: int
     return positive_bits(flag)
 
 
-@njit(error_model="numpy")
+@njit(inline="always", error_model="numpy")
 def locate(
     clock: int, whole: np.ndarray, following: np.ndarray, first_guard: int, owner: np.ndarray, together: bool,
     room: Any, model: Any, lanes: Any, kept: Any,
