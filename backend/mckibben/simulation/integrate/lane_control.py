@@ -32,9 +32,9 @@ ACTIVE, INSTANT, END, NEXT_ROW, TAKEN, REJECTED, FRESH = range(7)
 # Of the next step: length wanted; switch that changes at its end (-1: none); whether it was shortened for
 # that, and from what; whether the one before was rejected.
 WANTED, LANDING, CUT, UNCUT, FAILED = range(7, 12)
-# Of this step: length, its reciprocal, end, whether it ends the segment, squared error, factor for the next one, whether it
-# is accepted; whether a switch may change in it, the share of it after which one does, and the length wanted
-# next if it is not accepted.
+# Of this step: length, its reciprocal, end, whether it ends the segment, squared error, factor for the next
+# one, whether it is accepted; whether a switch may change in it, the share of it after which one does, and
+# the length wanted next if it is not accepted.
 STEP, INVERSE, REACHED, LAST, ERROR, FACTOR, ACCEPTED, FLAG, SHARE, WANTED_NEXT = range(12, 22)
 CONTROL_ROWS = 22
 

@@ -166,7 +166,10 @@ def complete(lane: int, table: np.ndarray) -> None:
         for c in range(switches):
             at_from = _window(table, lane, count + c) + 8 * row
             store(at_packed, first_switch + kept_switches[c], load_any(at_from))
-        call(table[AT_FUNCTION], at_values, at_packed)
-        for c in range(wanted):
-            stream(at_out + column * output_columns[c] + 8 * row, load(at_values, c))
+        call(table[AT_FUNCTION], at_values + 8 * row * wanted, at_packed)
+    # Column by column: memory takes neighbours faster.
+    for c in range(wanted):
+        at_to = at_out + column * output_columns[c]
+        for row in range(0, rows, LANES):
+            stream(at_to + 8 * row, load(at_values + 8 * row * wanted, c))
     numbers[PIECE, lane] = piece

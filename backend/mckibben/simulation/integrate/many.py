@@ -316,7 +316,7 @@ def _arrays(drive: CompiledDrive, entries: int, chosen: _Columns, kernels: LaneK
     lanes = kernels.lanes
     n, kinds = drive.size, len(drive.model.switches)
     arguments = drive.codes.rates.size
-    widest = max(n, len(chosen.outputs))
+    widest = max(n, len(chosen.outputs) * (kernels.window // lanes))
     sizes = (n, n, 6 * n, n, drive.codes.plan.size, widest, kernels.control)
     kept = len(chosen.kept) + len(chosen.kept_switches)
     return (
