@@ -23,8 +23,8 @@ from mckibben.simulation.integrate.lane_type import (
     positive_bits,
     splat,
     store,
-    store_any,
     stream,
+    where_positive,
 )
 from mckibben.simulation.integrate.switching import call
 
@@ -89,17 +89,22 @@ def write_rows(crossing: int, table: np.ndarray) -> None:
         reached, t, over = control[REACHED, lane], control[INSTANT, lane], control[INVERSE, lane]
         finished = False
         while not finished:
-            place, beyond = numbers[ROW, lane] - numbers[DONE, lane], 0
+            first = numbers[ROW, lane] - numbers[DONE, lane]
+            # Aligned blocks: of the first one the rows up to t are there already, of the last one the rows
+            # behind the step are written again later.
+            place, beyond = first - first % LANES, 0
             at_instants = at_grid + 8 * numbers[DONE, lane]
-            # Some rows after the last one are written as well, and written again later.
             while beyond == 0 and place < WINDOW:  # the grid ends with infinity
                 at, instants = at_window + 8 * place, load_any(at_instants + 8 * place)
-                s = (instants - t) * over
+                since = instants - t
+                s = since * over
+                mine = since if place < first else splat(1.0)
                 for c in range(count):
-                    store_any(at, row_of(dense, c, lane, s))
+                    store(at, 0, where_positive(mine, row_of(dense, c, lane, s), load(at, 0)))
                     at += _COLUMN
                 for c in range(switches):
-                    store_any(at, splat(packed[first_switch + kept_switches[c], lane]))
+                    value = splat(packed[first_switch + kept_switches[c], lane])
+                    store(at, 0, where_positive(mine, value, load(at, 0)))
                     at += _COLUMN
                 beyond = positive_bits(instants - reached)
                 place += first_bit(beyond) if beyond else LANES
