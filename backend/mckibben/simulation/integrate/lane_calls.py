@@ -38,7 +38,7 @@ class LaneCalls:
 
     def put(self, argument: int, values: np.ndarray | float) -> None:
         """Set an argument of all sets."""
-        self._packed[:, argument, :] = self._padded(values)
+        self._packed[:, argument, :] = self._padded(values) if np.ndim(values) else values
 
     def _padded(self, values: np.ndarray | float) -> np.ndarray:
         """Values of the sets by block and lane; lanes without a set get the one of the last."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import accumulate
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -322,16 +323,18 @@ def _arrays(drive: CompiledDrive, entries: int, chosen: _Columns, kernels: LaneK
     n, kinds = drive.size, len(drive.model.switches)
     arguments = drive.codes.rates.size
     widest = max(n, len(chosen.outputs) * (kernels.window // lanes))
-    sizes = (n, n, 6 * n, n, drive.codes.plan.size, widest, kernels.control)
     kept = len(chosen.kept) + len(chosen.kept_switches)
+    sizes = [n, n, 6 * n, n, drive.codes.plan.size, widest, kernels.control]
+    sizes += [entries, entries, arguments, arguments, 4 * max(len(chosen.kept), 1)]
+    sizes.append(kept * (lanes + kernels.window))
+    whole = aligned(sum(sizes), lanes)  # one array: each takes some microseconds
+    parts = [whole[end - size : end] for size, end in zip(sizes, accumulate(sizes), strict=True)]
     return (
-        tuple(aligned(size, lanes) for size in sizes),
-        (aligned(entries, lanes), aligned(entries, lanes)),
-        aligned(arguments, lanes),
-        aligned(arguments, lanes),
-        aligned(4 * max(len(chosen.kept), 1), lanes),
+        tuple(parts[:7]),
+        tuple(parts[7:9]),
+        *parts[9:12],
         np.zeros((lanes, arguments)),
-        aligned(lanes, kept, lanes + kernels.window),
+        parts[12].reshape(lanes, kept, lanes + kernels.window),
         (
             np.zeros(n),
             np.zeros(n),
