@@ -81,7 +81,18 @@ def test_quotients_and_roots_of_zero_and_infinity(lanes, expressions):
     x = np.array([0.0, 0.0, 1.0, -1.0, 1.0, INFINITE, INFINITE, math.nan])
     y = np.array([0.0, 1.0, 0.0, 0.0, INFINITE, 1.0, -2.0, 1.0])
     for found, exact in quotients(x, y, lanes, expressions):
-        np.testing.assert_array_equal(found, exact)
+        np.testing.assert_allclose(found, exact, rtol=5e-16)
+
+
+@pytest.mark.parametrize("first", [True, False])
+@pytest.mark.parametrize("lanes", WIDTHS)
+def test_roots_of_negative_and_subnormal_numbers(lanes, first):
+    order = [se.sqrt(X), se.sqrt(Y)] if first else [se.sqrt(Y), se.sqrt(X)]
+    function = lane_code({"f": ([X, Y], order)}, lanes=lanes)["f"]
+    x = [-1.0, 5e-324, -INFINITE, -0.0, 2e-310, 4.0, 0.0, -5e-324]
+    found = np.hstack([function(np.array([x, x])[:, i : i + lanes]) for i in range(0, 8, lanes)])
+    with np.errstate(all="ignore"):
+        np.testing.assert_allclose(found, [np.sqrt(x)] * 2, rtol=5e-16)
 
 
 SPECIAL = {

@@ -27,7 +27,10 @@ _DECLARATIONS = {
     _EXACT_ROOT: f"declare {_ROW} @{_EXACT_ROOT}({_ROW})",
     _KIND: f"declare <8 x i1> @{_KIND}({_ROW}, i32)",
 }
-_UNUSUAL = 0x02 | 0x04 | 0x08 | 0x10 | 0x20  # 0, -0, infinity, -infinity, subnormal
+# Kinds of arguments: 0, -0, infinity, -infinity, subnormal. The reciprocals of these are estimated exactly,
+# or as infinity; and kinds that are their own roots.
+_EXACT_RECIPROCAL = 0x02 | 0x04 | 0x08 | 0x10 | 0x20
+_OWN_ROOT = 0x02 | 0x04 | 0x08
 # 1 / sqrt(1 - r) = 1 + r (1/2 + r (3/8 + r 5/16)) + ...
 _BINOMIAL = (0.5, 0.375, 0.3125)
 
@@ -55,33 +58,31 @@ class Quotients:
         return self._called(_EXACT_ROOT, f"{_ROW} {x}") if self._divides else self.estimated_root(x)
 
     def estimated_quotient(self, a: str, b: str) -> str:
-        """a / b = a r (1 + e) (1 + e^2) with the estimate r of 1 / b and e = 1 - b r."""
+        """a / b = a (r (1 + e) (1 + e^2)) with the estimate r of 1 / b and e = 1 - b r."""
         one = _number(1.0)
         value = self._called(_RECIPROCAL, f"{_ROW} {b}, {_ROW} zeroinitializer, i8 -1")
-        rest = self._usual(self._less(one, b, value), self._unusual(b))
-        if a != one:
-            value = self._product(a, value)
-        value = self._sum(value, rest, value)
-        return self._sum(value, self._product(rest, rest), value)
+        rest, exact = self._less(one, b, value), self._is(_EXACT_RECIPROCAL, b)
+        value = self._unless(exact, value, self._sum(value, rest, value))
+        value = self._unless(exact, value, self._sum(value, self._product(rest, rest), value))
+        return value if a == one else self._product(a, value)
 
     def estimated_root(self, x: str) -> str:
-        """The square root of x, from an estimate of 1 / sqrt(x)."""
-        unusual = self._unusual(x)
-        usual = self._new(f"xor <8 x i1> {unusual}, splat (i1 true)")
-        mask = self._new(f"bitcast <8 x i1> {usual} to i8")
+        """The square root of x, from an estimate of 1 / sqrt(x); 0 and infinity are their own roots."""
+        own = self._is(_OWN_ROOT, x)
+        others = self._new(f"xor <8 x i1> {own}, splat (i1 true)")
+        mask = self._new(f"bitcast <8 x i1> {others} to i8")
         inverse = self._called(_ROOT, f"{_ROW} {x}, {_ROW} {_number(1.0)}, i8 {mask}")
         value = self._product(x, inverse)
-        rest = self._usual(self._less(_number(1.0), value, inverse), unusual)
+        rest = self._less(_number(1.0), value, inverse)
         first, second, third = map(_number, _BINOMIAL)
         share = self._sum(self._sum(third, rest, second), rest, first)
-        return self._sum(self._product(value, rest), share, value)
+        return self._unless(own, value, self._sum(self._product(value, rest), share, value))
 
-    def _unusual(self, x: str) -> str:
-        return self._called(_KIND, f"{_ROW} {x}, i32 {_UNUSUAL}", "<8 x i1>")
+    def _is(self, kinds: int, x: str) -> str:
+        return self._called(_KIND, f"{_ROW} {x}, i32 {kinds}", "<8 x i1>")
 
-    def _usual(self, rest: str, unusual: str) -> str:
-        """The rest, or 0 where the estimate is the result."""
-        return self._new(f"select <8 x i1> {unusual}, {_ROW} zeroinitializer, {_ROW} {rest}")
+    def _unless(self, condition: str, value: str, otherwise: str) -> str:
+        return self._new(f"select <8 x i1> {condition}, {_ROW} {value}, {_ROW} {otherwise}")
 
     def _product(self, a: str, b: str) -> str:
         return self._new(f"fmul {_ROW} {a}, {b}")
