@@ -26,7 +26,7 @@ from mckibben.sizing.side_by_side import Case, figures_of_many
 from mckibben.sizing.task import Task
 
 _THREADS = 2
-_SIDE_BY_SIDE = 64  # designs a thread runs at a time
+_SIDE_BY_SIDE = 192  # designs a thread runs at a time
 # Optimisation of the machine code for runs one by one: pays off for hundreds. In lanes it has its own code.
 _ONE_BY_ONE, _IN_LANES = 1, 0
 

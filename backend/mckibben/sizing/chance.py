@@ -13,7 +13,7 @@ from mckibben.sizing.spread import spread_of
 from mckibben.sizing.task import Task
 from mckibben.sizing.trial import times_over
 
-_CHUNK = 50  # specimens a thread takes at a time
+_CHUNK = 128  # specimens a thread takes at a time
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -11,7 +11,7 @@ import numpy as np
 from mckibben.physics.drive_terms import COUNTER, HIGH_STOP, INPUTS, LOW_STOP
 from mckibben.physics.errors import InputError
 from mckibben.physics.gas import ANR_DENSITY
-from mckibben.simulation.drive.events import Event, events_of
+from mckibben.simulation.drive.events import Event, each_event
 from mckibben.simulation.drive.initial_state import Start, start_of
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.integrate.engine import CompiledDrive, integrate
@@ -87,7 +87,7 @@ class Prepared:
 
     def parameter_index(self, name: str) -> int:
         """Position of a parameter."""
-        return list(self.compiled.model.parameters).index(name)
+        return self.compiled.parameter_places[name]
 
     def specimen(self, shift: float, friction: float, pressure: float) -> tuple[np.ndarray, np.ndarray]:
         """Parameters and inputs with the deviations of one specimen.
@@ -200,8 +200,8 @@ def figures_of(
         mine = events[index]
         found.append(
             Figures(
-                arrival(events_of(run.compiled, mine[mine[:, 1] == top]), HIGH_STOP, line.on, line.off),
-                arrival(events_of(run.compiled, mine[mine[:, 1] == bottom]), LOW_STOP, line.off, np.inf)
+                arrival(each_event(run.compiled, mine[mine[:, 1] == top]), HIGH_STOP, line.on, line.off),
+                arrival(each_event(run.compiled, mine[mine[:, 1] == bottom]), LOW_STOP, line.off, np.inf)
                 if returns
                 else None,
                 bool(least[index] >= high - ON_STOP),
@@ -213,7 +213,7 @@ def figures_of(
     return found
 
 
-def arrival(events: tuple[Event, ...], stop: str, begin: float, end: float) -> float | None:
+def arrival(events: Iterable[Event], stop: str, begin: float, end: float) -> float | None:
     """Time from ``begin`` to the first impact on a stop before ``end`` [s]; None without one."""
     for event in events:
         if event.switch == stop and event.impact and begin <= event.time < end:

@@ -32,6 +32,7 @@ from mckibben.sizing.trial import AtRest, Trial, at_rest_of, trial_of
 _PRUNED, _TRIED, _REFINED, _MEASURED = 0.1, 0.35, 0.65, 0.7
 _OF_ONE_KIND = 4  # most proposals with the same muscles, while there are others
 _SPARE = 4  # designs refined beyond the number requested: some fail on the fine grid
+_JUDGED_AT_ONCE = 64  # trials between two looks at the watch
 _MOST_GROUPS = 240  # most groups simulated
 _SECOND_LOOK = 2.0  # a group gets more designs tried if its time is within this factor of the required one
 
@@ -216,13 +217,11 @@ class _Search:
             self.bench.compile(candidate.group)
         middle = share[0] + 0.9 * (share[1] - share[0])
         self.bench.run_ahead([candidate.design(index) for candidate, index in jobs], (share[0], middle))
-        trials = self.bench.each(
-            lambda job: trial_of(job[0].design(job[1]), self.bench, job[0].at_rest(job[1])),
-            jobs,
-            (middle, share[1]),
-            len(jobs),
-        )
-        for (candidate, _), trial in zip(jobs, trials, strict=True):
+        # What ran ahead is only judged here: threads would gain nothing.
+        for done, (candidate, index) in enumerate(jobs):
+            if done % _JUDGED_AT_ONCE == 0:
+                self.bench.check_end(middle + (share[1] - middle) * done / len(jobs))
+            trial = trial_of(candidate.design(index), self.bench, candidate.at_rest(index))
             trials_by_candidate.setdefault(candidate, []).append(trial)
         return trials_by_candidate
 

@@ -6,6 +6,7 @@ It uses the static model with the effects of the muscle (`mckibben.simulation.st
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from operator import attrgetter
 
 import numpy as np
 
@@ -90,7 +91,8 @@ class Rest:
 
     def only(self, index: int) -> Rest:
         """One of the designs."""
-        return Rest(*(getattr(self, name)[index : index + 1] for name in _FIELDS))
+        one = slice(index, index + 1)
+        return Rest(*[array[one] for array in _arrays_of(self)])
 
     @property
     def air(self) -> Array:
@@ -99,7 +101,7 @@ class Rest:
         return self.parallel * filled / (gas.GAS_CONSTANT * gas.ANR_TEMPERATURE * gas.ANR_DENSITY)
 
 
-_FIELDS = tuple(item.name for item in fields(Rest))
+_arrays_of = attrgetter(*(item.name for item in fields(Rest)))
 
 
 def at_rest(

@@ -13,6 +13,7 @@ from tests.simulation.integrate.test_machine_code import EXPRESSIONS, X, Y
 
 WIDTHS = (2, 4, 8)
 RANDOM = np.random.default_rng(3)
+INFINITE = math.inf
 
 
 def evaluated(expression, x, y, lanes):
@@ -52,7 +53,48 @@ def test_pow_loses_no_more_than_its_exponent_takes(lanes):
     assert np.all(np.abs(evaluated(X**Y, x, y, lanes) / exact - 1) < 3e-15 + 3e-16 * size)
 
 
-INFINITE = math.inf
+# Every second quotient or root may be computed in another way: each expression in both places.
+QUOTIENTS = [X / Y, se.sqrt(se.Abs(X)), Y / X, se.sqrt(se.Abs(Y)), 1 / X]
+BOTH_ORDERS = (QUOTIENTS, QUOTIENTS[1:] + QUOTIENTS[:1])
+
+
+def quotients(x, y, lanes, expressions):
+    function = lane_code({"f": ([X, Y], expressions)}, lanes=lanes)["f"]
+    rows = np.array([x, y])
+    found = np.hstack([function(rows[:, i : i + lanes]) for i in range(0, len(x), lanes)])
+    with np.errstate(all="ignore"):
+        plain = [x / y, np.sqrt(np.abs(x)), y / x, np.sqrt(np.abs(y)), 1 / x]
+    return zip(found, [plain[QUOTIENTS.index(expression)] for expression in expressions], strict=True)
+
+
+@pytest.mark.parametrize("expressions", BOTH_ORDERS)
+@pytest.mark.parametrize("lanes", WIDTHS)
+def test_quotients_and_roots_to_the_last_places(lanes, expressions):
+    x, y = np.exp(RANDOM.uniform(-340.0, 340.0, (2, 4000))) * RANDOM.choice([-1.0, 1.0], (2, 4000))
+    for found, exact in quotients(x, y, lanes, expressions):
+        assert np.max(np.abs(found / exact - 1)) < 7e-16
+
+
+@pytest.mark.parametrize("expressions", BOTH_ORDERS)
+@pytest.mark.parametrize("lanes", WIDTHS)
+def test_quotients_and_roots_of_zero_and_infinity(lanes, expressions):
+    x = np.array([0.0, 0.0, 1.0, -1.0, 1.0, INFINITE, INFINITE, math.nan])
+    y = np.array([0.0, 1.0, 0.0, 0.0, INFINITE, 1.0, -2.0, 1.0])
+    for found, exact in quotients(x, y, lanes, expressions):
+        np.testing.assert_allclose(found, exact, rtol=5e-16)
+
+
+@pytest.mark.parametrize("first", [True, False])
+@pytest.mark.parametrize("lanes", WIDTHS)
+def test_roots_of_negative_and_subnormal_numbers(lanes, first):
+    order = [se.sqrt(X), se.sqrt(Y)] if first else [se.sqrt(Y), se.sqrt(X)]
+    function = lane_code({"f": ([X, Y], order)}, lanes=lanes)["f"]
+    x = [-1.0, 5e-324, -INFINITE, -0.0, 2e-310, 4.0, 0.0, -5e-324]
+    found = np.hstack([function(np.array([x, x])[:, i : i + lanes]) for i in range(0, 8, lanes)])
+    with np.errstate(all="ignore"):
+        np.testing.assert_allclose(found, [np.sqrt(x)] * 2, rtol=5e-16)
+
+
 SPECIAL = {
     "exp": (
         se.exp(X),

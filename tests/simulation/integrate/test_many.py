@@ -200,6 +200,34 @@ def test_times_inputs_and_grids_of_each_set():
         assert found.rows[index, :, 0] == pytest.approx(alone.rows[:, case.stroke], abs=1e-6)
 
 
+def test_a_row_does_not_depend_on_the_other_rows():
+    # Few and many rows in a step, rows at the ends of segments, and the same instant several times.
+    case, random = case_of("rebound"), np.random.default_rng(5)
+    end = case.times[-1]
+    crowd = np.linspace(0.31 * end, 0.3101 * end, 150)
+    every = np.sort(np.concatenate([case.times, case.times, crowd, random.uniform(0.0, end, 700)]))
+    whole = case.many(range(9), grid=every)
+    assert (whole.written == len(every)).all()
+    for kept in (0.03, 0.5, 0.9):
+        some = np.sort(random.choice(len(every), int(kept * len(every)), replace=False))
+        assert np.array_equal(case.many(range(9), grid=every[some]).rows, whole.rows[:, some])
+
+
+def test_rows_at_scattered_instants_have_the_closed_form():
+    equation = system({"clock": 1.0, "y": -K * Y}, {"twice": 2 * Y})
+    random = np.random.default_rng(8)
+    grid = np.sort(np.concatenate([[0.0, 0.0, 2.0], random.uniform(0.0, 2.0, 300), np.full(20, 1.0)]))
+    factors = np.linspace(0.5, 3.0, 11)
+    found = integrate_many(
+        equation, parameters=factors[:, None], starts=np.tile([0.0, 1.0], (11, 1)),
+        times=np.array([0.0, 1.0, 2.0]), inputs=np.zeros((2, 1)), grid=grid, tolerance=1e-9,
+    ).rows  # fmt: skip
+    exact = np.exp(-factors[:, None] * grid)
+    assert np.array_equal(found[:, :, 0], np.tile(grid, (11, 1)))
+    assert found[:, :, 1] == pytest.approx(exact, abs=1e-8)
+    assert found[:, :, 2] == pytest.approx(2.0 * exact, abs=2e-8)
+
+
 def test_a_set_that_fails_fails_alone():
     case = case_of("lift")
     sound, parameters = case.many(), case.parameters.copy()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -42,8 +43,11 @@ class Event:
 
 def events_of(compiled: CompiledDrive, rows: np.ndarray) -> tuple[Event, ...]:
     """The events of a solution."""
-    names = [switch.name for switch in compiled.model.switches]
-    return tuple(
-        Event(float(time), names[int(number)], bool(value), float(speed), float(acceleration))
-        for time, number, value, speed, acceleration in rows
-    )
+    return tuple(each_event(compiled, rows))
+
+
+def each_event(compiled: CompiledDrive, rows: np.ndarray) -> Iterator[Event]:
+    """The events of a solution, one after the other: for whom needs only the first ones."""
+    switches = compiled.model.switches
+    for time, number, value, speed, acceleration in rows.tolist():
+        yield Event(time, switches[int(number)].name, bool(value), speed, acceleration)

@@ -25,6 +25,7 @@ GRAVITY = 9.80665  # m/s2
 # A slack muscle takes its free length within about this time [s].
 _SLACK_TIME = 2e-6
 _LIGHTEST = 1e-3  # kg; least moving mass: without mass there is no equation of motion
+_CONSTANTS = frozenset(CONSTANTS)
 # At 1e-5 a step may jump over the moment at which a load leaves its stop (0.4 mm in paper-ramp).
 TOLERANCE = 1e-6
 
@@ -64,8 +65,9 @@ class Run:
 
 def constants_of(drive: Drive) -> dict[str, float]:
     """The constants of a run by the names of the model's parameters."""
-    load, tube, rest = drive.load, drive.tube_in_use, drive.muscle.nominal_length
-    blocked = ideal.force(braid=drive.muscle.braid, pressure=drive.supply_pressure, length=rest)
+    load, tube, muscle = drive.load, drive.tube_in_use, drive.muscle
+    rest, (stop_low, stop_high) = muscle.nominal_length, drive.stops
+    blocked = ideal.force(braid=muscle.braid, pressure=drive.supply_pressure, length=rest)
     conductance, ratio, tube_volume = 1.0, 0.5, 1.0
     if tube is not None:
         conductance = float(gas.tube_conductance(diameter=tube.inside_diameter, length=tube.length))
@@ -94,14 +96,15 @@ def constants_of(drive: Drive) -> dict[str, float]:
         "spring": load.spring,
         "lever_ratio": load.lever_ratio,
         "precontraction": drive.precontraction * rest,
-        "stop_low": drive.stops[0],
-        "stop_high": drive.stops[1],
+        "stop_low": stop_low,
+        "stop_high": stop_high,
         "slack_damping": max(float(blocked) / (0.25 * rest), 1.0) * _SLACK_TIME,
     }
-    assert set(table) == set(CONSTANTS)  # noqa: S101 - a constant without a value is a programming error
-    table |= {name: float(getattr(drive.muscle, name)) for name in GEOMETRY}
+    assert table.keys() == _CONSTANTS  # noqa: S101 - a constant without a value is a programming error
+    table |= {name: float(getattr(muscle, name)) for name in GEOMETRY}
     for effect, effect_values in drive.model.values.items():
-        table |= {f"{effect}.{name}": value for name, value in effect_values.items()}
+        for name, value in effect_values.items():
+            table[f"{effect}.{name}"] = value
     return table
 
 

@@ -34,7 +34,7 @@ _PLAN = (
     "Tuple((uint64[::1],uint64[::1],uint64[::1],uint64[:,::1],uint64[::1],uint64[:,::1],uint64[:,::1],"
     "uint64[:,::1]))"
 )
-_SWITCHING = "UniTuple(float64[::1],4)"
+_SWITCHING = "UniTuple(float64[::1],5)"
 _MODEL = (
     f"UniTuple(int64,4),{_PLAN},int64,int64,UniTuple(int64,2),{_SWITCHING},float64[::1],float64[::1],"
     "float64[::1]"
@@ -74,8 +74,8 @@ def rodas4(
         moved: numbers of the states stroke and speed, which end stops act on; -1 without stops.
         switching: of each switch the least guard and the stroke of its end stop (NaN: none); the coefficient
             of restitution, the speed [m/s] and the height [m] below which the load does not rebound, and the
-            stiffness of guards of lengths [N/m]; and of each switch the number of the length that follows
-            (-1: none).
+            stiffness of guards of lengths [N/m]; of each switch the number of the length that follows
+            (-1: none); and the numbers of the states that guards depend on.
         constants: arguments of the functions between states and inputs.
         state: start, overwritten with the end.
         switches: start, overwritten with the end.

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from mckibben.simulation.integrate.coefficients import GAMMA
 from mckibben.simulation.integrate.elimination import Plan
+from mckibben.simulation.integrate.lane_quotients import Quotients
+from mckibben.simulation.integrate.lane_writer import has_quotients
 from mckibben.simulation.integrate.machine_code import number
 
 
@@ -20,6 +22,8 @@ class _Code:
     def __init__(self, lanes: int) -> None:
         self.lanes, self.real = lanes, f"<{lanes} x double>"
         self.lines: list[str] = []
+        self.declared: set[str] = set()
+        self._quotients = Quotients(self.new, self.declared.add) if has_quotients(lanes) else None
 
     def new(self, text: str) -> str:
         name = f"%t{len(self.lines)}"
@@ -38,6 +42,9 @@ class _Code:
     def of(self, operation: str, a: str, b: str) -> str:
         return self.new(f"{operation} contract {self.real} {a}, {b}")
 
+    def quotient(self, a: str, b: str) -> str:
+        return self._quotients.quotient(a, b) if self._quotients else self.of("fdiv", a, b)
+
     def number(self, value: float) -> str:
         return f"splat (double {number(value)})"
 
@@ -47,7 +54,7 @@ class _Code:
 
     def factorise(self, plan: Plan) -> list[str]:
         absolute, truth = f"llvm.fabs.v{self.lanes}f64", f"<{self.lanes} x i1>"
-        shift = self.of("fdiv", self.number(1.0 / GAMMA), self.load("data", 0))
+        shift = self.quotient(self.number(1.0 / GAMMA), self.load("data", 0))
         matrix = {
             place: self.new(f"fneg {self.real} {self.load('in', entry)}")
             for entry, place in enumerate(plan.places.tolist())
@@ -60,7 +67,7 @@ class _Code:
             # A NaN is taken: it compares false later.
             keeps = self.new(f"fcmp oge {self.real} {size}, {least}")
             least = self.new(f"select {truth} {keeps}, {self.real} {least}, {self.real} {size}")
-            matrix[pivot] = self.of("fdiv", self.number(1.0), matrix[pivot])
+            matrix[pivot] = self.quotient(self.number(1.0), matrix[pivot])
             for place in plan.lower[low:low_end].tolist():
                 matrix[place] = self.of("fmul", matrix[place], matrix[pivot])
             for target, below, right in plan.updates[first:stop].tolist():
@@ -72,7 +79,8 @@ class _Code:
         for place, value in matrix.items():
             self.store("out", place, value)
         self.store("out", plan.size - 1, least)
-        return [self.text("factorise"), f"declare {self.real} @{absolute}({self.real})"]
+        self.declared.add(f"declare {self.real} @{absolute}({self.real})")
+        return [self.text("factorise"), *sorted(self.declared)]
 
     def solve(self, plan: Plan) -> str:
         vector: dict[int, str] = {}

@@ -29,15 +29,16 @@ class LaneCalls:
         self._blocks = -(-self.sets // lanes)
         self._packed = aligned(self._blocks, drive.codes.rates.size, lanes)
         constants, first = constants_of_many(drive, parameters), drive.size
-        for index in range(constants.shape[1]):
-            self.put(first + index, constants[:, index])
-        first += constants.shape[1]
+        of_lanes = np.minimum(np.arange(self._blocks * lanes), self.sets - 1)  # also of lanes without a set
+        blocks = constants[of_lanes].reshape(self._blocks, lanes, -1)
+        self._packed[:, first : first + blocks.shape[2], :] = blocks.transpose(0, 2, 1)
+        first += blocks.shape[2]
         for index in range(len(drive.model.inputs)):
             self.put(first + index, inputs[..., index])
 
     def put(self, argument: int, values: np.ndarray | float) -> None:
         """Set an argument of all sets."""
-        self._packed[:, argument, :] = self._padded(values)
+        self._packed[:, argument, :] = self._padded(values) if np.ndim(values) else values
 
     def _padded(self, values: np.ndarray | float) -> np.ndarray:
         """Values of the sets by block and lane; lanes without a set get the one of the last."""

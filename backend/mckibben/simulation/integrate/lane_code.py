@@ -27,7 +27,8 @@ def aligned(*shape: int, zeros: bool = True) -> np.ndarray:
     """An array at an address that rows of lanes may have; of zeros, or of anything."""
     count = math.prod(shape)
     raw = (np.zeros if zeros else np.empty)(count + _ALIGNED // 8)
-    skip = -raw.ctypes.data % _ALIGNED // 8
+    address = raw.__array_interface__["data"][0]
+    skip = -address % _ALIGNED // 8
     return raw[skip : skip + count].reshape(shape)
 
 

@@ -14,7 +14,7 @@ from mckibben.simulation.integrate.lane_type import (
     load,
     magnitude,
     positive_bits,
-    root,
+    root_estimate,
     smaller,
     splat,
     store,
@@ -32,11 +32,11 @@ ACTIVE, INSTANT, END, NEXT_ROW, TAKEN, REJECTED, FRESH = range(7)
 # Of the next step: length wanted; switch that changes at its end (-1: none); whether it was shortened for
 # that, and from what; whether the one before was rejected.
 WANTED, LANDING, CUT, UNCUT, FAILED = range(7, 12)
-# Of this step: length, end, whether it ends the segment, squared error, factor for the next one, whether it
-# is accepted; whether a switch may change in it, the share of it after which one does, and the length wanted
-# next if it is not accepted.
-STEP, REACHED, LAST, ERROR, FACTOR, ACCEPTED, FLAG, SHARE, WANTED_NEXT = range(12, 21)
-CONTROL_ROWS = 21
+# Of this step: length, its reciprocal, end, whether it ends the segment, squared error, factor for the next
+# one, whether it is accepted; whether a switch may change in it, the share of it after which one does, and
+# the length wanted next if it is not accepted.
+STEP, INVERSE, REACHED, LAST, ERROR, FACTOR, ACCEPTED, FLAG, SHARE, WANTED_NEXT = range(12, 22)
+CONTROL_ROWS = 22
 
 
 @njit(inline="always", error_model="numpy")
@@ -66,9 +66,13 @@ def judge(at: int, together: bool, control: np.ndarray) -> int:
     active, squared, t = load(at, ACTIVE), load(at, ERROR), load(at, INSTANT)
     if together:
         squared, t = splat(control[ERROR, 0]), splat(control[INSTANT, 0])
-    # 0.9 times the fourth root of 1 / error, between 0.2 and 6
-    eighth = root(root(root(larger(squared, splat(1e-30)))))
-    factor = smaller(splat(6.0), larger(splat(0.2), 0.9 / eighth))
+    # 0.9 times the fourth root of 1 / error, between 0.2 and 6; one step of Newton's for 8 digits
+    sound = larger(squared, splat(1e-30))
+    root = root_estimate(root_estimate(root_estimate(sound)))
+    second = root * root
+    fourth = second * second
+    root = root + (0.125 * root) * (1.0 - sound * (fourth * fourth))
+    factor = smaller(splat(6.0), larger(splat(0.2), 0.9 * root))
     accepted = where_positive(squared - 1.0, splat(0.0), active)
     rejected = active - accepted
     shorter = (splat(control[STEP, 0]) if together else load(at, STEP)) * factor

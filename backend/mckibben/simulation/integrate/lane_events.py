@@ -42,7 +42,7 @@ def change(k: int, lane: int, q: int, t: float, rates: np.ndarray, model: Any, l
         lanes: state, arguments and arguments by lane; arrays for one lane.
         kept: of each set: strokes of stops, events, counts.
     """
-    guards, moved, (least, bounce, follows) = model
+    guards, moved, (least, bounce, follows, watched) = model
     state, packed, own, (start, before, _, _, guarded, switches) = lanes
     stops, events, counts = kept
     n, kinds = state.shape[0], switches.shape[0]
@@ -52,8 +52,8 @@ def change(k: int, lane: int, q: int, t: float, rates: np.ndarray, model: Any, l
     for i in range(kinds):
         switches[i] = packed[first + i, lane]
     change_switch(
-        k, t, before, guards, moved, (least, stops[q], bounce, follows), own[lane], guarded, start, switches,
-        events[q], counts[q],
+        k, t, before, guards, moved, (least, stops[q], bounce, follows, watched), own[lane], guarded, start,
+        switches, events[q], counts[q],
     )  # fmt: skip
     for i in range(n):
         state[i, lane] = start[i]
@@ -61,56 +61,64 @@ def change(k: int, lane: int, q: int, t: float, rates: np.ndarray, model: Any, l
         packed[first + i, lane] = own[lane, first + i] = switches[i]
 
 
-@njit(error_model="numpy")
-def _gather(lane: int, ends: np.ndarray, first_guard: int, room: Any, lanes: Any) -> None:
-    """The step of a lane into the arrays for one lane."""
-    state, packed, _, (start, end, dense, column, _, switches) = lanes
+@njit(inline="always", error_model="numpy")
+def _gather(
+    lane: int, whole: np.ndarray, ends: np.ndarray, first_guard: int, room: Any, model: Any, lanes: Any
+) -> None:
+    """The step of a lane into the arrays for one lane: what guards depend on, and the speed."""
+    _, moved, (_, _, _, watched) = model
+    state, packed, _, (start, end, dense, columns, _, switches) = lanes
     _, trial, u, _, _, _, _ = room
     n, kinds = state.shape[0], switches.shape[0]
     first = packed.shape[0] - kinds
-    for i in range(n):
+    for place in range(watched.shape[0] + 1):
+        i = int(watched[place]) if place < watched.shape[0] else moved[1]
+        if i < 0:
+            continue
         start[i], end[i] = state[i, lane], trial[i, lane]
-        dense[0, i] = dense[1, i] = 0.0
+        second = third = 0.0
         for j in range(5):
-            dense[0, i] += DENSE_2[j] * u[n * j + i, lane]
-            dense[1, i] += DENSE_3[j] * u[n * j + i, lane]
+            second += DENSE_2[j] * u[n * j + i, lane]
+            third += DENSE_3[j] * u[n * j + i, lane]
+        dense[0, i], dense[1, i] = second, third
     for i in range(kinds):
-        switches[i], column[i] = packed[first + i, lane], ends[first_guard + i, lane]
+        switches[i] = packed[first + i, lane]
+        columns[0, i], columns[1, i] = whole[first_guard + i, lane], ends[first_guard + i, lane]
 
 
-@njit(error_model="numpy")
+@njit(inline="always", error_model="numpy")
 def _event(
-    lane: int, q: int, clock: int, ends: np.ndarray, first_guard: int, room: Any, model: Any, lanes: Any,
-    kept: Any,
+    lane: int, q: int, clock: int, whole: np.ndarray, ends: np.ndarray, first_guard: int, room: Any,
+    model: Any, lanes: Any, kept: Any,
 ) -> tuple[float, int]:  # fmt: skip
     """`first_event` of a lane."""
-    guards, moved, (least, bounce, follows) = model
-    _, _, own, (start, end, dense, column, guarded, switches) = lanes
+    guards, moved, (least, bounce, follows, watched) = model
+    _, _, own, (start, end, dense, columns, guarded, switches) = lanes
     control = room[6]
-    _gather(lane, ends, first_guard, room, lanes)
+    _gather(lane, whole, ends, first_guard, room, model, lanes)
     return first_event(
-        guards, control[INSTANT, lane], control[STEP, lane], column, 0, switches, moved,
-        (least, kept[0][q], bounce, follows), clock, own[lane], guarded, start, end, dense,
+        guards, control[INSTANT, lane], control[STEP, lane], columns[0], columns[1], 0, switches, moved,
+        (least, kept[0][q], bounce, follows, watched), clock, own[lane], guarded, start, end, dense,
     )  # fmt: skip
 
 
 @njit(error_model="numpy")
 def _same_event(
-    lane: int, share: float, k: int, clock: int, ends: np.ndarray, first_guard: int, room: Any, model: Any,
-    lanes: Any,
+    lane: int, share: float, k: int, clock: int, whole: np.ndarray, ends: np.ndarray, first_guard: int,
+    room: Any, model: Any, lanes: Any,
 ) -> float:  # fmt: skip
     """`same_event` of a lane."""
-    guards, _, (least, _, _) = model
+    guards, _, (least, _, _, watched) = model
     _, _, own, (start, end, dense, _, guarded, _) = lanes
     control = room[6]
-    _gather(lane, ends, first_guard, room, lanes)
+    _gather(lane, whole, ends, first_guard, room, model, lanes)
     return same_event(
-        guards, share, control[INSTANT, lane], control[STEP, lane], k, least[k], clock, own[lane], guarded,
-        start, end, dense,
+        guards, share, control[INSTANT, lane], control[STEP, lane], k, least[k], clock, watched, own[lane],
+        guarded, start, end, dense,
     )  # fmt: skip
 
 
-@njit(error_model="numpy")
+@njit(inline="always", error_model="numpy")
 def settle(
     jacobian: int, whole: np.ndarray, following: np.ndarray, first_guard: int, owner: np.ndarray,
     control: np.ndarray, model: Any, lanes: Any, kept: Any,
@@ -158,7 +166,7 @@ def suspicious(at: int, at_guards: int, at_state: int, at_trial: int, speed: int
     return positive_bits(flag)
 
 
-@njit(error_model="numpy")
+@njit(inline="always", error_model="numpy")
 def locate(
     clock: int, whole: np.ndarray, following: np.ndarray, first_guard: int, owner: np.ndarray, together: bool,
     room: Any, model: Any, lanes: Any, kept: Any,
@@ -173,13 +181,13 @@ def locate(
         control[SHARE, lane] = 2.0
         if control[FLAG, lane] > 0.0 and not (together and lane > 0):
             control[SHARE, lane], control[LANDING, lane] = _event(
-                lane, owner[lane], clock, following, first_guard, room, model, lanes, kept
+                lane, owner[lane], clock, whole, following, first_guard, room, model, lanes, kept
             )
     if together and control[SHARE, 0] != 2.0:
         k, share = int(control[LANDING, 0]), control[SHARE, 0]
         for lane in range(LANES):
             if control[ACCEPTED, lane] > 0.0:
-                found = _same_event(lane, share, k, clock, following, first_guard, room, model, lanes)
+                found = _same_event(lane, share, k, clock, whole, following, first_guard, room, model, lanes)
                 if lane == 0 and found == 2.0:
                     found = share
                 control[SHARE, lane], control[LANDING, lane] = found, -1.0 if found == 2.0 else float(k)

@@ -108,11 +108,11 @@ def _begin(
 _ROWS = "float64[:,::1]"
 _TABLE = "float64[:,:,::1]"
 _SIGNATURE = (
-    "void(UniTuple(int64,5),int64,uint64[::1],int64,int64,int64,UniTuple(int64,2),UniTuple(float64[::1],3),"
+    "void(UniTuple(int64,5),int64,uint64[::1],int64,int64,int64,UniTuple(int64,2),UniTuple(float64[::1],4),"
     f"{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_TABLE},float64,{_ROWS},float64,float64[::1],"
     f"UniTuple(int64[::1],4),{_TABLE},{_ROWS},{_TABLE},int64[:,::1],int64[::1],int64,boolean,"
     f"Tuple((UniTuple({_ROWS},7),UniTuple({_ROWS},2),{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_TABLE},"
-    f"Tuple((float64[::1],float64[::1],{_ROWS},float64[::1],float64[::1],float64[::1])),"
+    f"Tuple((float64[::1],float64[::1],{_ROWS},{_ROWS},float64[::1],float64[::1])),"
     "Tuple((int64[:,::1],int64[::1])))))"
 )
 
@@ -155,7 +155,7 @@ def rodas4_lanes(
             rows of lanes.
         guards: address of the guards of one set.
         timed, entries, positions, clock, moved: see `mckibben.simulation.integrate.kernels.rodas4`.
-        switching_: least guards; restitution, slowest rebound and stiffness; lengths that follow.
+        switching_: ``switching`` of `rodas4` without the stops.
         stops: stroke of the end stop of each switch.
         constants, starts: of each set.
         switches: at the start, overwritten with the end.
@@ -190,8 +190,8 @@ def rodas4_lanes(
     state, _, _, _, _, _, control = room
     a, b, c, d, e, f = of_lane
     of_lane = borrowed(a), borrowed(b), borrowed(c), borrowed(d), borrowed(e), borrowed(f)
-    a, b, c = switching_
-    switching_ = borrowed(a), borrowed(b), borrowed(c)
+    a, b, c, d = switching_
+    switching_ = borrowed(a), borrowed(b), borrowed(c), borrowed(d)
     least = switching_[0]
     h, i, j, k = columns
     columns = borrowed(h), borrowed(i), borrowed(j), borrowed(k)

@@ -13,8 +13,8 @@ from numba import njit
 from numba.np.numpy_support import carray
 
 from mckibben.simulation.integrate.borrowed import pointer_at
-from mckibben.simulation.integrate.lane_control import CONTROL_ROWS, INSTANT, NEXT_ROW, REACHED, STEP
-from mckibben.simulation.integrate.lane_step import write_column, write_dense
+from mckibben.simulation.integrate.lane_control import CONTROL_ROWS, INSTANT, INVERSE, NEXT_ROW, REACHED
+from mckibben.simulation.integrate.lane_step import row_of, write_dense
 from mckibben.simulation.integrate.lane_type import (
     LANES,
     first_bit,
@@ -23,12 +23,13 @@ from mckibben.simulation.integrate.lane_type import (
     positive_bits,
     splat,
     store,
-    store_any,
     stream,
+    where_positive,
 )
 from mckibben.simulation.integrate.switching import call
 
 WINDOW = 64  # rows
+_COLUMN = 8 * (WINDOW + LANES)  # bytes of a column in a window
 # Whole numbers of a lane: its set, segment and next row; first row of its window, and a segment before it.
 OWNER, SEGMENT, ROW, DONE, PIECE = range(5)
 NUMBERS = 5
@@ -68,7 +69,7 @@ def _by_lane(address: int, rows: int) -> Any:
 def _window(table: np.ndarray, lane: int, c: int) -> int:
     """Address of the rows of kept value c in the window of a lane."""
     columns = table[KEPT] + table[KEPT_SWITCHES]
-    return table[AT_WINDOWS] + 8 * (WINDOW + LANES) * (lane * columns + c)
+    return table[AT_WINDOWS] + _COLUMN * (lane * columns + c)
 
 
 @njit(error_model="numpy")
@@ -83,27 +84,35 @@ def write_rows(crossing: int, table: np.ndarray) -> None:
     for lane in range(LANES):
         if not (crossing >> lane) & 1:
             continue
-        row, reached = numbers[ROW, lane], splat(control[REACHED, lane])
         at_grid = table[AT_GRIDS] + numbers[OWNER, lane] * table[GRID_STEP]
-        stop, beyond = row, 0
-        while not beyond:  # the grid ends with infinity
-            beyond = positive_bits(load_any(at_grid + 8 * stop) - reached)
-            stop += first_bit(beyond) if beyond else LANES
-        control[NEXT_ROW, lane] = _reals(at_grid + 8 * stop, 1)[0]
-        t, over = control[INSTANT, lane], 1.0 / control[STEP, lane]
-        while row < stop:
-            begin = row - numbers[DONE, lane]
-            end = min(stop - numbers[DONE, lane], WINDOW)
+        at_window = table[AT_WINDOWS] + _COLUMN * lane * (count + switches)
+        reached, t, over = control[REACHED, lane], control[INSTANT, lane], control[INVERSE, lane]
+        finished = False
+        while not finished:
+            first = numbers[ROW, lane] - numbers[DONE, lane]
+            # Aligned blocks: of the first one the rows up to t are there already, of the last one the rows
+            # behind the step are written again later.
+            place, beyond = first - first % LANES, 0
             at_instants = at_grid + 8 * numbers[DONE, lane]
-            for c in range(count):
-                write_column(dense, c, lane, at_instants, _window(table, lane, c), t, over, begin, end)
-            for c in range(switches):
-                value = splat(packed[first_switch + kept_switches[c], lane])
-                for place in range(begin, end, LANES):
-                    store_any(_window(table, lane, count + c) + 8 * place, value)
-            row = numbers[ROW, lane] = numbers[DONE, lane] + end
-            if end == WINDOW:
+            while beyond == 0 and place < WINDOW:  # the grid ends with infinity
+                at, instants = at_window + 8 * place, load_any(at_instants + 8 * place)
+                since = instants - t
+                s = since * over
+                mine = since if place < first else splat(1.0)
+                for c in range(count):
+                    store(at, 0, where_positive(mine, row_of(dense, c, lane, s), load(at, 0)))
+                    at += _COLUMN
+                for c in range(switches):
+                    value = splat(packed[first_switch + kept_switches[c], lane])
+                    store(at, 0, where_positive(mine, value, load(at, 0)))
+                    at += _COLUMN
+                beyond = positive_bits(instants - reached)
+                place += first_bit(beyond) if beyond else LANES
+            finished = beyond != 0 and place <= WINDOW
+            numbers[ROW, lane] = numbers[DONE, lane] + min(place, WINDOW)
+            if place >= WINDOW:
                 complete(lane, table)
+        control[NEXT_ROW, lane] = _reals(at_grid + 8 * numbers[ROW, lane], 1)[0]
 
 
 @njit(error_model="numpy")
@@ -162,7 +171,10 @@ def complete(lane: int, table: np.ndarray) -> None:
         for c in range(switches):
             at_from = _window(table, lane, count + c) + 8 * row
             store(at_packed, first_switch + kept_switches[c], load_any(at_from))
-        call(table[AT_FUNCTION], at_values, at_packed)
-        for c in range(wanted):
-            stream(at_out + column * output_columns[c] + 8 * row, load(at_values, c))
+        call(table[AT_FUNCTION], at_values + 8 * row * wanted, at_packed)
+    # Column by column: memory takes neighbours faster.
+    for c in range(wanted):
+        at_to = at_out + column * output_columns[c]
+        for row in range(0, rows, LANES):
+            stream(at_to + 8 * row, load(at_values + 8 * row * wanted, c))
     numbers[PIECE, lane] = piece

@@ -6,22 +6,23 @@ variable.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numba import njit
 
 from mckibben.simulation.integrate.coefficients import ALPHA, DELTA, DENSE_2, DENSE_3, A, C
-from mckibben.simulation.integrate.lane_control import ERROR, HOPELESS, INSTANT, REACHED, STEP
+from mckibben.simulation.integrate.lane_control import ERROR, HOPELESS, INSTANT, INVERSE, REACHED, STEP
 from mckibben.simulation.integrate.lane_type import (
     LANES,
     call_with_data,
     larger,
     load,
-    load_any,
     magnitude,
+    reciprocal_estimate,
     smaller,
     splat,
     store,
-    store_any,
     where_positive,
 )
 from mckibben.simulation.integrate.switching import call
@@ -72,7 +73,7 @@ def attempt(
     at_packed: int,
     places: tuple[int, int, int, int, int, int, int],
 ) -> None:
-    """Try a step in every lane: writes the stages, the new states and the row ERROR.
+    """Try a step in every lane: writes the stages, the new states and the rows ERROR and INVERSE.
 
     Args:
         functions: addresses of ``rates``, ``jacobian``, ``factorise`` and ``solve``.
@@ -89,6 +90,7 @@ def attempt(
     row = 8 * LANES
     step, now, zero = load(at_control, STEP), load(at_control, INSTANT), splat(0.0)
     inverse = 1.0 / step
+    store(at_control, INVERSE, inverse)
     call_with_data(factorise, at_matrix, at_whole + row * n, at_control + row * STEP)
     least = load(at_matrix, positions - 1)
     for k in range(6):
@@ -114,7 +116,9 @@ def attempt(
         new = load(at_packed, i) + last
         store(at_trial, i, new)
         store(at_packed, i, new)
-        share = last / (splat(atol[i]) + rtol * larger(magnitude(load(at_state, i)), magnitude(new)))
+        scale = splat(atol[i]) + rtol * larger(magnitude(load(at_state, i)), magnitude(new))
+        estimate = reciprocal_estimate(scale)
+        share = last * (estimate + estimate * (1.0 - scale * estimate))  # 8 digits
         errors = errors + share * share
     # A pivot close to zero, or a NaN: `smaller` gives its second argument.
     errors = where_positive(least - 1e-10 * inverse, errors, splat(np.nan))
@@ -142,21 +146,7 @@ def write_dense(kept: np.ndarray, at_state: int, at_trial: int, at_u: int, at_de
 
 
 @njit(inline="always", error_model="numpy")
-def write_column(
-    dense: np.ndarray,
-    c: int,
-    lane: int,
-    at_grid: int,
-    at_column: int,
-    t: float,
-    over: float,
-    first: int,
-    stop: int,
-) -> None:
-    """Rows ``first`` to ``stop`` - 1 of the kept state c of a lane; further rows may be overwritten."""
-    b0, b1, b2, b3 = (
-        dense[4 * c, lane], dense[4 * c + 1, lane], dense[4 * c + 2, lane], dense[4 * c + 3, lane],
-    )  # fmt: skip
-    for row in range(first, stop, dense.shape[1]):
-        s = (load_any(at_grid + 8 * row) - t) * over
-        store_any(at_column + 8 * row, b0 + s * (b1 + s * (b2 + s * b3)))
+def row_of(dense: np.ndarray, c: int, lane: int, s: Any) -> Any:
+    """The kept state c of a lane at several shares s of its step."""
+    bent = dense[4 * c + 2, lane] + s * dense[4 * c + 3, lane]
+    return dense[4 * c, lane] + s * (dense[4 * c + 1, lane] + s * bent)

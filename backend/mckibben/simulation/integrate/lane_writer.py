@@ -14,6 +14,7 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any
 
+from mckibben.simulation.integrate.lane_quotients import Quotients
 from mckibben.simulation.integrate.machine_code import Writer, number
 
 _LN2_HIGH, _LN2_LOW = 6.93147180369123816490e-01, 1.90821492927058770002e-10
@@ -42,6 +43,11 @@ def lanes_of_machine() -> int:
     return 4 if features.get("avx2") else 2
 
 
+def has_quotients(lanes: int) -> bool:
+    """Whether rows of this many lanes have `mckibben.simulation.integrate.lane_quotients`."""
+    return lanes == 8 and lanes_of_machine() == 8
+
+
 def lane_writer(lanes: int) -> type[LaneWriter]:
     """A writer for rows of this many lanes."""
     kind = {"real": f"<{lanes} x double>", "truth": f"<{lanes} x i1>", "lanes": lanes}
@@ -54,6 +60,12 @@ class LaneWriter(Writer):
     def __init__(self, arguments: Sequence[Any], shared: Mapping[Any, Any]) -> None:
         super().__init__(arguments, shared)
         self._whole = f"<{self.lanes} x i64>"
+        self._quotients = Quotients(self._new, self.declared.add) if has_quotients(self.lanes) else None
+
+    def _binary(self, operation: str, a: str, b: str) -> str:
+        if operation == "fdiv" and self._quotients:
+            return self._quotients.quotient(a, b)
+        return super()._binary(operation, a, b)
 
     def _number(self, value: float) -> str:
         return f"splat (double {number(value)})"
@@ -74,6 +86,8 @@ class LaneWriter(Writer):
         return self._by_lane(name, *arguments)
 
     def _instruction(self, name: str, argument: str) -> str:
+        if name == "sqrt" and self._quotients:
+            return self._quotients.root(argument)
         full = f"llvm.{name}.v{self.lanes}f64"
         self.declared.add(f"declare {self.real} @{full}({self.real})")
         return self._new(f"call {self.real} @{full}({self.real} {argument})")
@@ -149,7 +163,7 @@ class LaneWriter(Writer):
         )
         k = self._new(f"sitofp {self._whole} {whole} to {self.real}")
         k = self._chosen(small, self._plain("fadd", k, self._number(-float(_SUBNORMAL_SHIFT))), k)
-        s = self._plain("fdiv", f, self._plain("fadd", f, self._number(2.0)))
+        s = self._binary("fdiv", f, self._plain("fadd", f, self._number(2.0)))
         z = self._plain("fmul", s, s)
         rest = self._binary("fmul", z, self._polynomial(z, _LOG))
         square = self._plain("fmul", self._plain("fmul", f, self._number(0.5)), f)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import accumulate
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,8 +29,6 @@ class ManySolutions:
         events: of each set, see `mckibben.simulation.integrate.problem.Solution`.
         outcomes: of each set.
         steps, rejected: of each set, shape (sets,).
-        alike: of each set, whether it ran like the first one: completed, with the same switches changing in
-            the same order. With ``together`` the rows of other sets are of no use.
     """
 
     rows: np.ndarray
@@ -39,7 +39,21 @@ class ManySolutions:
     outcomes: tuple[Outcome, ...]
     steps: np.ndarray
     rejected: np.ndarray
-    alike: np.ndarray
+
+    @cached_property
+    def alike(self) -> np.ndarray:
+        """Of each set, whether it ran like the first one: completed, with the same changes of switches.
+
+        With ``together`` the rows of other sets are of no use.
+        """
+        if not self.events:
+            return np.zeros(0, bool)
+        first = self.events[0][:, 1:3]
+        same = [
+            outcome is Outcome.COMPLETED and np.array_equal(events[:, 1:3], first)
+            for outcome, events in zip(self.outcomes, self.events, strict=True)
+        ]
+        return np.array(same, bool) & (self.written == self.written[0])
 
 
 class LaneKernels(NamedTuple):
@@ -265,7 +279,7 @@ def _run(
         codes.plan.size,
         codes.clock,
         drive.moved,
-        (drive.least, bounce_of(options[0]), drive.follows),
+        (drive.least, bounce_of(options[0]), drive.follows, drive.watched),
         stops,
         constants,
         given.starts,
@@ -289,26 +303,18 @@ def _run(
     table = out[:, :, :rows].transpose(0, 2, 1)
     for index in np.flatnonzero(counts[:, 2] < rows):
         table[index, counts[index, 2] :] = np.nan
-    happened = tuple(events[index, : min(counts[index, 3], MOST_EVENTS)].copy() for index in range(sets))
+    kept = np.minimum(counts[:, 3], MOST_EVENTS).tolist()
+    happened = tuple(events[index, :count].copy() for index, count in enumerate(kept))
     return ManySolutions(
         table,
         counts[:, 2],
         ends,
         given.switches,
         happened,
-        tuple(outcome_of(int(status)) for status in statuses),
+        tuple(map(outcome_of, statuses.tolist())) if statuses.any() else (Outcome.COMPLETED,) * sets,
         counts[:, 0],
         counts[:, 1],
-        _alike(happened, counts, statuses),
     )
-
-
-def _alike(events: Sequence[np.ndarray], counts: np.ndarray, statuses: np.ndarray) -> np.ndarray:
-    """`ManySolutions.alike`."""
-    same = (statuses == 0) & (counts[:, 2] == counts[:1, 2]) & (counts[:, 3] == counts[:1, 3])
-    for index in np.flatnonzero(same).tolist():
-        same[index] = np.array_equal(events[index][:, 1:3], events[0][:, 1:3])
-    return same
 
 
 def _arrays(drive: CompiledDrive, entries: int, chosen: _Columns, kernels: LaneKernels) -> tuple[Any, ...]:
@@ -316,18 +322,27 @@ def _arrays(drive: CompiledDrive, entries: int, chosen: _Columns, kernels: LaneK
     lanes = kernels.lanes
     n, kinds = drive.size, len(drive.model.switches)
     arguments = drive.codes.rates.size
-    widest = max(n, len(chosen.outputs))
-    sizes = (n, n, 6 * n, n, drive.codes.plan.size, widest, kernels.control)
+    widest = max(n, len(chosen.outputs) * (kernels.window // lanes))
     kept = len(chosen.kept) + len(chosen.kept_switches)
+    sizes = [n, n, 6 * n, n, drive.codes.plan.size, widest, kernels.control]
+    sizes += [entries, entries, arguments, arguments, 4 * max(len(chosen.kept), 1)]
+    sizes.append(kept * (lanes + kernels.window))
+    whole = aligned(sum(sizes), lanes)  # one array: each takes some microseconds
+    parts = [whole[end - size : end] for size, end in zip(sizes, accumulate(sizes), strict=True)]
     return (
-        tuple(aligned(size, lanes) for size in sizes),
-        (aligned(entries, lanes), aligned(entries, lanes)),
-        aligned(arguments, lanes),
-        aligned(arguments, lanes),
-        aligned(4 * max(len(chosen.kept), 1), lanes),
+        tuple(parts[:7]),
+        tuple(parts[7:9]),
+        *parts[9:12],
         np.zeros((lanes, arguments)),
-        aligned(lanes, kept, lanes + kernels.window),
-        (np.zeros(n), np.zeros(n), np.zeros((2, n)), np.zeros(kinds), np.zeros(kinds + 1), np.zeros(kinds)),
+        parts[12].reshape(lanes, kept, lanes + kernels.window),
+        (
+            np.zeros(n),
+            np.zeros(n),
+            np.zeros((2, n)),
+            np.zeros((2, kinds)),
+            np.zeros(kinds + 1),
+            np.zeros(kinds),
+        ),
         (np.zeros((kernels.numbers, lanes), np.int64), np.zeros(kernels.entries, np.int64)),
     )
 
@@ -345,5 +360,4 @@ def _separated(done: ManySolutions, order: np.ndarray) -> ManySolutions:
         tuple(done.outcomes[index] for index in wanted),
         done.steps[wanted],
         done.rejected[wanted],
-        done.alike[wanted],
     )

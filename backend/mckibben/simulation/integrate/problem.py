@@ -45,7 +45,7 @@ class Problem:
     tolerance: float
 
     @property
-    def switching(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    def switching(self) -> tuple[np.ndarray, ...]:
         """The argument of the kernel."""
         return switching_of(self.drive, self.stops, self.restitution)
 
@@ -59,11 +59,9 @@ class Problem:
         return np.empty((len(self.grid), self.drive.size + self.drive.width))
 
 
-def switching_of(
-    drive: CompiledDrive, stops: np.ndarray, restitution: float
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def switching_of(drive: CompiledDrive, stops: np.ndarray, restitution: float) -> tuple[np.ndarray, ...]:
     """``switching`` of `mckibben.simulation.integrate.kernels.rodas4`."""
-    return drive.least, stops, bounce_of(restitution), drive.follows
+    return drive.least, stops, bounce_of(restitution), drive.follows, drive.watched
 
 
 def bounce_of(restitution: float) -> np.ndarray:

@@ -91,7 +91,7 @@ def advance(
     """
     rates, jacobian, outputs, guards = functions
     places, timed, diagonal, _, _, _, _, _ = plan
-    least, _, _, _ = switching
+    least, _, _, _, _ = switching
     u, trial, residual, matrix, values, guarded, whole, next_whole, dense = buffers
     n, width, entries = state.shape[0], out.shape[1], places.shape[0]
     kinds, first_switch = switches.shape[0], packed.shape[0] - switches.shape[0]
@@ -185,7 +185,7 @@ def advance(
             if may_change(next_whole, first_guard, least, moved[1], state, trial):
                 write_dense(dense, u)
                 share, landing = first_event(
-                    guards, t, h, next_whole, first_guard, switches, moved, switching, clock, packed,
+                    guards, t, h, whole, next_whole, first_guard, switches, moved, switching, clock, packed,
                     guarded, state, trial, dense,
                 )  # fmt: skip
             if landing >= 0:

@@ -49,43 +49,55 @@ def write_dense(dense: np.ndarray, u: np.ndarray) -> None:
             dense[1, i] += DENSE_3[j] * u[i, j]
 
 
-@njit(error_model="numpy")
-def _guard_at(
-    guards: int, s: float, t: float, h: float, k: int, clock: int, packed: np.ndarray, values: np.ndarray,
-    start: np.ndarray, end: np.ndarray, dense: np.ndarray,
-) -> float:  # fmt: skip
-    """Guard of switch k at the share s of a step."""
-    for i in range(start.shape[0]):
+@njit(inline="always", error_model="numpy")
+def _guards_at(
+    guards: int, s: float, t: float, h: float, clock: int, watched: np.ndarray, packed: np.ndarray,
+    values: np.ndarray, start: np.ndarray, end: np.ndarray, dense: np.ndarray,
+) -> None:  # fmt: skip
+    """Write the guards at the share s of a step into ``values``."""
+    for place in range(watched.shape[0]):
+        i = int(watched[place])
         packed[i] = _interpolated(i, s, start, end, dense)
     packed[clock] = t + s * h
     call(guards, values.ctypes.data, packed.ctypes.data)
-    return values[k]
 
 
 @njit(error_model="numpy")
-def _crossing(
-    guards: int, upper: float, t: float, h: float, k: int, least: float, clock: int, packed: np.ndarray,
+def _guard_at(
+    guards: int, s: float, t: float, h: float, k: int, clock: int, watched: np.ndarray, packed: np.ndarray,
     values: np.ndarray, start: np.ndarray, end: np.ndarray, dense: np.ndarray,
 ) -> float:  # fmt: skip
-    """Share of a step at which guard k falls below -least; it is above at 0 and below at ``upper``.
+    """Guard of switch k at the share s of a step."""
+    _guards_at(guards, s, t, h, clock, watched, packed, values, start, end, dense)
+    return values[k]
 
-    Regula falsi of the Illinois kind.
+
+@njit(inline="always", error_model="numpy")
+def _crossing(
+    guards: int, upper: float, at_low: float, at_high: float, t: float, h: float, k: int, least: float,
+    clock: int, watched: np.ndarray, packed: np.ndarray, values: np.ndarray, start: np.ndarray,
+    end: np.ndarray, dense: np.ndarray,
+) -> float:  # fmt: skip
+    """Share of a step at which guard k falls below -least.
+
+    Plus ``least`` the guard is ``at_low`` at the start and ``at_high`` at ``upper``. Regula falsi of the
+    Illinois kind.
     """
-    low, high = 0.0, upper
-    at_low = _guard_at(guards, low, t, h, k, clock, packed, values, start, end, dense) + least
-    at_high = _guard_at(guards, high, t, h, k, clock, packed, values, start, end, dense) + least
+    low, high, found, side = 0.0, upper, upper, 0
     if at_low <= 0.0:
-        return 0.0
-    side = 0
+        high = found = 0.0
     for _ in range(60):
         if high - low < 1e-12 or not at_high < 0.0:
             break
         middle = (low * at_high - high * at_low) / (at_high - at_low)
-        value = _guard_at(guards, middle, t, h, k, clock, packed, values, start, end, dense) + least
+        _guards_at(guards, middle, t, h, clock, watched, packed, values, start, end, dense)
+        value = values[k] + least
         if abs(value) <= 0.5 * least:
-            return middle
+            found = middle
+            break
         if value < 0.0:
-            high, at_high = middle, value
+            found = high = middle
+            at_high = value
             if side == -1:
                 at_low *= 0.5
             side = -1
@@ -94,19 +106,30 @@ def _crossing(
             if side == 1:
                 at_high *= 0.5
             side = 1
-    return high
+    return found
 
 
-@njit(error_model="numpy")
+@njit(inline="always", error_model="numpy")
 def _turning(i: int, start: np.ndarray, end: np.ndarray, dense: np.ndarray) -> float:
-    """Share of a step at which a speed that changes its sign is zero."""
-    low, high = 0.0, 1.0
+    """Share of a step at which a speed that changes its sign is zero, by the same method."""
+    low, high, at_low, at_high, side = 0.0, 1.0, start[i], end[i], 0
+    small = 1e-9 * max(abs(at_low), abs(at_high))
     for _ in range(30):
-        middle = 0.5 * (low + high)
-        if _interpolated(i, middle, start, end, dense) * start[i] > 0.0:
-            low = middle
+        middle = (low * at_high - high * at_low) / (at_high - at_low)
+        value = _interpolated(i, middle, start, end, dense)
+        if value * start[i] > 0.0:
+            low, at_low = middle, value
+            if side == 1:
+                at_high *= 0.5
+            side = 1
         else:
-            high = middle
+            high, at_high = middle, value
+            if side == -1:
+                at_low *= 0.5
+            side = -1
+        if abs(value) <= small or high - low < 1e-9:
+            low = middle
+            break
     return low
 
 
@@ -123,27 +146,32 @@ def may_change(
 
 @njit(inline="always", error_model="numpy")
 def first_event(
-    guards: int, t: float, h: float, ends: np.ndarray, first_guard: int, switches: np.ndarray,
-    moved: tuple[int, int], switching: Any, clock: int, packed: np.ndarray, guarded: np.ndarray,
-    start: np.ndarray, end: np.ndarray, dense: np.ndarray,
+    guards: int, t: float, h: float, begins: np.ndarray, ends: np.ndarray, first_guard: int,
+    switches: np.ndarray, moved: tuple[int, int], switching: Any, clock: int, packed: np.ndarray,
+    guarded: np.ndarray, start: np.ndarray, end: np.ndarray, dense: np.ndarray,
 ) -> tuple[float, int]:  # fmt: skip
     """Share of a step at which a switch changes first, and its number; (2, -1) if none changes.
 
-    ``ends`` holds the guards at the end of the step from ``first_guard`` on; ``packed`` the constants, the
-    inputs and the switches.
+    ``begins`` and ``ends`` hold the guards at the start and at the end of the step from ``first_guard`` on;
+    ``packed`` the constants, the inputs and the switches.
     """
-    least, stops, _, _ = switching
-    share, landing = 2.0, -1
+    least, stops, _, _, watched = switching
+    share, landing, turn = 2.0, -1, 0.0
+    if moved[1] >= 0 and start[moved[1]] * end[moved[1]] < 0.0:
+        # A load that turns round within the step may have touched a stop.
+        turn = _turning(moved[1], start, end, dense)
     for k in range(switches.shape[0]):
-        upper = 1.0 if ends[first_guard + k] < -least[k] else 0.0
-        free = upper == 0.0 and switches[k] == 0.0 and stops[k] == stops[k]
-        if free and start[moved[1]] * end[moved[1]] < 0.0:
-            # A load that turns round within the step may have touched the stop.
-            turn = _turning(moved[1], start, end, dense)
-            at = _guard_at(guards, turn, t, h, k, clock, packed, guarded, start, end, dense)
-            upper = turn if at < -least[k] else 0.0
+        upper, at_upper = 0.0, ends[first_guard + k]
+        if at_upper < -least[k]:
+            upper = 1.0
+        elif turn > 0.0 and switches[k] == 0.0 and stops[k] == stops[k]:
+            at_upper = _guard_at(guards, turn, t, h, k, clock, watched, packed, guarded, start, end, dense)
+            upper = turn if at_upper < -least[k] else 0.0
         if upper > 0.0:
-            at = _crossing(guards, upper, t, h, k, least[k], clock, packed, guarded, start, end, dense)
+            at = _crossing(
+                guards, upper, begins[first_guard + k] + least[k], at_upper + least[k], t, h, k, least[k],
+                clock, watched, packed, guarded, start, end, dense,
+            )  # fmt: skip
             if at < share:
                 share, landing = at, k
     return share, landing
@@ -151,16 +179,16 @@ def first_event(
 
 @njit(error_model="numpy")
 def same_event(
-    guards: int, share: float, t: float, h: float, k: int, least: float, clock: int, packed: np.ndarray,
-    values: np.ndarray, start: np.ndarray, end: np.ndarray, dense: np.ndarray,
+    guards: int, share: float, t: float, h: float, k: int, least: float, clock: int, watched: np.ndarray,
+    packed: np.ndarray, values: np.ndarray, start: np.ndarray, end: np.ndarray, dense: np.ndarray,
 ) -> float:  # fmt: skip
     """Share of a step near ``share`` at which guard k is -least, also outside the step; 2 if there is none.
 
     Secants; for a run that differs little from one whose switch changes at ``share``.
     """
     here, other = share, share + 1e-3
-    at_here = _guard_at(guards, here, t, h, k, clock, packed, values, start, end, dense) + least
-    at_other = _guard_at(guards, other, t, h, k, clock, packed, values, start, end, dense) + least
+    at_here = _guard_at(guards, here, t, h, k, clock, watched, packed, values, start, end, dense) + least
+    at_other = _guard_at(guards, other, t, h, k, clock, watched, packed, values, start, end, dense) + least
     for _ in range(30):
         if at_here == at_other:
             break
@@ -168,7 +196,10 @@ def same_event(
         if not abs(new - share) < 0.5:
             break
         other, at_other = here, at_here
-        here, at_here = new, _guard_at(guards, new, t, h, k, clock, packed, values, start, end, dense) + least
+        here, at_here = (
+            new,
+            _guard_at(guards, new, t, h, k, clock, watched, packed, values, start, end, dense) + least,
+        )
         if abs(here - other) < 1e-13:
             break
     return here if abs(at_here) <= 0.5 * least and abs(here - share) < 0.5 else 2.0
@@ -191,7 +222,7 @@ def change_switch(
     counts: np.ndarray,
 ) -> None:  # fmt: skip
     """Change switch k; an end stop stops the load or throws it back. ``rates`` are those before."""
-    _, stops, bounce, follows = switching
+    _, stops, bounce, follows, _ = switching
     speed = acceleration = 0.0
     if moved[1] >= 0:
         speed, acceleration = state[moved[1]], rates[moved[1]]

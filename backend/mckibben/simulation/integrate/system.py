@@ -93,6 +93,11 @@ class CompiledDrive:
         return len(self.model.states)
 
     @cached_property
+    def parameter_places(self) -> dict[str, int]:
+        """Position of each parameter."""
+        return {name: place for place, name in enumerate(self.model.parameters)}
+
+    @cached_property
     def moved(self) -> tuple[int, int]:
         """Numbers of the states stroke and speed, which end stops act on; -1 without stops."""
         if not any(switch.stop for switch in self.model.switches):
@@ -118,10 +123,17 @@ class CompiledDrive:
         return np.array([names.index(s.follows) if s.follows else -1.0 for s in self.model.switches], float)
 
     @cached_property
+    def watched(self) -> np.ndarray:
+        """Numbers of the states that the guards depend on."""
+        arguments, guards = self.functions["guards"]
+        used = set().union(*(guard.free_symbols for guard in guards))
+        return np.array([i for i, symbol in enumerate(arguments[: self.size]) if symbol in used], float)
+
+    @cached_property
     def stop_places(self) -> tuple[int | None, ...]:
         """Position of the parameter that is the end stop of each switch, None for other switches."""
-        names = list(self.model.parameters)
-        return tuple(names.index(s.stop) if s.stop else None for s in self.model.switches)
+        places = self.parameter_places
+        return tuple(places[s.stop] if s.stop else None for s in self.model.switches)
 
     def rates(self, packed: np.ndarray, switches: np.ndarray | None = None) -> np.ndarray:
         """Rates of packed states, parameters and inputs; switches are 0 unless stated."""
