@@ -19,8 +19,8 @@ hypothesis.settings.register_profile("mckibben", hypothesis.settings(), deadline
 hypothesis.settings.load_profile("mckibben")
 
 
-# The tools first, which need nothing compiled; then where most of the time goes, the longest first: whoever takes
-# one of these last lets the other worker wait.
+# The tools first, which need nothing compiled; then where most of the time goes, the longest first: whoever
+# takes one of these last lets the other worker wait.
 FIRST = (
     "test_toolchain.py",
     "frontend/test_transient.py",
