@@ -17,9 +17,8 @@ def main() -> int:
             read = read_elsewhere(Path(folder), {name: content})[name]
         fine = read.refusal is None and 100e6 < read.peak < LARGEST
         wrong += not fine
-        print(
-            f"{name}: {read.peak / 1e6:.0f} MB of at most {LARGEST / 1e6:.0f}", "" if fine else read.refusal
-        )
+        said = read.refusal or "read"
+        sys.stdout.write(f"{name}: {read.peak / 1e6:.0f} of at most {LARGEST / 1e6:.0f} MB, {said}\n")
     return int(wrong > 0)
 
 
