@@ -10,6 +10,7 @@ import hypothesis
 import hypothesis.configuration
 import pytest
 
+from tests.one_at_a_time import one_at_a_time
 from tests.running_server import RunningServer
 
 # Deadlines measure the machine, not the code; examples that failed before are kept by the person who fixes
@@ -18,30 +19,40 @@ hypothesis.settings.register_profile("mckibben", hypothesis.settings(), deadline
 hypothesis.settings.load_profile("mckibben")
 
 
-# Where most of the time goes, the longest first. Whoever takes one of these last lets the other worker wait.
-LONGEST = (
-    "frontend/test_compare_flows.py",
-    "frontend/test_compare.py",
-    "api/test_schemathesis.py",
+# The tools first, which need nothing compiled; then where most of the time goes, the longest first: whoever
+# takes one of these last lets the other worker wait.
+FIRST = (
+    "test_toolchain.py",
     "frontend/test_transient.py",
     "frontend/test_sizing.py",
-    "test_toolchain.py",
+    "frontend/test_case.py",
+    "frontend/test_compare_flows.py",
+    "frontend/test_compare.py",
     "frontend/test_design.py",
     "frontend/test_accessibility.py",
+    "identification/diagnose/test_diagnosis.py",
+    "physics/test_drive_model.py",
     "identification/test_hidden_effects.py",
+    "server/test_diagnoses.py",
     "physics/test_effect_contract.py",
+    "simulation/integrate/test_against_radau.py",
+    "identification/test_truth_cases.py",
 )
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Begin with the longest files; the others keep their order."""
+    """Begin with the files of `FIRST`; the others keep their order."""
     folder = Path(__file__).parent
-    rank = {folder / name: number for number, name in enumerate(LONGEST)}
+    rank = {folder / name: number for number, name in enumerate(FIRST)}
+    absent = [path for path in rank if not path.exists()]
+    assert not absent, f"FIRST in {__file__} names files that are gone: {absent}"
     items.sort(key=lambda item: rank.get(item.path, len(rank)))
 
 
 def pytest_configure(config: pytest.Config) -> None:
     """Keep the plugins' caches in the ignored folders of the checkout, not wherever pytest was started."""
+    # Some containers forbid it; then each of the programs that tests start compiles all our modules again.
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     hypothesis.configuration.set_hypothesis_home_dir(config.rootpath / ".hypothesis")
     if config.option.benchmark_storage == "file://./.benchmarks":
         config.option.benchmark_storage = f"file://{config.rootpath}/.benchmarks"
@@ -57,6 +68,28 @@ def _own_working_directory(tmp_path_factory: pytest.TempPathFactory) -> Iterator
     os.chdir(tmp_path_factory.mktemp("working-directory"))
     yield
     os.chdir(started_in)
+
+
+@pytest.fixture(scope="session")
+def compiled_kernels(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """The integrators' machine code, compiled by one of the workers and then in numba's cache for all.
+
+    In a fresh checkout that takes half a minute of processor time, once; afterwards half a second.
+    """
+    from mckibben.simulation.integrate.many import lane_kernels
+
+    with one_at_a_time(tmp_path_factory.getbasetemp().parent / "kernels.lock"):
+        lane_kernels.awaited()
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _kernels_before_tests(request: pytest.FixtureRequest) -> None:
+    """Workers side by side would otherwise all compile them, and so would the programs that they start.
+
+    The tools that check the sources need no kernels: they come first, beside the compilation.
+    """
+    if os.environ.get("PYTEST_XDIST_WORKER") and request.path.name != "test_toolchain.py":
+        request.getfixturevalue("compiled_kernels")
 
 
 @pytest.fixture(scope="session")
@@ -76,7 +109,7 @@ def announce(pytestconfig: pytest.Config) -> Callable[[str], None]:
 
 
 @pytest.fixture(scope="session")
-def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
+def server(compiled_kernels: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
     """The real server with empty data and preset folders, one for the whole run."""
     with RunningServer(tmp_path_factory.mktemp("server")) as running:
         yield running

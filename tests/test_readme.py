@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
+import copy
+import json
 import re
 from math import radians
 from pathlib import Path
 
 import pytest
 
+from mckibben.application.simulate import SimulationQuestion, simulate
+from mckibben.documents.drive_files import read_document
+from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.studio import Studio
 from mckibben.physics.catalogue import EffectCatalogue
+from mckibben.physics.errors import InputError
 from mckibben.physics.muscle import Muscle
+from mckibben.resources import presets_folder
 from mckibben.simulation.statics.model import StaticModel
 
 ROOT = Path(__file__).parents[1]
@@ -64,3 +72,45 @@ def test_the_example_effect_reaches_the_interface_with_no_other_edit(example_fol
         for effect in ({}, {"seal_drag": {"drag": "7 N"}})
     )
     assert [a - b for a, b in zip(plain, dragged, strict=True)] == pytest.approx([7.0] * 5)
+
+
+def test_the_folder_of_own_parts_is_read_and_nothing_in_it_can_be_left_out(tmp_path):
+    section = README[README.index("### A folder of your own parts") :]
+    layout = re.search(r"```\nmy-presets/\n(.*?)```", section, flags=re.DOTALL)
+    assert layout
+    names = layout[1].split()
+    blocks = re.findall(r"```json\n(.*?)```", section, flags=re.DOTALL)
+    assert [json.loads(block)["id"] for block in blocks] == [Path(name).stem for name in names]
+
+    def library(folder, documents):
+        for name, document in zip(names, documents, strict=True):
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (folder / name).write_text(json.dumps(document), "utf-8")
+        return Studio(presets=presets_folder(), user_presets=folder)
+
+    def ran(folder, documents):
+        studio = library(folder, documents)
+        if studio.library.problems():
+            return None
+        try:
+            return simulate(SimulationQuestion(drive_of(read_document(drive, "the drive"), studio)))
+        except InputError:
+            return None
+
+    muscle, valve = documents = [json.loads(block) for block in blocks]
+    drive = {
+        "muscle": {"preset": muscle["id"]}, "valve": {"preset": valve["id"]}, "tube": None,
+        "supply": {"pressure": "6 bar"}, "load": {"mass": "5 kg"}, "duration": "2 s",
+        "command": {"shape": "pulse", "on": "0 s", "off": "1 s"},
+    }  # fmt: skip
+    run = ran(tmp_path / "all", documents)
+    assert run is not None
+    assert run.outcome == "completed"
+    assert run.timing.extend.rise_time > 0.0
+
+    for index, document in enumerate(documents):  # minimal: without any of its values no drive runs
+        for part in ("geometry", "limits", "data"):
+            for key in document.get(part, {}):
+                less = copy.deepcopy(documents)
+                del less[index][part][key]
+                assert ran(tmp_path / f"{index}-{key}", less) is None, f"{key} is not needed"

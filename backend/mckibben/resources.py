@@ -48,10 +48,18 @@ def plotly_javascript() -> tuple[Path, str]:
 def user_folder() -> Path:
     """Where measurements and saved presets are kept when no folder is named.
 
-    ``MCKIBBEN_DATA`` wins; else the platform's place for application data.
+    ``MCKIBBEN_DATA`` wins; else the platform's place for application data. Where only the place of earlier
+    versions exists (they did not ask platformdirs), it stays in use, so that nothing kept there is lost.
     """
+    from platformdirs import user_data_path
+
     if chosen := os.environ.get("MCKIBBEN_DATA"):
         return Path(chosen).expanduser()
+    place, earlier = user_data_path("mckibben", appauthor=False), _earlier_user_folder()
+    return earlier if earlier.is_dir() and not place.exists() else place
+
+
+def _earlier_user_folder() -> Path:
     home = Path.home()
     if sys.platform == "win32":
         return Path(os.environ.get("LOCALAPPDATA", home / "AppData" / "Local")) / "mckibben"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -30,6 +31,13 @@ def run(capsysbinary: pytest.CaptureFixture[bytes]) -> Run:
         return code, captured.out.decode(), captured.err.decode()
 
     return call
+
+
+def result_of(out: str) -> dict[str, Any]:
+    """The result in what ``--json`` printed, without the schema that it begins with."""
+    answer = json.loads(out)
+    assert answer.pop("schema") == 1
+    return answer
 
 
 def write(name: str, content: object) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from mckibben.server.schemas.diagnoses import DiagnosisAnswer
-from tests.cli.conftest import Run, write
+from tests.cli.conftest import Run, result_of, write
 from tests.identification.synthetic import BRAID, CYCLE_HEADER, LIFT, cycle_rows, text
 
 DRIVE = {"schema": 1, **LIFT}
@@ -35,7 +35,7 @@ def answer_of(result: tuple[int, str, str]) -> dict[str, Any]:
     code, out, err = result
     assert code == 0, err
     assert out.count("\n") == 1
-    answer = json.loads(out)
+    answer = result_of(out)
     DiagnosisAnswer.model_validate(answer)
     return answer
 

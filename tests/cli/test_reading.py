@@ -41,19 +41,25 @@ def test_a_file_asks_and_the_option_answers(run: Run, writer: Callable[[], OpenF
     assert out.startswith("# kind: ")
 
 
-@pytest.mark.parametrize("command", ["compare", "diagnose"])
-def test_the_rest_length_of_the_file_is_the_muscles(run: Run, command: str) -> None:
+def test_the_rest_length_of_the_file_is_the_muscles(run: Run) -> None:
     file = italian()
     put(file.name, file.data)
-    code, out, err = run(command, file.name, *MUSCLE, "--json")
+    for options, length in (((), 0.3), (("--rest-length", "310 mm"), 0.31)):
+        code, out, err = run("compare", file.name, *MUSCLE, *options, "--json")
+        assert code == 0, err
+        assert json.loads(out)["geometry"]["nominal_length"] == pytest.approx(length)
+
+
+def test_the_rest_length_of_the_file_is_that_of_a_diagnosis(run: Run) -> None:
+    file = italian()
+    lines = file.data.splitlines(keepends=True)
+    head = next(n for n, line in enumerate(lines) if line.startswith(b"Tempo")) + 1
+    put(file.name, b"".join([*lines[:head], *lines[head::10]]))  # fewer rows: a shorter diagnosis
+    code, out, err = run("diagnose", file.name, *MUSCLE, "--json")
     assert code == 0, err
-    muscle = (
-        json.loads(out)["geometry"] if command == "compare" else json.loads(out)["model"].get("muscle", {})
-    )
-    if command == "compare":
-        assert muscle["nominal_length"] == pytest.approx(0.3)
-        code, out, _ = run(command, file.name, *MUSCLE, "--json", "--rest-length", "310 mm")
-        assert json.loads(out)["geometry"]["nominal_length"] == pytest.approx(0.31)
+    answer = json.loads(out)
+    assert answer["experiment"]["rest_length"]["value"] == pytest.approx(0.3)
+    assert answer["model"]["muscle"]["nominal_length"] == pytest.approx(0.3)
 
 
 def test_files_of_different_rest_lengths_are_specimens(run: Run) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from mckibben.server.schemas.sizing_answer import SizingAnswer
-from tests.cli.conftest import Run, write
+from tests.cli.conftest import Run, result_of, write
 from tests.server.test_sizings import IMPOSSIBLE, TASK
 
 
@@ -17,7 +17,7 @@ def test_a_task_gives_one_json_object_and_its_drive_runs(run: Run) -> None:
     code, out, _ = run("size", write("task.json", TASK), "--json")
     assert code == 0
     assert out.count("\n") == 1
-    answer = json.loads(out)
+    answer = result_of(out)
     SizingAnswer.model_validate(answer)
     best = answer["proposals"][0]
     code, out, _ = run("simulate", write("drive.json", best["drive"]), "--json")

@@ -19,9 +19,11 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
+
+from tests.one_at_a_time import one_at_a_time
 
 OWN_VARIABLE = "MCKIBBEN_BROWSER"
 OTHER_VARIABLES = ("CHROME_PATH", "PLAYWRIGHT_CHROMIUM_EXECUTABLE_PATH")
@@ -220,19 +222,8 @@ def _end(process: subprocess.Popen[str]) -> None:
         process.kill()
 
 
-@contextmanager
-def _one_at_a_time(say: Say) -> Iterator[None]:
+def _one_at_a_time(say: Say) -> AbstractContextManager[None]:
     """Hold back every other test run of this machine and user while this one installs."""
-    try:
-        import fcntl
-    except ImportError:  # Windows: Playwright's installer locks by itself, and there is no apt
-        yield
-        return
-    user = os.getuid()
-    with (Path(tempfile.gettempdir()) / f"mckibben-browser-{user}.lock").open("w") as lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            say("Another test run is installing a browser: waiting for it ...")
-            fcntl.flock(lock, fcntl.LOCK_EX)
-        yield
+    user = os.getuid() if hasattr(os, "getuid") else 0
+    lock = Path(tempfile.gettempdir()) / f"mckibben-browser-{user}.lock"
+    return one_at_a_time(lock, lambda: say("Another test run is installing a browser: waiting for it ..."))

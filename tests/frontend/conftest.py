@@ -11,6 +11,7 @@ says so: ``page_guard.allow("status of 422")``.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -18,6 +19,7 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, Page
 
 from tests.frontend.browser import ARGUMENTS, NoBrowserError, find_or_get
+from tests.frontend.diagnoses import keep_in
 from tests.frontend.guard import PageGuard
 from tests.frontend.views import open_compare
 from tests.running_server import RunningServer
@@ -47,6 +49,13 @@ def delete_output_dir(pytestconfig: pytest.Config, tmp_path_factory: pytest.Temp
     """
     if pytestconfig.getoption("--output") == "test-results":
         pytestconfig.option.output = str(tmp_path_factory.mktemp("browser"))
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _diagnoses_of_the_run(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """What the server diagnosed for one worker is known to the others."""
+    base = tmp_path_factory.getbasetemp()
+    keep_in((base.parent if os.environ.get("PYTEST_XDIST_WORKER") else base) / "diagnoses")
 
 
 @pytest.fixture(scope="session")

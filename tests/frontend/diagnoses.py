@@ -1,65 +1,75 @@
 """Diagnoses that the server gave once are given again: the same question, the same answer, without the wait.
 
 For tests of what the page does with a diagnosis. Those of the diagnosis on its way, its progress and its end,
-ask the server each time.
+ask the server each time. The answers are kept in a folder that all workers of a run share.
 """
 
 from __future__ import annotations
 
+import hashlib
 import json
+import os
 from collections.abc import Callable
 from contextlib import suppress
-from typing import Any, NamedTuple
+from pathlib import Path
+from typing import Any
 
-from playwright.sync_api import Error, Page, Request, Route
+from playwright.sync_api import Error, Page, Route
 
 _PATH = "**/api/diagnoses"
+_STREAM = "text/event-stream"
 _DONE = b"event: done"
+_WITHIN = 150_000  # ms; on a busy machine a drive takes its time
+
+#: Folder of the answers; `keep_in` sets it.
+_folder: Path | None = None
 
 
-class _Answer(NamedTuple):
-    content_type: str
-    body: bytes
-
-
-_known: dict[str, _Answer] = {}
+def keep_in(folder: Path) -> None:
+    """Keep answers in this folder, which must be that of one run of the tests."""
+    global _folder
+    folder.mkdir(exist_ok=True)
+    _folder = folder
 
 
 def remember(page: Page) -> None:
     """Let this page's diagnoses be answered by what the server told any page of this run before."""
-    page.route(_PATH, _answer)
-    page.on("requestfinished", _keep)
+    page.route(_PATH, lambda route: _answer(route, lambda body: body))
 
 
 def alter(page: Page, change: Callable[[dict[str, Any]], None]) -> None:
     """Let this page's diagnoses be answered as they are, with something changed in the result."""
 
-    def answer(route: Route) -> None:
-        known = _known.get(route.request.post_data or "")
-        body = known.body if known else route.fetch().body()
+    def changed(body: bytes) -> bytes:
         lines = body.splitlines()
         last = max(n for n, line in enumerate(lines) if line.startswith(b"data: "))  # that of "done"
         done = json.loads(lines[last].removeprefix(b"data: "))
         change(done)
         lines[last] = b"data: " + json.dumps(done).encode()
-        route.fulfill(content_type="text/event-stream", body=b"\n".join(lines) + b"\n\n")
+        return b"\n".join(lines) + b"\n\n"
 
-    page.route(_PATH, answer)
-
-
-def _answer(route: Route) -> None:
-    known = _known.get(route.request.post_data or "")
-    if known is None:
-        route.fallback()
-    else:
-        route.fulfill(content_type=known.content_type, body=known.body)
+    page.route(_PATH, lambda route: _answer(route, changed))
 
 
-def _keep(request: Request) -> None:
-    asked = request.post_data or ""
-    if not request.url.endswith("/api/diagnoses") or asked in _known:
-        return
-    with suppress(Error):  # the page was closed meanwhile
-        response = request.response()
-        if response is not None and response.ok and _DONE in (body := response.body()):
-            _known[asked] = _Answer(response.headers["content-type"], body)
+def _answer(route: Route, changed: Callable[[bytes], bytes]) -> None:
+    # The page ends the stream itself as soon as it has the result, so the whole answer is only to be had by
+    # asking for it.
+    kept = _kept(route.request.post_data or "")
+    with suppress(Error):  # the page was closed meanwhile, or no longer wants the answer
+        if kept.exists():
+            body = kept.read_bytes()
+        else:
+            response = route.fetch(timeout=_WITHIN)
+            body = response.body()
+            if not response.ok or _DONE not in body:
+                route.fulfill(response=response)
+                return
+            partial = kept.with_suffix(f".{os.getpid()}")
+            partial.write_bytes(body)
+            partial.replace(kept)
+        route.fulfill(content_type=_STREAM, body=changed(body))
+
+
+def _kept(asked: str) -> Path:
+    assert _folder is not None, "keep_in() comes first"
+    return _folder / hashlib.sha256(asked.encode()).hexdigest()

@@ -33,7 +33,7 @@ from tests.frontend.comparing import (
 )
 from tests.frontend.diagnoses import remember
 from tests.frontend.guard import PageGuard
-from tests.frontend.views import REFUSED, link_of, open_compare, open_design, redo, run
+from tests.frontend.views import REFUSED, link_of, load, open_compare, open_design, redo, run
 
 
 @pytest.fixture(scope="module")
@@ -233,8 +233,7 @@ def test_the_link_restores_data_model_and_history(page: Page, sweeps: FilePayloa
     changed(page, page.locator("#add-all").click)
     left = error(page)
     link = link_of(page)
-    page.goto("about:blank")
-    page.goto(f"/{link}")
+    load(page, link)
     expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
     assert error(page) == left
     expect(page.locator(".path-table tr:is(.past, .now)")).to_have_count(4)

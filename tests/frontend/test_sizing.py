@@ -17,7 +17,7 @@ from mckibben.resources import presets_folder
 from tests.frontend.guard import PageGuard
 from tests.frontend.test_accessibility import violations
 from tests.frontend.test_layout import OVERLAPS, SIDEWAYS, TOO_SMALL
-from tests.frontend.views import REFUSED, SIZES, enter, field, link_of, marked, run
+from tests.frontend.views import REFUSED, SIZES, enter, field, link_of, load, marked, run
 
 GRAVITY = 9.80665  # m/s^2
 ACTIONS = 12
@@ -25,8 +25,7 @@ ACTIONS = 12
 
 def open_task(page: Page, link: str = "") -> None:
     """The Task side of a fresh page, or of a link that says so."""
-    page.goto("about:blank")
-    page.goto(f"/{link}")
+    load(page, link)
     if not link:
         page.get_by_role("radio", name="Task", exact=True).click()
     expect(page.locator(".task-head")).to_be_visible(timeout=20_000)

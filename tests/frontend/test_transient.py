@@ -23,7 +23,7 @@ from mckibben.physics.errors import InputError
 from mckibben.physics.units import Reference, si
 from tests.frontend.comparing import use
 from tests.frontend.guard import PageGuard
-from tests.frontend.views import REFUSED, SIZES, enter, field, link_of, marked, run
+from tests.frontend.views import REFUSED, SIZES, enter, field, link_of, load, marked, run
 
 TIMED = ("position", "pressure", "speed", "lower", "acceleration")
 
@@ -40,8 +40,7 @@ START = link_to({"schema": 1, "view": "transient", "design": {}})
 
 def open_transient(page: Page, link: str = START) -> None:
     """The Transient view with its first run drawn; the Design view is not even built."""
-    page.goto("about:blank")
-    page.goto(f"/{link}")
+    load(page, link)
     marked(page, "[data-ran]", 30_000)  # a busy machine takes its time
 
 

@@ -27,14 +27,24 @@ def marked(page: Page, mark: str, within: float = 10_000) -> None:
     page.locator(f"html{mark}").wait_for(state="attached", timeout=within)
 
 
+def load(page: Page, link: str = "") -> None:
+    """The page of the server, loaded anew.
+
+    Args:
+        link: a hash that holds a state, with its ``#``.
+    """
+    if page.url != "about:blank":  # a goto to another hash of the same page would not load it anew
+        page.goto("about:blank")
+    page.goto(f"/{link}")
+
+
 def open_design(page: Page, link: str = "") -> None:
     """The Design view with its plots drawn and the model's error known.
 
     Args:
         link: a hash that holds a state, with its ``#``.
     """
-    page.goto("about:blank")  # a goto to another hash of the same page would not load it anew
-    page.goto(f"/{link}")
+    load(page, link)
     marked(page, "[data-drawn]")
 
 
@@ -48,8 +58,7 @@ def open_catalogue(page: Page) -> None:
 
 def open_compare(page: Page) -> None:
     """The Compare & diagnose view before there are data."""
-    page.goto("about:blank")
-    page.goto("/")
+    load(page)
     page.get_by_role("button", name="Compare & diagnose", exact=True).click()
     expect(page.get_by_role("button", name="Example measurement")).to_be_visible(timeout=20_000)
 

@@ -88,19 +88,26 @@ def test_they_are_refused_in_words_and_take_little_memory(tmp_path: Path) -> Non
     assert max(read.peak for read in found.values()) < LARGEST, most
 
 
-def test_the_largest_files_that_are_read_take_four_times_the_limit_at_most(tmp_path: Path) -> None:
-    rows = min(MAX_ROWS, MAX_UNPACKED // 8 // 5 - 100)
+def large_files(share: float) -> dict[str, bytes]:
+    """A packed MATLAB file and a CSV of so large a share of what is read at most."""
+    rows = int(share * min(MAX_ROWS, MAX_UNPACKED // 8 // 5 - 100))
     number = np.arange(rows)
     columns = {
         b"time_s": 1e-3 * number, b"pressure_bar": 1.0 + number % 7, b"length_mm": 300.0 - number % 20,
         b"force_N": 10.0 + number % 90, b"temperature_degC": 20.0 + number % 3,
     }  # fmt: skip
     packed = MATLAB + b"".join(doubles(name, values) for name, values in columns.items())
-    lines = b"# kind: static\npressure_bar;length_mm;force_N\n" + b"1;280;10\n2;281;20\n" * (MAX_ROWS // 2)
-    for name, content in {"large.mat": packed, "large.csv": lines}.items():
+    pairs = int(share * MAX_ROWS) // 2
+    lines = b"# kind: static\npressure_bar;length_mm;force_N\n" + b"1;280;10\n2;281;20\n" * pairs
+    return {"large.mat": packed, "large.csv": lines}
+
+
+def test_large_files_are_read_in_four_times_what_they_unpack_to_at_most(tmp_path: Path) -> None:
+    """A quarter of the limit here; ``python -m tests.benchmarks.large_files`` goes up to it."""
+    for name, content in large_files(0.25).items():
         read = read_elsewhere(tmp_path, {name: content})[name]
         assert read.refusal is None, name
-        assert 100e6 < read.peak < LARGEST, name
+        assert 25e6 < read.peak < LARGEST / 4, name
 
 
 def test_a_server_refuses_them_and_goes_on(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+import sys
 from pathlib import Path
 
 import pytest
@@ -104,3 +105,29 @@ def test_the_data_folder_can_be_chosen(monkeypatch: pytest.MonkeyPatch, tmp_path
     assert user_folder() == tmp_path
     monkeypatch.delenv("MCKIBBEN_DATA")
     assert user_folder().name == "mckibben"
+
+
+def test_the_user_folder_is_the_platforms_and_an_earlier_one_is_found_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("MCKIBBEN_DATA", raising=False)
+    place, earlier = tmp_path / "platform" / "mckibben", tmp_path / "earlier" / "mckibben"
+    monkeypatch.setattr("platformdirs.user_data_path", lambda *names, **options: place)
+    monkeypatch.setattr("mckibben.resources._earlier_user_folder", lambda: earlier)
+    assert user_folder() == place
+    earlier.mkdir(parents=True)
+    assert user_folder() == earlier
+    place.mkdir(parents=True)
+    assert user_folder() == place
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the places of Linux")
+def test_the_user_folder_follows_the_desktop_standard(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("MCKIBBEN_DATA", raising=False)
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "share"))
+    assert user_folder() == tmp_path / "share" / "mckibben"
+    monkeypatch.delenv("XDG_DATA_HOME")
+    assert user_folder() == tmp_path / ".local" / "share" / "mckibben"

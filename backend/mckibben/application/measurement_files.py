@@ -11,12 +11,13 @@ from mckibben.documents.experiment import ExperimentInput, stated_experiment
 from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import FIELDS, ExperimentValue
 from mckibben.measurement.measurement import Measurement
-from mckibben.measurement.points import Points, find_preset
+from mckibben.measurement.points import POINT_PRESETS, Points, find_preset, is_preset, points_of
 from mckibben.measurement.read import Correction, read_measurement, spoken_correction
 from mckibben.physics.errors import InputError, did_you_mean
 
 #: How values are named that stand in no file: as options of the command line, or as arguments of Python.
 OPTION, ARGUMENT = "--", ""
+STANDARD_INPUT = "standard input"  # its name in messages
 _MAX_BYTES = 200_000_000
 _READING = ("sheet", "head", "column", "ignore")  # of an entry: how its file is read
 _LIST_EXAMPLE = '[{"file": "a.csv", "rest_length": "250 mm", "load": "3 kg"}]'
@@ -27,6 +28,7 @@ def measurements_of(
     studio: Studio,
     correction: Correction | None = None,
     said: Mapping[str, ExperimentValue] | None = None,
+    given: Mapping[str, bytes] | None = None,
 ) -> list[SaidMeasurement]:
     """Files, presets where there is no such file, and lists of files in JSON.
 
@@ -35,6 +37,7 @@ def measurements_of(
         studio: for presets.
         correction: how the files are to be read; it is for files, not for presets.
         said: about the experiment of all of them.
+        given: name -> content, of names that are no files: standard input.
 
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
@@ -47,7 +50,7 @@ def measurements_of(
             if len(entry) > 1:
                 reading = _read_as(entry, name, reading)
                 own |= _said_in(entry, name)
-            found.append(SaidMeasurement(_read(str(entry["file"]), studio, reading), own))
+            found.append(SaidMeasurement(_read(str(entry["file"]), studio, reading, given or {}), own))
     return found
 
 
@@ -74,7 +77,7 @@ def _entries(name: str) -> list[dict[str, Any]]:
         document = read_file(Path(name), follow_links=True)
     except BadDocumentError as bad:
         raise InputError(f"{name}: {bad.findings[0].message}", hint=bad.findings[0].hint) from bad
-    if _holds_readings(document):
+    if is_preset(document) or _holds_readings(document):
         return [{"file": name}]
     if not isinstance(document, list) or not document:
         raise InputError(f"{name}: is no list of measurements", hint=_LIST_EXAMPLE)
@@ -182,18 +185,56 @@ def option_of(name: str) -> str:
     return f"--experiment {name}" if option == "--experiment" else option
 
 
-def _read(name: str, studio: Studio, correction: Correction) -> Points:
-    """A file, or a preset measurement or curve when there is no such file."""
-    if not _exists(name):
-        preset = find_preset(name, studio.library)
-        if preset is not None:
-            if correction.columns or correction.sheet or correction.head:
-                raise InputError(
-                    f"{name}: a preset states how it is read", hint="leave --column, --sheet and the like out"
-                )
-            return preset
-    measurement = read_file(name, correction)
-    return Points(measurement)
+def _read(name: str, studio: Studio, correction: Correction, given: Mapping[str, bytes]) -> Points:
+    """A file, the file of a preset with points, or a preset of the catalogue when there is no such file."""
+    if name in given:
+        return Points(read_file(name, correction, given[name]))
+    preset = _preset_in(name, studio) if _exists(name) else find_preset(name, studio.library)
+    if preset is not None:
+        if correction.columns or correction.sheet or correction.head:
+            raise InputError(
+                f"{name}: a preset states how it is read", hint="leave --column, --sheet and the like out"
+            )
+        return preset
+    return Points(read_file(name, correction))
+
+
+def _document(name: str) -> object:
+    """The content of a JSON file; None for everything else."""
+    from mckibben.presets.reading import BadDocumentError, read_file
+
+    if not name.lower().endswith(".json") or not _exists(name):
+        return None
+    try:
+        return read_file(Path(name), follow_links=True)
+    except BadDocumentError:
+        return None  # told when it is read as a measurement
+
+
+def _preset_in(name: str, studio: Studio) -> Points | None:
+    """The points of a preset file; None for a file that is none.
+
+    Raises:
+        InputError: a preset that cannot be used, or of a kind without points.
+    """
+    from mckibben.presets.reading import BadDocumentError, parse
+
+    document = _document(name)
+    if not is_preset(document):
+        return None
+    kind = document["kind"]
+    model = POINT_PRESETS.get(kind)
+    if model is None:
+        raise InputError(
+            f"{name}: is a preset of kind '{kind}' and holds no measured points",
+            hint=f"a file of kind {', '.join(POINT_PRESETS)}, or a table",
+        )
+    try:
+        return points_of(parse(model, document, studio.effect_table))
+    except BadDocumentError as bad:
+        finding = bad.findings[0]
+        where = f"{name}: {finding.field}" if finding.field else name
+        raise InputError(f"{where}: {finding.message}", hint=finding.hint) from bad
 
 
 def _exists(name: str) -> bool:
@@ -203,14 +244,16 @@ def _exists(name: str) -> bool:
         return False
 
 
-def read_file(name: str, correction: Correction) -> Measurement:
-    """The measurement in a file.
+def read_file(name: str, correction: Correction, content: bytes | None = None) -> Measurement:
+    """The measurement in a file, or in the content that standard input gave.
 
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
     path = Path(name)
     try:
+        if content is not None:
+            return read_measurement(content, STANDARD_INPUT, correction)
         if not path.exists():
             raise InputError(f"{name}: there is no such file", hint=_near_file(path))
         if path.is_dir():

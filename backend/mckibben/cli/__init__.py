@@ -65,14 +65,6 @@ def _show_version(wanted: bool) -> None:
         raise typer.Exit
 
 
-def _level(noise: float | None) -> float | None:
-    if noise is not None and not 0.0 < noise < float("inf"):
-        raise typer.BadParameter(
-            "the noise is a standard deviation above 0; leave it out to have it estimated"
-        )
-    return noise
-
-
 @app.callback()
 def _root(
     version: bool = typer.Option(
@@ -194,8 +186,8 @@ def diagnose(
     model: SavedModelFile = "",
     free: Free = None,
     noise: Annotated[
-        float | None,
-        typer.Option("--noise", callback=_level, help="Noise of the predicted channel in SI, if known."),
+        str | None,
+        typer.Option("--noise", help='Noise of the predicted channel, if known, e.g. "2 N"; a number is SI.'),
     ] = None,
     report: Annotated[
         Path | None, typer.Option("--report", metavar="FILE", help="Also write an HTML report.")
@@ -367,9 +359,12 @@ def run(arguments: list[str]) -> int:
         return _fail(one_line(error))
     except (KeyboardInterrupt, typer.Abort):
         return 130
-    except BrokenPipeError:
-        # The reader of the pipe has closed it: no more output, also not by the interpreter on exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except (BrokenPipeError, SystemExit) as stop:
+        # The reader of the pipe has closed it, which click and rich turn into an exit with 1: no more output,
+        # also not by the interpreter on exit.
+        if isinstance(stop, SystemExit) and stop.code != 1:
+            raise
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         return 0
     except Exception as error:
         # Usage errors of typer; their class is click's in some versions and a copy of it in others.

@@ -8,7 +8,7 @@ from mckibben.application.compare import compare
 from mckibben.application.measurement_files import measurements_of
 from mckibben.cli.model import model_question
 from mckibben.cli.options import ModelOptions
-from mckibben.cli.output import write_json, write_summary
+from mckibben.cli.output import progress, standard_input, write_json, write_summary
 from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import ExperimentValue
 from mckibben.measurement.read import Correction
@@ -31,9 +31,10 @@ def run(
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
-    measurements = measurements_of(files, studio, correction, said)
-    question = model_question(studio, measurements, model, free=free, strict=correction.strict, refit=fit)
-    result = compare(question, fit=fit)
+    with progress("fitting" if fit else "comparing"):
+        measurements = measurements_of(files, studio, correction, said, given=standard_input(files))
+        question = model_question(studio, measurements, model, free=free, strict=correction.strict, refit=fit)
+        result = compare(question, fit=fit)
     if as_json:
         write_json(result)
         return

@@ -9,7 +9,7 @@ import typer
 from mckibben.application.convert import converted
 from mckibben.application.measurement_files import read_file
 from mckibben.application.text_file import write_text
-from mckibben.cli.output import remark
+from mckibben.cli.output import progress, remark, standard_input
 from mckibben.measurement.read import Correction
 
 
@@ -19,7 +19,8 @@ def run(*, file: str, correction: Correction, out: Path | None) -> None:
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
-    result = converted(read_file(file, correction))
+    with progress("reading"):
+        result = converted(read_file(file, correction, standard_input([file]).get(file)))
     if out is None:
         typer.echo(result.text, nl=False)
     else:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from mckibben.application.diagnose import prepare
@@ -11,10 +12,20 @@ from mckibben.application.next_experiment import NO_EXPERIMENT, schedule_csv
 from mckibben.application.saved_model import model_text, saved_model
 from mckibben.cli.model import model_question
 from mckibben.cli.options import ModelOptions
-from mckibben.cli.output import check_folder, progress, remark, write_file, write_json, write_summary
+from mckibben.cli.output import (
+    check_folder,
+    progress,
+    remark,
+    standard_input,
+    write_file,
+    write_json,
+    write_summary,
+)
 from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import ExperimentValue
 from mckibben.measurement.read import Correction
+from mckibben.physics.errors import InputError
+from mckibben.physics.units import si
 from mckibben.report.summary.diagnosis import summary_of
 
 
@@ -24,7 +35,7 @@ def run(
     files: Sequence[str],
     model: ModelOptions,
     free: Sequence[str],
-    noise: float | None,
+    noise: str | None,
     correction: Correction,
     said: Mapping[str, ExperimentValue],
     as_json: bool,
@@ -41,8 +52,10 @@ def run(
         check_folder(save, "--save")
     if schedule is not None:
         check_folder(schedule, "--schedule")
-    measurements = measurements_of(files, studio, correction, said)
-    question = model_question(studio, measurements, model, free=free, noise=noise, strict=correction.strict)
+    measurements = measurements_of(files, studio, correction, said, given=standard_input(files))
+    question = model_question(studio, measurements, model, free=free, strict=correction.strict)
+    if noise is not None:
+        question = replace(question, noise=_level(noise, question.predictor.unit))
     work = prepare(question, studio)
     with progress("trying effects") as watch:
         result = work(watch)
@@ -62,3 +75,27 @@ def run(
         write_json(result)
         return
     write_summary(summary_of(result))
+
+
+def _level(text: str, unit: str) -> float:
+    """The noise of an option in SI: a number, or a text with a unit of the predicted channel.
+
+    Raises:
+        InputError: it is neither, or not a finite number above zero.
+    """
+    try:
+        level = float(text)
+    except ValueError:
+        try:
+            level = si(text, unit)
+        except InputError as error:
+            raise InputError(
+                f"--noise {text}: is neither a number in {unit} nor one with a unit: {error.message}",
+                hint=error.hint,
+            ) from error
+    if not 0.0 < level < float("inf"):
+        raise InputError(
+            f"--noise {text}: the noise is a standard deviation above 0",
+            hint="leave it out to have it estimated",
+        )
+    return level

@@ -3,26 +3,44 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from threading import Timer
 
 import typer
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table as RichTable
 
-from mckibben.application.json_text import to_json
+from mckibben.application.json_text import answer_json
 from mckibben.application.text_file import write_text
 from mckibben.physics.errors import InputError
 from mckibben.report.summary import Summary, Table
 from mckibben.simulation.outcome import Watch
 
+_SHOWN_AFTER = 1.0  # s
+
 
 def write_json(answer: object) -> None:
     """One JSON object and a line end, nothing else."""
-    sys.stdout.buffer.write(to_json(answer) + b"\n")
+    sys.stdout.buffer.write(answer_json(answer) + b"\n")
     sys.stdout.buffer.flush()
+
+
+def standard_input(names: Sequence[str]) -> dict[str, bytes]:
+    """What comes from standard input, where it is named: "-" -> its content.
+
+    Raises:
+        InputError: it is named twice, or is a terminal.
+    """
+    if "-" not in names:
+        return {}
+    if list(names).count("-") > 1:
+        raise InputError("-: standard input can be read once only", hint="name the other files")
+    if sys.stdin.isatty():
+        raise InputError("-: standard input is the terminal", hint="mckibben convert - < file.csv")
+    return {"-": sys.stdin.buffer.read()}
 
 
 def check_folder(path: Path, option: str) -> None:
@@ -75,16 +93,29 @@ def _write_table(content: Table) -> None:
 
 @contextmanager
 def progress(words: str) -> Iterator[Watch]:
-    """A progress bar on stderr if that is a terminal; yields the watch of the work it shows."""
-    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn
+    """A progress bar on stderr if that is a terminal, after a second; yields the watch of the work it shows.
+
+    Until the work tells a share, the bar only moves; work that cannot tell one need not use the watch.
+    """
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeElapsedColumn
 
     console = Console(stderr=True)
-    with Progress(
-        TextColumn(words), BarColumn(), TaskProgressColumn(), console=console, transient=True,
-        disable=not console.is_terminal,
-    ) as bar:  # fmt: skip
-        task = bar.add_task(words, total=1.0)
-        yield Watch(progress=lambda share: bar.update(task, completed=share), time_limit=float("inf"))
+    bar = Progress(
+        TextColumn(words), BarColumn(), TaskProgressColumn(show_speed=False), TimeElapsedColumn(),
+        console=console, transient=True, disable=not console.is_terminal,
+    )  # fmt: skip
+    task = bar.add_task(words, total=None)
+    begin = Timer(_SHOWN_AFTER, bar.start)
+    begin.daemon = True
+    begin.start()
+    try:
+        yield Watch(
+            progress=lambda share: bar.update(task, total=1.0, completed=share), time_limit=float("inf")
+        )
+    finally:
+        begin.cancel()
+        begin.join()
+        bar.stop()
 
 
 def remark(text: str) -> None:

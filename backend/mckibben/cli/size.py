@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 from mckibben.application.size import Searched, prepare_search, sizing_question
-from mckibben.cli.output import remark, write_json, write_summary
+from mckibben.cli.output import progress, remark, write_json, write_summary
 from mckibben.documents.located import located
 from mckibben.documents.studio import Studio
 from mckibben.documents.task_files import read_task_file
 from mckibben.physics.errors import InputError
 from mckibben.presets.reading import BadDocumentError
 from mckibben.report.summary.sizing import notices, summary_of
-from mckibben.simulation.outcome import Watch
 
 
 @dataclass(frozen=True)
@@ -33,8 +31,9 @@ def run(studio: Studio, *, task: str, as_json: bool, report: Wanted | None = Non
         InputError: names the file, the field, what is wrong and what would be right.
     """
     try:
-        watch = Watch(progress=_show if sys.stderr.isatty() else None)
-        search = prepare_search(sizing_question(read_task_file(Path(task), studio), studio))(watch)
+        work = prepare_search(sizing_question(read_task_file(Path(task), studio), studio))
+        with progress("searching drives") as watch:
+            search = work(watch)
     except BadDocumentError as bad:
         finding = bad.findings[0]
         raise InputError(f"{task}: {located(finding.field, finding.message)}", hint=finding.hint) from bad
@@ -64,9 +63,3 @@ def _write_report(search: Searched, studio: Studio, wanted: Wanted) -> None:
             message = f"--proposal {wanted.proposal}: {message}"
         raise InputError(message, hint=error.hint) from error
     save(wanted.path, text)
-
-
-def _show(share: float) -> None:
-    """Print the progress, in a line that the next output overwrites."""
-    sys.stderr.write(f"\r{share * 100:3.0f} %\r")
-    sys.stderr.flush()

@@ -11,7 +11,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from mckibben.application.json_text import to_json
+from mckibben.application.json_text import answer_json
 from mckibben.application.text_file import write_text
 from mckibben.door.frames import csv_of
 from mckibben.door.problem import reported
@@ -80,7 +80,7 @@ class Result(Frozen, ABC):
 
     def to_dict(self) -> dict[str, Any]:
         """The result with the keys of ``--json``; NaN and infinity become None."""
-        return json.loads(to_json(self._answer()))
+        return json.loads(answer_json(self._answer()))
 
     @reported
     def save(self, path: str | PathLike[str]) -> None:
@@ -94,7 +94,7 @@ class Result(Frozen, ABC):
     def _files(self, path: Path) -> str:
         """The content of a file with this ending."""
         if path.suffix.lower() == ".json":
-            return to_json(self._answer()).decode() + "\n"
+            return answer_json(self._answer()).decode() + "\n"
         if path.suffix.lower() == ".csv":
             return csv_of(self.to_frame())
         raise unknown_ending(path, (".json", ".csv"))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any, TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,12 @@ from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.presets import CurvePreset, MeasurementPreset, MysteryPreset, Preset, PresetLibrary
 
 _SHA256_LENGTH = 64
+#: Kind of a preset file -> its form, of those that hold points.
+POINT_PRESETS: dict[str, type[Preset]] = {
+    "measurement": MeasurementPreset,
+    "curve": CurvePreset,
+    "mystery": MysteryPreset,
+}
 _KINDS = ("measurements", "curves", "mysteries")
 
 
@@ -68,11 +75,20 @@ def find_preset(identity: str, library: PresetLibrary) -> Points | None:
         for preset in library.list(kind):
             if preset.id.lower() != identity.lower():
                 continue
-            if isinstance(preset, MysteryPreset):
-                return mystery_points(preset)
-            if isinstance(preset, MeasurementPreset | CurvePreset):
-                return preset_points(preset)
+            return points_of(preset)
     return None
+
+
+def points_of(preset: Preset) -> Points | None:
+    """The points of a preset; None of a kind without points."""
+    if isinstance(preset, MysteryPreset):
+        return mystery_points(preset)
+    return preset_points(preset) if isinstance(preset, MeasurementPreset | CurvePreset) else None
+
+
+def is_preset(document: object) -> TypeGuard[dict[str, Any]]:
+    """Whether a JSON document is a preset, by the keys that every preset has."""
+    return isinstance(document, dict) and {"schema", "kind", "id"} <= document.keys()
 
 
 def preset_points(preset: MeasurementPreset | CurvePreset) -> Points:
