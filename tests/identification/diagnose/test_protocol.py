@@ -64,6 +64,14 @@ def test_a_load_moves_as_the_model_says() -> None:
         assert force[~locked] == pytest.approx(task.state["load"][~locked], rel=1e-6)
 
 
+@pytest.mark.parametrize("effect", ["bouc_wen", "creep", "mullins"])
+def test_a_muscle_with_memory_moves_under_a_load_as_well(effect: str) -> None:
+    for protocol in protocols(HUNG, MODEL.adding(CATALOGUE[effect]), channel="length"):
+        length = protocol.predictor.predict(MODEL.adding(CATALOGUE[effect]))
+        assert np.all(np.isfinite(length))
+        assert np.ptp(length) > 0.0
+
+
 def _ideal(pressure: float, length: float) -> float:
     """Chou & Hannaford's equation, written here."""
     braid = MUSCLE.braid

@@ -27,6 +27,7 @@ _PER_SWEEP = 60  # predicted rows
 _HOLD = 60.0  # s
 _MOST_LOADS = 3
 _STILL = 1e-9  # m/s
+_PASSES = 2  # of the motion under a load: with the memory of no motion, then with that of the first pass
 
 
 @dataclass(frozen=True)
@@ -255,12 +256,18 @@ def _made(words: str, runs: Sequence[_Run], fit_model: FitModel) -> Protocol:
         messages=(),
         rest_length=rest,
     )
-    if not lengths:  # the motion under a load is that of the model
-        moved = QuasistaticPredictor(task).predict(fit_model)
-        each = [moved[labels == number] for number in range(len(runs))]
-        task = replace(task, measured=moved, state={**state, **_motion(each, parts)})
+    if not lengths:  # the motion under a load is that of the model; its memory needs a path to begin with
+        task = _along(task, np.full(len(labels), rest), parts)
+        for _ in range(_PASSES):
+            task = _along(task, QuasistaticPredictor(task).predict(fit_model), parts)
     numbers = np.repeat(np.arange(len(runs)), [len(run.time) for run in runs])
     return Protocol(words, Schedule(numbers, columns), QuasistaticPredictor(task))
+
+
+def _along(task: ComparableRows, length: np.ndarray, times: Sequence[np.ndarray]) -> ComparableRows:
+    """The task with the motion along lengths; ``times`` are those of its runs."""
+    each = [length[task.records == number] for number in range(len(times))]
+    return replace(task, measured=length, state={**task.state, "length": length, **_motion(each, times)})
 
 
 def _motion(lengths: Sequence[np.ndarray], times: Sequence[np.ndarray]) -> dict[str, np.ndarray]:
