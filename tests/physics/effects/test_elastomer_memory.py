@@ -11,6 +11,7 @@ from tests.physics.contract_states import MUSCLE
 
 CREEP = default_catalogue()["creep"]
 MULLINS = default_catalogue()["mullins"]
+PRESSURE_CREEP = default_catalogue()["pressure_creep"]
 
 
 def creep_force(velocity, time: np.ndarray, **constants: float) -> np.ndarray:
@@ -34,6 +35,33 @@ def test_creep_has_the_moduli_of_three_maxwell_arms(frequency: float) -> None:
     assert loss > 0.0
     if frequency == 100.0:
         assert storage == pytest.approx(900.0, rel=0.01), "fast: all arms"
+
+
+def pressure_creep_force(pressure_rate, time: np.ndarray, **constants: float) -> np.ndarray:
+    values = PRESSURE_CREEP.defaults | {"share": 0.04, "time": 3.0} | constants
+    states = run(PRESSURE_CREEP, lambda t: {"pressure_rate": pressure_rate(t)}, time, values)
+    return PRESSURE_CREEP.call(
+        "friction", {"muscle": MUSCLE, "length": MUSCLE.nominal_length}, {**values, **states}
+    )
+
+
+def test_a_step_of_the_pressure_shows_its_share_late() -> None:
+    """-c A P/3 sum exp(-t/tau_j) of a step P, with the effective area A of the ideal braid at rest."""
+    time = np.concatenate([np.linspace(0.0, 1e-4, 11), np.geomspace(1.1e-4, 100.0, 300)])
+    force = pressure_creep_force(lambda t: 2e9 if t < 1e-4 else 0.0, time)  # 2 bar
+    braid = MUSCLE.braid
+    area = (3.0 * MUSCLE.nominal_length**2 - braid.thread_length**2) / (4.0 * np.pi * braid.turns**2)
+    decays = np.exp(-time[11:, None] / np.array([0.3, 3.0, 30.0]))
+    np.testing.assert_allclose(force[11:], -0.04 * area * 2e5 * decays.mean(axis=1), rtol=2e-3, atol=0.02)
+
+
+def test_slow_changes_of_the_pressure_show_no_creep() -> None:
+    """A ramp over many times of the slowest arm ends at -c A rate sum tau_j/3."""
+    time = np.linspace(0.0, 3000.0, 601)
+    force = pressure_creep_force(lambda _: 1e2, time)
+    braid = MUSCLE.braid
+    area = (3.0 * MUSCLE.nominal_length**2 - braid.thread_length**2) / (4.0 * np.pi * braid.turns**2)
+    assert force[-1] == pytest.approx(-0.04 * area * 1e2 * (0.3 + 3.0 + 30.0) / 3.0, rel=1e-3)
 
 
 def test_a_spread_of_one_is_a_single_arm() -> None:

@@ -51,7 +51,7 @@ def _warped(effect_id: str, *, warp: float) -> np.ndarray:
             "pressure_rate": 2e5 * np.cos(1.5 * tau) * 1.5 * rate,
         }
 
-    at_rest = {"muscle": MUSCLE, "length": MUSCLE.nominal_length}
+    at_rest = {"muscle": MUSCLE, "length": MUSCLE.nominal_length, "pressure": 3e5}
     force = effect.call("friction", at_rest, effect.defaults | run(effect, path, time))
     return np.interp(np.linspace(0.0, 6.0 * np.pi, 800), time + warp * np.sin(time), force)
 
@@ -84,12 +84,27 @@ def test_pressure_driven_loop_along_the_area_is_as_wide_in_pressure_at_every_len
     values = effect.defaults | {"force": 5.0, "along_area": 1.0, "filling": 1.0}
     widths = []
     for length in (MUSCLE.nominal_length, 0.85 * MUSCLE.nominal_length):
-        force = effect.call("friction", {"muscle": MUSCLE, "length": length}, values)
+        force = effect.call("friction", {"muscle": MUSCLE, "length": length, "pressure": 2e5}, values)
         gas = 3.0 * length**2 / braid.thread_length**2 - 1.0  # the ideal force over P b^2/(4 pi n^2)
         widths.append(force / gas)
     assert widths[1] == pytest.approx(widths[0], rel=1e-12)
-    beyond = effect.call("friction", {"muscle": MUSCLE, "length": 0.5 * MUSCLE.nominal_length}, values)
-    assert beyond == 0.0
+    vented = {"muscle": MUSCLE, "length": 0.5 * MUSCLE.nominal_length, "pressure": 2e5}
+    assert effect.call("friction", vented, values) == 0.0
+
+
+def test_a_pressure_driven_loop_widens_with_a_power_of_the_pressure() -> None:
+    """Full loops at 1.5 and 6 bar: 2^-q and 2^q of that at 3 bar; none of a vented muscle is infinite."""
+    effect = CATALOGUE["pressure_hysteresis"]
+    values = effect.defaults | {"force": 5.0, "pressure_power": 0.6, "filling": 1.0}
+    at = {"muscle": MUSCLE, "length": MUSCLE.nominal_length}
+    low, middle, high, vented, below = (
+        effect.call("friction", {**at, "pressure": pressure}, values)
+        for pressure in (1.5e5, 3e5, 6e5, 0.0, -1e4)
+    )
+    assert middle == pytest.approx(-5.0, rel=1e-4)
+    assert (low / middle, high / middle) == pytest.approx((2.0**-0.6, 2.0**0.6), rel=1e-4)
+    assert vented == below
+    assert -0.2 < vented < 0.0
 
 
 def test_dahl_in_closed_form() -> None:

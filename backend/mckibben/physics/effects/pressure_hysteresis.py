@@ -1,12 +1,13 @@
 r"""Hysteresis driven by pressure: the force on filling is lower than on venting, even at constant length.
 
-.. math:: F = -F_p\,\bigl(1 - a + a\,A(L)_+/A(L_0)\bigr)\,z,
-   \qquad \dot z = \frac{\dot P - |\dot P|\,z}{P_b}
+.. math:: F = -F_p\,\bigl(1 - a + a\,A(L)_+/A(L_0)\bigr)\left(\frac{P_+}{P_r}\right)^{q} z,
+   \qquad \dot z = \frac{\dot P - |\dot P|\,z}{P_b}, \qquad P_r = 3\ \mathrm{bar}
 
 Friction that follows the length alone has exactly no loop at constant length; real muscles show one, because
 threads micro-slip when the pressure strains them and presses them together. Where it is the pressure that
 lags (a Preisach operator between gauge and braid), the loop is as wide in pressure at every length and has
-the effective area A of the ideal braid in force: a = 1.
+the effective area A of the ideal braid in force: a = 1. Where the pressure presses the threads together, the
+loop is wider at high pressure: q > 0.
 """
 
 from mckibben.physics import ideal, ops
@@ -15,12 +16,26 @@ from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
+_REFERENCE = 3e5  # Pa
+_VENTED = 1e3  # Pa; rounds the power where its slope would be infinite
 
-def friction(*, muscle: Muscle, length: Value, filling: Value, force: Value, along_area: Value) -> Value:
-    """-F_p (1 - a + a A/A_0) z [N], negative on filling; the share a ends at the zero-force length."""
+
+def friction(
+    *,
+    muscle: Muscle,
+    length: Value,
+    pressure: Value,
+    filling: Value,
+    force: Value,
+    along_area: Value,
+    pressure_power: Value,
+) -> Value:
+    """-F_p (1 - a + a A/A_0) (P/P_r)^q z [N], negative on filling; a ends at the zero-force length."""
     here = ideal.area(braid=muscle.braid, length=length)
     relative = ops.positive_part(here / ideal.area(braid=muscle.braid, length=muscle.nominal_length))
-    return -force * (1.0 - along_area + along_area * relative) * filling
+    above = ops.positive_part(pressure)
+    pressed = ops.exp(0.5 * pressure_power * ops.log((above**2 + _VENTED**2) / _REFERENCE**2))
+    return -force * (1.0 - along_area + along_area * relative) * pressed * filling
 
 
 def rates(*, pressure_rate: Value, filling: Value, break_pressure: Value) -> tuple[Value]:
@@ -42,7 +57,7 @@ EFFECT = Effect(
     type="hysteretic",
     cause="The pressure strains the threads and presses them together, so that they slip a little even at "
     "constant length. The force on filling is then lower than on venting at the same pressure.",
-    equation=r"F_{h} = -F_p\,(1-a+a\,A_+/A_0)\,z,\quad \dot z = \frac{\dot P-|\dot P|\,z}{P_b}",
+    equation=r"F_{h} = -F_p\,(1-a+a\,A_+/A_0)\,(P_+/P_r)^q\,z,\quad \dot z = \frac{\dot P-|\dot P|\,z}{P_b}",
     parameters=(
         Parameter(
             "force",
@@ -52,7 +67,7 @@ EFFECT = Effect(
             lower=0.0,
             upper=100.0,
             source=_LOOP,
-            description="Half the width of the pressure loop.",
+            description="Half the width of the pressure loop; with a power q, that at 3 bar.",
             off=0.0,
         ),
         Parameter(
@@ -76,6 +91,18 @@ EFFECT = Effect(
             source=_SHARE,
             description="Share of the loop that follows the effective area; 1 = the same width in pressure "
             "at every length.",
+            fitted=False,
+            natural=True,
+        ),
+        Parameter(
+            "pressure_power",
+            "q",
+            "1",
+            default=0.0,
+            lower=0.0,
+            upper=1.0,
+            source=Source("0 a constant loop, 1 dry friction under the pressure of the gas", "D"),
+            description="Power of the pressure with which the loop widens.",
             fitted=False,
             natural=True,
         ),
@@ -111,7 +138,7 @@ EFFECT = Effect(
             _DEFINITION,
             {"force": 5.0},
             _SIZE_20,
-            {"filling": 0.6, "length": 0.3},
+            {"filling": 0.6, "length": 0.3, "pressure": 3e5},
         ),
         Example(
             "slot:friction",
@@ -121,7 +148,17 @@ EFFECT = Effect(
             _DEFINITION,
             {"force": 5.0, "along_area": 1.0},
             _SIZE_20,
-            {"filling": 0.6, "length": 0.25},
+            {"filling": 0.6, "length": 0.25, "pressure": 3e5},
+        ),
+        Example(
+            # -3 N ((0.75^2 + 0.01^2)/3^2)^(1/4), the second term from the rounding
+            "slot:friction",
+            -1.5000666622226833,
+            1e-9,
+            _DEFINITION,
+            {"force": 5.0, "pressure_power": 0.5},
+            _SIZE_20,
+            {"filling": 0.6, "length": 0.3, "pressure": 7.5e4},
         ),
         Example(
             "slot:rates",
