@@ -33,6 +33,9 @@ _NEW_LEVEL = 0.05  # change of the constant quantity from row to row, share of i
 _FORGOTTEN = 0.15  # travel after which friction no longer depends on the history, share of the swept range
 _PAUSE = 3.0  # time step over the median one, above which the recording paused
 _MOTION = 0.01  # shortest travel of a motion, share of the range of lengths; less is noise
+_SHORT = 0.75  # share of the next step; a shorter one next to a reversal hides a part of the way
+_REAL_STEP = 0.3  # share of a usual step; smaller ones are noise at rest
+_PRESSED = ("isometric", "isotonic")  # kinds in which the pressure moves
 _PRESCRIBED = ("isobaric", "static")  # kinds in which the length is prescribed and moves
 _FEW = 0.1  # largest share of rows with jumps; above, the velocity is simply noisy
 
@@ -144,6 +147,9 @@ def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
         )
     ordered = "time" in columns
     turning = _turning(state["direction"], records) | unsure
+    moved = state["pressure"] if kind in _PRESSED else length
+    if "time" in columns and moved is not None:
+        turning |= _between_rows(moved, records)
     excluded["turning points"] = int(np.count_nonzero(turning & keep))
     unseen = _unknown_history(measurement, length)
     excluded["history unknown at the start or after a break"] = int(
@@ -305,6 +311,33 @@ def _turning(direction: np.ndarray, records: np.ndarray) -> np.ndarray:
     same = (records[2:] == records[:-2]) if len(records) > 2 else np.zeros(0, bool)
     turns[1:-1] = same & (direction[1:-1] == 0.0) & (direction[2:] * direction[:-2] < 0.0)
     return turns
+
+
+def _between_rows(moved: np.ndarray, records: np.ndarray) -> np.ndarray:
+    """Mask of rows next to a reversal that happened between two rows.
+
+    Where the way turns between two rows, the shorter of the two steps at the extreme row hides a part of it,
+    and the row beyond that step has come a longer way since the reversal than the rows show.
+    """
+    hidden = np.zeros(len(moved), bool)
+    if len(moved) < 5:
+        return hidden
+    step = np.diff(moved)
+    real = _REAL_STEP * float(np.percentile(np.abs(step), 75.0))
+    extreme = np.arange(2, len(moved) - 2)
+    into, out = step[extreme - 1], step[extreme]
+    turns = (
+        (into * out < 0.0)
+        & (step[extreme - 2] * into > 0.0)
+        & (step[extreme + 1] * out > 0.0)
+        & (np.minimum(np.abs(step[extreme - 2]), np.abs(step[extreme + 1])) > real)
+        & (records[extreme - 2] == records[extreme + 2])
+    )
+    short_out = turns & (np.abs(out) < _SHORT * np.abs(step[extreme + 1]))
+    short_into = turns & (np.abs(into) < _SHORT * np.abs(step[extreme - 2]))
+    hidden[extreme[short_out] + 1] = True
+    hidden[extreme[short_into]] = True
+    return hidden
 
 
 def records_of(measurement: Measurement) -> np.ndarray:
