@@ -69,6 +69,11 @@ def test_a_loss_is_measured_in_noise_and_as_a_part_of_what_is_explained() -> Non
     assert none.probability < 1e-6
 
 
+def test_beside_an_unknown_effect_what_is_named_is_less_sure() -> None:
+    alone = Evidence("creep", ("creep",), 1.0, Loss(20.0, 0.9))
+    assert replace(alone, beside_unknown=True).probability == pytest.approx(0.6 * alone.probability)
+
+
 def test_a_large_effect_is_likely_and_a_small_correction_is_not() -> None:
     """Sizes as they occur in `tests.truth`: an effect of 20 times the noise, and 3 % of it at the noise."""
     assert Loss(20.0, 1.0).probability > 0.99

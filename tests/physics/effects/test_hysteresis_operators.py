@@ -122,6 +122,13 @@ def test_dahl_in_closed_form() -> None:
     )
 
 
+def test_dahl_with_exponent_2_in_closed_form() -> None:
+    """From rest dz/dx = (1 - z)^2/x_b: F = F_c x/(x_b + x)."""
+    way = 0.002 * MUSCLE.nominal_length
+    length, force = along("dahl", [0.0, 4.0 * way], {"force": 20.0, "break_strain": 0.002, "exponent": 2.0})
+    np.testing.assert_allclose(force, 20.0 * length / (way + length), atol=1e-3)
+
+
 def test_bouc_wen_with_exponent_1_is_dahl() -> None:
     swing = Swing(stretch=0.003)
     dahl, _ = driven(CATALOGUE["dahl"], swing, {"break_strain": 0.002})

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -339,7 +339,7 @@ def _diagnose(
         context=context,
         absorbed=absorbed_by(predictor, best.fit_model),
         corrections=corrections,
-        evidence=tuple(support),
+        evidence=tuple(replace(item, beside_unknown=status == "unknown_effect") for item in support),
         weights=weights,
     )
 

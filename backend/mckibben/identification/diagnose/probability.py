@@ -88,7 +88,9 @@ LIKELY = 0.25
 #: Logistic regression of "the effect is really missing" on the logarithms of its size and part, fitted by
 #: `python -m tests.benchmarks.probabilities` to half of the cases; the other half shows how well it holds.
 _CONSTANT, _BY_SIZE, _BY_PART = 1.97, 1.17, 1.14
-_TINY = 1e-12
+#: Factor where an unknown effect remains, which the named ones may imitate: of 9 named beside one in the
+#: cases of another examiner, 4 were there.
+_BESIDE_UNKNOWN = 0.6
 
 
 @dataclass(frozen=True)
@@ -100,17 +102,19 @@ class Evidence:
         group: it and the effects that the data cannot tell from it.
         share: of the visited models, by weight, that hold one of the group.
         loss: what the best model loses without it.
+        beside_unknown: whether an unknown effect remains.
     """
 
     effect: str
     group: tuple[str, ...]
     share: float
     loss: Loss
+    beside_unknown: bool = False
 
     @property
     def probability(self) -> float:
         """Probability that one of the group is really missing."""
-        return self.share * self.loss.probability
+        return self.share * self.loss.probability * (_BESIDE_UNKNOWN if self.beside_unknown else 1.0)
 
 
 @dataclass(frozen=True)

@@ -2,10 +2,12 @@ r"""Dahl friction: Coulomb friction that builds up over a short travel after eac
 
 With the break-away distance :math:`x_b = \varepsilon_b L_0` and the share z of full friction
 
-.. math:: F = F_c\,z, \qquad \dot z = \frac{\dot L - |\dot L|\,z}{x_b}
+.. math:: F = F_c\,z, \qquad \frac{dz}{dL} = \frac{(1 - z\operatorname{sgn}\dot L)^i}{x_b}
 
-Dahl's stiffness is :math:`\sigma_0 = F_c/x_b` from rest, and twice that after a reversal at full
-friction. Because z is a share, the force is exactly zero for F_c = 0. Minor loops do not close.
+Dahl's stiffness is :math:`\sigma_0 = F_c/x_b` from rest, and :math:`2^i` times that after a reversal at full
+friction. His exponent i is 1 where the rest of the way is covered exponentially, larger for ductile and
+smaller for brittle contacts. Because z is a share, the force is exactly zero for F_c = 0. Minor loops do not
+close.
 """
 
 from mckibben.physics import ops
@@ -20,9 +22,22 @@ def friction(*, presliding: Value, force: Value) -> Value:
     return force * presliding
 
 
-def rates(*, velocity: Value, muscle: Muscle, presliding: Value, break_strain: Value) -> tuple[Value]:
-    """dz/dt [1/s]: (v - |v| z)/x_b; exactly 0 at rest."""
-    return ((velocity - ops.absolute(velocity) * presliding) / (break_strain * muscle.nominal_length),)
+def rates(
+    *, velocity: Value, muscle: Muscle, presliding: Value, break_strain: Value, exponent: Value
+) -> tuple[Value]:
+    """dz/dt [1/s]: v (1 - z sgn v)^i/x_b; exactly 0 at rest."""
+    longer, shorter = ops.positive_part(velocity), ops.positive_part(-velocity)
+    lengthening = longer * (1.0 - presliding) * _power(1.0 - presliding, exponent)
+    shortening = shorter * (1.0 + presliding) * _power(1.0 + presliding, exponent)
+    return ((lengthening - shortening) / (break_strain * muscle.nominal_length),)
+
+
+def _power(left: Value, exponent: Value) -> Value:
+    """left^(i - 1), rounded where its slope would be infinite; 1 for i = 1."""
+    return ops.exp(0.5 * (exponent - 1.0) * ops.log(left**2 + _ROUNDING**2))
+
+
+_ROUNDING = 1e-3  # share of full friction
 
 
 _DAHL = Source("Dahl, Aerospace Corp. TOR-0158(3107-18)-1 (1968); AIAA J. 14 (1976) 1675", "M")
@@ -37,7 +52,8 @@ EFFECT = Effect(
     type="hysteretic",
     cause="Threads in contact shear elastically before they slide. After a reversal the friction therefore "
     "changes sign smoothly, over a short travel of the muscle.",
-    equation=r"F_{h} = F_c\,z,\quad \dot z = \frac{\dot L-|\dot L|\,z}{\varepsilon_b L_0}",
+    equation=r"F_{h} = F_c\,z,\quad "
+    r"\dot z = \frac{\dot L\,(1-z\operatorname{sgn}\dot L)^i}{\varepsilon_b L_0}",
     parameters=(
         Parameter(
             "force",
@@ -59,6 +75,17 @@ EFFECT = Effect(
             upper=0.03,
             source=_WAY,
             description="Travel over which friction builds up, as a share of the nominal length.",
+            fitted=False,
+        ),
+        Parameter(
+            "exponent",
+            "i",
+            "1",
+            default=1.0,
+            lower=0.5,
+            upper=3.0,
+            source=Source("Dahl (1968): 0 to 1 brittle, 1 and more ductile contacts", "M"),
+            description="How the rest of the way is covered: 1 exponentially, more the slower.",
             fitted=False,
         ),
     ),
