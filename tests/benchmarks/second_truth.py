@@ -1,0 +1,154 @@
+"""The diagnosis examined by somebody else: the cases of `tests/second_truth`, and what their models predict.
+
+    python -m tests.benchmarks.second_truth [--only c01,c02]
+
+Errors are over the true noise. *Surplus*: a named group that holds no hidden effect. *Held*: error of the
+repaired model on the second test of the same muscle, without fitting anything again.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import multiprocessing
+import os
+import sys
+import time
+import zipfile
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from tests.benchmarks.diagnosis import _studio, say
+
+CASES = Path(__file__).parents[1] / "second_truth" / "cases.zip"
+WANTED = 1.2  # largest error over the noise of a prediction that holds
+
+
+@dataclass
+class Line:
+    """What became of one case."""
+
+    case: str
+    kind: str
+    hidden: list[list[str]]
+    status: str
+    named: tuple[str, ...]
+    found: int
+    surplus: list[str]
+    start: float
+    after: float
+    held: float
+    seconds: float
+    told: list[tuple[float, bool]] = field(default_factory=list)
+
+    @property
+    def right(self) -> bool:
+        """Whether all hidden effects and nothing else are named."""
+        return self.found == len(self.hidden) and not self.surplus
+
+
+def names() -> list[str]:
+    """Names of the cases."""
+    with zipfile.ZipFile(CASES) as archive:
+        return sorted({name.partition("/")[0] for name in archive.namelist() if name.endswith("answer.json")})
+
+
+def diagnosed(case: str) -> Line:
+    """Diagnose one case, predict its second test, and open its answer."""
+    from mckibben.documents.convert import stated_muscle
+    from mckibben.documents.muscle import MuscleInput
+    from mckibben.identification.diagnose.diagnosis import diagnose
+    from mckibben.identification.predict import predictor_of
+    from mckibben.identification.predict.fit_model import FitModel
+    from mckibben.measurement.read import read_measurement
+
+    with zipfile.ZipFile(CASES) as archive:
+        train, held, given, answer = (
+            archive.read(f"{case}/{name}") for name in ("train.csv", "held.csv", "given.json", "answer.json")
+        )
+    studio, truth = _studio(), json.loads(answer)
+    muscle = stated_muscle(MuscleInput.model_validate(json.loads(given)["muscle"]))
+    model = studio.static_model(studio.start_model(muscle, {}))
+    start = FitModel(model.muscle, model.effects, model.values)
+    predictor = predictor_of(read_measurement(train, "train.csv"), start.muscle)
+    began = time.perf_counter()
+    result = diagnose(predictor, start, catalogue=studio.catalogue)
+    seconds = time.perf_counter() - began
+    other = predictor_of(read_measurement(held, "held.csv"), start.muscle)
+    other = other.prepared(start, tuple(studio.catalogue.values()))
+    error = other.measured - other.predict(result.best.fit_model)
+    hidden = [set(ids) for ids in truth["hidden"]]
+    groups = [{name, *(a.effect for a in result.alternatives if a.of == name)} for name in result.added]
+    return Line(
+        case=case,
+        kind=predictor.kind,
+        hidden=truth["hidden"],
+        status=result.status,
+        named=result.added,
+        found=sum(any(ids & group for group in groups) for ids in hidden),
+        surplus=[
+            name
+            for name, group in zip(result.added, groups, strict=True)
+            if not any(group & ids for ids in hidden)
+        ],
+        start=result.start.rmse / truth["noise"]["train"],
+        after=result.best.rmse / truth["noise"]["train"],
+        held=float(np.sqrt(np.mean(error**2))) / truth["noise"]["held"],
+        seconds=seconds,
+        told=[(item.probability, any(set(item.group) & ids for ids in hidden)) for item in result.evidence],
+    )
+
+
+def summary(lines: Sequence[Line]) -> list[str]:
+    """The figures of the table."""
+    single = [line for line in lines if len(line.hidden) == 1]
+    several = [line for line in lines if len(line.hidden) > 1]
+    nothing = [line for line in lines if not line.hidden]
+    known = [*single, *several]
+    sure = [true for line in lines for probability, true in line.told if probability >= 0.9]
+    held = [line.held for line in known]
+    return [
+        f"single effect found                 {sum(line.found == 1 for line in single)} of {len(single)}",
+        "pairs and triples: all found        "
+        f"{sum(line.found == len(line.hidden) for line in several)} of {len(several)}",
+        f"nothing missing: false alarms       {sum(bool(line.named) for line in nothing)} of {len(nothing)}",
+        f"with surplus effects                {sum(bool(line.surplus) for line in known)} of {len(known)}",
+        f"second test: error <= {WANTED} x noise   {sum(one <= WANTED for one in held)} of {len(held)}",
+        f"told with 90 % or more: true        {sum(sure)} of {len(sure)}",
+    ]
+
+
+def text_of(line: Line) -> str:
+    """A line of the table."""
+    parts = [
+        f"{'ok' if line.right else '--'} {line.case} {line.kind:10}{line.status:16}",
+        f"{line.start:6.1f} ->{line.after:6.2f}  held {line.held:6.2f}  {line.seconds:5.1f} s ",
+        ", ".join(line.named),
+        "" if line.right else f"hidden {'; '.join('/'.join(ids) for ids in line.hidden)}",
+        f"surplus {', '.join(line.surplus)}" if line.surplus else "",
+    ]
+    return " ".join(part for part in parts if part)
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--only", default="", help="cases, separated by commas")
+    chosen = [name for name in parser.parse_args().only.split(",") if name] or names()
+    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+        os.environ.setdefault(name, "1")
+    lines = []
+    with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
+        for line in pool.imap(diagnosed, chosen):
+            lines.append(line)
+            say(text_of(line))
+    say("")
+    for text in summary(lines):
+        say(text)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
