@@ -9,10 +9,10 @@ import pytest
 
 from tests.truth import valves
 from tests.truth.air import eckersten, iso_flow, nozzle_flow
+from tests.truth.commands import STEPS, command_at
 from tests.truth.drive import STEP, run
 from tests.truth.muscle import GRAVITY, Muscle
 from tests.truth.plant import Plant, Trace
-from tests.truth.rig import STEPS, command_at
 
 MUSCLE = Muscle(0.3, 0.0218, radians(26.5), 0.0018, 0.02)
 PLANT = Plant(

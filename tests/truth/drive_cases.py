@@ -6,10 +6,11 @@ import numpy as np
 
 from tests.truth import elastomer, oddities, sensors
 from tests.truth.cases import BOOK, Case
+from tests.truth.commands import PARTIAL, PULSES, RESTS
 from tests.truth.composition import Hidden, accept
 from tests.truth.elastic_cases import known_wall, size
 from tests.truth.muscle import Muscle, made
-from tests.truth.rig import PARTIAL, PULSES, RESTS, Setup, Test, setup, transient_case
+from tests.truth.rig import Setup, Test, setup, transient_case
 
 
 def _volume(muscle: Muscle) -> float:

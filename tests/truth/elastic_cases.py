@@ -206,6 +206,16 @@ def _(rng: np.random.Generator, seed: int) -> Case:
     return case_of("creep-holds-isobaric", seed, truth, record, "isobaric", rng, say_kind=True)
 
 
+@BOOK.recipe("settling-steps-isometric")
+def _(rng: np.random.Generator, seed: int) -> Case:
+    m = made(size(seed, 1), rng)
+    truth = Truth(m, hidden=(elastomer.settling(m, 0.09, 0.1),))
+    record = isometric(
+        truth, contractions=(0.0, 0.06, 0.12), turns=(1.0, 0.3, 0.8, 0.1, 0.6), rows=300, steps=1.5
+    )
+    return case_of("settling-steps-isometric", seed, truth, record, "isometric", rng)
+
+
 @BOOK.recipe("warming-isobaric")
 def _(rng: np.random.Generator, seed: int) -> Case:
     m = made(size(seed), rng)

@@ -165,3 +165,16 @@ def power_law_creep(stiffness: float, exponent: float) -> Hidden:
         accept("creep"),
         memory=lambda record: _arms(record.length, record.time, times, weights),
     )
+
+
+def settling(muscle: Muscle, share: float, exponent: float) -> Hidden:
+    """The force of a share of every change of the pressure comes late, with a power of the time."""
+    times = np.logspace(-2.0, 3.0, 14)
+    weights = times**-exponent
+    weights *= share / weights.sum()
+
+    def late(record: Record) -> Array:
+        area = (3.0 * record.length**2 - muscle.thread**2) / (4.0 * np.pi * muscle.turns**2)
+        return -np.maximum(area, 0.0) * _arms(record.pressure, record.time, times, weights)
+
+    return Hidden("late share of the pressure", accept("pressure_creep"), memory=late)

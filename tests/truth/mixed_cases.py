@@ -7,12 +7,13 @@ import numpy as np
 from tests.truth import drive_cases as drives
 from tests.truth import elastomer, friction, geometry, sensors
 from tests.truth.cases import BOOK, Case
+from tests.truth.commands import PARTIAL, PULSES, RESTS
 from tests.truth.composition import Hidden, Truth
 from tests.truth.elastic_cases import BAR, FIVE, FOUR, SIX_LENGTHS, size
 from tests.truth.experiments import isobaric, isometric, scattered
 from tests.truth.laboratory import case_of, usual_noise
 from tests.truth.muscle import Muscle, made
-from tests.truth.rig import PARTIAL, PULSES, RESTS, Test, setup, transient_case
+from tests.truth.rig import Test, setup, transient_case
 
 
 def _wall(m: Muscle) -> Hidden:

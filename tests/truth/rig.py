@@ -11,6 +11,7 @@ import numpy as np
 from tests.truth import valves
 from tests.truth.bench import rms
 from tests.truth.cases import Case, Held, file_name
+from tests.truth.commands import OTHER, STEPS, Corners, command_at
 from tests.truth.composition import Hidden
 from tests.truth.drive import STEP
 from tests.truth.drive import run as simulated
@@ -20,39 +21,6 @@ from tests.truth.sensors import Noise
 from tests.truth.tables import STYLES, text_of
 
 _VALVE = ("delay_on", "delay_off", "delay_blur", "hysteresis", "spool", "spool_speed", "overlap")
-
-#: Commands as corners (time [s], opening); two at one time are a jump.
-STEPS = (
-    (0.0, 0.0), (0.1, 0.0), (0.1, 1.0), (0.5, 1.0), (0.5, 0.0), (0.9, 0.0), (0.9, -1.0), (1.25, -1.0),
-    (1.25, 0.0), (1.6, 0.0), (1.6, 1.0), (1.8, 1.0), (1.8, 0.0), (2.2, 0.0), (2.2, -1.0), (2.35, -1.0),
-    (2.35, 0.0), (2.6, 0.0),
-)  # fmt: skip
-#: A few fast moves and long rests with the valve closed.
-RESTS = (
-    (0.0, 0.0), (0.1, 0.0), (0.1, 1.0), (0.6, 1.0), (0.6, 0.0), (2.6, 0.0), (2.6, -1.0), (2.95, -1.0),
-    (2.95, 0.0), (5.0, 0.0),
-)  # fmt: skip
-#: Partial openings, ramps and triangles.
-PARTIAL = (
-    (0.0, 0.0), (0.1, 0.0), (0.5, 0.5), (0.9, 0.0), (1.2, -0.35), (1.5, 0.0), (1.7, 0.25), (2.1, 0.25),
-    (2.1, -0.25), (2.5, -0.25), (2.6, 0.15), (3.2, 0.15), (3.3, -0.15), (3.9, -0.15), (4.0, 0.0), (4.2, 0.0),
-)  # fmt: skip
-#: A train of short pulses.
-PULSES = (
-    (0.0, 0.0),
-    *(corner for k in range(4) for corner in (
-        (0.1 + 0.5 * k, 0.0), (0.1 + 0.5 * k, 1.0), (0.25 + 0.5 * k, 1.0), (0.25 + 0.5 * k, 0.0),
-        (0.4 + 0.5 * k, 0.0), (0.4 + 0.5 * k, -1.0), (0.46 + 0.5 * k, -1.0), (0.46 + 0.5 * k, 0.0),
-    )),
-    (2.2, 0.0),
-)  # fmt: skip
-#: Partial openings of another shape.
-GENTLE = (
-    (0.0, 0.0), (0.1, 0.0), (0.4, 0.4), (0.7, 0.1), (1.0, -0.3), (1.3, 0.0), (1.5, 0.45), (1.8, 0.2),
-    (2.0, -0.35), (2.3, -0.1), (2.6, 0.2), (2.9, 0.2), (3.0, 0.0), (3.4, 0.0),
-)  # fmt: skip
-#: What is to be predicted from a test: other moves, no wider open than it was.
-_OTHER = {STEPS: PULSES, RESTS: PULSES, PULSES: STEPS, PARTIAL: GENTLE}
 
 
 @dataclass(frozen=True)
@@ -130,7 +98,7 @@ def setup(
     return Setup(muscle, plant, start, known, effects, document)
 
 
-def opening_of(time: Array, corners: tuple[tuple[float, float], ...], numbers: dict[str, float]) -> Array:
+def opening_of(time: Array, corners: Corners, numbers: dict[str, float]) -> Array:
     """What the valve makes of a command on a fine grid."""
     command = command_at(time, corners)
     if "delay_on" in numbers:
@@ -147,18 +115,11 @@ def opening_of(time: Array, corners: tuple[tuple[float, float], ...], numbers: d
     return command
 
 
-def command_at(time: Array, corners: tuple[tuple[float, float], ...]) -> Array:
-    """The command, at a jump already what follows."""
-    times, values = (np.array(column) for column in zip(*corners, strict=True))
-    # A time on the grid may be rounded to just before the jump that happens then.
-    return np.interp(time + 1e-9, times, values)
-
-
 @dataclass(frozen=True)
 class Test:
     """One run: the protocol, and how it is written down."""
 
-    corners: tuple[tuple[float, float], ...] = STEPS
+    corners: Corners = STEPS
     every: int = 40  # steps per sample: 2 ms
     forced: bool = False  # whether the tension is measured
     commanded: bool = True  # whether the command is written; else the pressure is the given quantity
@@ -307,7 +268,7 @@ def transient_case(
     said = bool(rng.random() < 0.5) if said is None else said
     text = _text(rig, test, run, rng, said=said)
     # Random numbers of its own: what the diagnosis sees does not depend on what it does not see.
-    other_test = replace(test, corners=_OTHER[test.corners])
+    other_test = replace(test, corners=OTHER[test.corners])
     own = np.random.default_rng([crc32(name.encode()), seed, 1])
     other_run = _run(rig, hidden, other_test, noise, own)
     held = Held(

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from copy import copy
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -88,7 +91,16 @@ def test_each_specimen_has_errors_of_its_own() -> None:
     assert set(columns[:, 0]) == {0.0, 1.0}
 
 
-def test_specimens_of_different_kinds_are_refused() -> None:
+def test_forces_of_different_kinds_are_one_static_question() -> None:
     other = SpecimenData("c", predictor_of(cycles(), MUSCLE), MUSCLE)
-    with pytest.raises(InputError, match="static"):
-        SpecimensPredictor([other, data("a", SHORT)], reference=MUSCLE)
+    both = SpecimensPredictor([other, data("a", SHORT)], reference=MUSCLE)
+    assert (both.kind, both.predicted) == ("static", "force")
+    assert len(both.measured) == sum(len(part.predictor.measured) for part in (other, data("a", SHORT)))
+
+
+def test_forces_and_lengths_are_refused() -> None:
+    force = data("a", SHORT)
+    length = replace(force, predictor=copy(force.predictor))
+    length.predictor.kind = "isotonic"
+    with pytest.raises(InputError, match="isotonic"):
+        SpecimensPredictor([force, length], reference=MUSCLE)
