@@ -17,6 +17,7 @@ from mckibben.measurement.read.vocabulary import (
     REMARK_WORDS,
     channel_of_word,
     has_word,
+    other_quantity,
     reference_among,
     word_set,
     words_of,
@@ -34,6 +35,11 @@ _UNIT_FIRST = re.compile(rf"[\[(]\s*([^\])]+?)\s*[\])]\s*[:=;]?\s*({_NUMBER})(?!
 _GLUED = re.compile(
     rf"(?<![^\W_])([^\W\d_]{{0,12}}0?)[=]?((?<![0-9])[0-9]+(?:[.,][0-9]+)?)({_UNIT})(?![^\W_])"
 )
+#: "L_0", "L 0 =", "Lo =" are L0; "at 0 bar" is without pressure.
+_L_ZERO = re.compile(r"(?<![^\W_])[Ll](?:_\{?0\}?|_?o(?=\s*[=:≈])|[ ]0(?=\s*[=:≈]))")
+_NO_PRESSURE = re.compile(r"(?<![\w.,])(?:p\s*=\s*)?0(?:[.,]0+)?\s*(?:mbar|bar|hPa|kPa|MPa|Pa|psig?)(?:\s*\(g\))?(?!\w)")
+_WITHOUT = REMARK_WORDS["without"]
+_LONG = word_set("long lang lungo largo comprido dlugi длинный uzun")
 _AT_REST, _LOADS, _SUPPLIES = REMARK_WORDS["at rest"], REMARK_WORDS["load"], REMARK_WORDS["supply"]
 _SAMPLES, _DATES, _AMBIENT = REMARK_WORDS["sample"], REMARK_WORDS["date"], REMARK_WORDS["ambient"]
 _REST_LENGTHS = re.compile(
@@ -54,6 +60,7 @@ class _Quantity(NamedTuple):
     value: str
     unit: str | None
     behind: Sequence[str] = ()
+    own_behind: Sequence[str] = ()  # those that no other quantity follows
 
 
 def statements(rest: Iterable[tuple[str, str]], name: str) -> list[Note]:
@@ -114,16 +121,20 @@ def _of_text(text: str) -> Iterator[tuple[str, str]]:
 
 
 def _quantities(text: str) -> Iterator[_Quantity]:
-    """The quantities of a text; each with the words since the one before it."""
-    text = _UNIT_FIRST.sub(r" \2 \1", text)
+    """The quantities of a text; each with the words since the one before it, and those up to the next one."""
+    text = _NO_PRESSURE.sub(" unpressurized ", _L_ZERO.sub("L0", _UNIT_FIRST.sub(r" \2 \1", text)))
     begin = 0
     for found in _QUANTITY.finditer(text):
         unit = (unit_of(found[2]) or unit_of(found[2].partition("(")[0])) if found[2] else None
         before = re.split(r"[,;](?!\d)\s*(?=[^\W\d])", text[begin : found.start()])[-1]
         begin = found.end()
         behind = re.split(r"[,;.:(]", text[begin : begin + 40])[0]
+        own = re.match(r"[\s(]*([^,;:=()\d.]{0,60})(?=[,;().]|$)", text[begin:])
         value = found[1].replace(",", ".")
-        yield _Quantity(words_of(before), value, None if unit is None else unit.unit, words_of(behind))
+        yield _Quantity(
+            words_of(before), value, None if unit is None else unit.unit, words_of(behind),
+            words_of(own[1]) if own else (),
+        )  # fmt: skip
 
 
 def _glued(text: str) -> Iterator[_Quantity]:
@@ -143,8 +154,10 @@ def _key_of(quantity: _Quantity) -> str | None:
     if words & LOADLESS:
         return None
     lengthy = any(channel_of_word(word) == "length" for word in quantity.words)
-    at_rest = has_word(quantity.words, _AT_REST) and (lengthy or "l0" in words)
+    at_rest = _is_at_rest(quantity.words) and (lengthy or "l0" in words)
     if (at_rest or _REST_LENGTHS.search(joined)) and measured in ("", "a length"):
+        return "nominal_length"
+    if measured == "a length" and _is_length_at_rest(quantity.own_behind, lengthy=lengthy):
         return "nominal_length"
     loaded = has_word([*quantity.words, *quantity.behind], _LOADS) or any(
         channel_of_word(w) == "force" and w.endswith("last") for w in quantity.words
@@ -156,6 +169,26 @@ def _key_of(quantity: _Quantity) -> str | None:
     if (has_word(quantity.words, _SUPPLIES) or joined in _SUPPLY_SYMBOLS) and measured == "a pressure":
         return "supply_pressure"
     return None
+
+
+def _is_at_rest(words: Sequence[str]) -> bool:
+    """Whether words say "at rest", also as "without pressure"."""
+    if has_word(list(words), _AT_REST):
+        return True
+    return any(
+        word in _WITHOUT and any(channel_of_word(other) == "pressure" for other in words[i + 1 : i + 3])
+        for i, word in enumerate(words)
+    )
+
+
+def _is_length_at_rest(behind: Sequence[str], *, lengthy: bool) -> bool:
+    """Whether the words behind a length say so: "250 mm rest length", "is 250 mm long when unpressurised"."""
+    if any(other_quantity(word, "length") not in (None, "a length at rest") for word in behind):
+        return False
+    named = any(word in _LONG or channel_of_word(word) == "length" for word in behind)
+    return bool(
+        (_is_at_rest(behind) and (lengthy or named)) or _REST_LENGTHS.search("".join(behind))
+    )
 
 
 def _of_code(text: str) -> Iterator[tuple[str, str]]:
