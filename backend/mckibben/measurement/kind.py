@@ -53,15 +53,16 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
     The rules in this order; "stroke" is length, contraction or displacement:
 
     1. time with a valve command: ``transient``.
-    2. force, pressure and stroke: ``transient`` with time and a stated load mass, unless the force is constant
-       and the muscle moves slowly; ``isotonic`` when the force is constant, throughout or in each run, and
-       both others vary; ``isobaric``/``isometric`` when
+    2. force, pressure and stroke: ``transient`` with time and a stated load mass, unless the force is
+       constant and the muscle moves slowly; ``isotonic`` when the force is constant, throughout or in each
+       run, and both others vary; ``isobaric``/``isometric`` when
        pressure/stroke is constant throughout. Otherwise the occupied 1 % steps of both ranges are counted: a
        filled grid without time and direction is ``static`` (unless one axis is fine, >= 25 levels and 4 times
        the other); an axis with at most half the steps of the other is the constant one; without such an axis
        ``static``, or ``transient`` where over time the force leaves one level (2 %) in few rows only.
     3. diameter with pressure or stroke: ``diameter``.
-    4. pressure and stroke: ``isotonic`` without time, or where a stated load moves slowly; else ``transient``.
+    4. pressure and stroke: ``isotonic`` without time, or where a stated load moves slowly; else
+       ``transient``.
     5. time with pressure or stroke: ``transient``.
 
     "Slowly" is by at most 20 % of the range within any second: inertia and damping do not show.

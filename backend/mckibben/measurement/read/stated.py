@@ -37,7 +37,9 @@ _GLUED = re.compile(
 )
 #: "L_0", "L 0 =", "Lo =" are L0; "at 0 bar" is without pressure.
 _L_ZERO = re.compile(r"(?<![^\W_])[Ll](?:_\{?0\}?|_?o(?=\s*[=:≈])|[ ]0(?=\s*[=:≈]))")
-_NO_PRESSURE = re.compile(r"(?<![\w.,])(?:p\s*=\s*)?0(?:[.,]0+)?\s*(?:mbar|bar|hPa|kPa|MPa|Pa|psig?)(?:\s*\(g\))?(?!\w)")
+_NO_PRESSURE = re.compile(
+    r"(?<![\w.,])(?:p\s*=\s*)?0(?:[.,]0+)?\s*(?:mbar|bar|hPa|kPa|MPa|Pa|psig?)(?:\s*\(g\))?(?!\w)"
+)
 _WITHOUT = REMARK_WORDS["without"]
 _LONG = word_set("long lang lungo largo comprido dlugi длинный uzun")
 _AT_REST, _LOADS, _SUPPLIES = REMARK_WORDS["at rest"], REMARK_WORDS["load"], REMARK_WORDS["supply"]
@@ -186,9 +188,7 @@ def _is_length_at_rest(behind: Sequence[str], *, lengthy: bool) -> bool:
     if any(other_quantity(word, "length") not in (None, "a length at rest") for word in behind):
         return False
     named = any(word in _LONG or channel_of_word(word) == "length" for word in behind)
-    return bool(
-        (_is_at_rest(behind) and (lengthy or named)) or _REST_LENGTHS.search("".join(behind))
-    )
+    return bool((_is_at_rest(behind) and (lengthy or named)) or _REST_LENGTHS.search("".join(behind)))
 
 
 def _of_code(text: str) -> Iterator[tuple[str, str]]:
