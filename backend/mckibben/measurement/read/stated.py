@@ -35,11 +35,15 @@ _UNIT_FIRST = re.compile(rf"[\[(]\s*([^\])]+?)\s*[\])]\s*[:=;]?\s*({_NUMBER})(?!
 _GLUED = re.compile(
     rf"(?<![^\W_])([^\W\d_]{{0,12}}0?)[=]?((?<![0-9])[0-9]+(?:[.,][0-9]+)?)({_UNIT})(?![^\W_])"
 )
+_UNIT_IN_NAME = re.compile(
+    rf"(?P<name>[^\W\d_]\w*)_(?P<unit>[^\W\d_]+)\s*[:=]\s*(?P<number>{_NUMBER})(?!\s*[^\W\d_]|[\d.,]\d)"
+)
 #: "L_0", "L 0 =", "Lo =" are L0; "at 0 bar" is without pressure.
 _L_ZERO = re.compile(r"(?<![^\W_])[Ll](?:_\{?0\}?|_?o(?=\s*[=:≈])|[ ]0(?=\s*[=:≈]))")
 _NO_PRESSURE = re.compile(
     r"(?<![\w.,])(?:p\s*=\s*)?0(?:[.,]0+)?\s*(?:mbar|bar|hPa|kPa|MPa|Pa|psig?)(?:\s*\(g\))?(?!\w)"
 )
+_OTHER_GAUGES = re.compile(r"(?i)(?:strain|dial|length|load|force|displacement|feeler)[ -]*gau?ges?|gau?ge length")
 _WITHOUT = REMARK_WORDS["without"]
 _LONG = word_set("long lang lungo largo comprido dlugi длинный uzun")
 _AT_REST, _LOADS, _SUPPLIES = REMARK_WORDS["at rest"], REMARK_WORDS["load"], REMARK_WORDS["supply"]
@@ -76,7 +80,8 @@ def statements(rest: Iterable[tuple[str, str]], name: str) -> list[Note]:
     coded: list[tuple[str, str]] = []
     for text, where in rest:
         for key, value in _of_text(text):
-            found.setdefault(key, Note(where, key, value))
+            note = Note(where, key, value)
+            found.setdefault(key, _in_millimetres(note) if key == "nominal_length" else note)
         coded.append((text, where))
     stem = PurePath(name).stem
     coded.append((stem, NAME))
@@ -103,7 +108,7 @@ def statements(rest: Iterable[tuple[str, str]], name: str) -> list[Note]:
 def _of_text(text: str) -> Iterator[tuple[str, str]]:
     yield from signs_of(text)
     words = words_of(text)
-    reference = reference_among(words)
+    reference = reference_among(words_of(_OTHER_GAUGES.sub(" ", text)))
     about_muscle = not has_word(words, _AMBIENT | _SUPPLIES)
     if reference is not None and about_muscle and any(channel_of_word(word) == "pressure" for word in words):
         yield "pressure", "absolute" if reference else "gauge"
@@ -124,6 +129,7 @@ def _of_text(text: str) -> Iterator[tuple[str, str]]:
 
 def _quantities(text: str) -> Iterator[_Quantity]:
     """The quantities of a text; each with the words since the one before it, and those up to the next one."""
+    text = _UNIT_IN_NAME.sub(_unit_behind, text)
     text = _NO_PRESSURE.sub(" unpressurized ", _L_ZERO.sub("L0", _UNIT_FIRST.sub(r" \2 \1", text)))
     begin = 0
     for found in _QUANTITY.finditer(text):
@@ -137,6 +143,13 @@ def _quantities(text: str) -> Iterator[_Quantity]:
             words_of(before), value, None if unit is None else unit.unit, words_of(behind),
             words_of(own[1]) if own else (),
         )  # fmt: skip
+
+
+def _unit_behind(found: re.Match[str]) -> str:
+    """``L0_mm: 250`` as ``L0: 250 mm``, where the end of the name is a unit."""
+    unit = unit_of(found["unit"])
+    known = unit is not None and dimension_of(unit.unit) not in ("", "a plain number or a share")
+    return f"{found['name']}: {found['number']} {found['unit']}" if known else found[0]
 
 
 def _glued(text: str) -> Iterator[_Quantity]:

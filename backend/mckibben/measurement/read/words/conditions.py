@@ -112,6 +112,15 @@ REMARKS = {
         "da": "uden", "no": "uten", "fi": "ilman", "hu": "nulla", "ro": "fără", "el": "χωρίς", "uk": "без",
         "bg": "без", "hr": "bez", "sl": "brez", "sk": "bez",
     },
+    "unit": {
+        "en": "unit units uom", "de": "einheit einheiten", "fr": "unité unités", "it": "unità",
+        "es": "unidad unidades", "pt": "unidade unidades", "pl": "jednostka jednostki",
+        "cs": "jednotka jednotky", "ru": "единица единицы", "tr": "birim birimi birimler",
+        "nl": "eenheid eenheden", "sv": "enhet enheter", "da": "enhed enheder", "fi": "yksikkö yksiköt",
+        "hu": "egység mértékegység", "ro": "unitate unități", "el": "μονάδα μονάδες", "uk": "одиниця одиниці",
+        "hr": "jedinica jedinice", "sl": "enota enote", "ja": "単位", "zh": "单位 單位", "ko": "단위",
+        "id": "satuan", "ca": "unitat unitats", "lt": "vienetas vienetai", "et": "ühik ühikud",
+    },
     "constant": {
         "en": "constant held fixed", "de": "konstant konstante", "fr": "constant", "it": "costante",
         "es": "constante", "pt": "constante", "pl": "stałe stała", "cs": "konstantní", "nl": "constant",
