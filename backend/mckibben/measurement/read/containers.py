@@ -157,6 +157,8 @@ def _tables(
         return
     for key, value in inner:
         where = f"{path}.{key}" if path else key
+        if isinstance(value, dict) and names_units(key):
+            continue  # they are in the names of the columns
         if isinstance(value, dict):
             yield from _tables(value, where, name, noun, depth + 1, units)
         else:
@@ -255,7 +257,7 @@ def stacked(tables: list[NamedTable], title: str) -> NamedTable:
         if _is_condition(key) and None not in values:
             columns[key] = np.repeat(np.array(values, dtype=float), rows)
     numbered = all(table.numbered for table in tables)
-    if not any(recognise(head).channel == "group" for head in columns):
+    if RUN not in columns and not any(recognise(head).channel == "group" for head in columns):
         numbered = True
         columns[RUN] = np.repeat(np.arange(len(tables), dtype=float), rows)
     message = f"{len(tables)} parts with the same columns are read one below the other"

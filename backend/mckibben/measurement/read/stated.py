@@ -43,7 +43,9 @@ _L_ZERO = re.compile(r"(?<![^\W_])[Ll](?:_\{?0\}?|_?o(?=\s*[=:≈])|[ ]0(?=\s*[=
 _NO_PRESSURE = re.compile(
     r"(?<![\w.,])(?:p\s*=\s*)?0(?:[.,]0+)?\s*(?:mbar|bar|hPa|kPa|MPa|Pa|psig?)(?:\s*\(g\))?(?!\w)"
 )
-_OTHER_GAUGES = re.compile(r"(?i)(?:strain|dial|length|load|force|displacement|feeler)[ -]*gau?ges?|gau?ge length")
+_OTHER_GAUGES = re.compile(
+    r"(?i)(?:strain|dial|length|load|force|displacement|feeler)[ -]*gau?ges?|gau?ge length"
+)
 _WITHOUT = REMARK_WORDS["without"]
 _LONG = word_set("long lang lungo largo comprido dlugi длинный uzun")
 _AT_REST, _LOADS, _SUPPLIES = REMARK_WORDS["at rest"], REMARK_WORDS["load"], REMARK_WORDS["supply"]
