@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from mckibben.measurement.measurement import CHANNEL_UNITS
+from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.read.conditions import CONDITION_UNITS, Note, key_of
 from mckibben.measurement.read.header import map_headers
 from mckibben.measurement.read.matrix_maps import maps_apart
@@ -31,6 +31,7 @@ _DIMENSION = "dim"  # what recorders of signals write for "unit"
 _MAX_COLUMNS = 60  # of a matrix that is taken apart
 _DEEPEST = 4
 _SETTINGS = 4  # most numbers of a setting beside a signal
+_HELD = ("pressure", "force", *STROKES)  # what a test may hold
 _FEWEST_ROWS = 4  # of a matrix that can be readings
 RUN = "group"
 
@@ -196,10 +197,28 @@ def _parts(
     if not tables:
         return
     heads = set(tables[0].columns)
-    if len(tables) > 1 and all(set(table.columns) == heads for table in tables):
-        yield stacked(tables, path)
+    if all(set(table.columns) == heads for table in tables):
+        yield stacked(tables, path) if len(tables) > 1 else _with_held(tables[0])
     else:
         yield from tables
+
+
+def _with_held(table: NamedTable) -> NamedTable:
+    """The table of a single test with the channels that its single values name: its length, its pressure."""
+    used = known_uses(list(table.columns))
+    rows = len(next(iter(table.columns.values())))
+    for head, value in _constants(table).items():
+        channel = recognise(head).channel
+        if channel in _HELD and not _is_known(channel, used):
+            table.columns[head] = np.full(rows, value)
+            table.notes = [note for note in table.notes if note.key != head]
+            table.messages.append(f"'{head}' is the same in all rows: {value:g}")
+    return table
+
+
+def _is_known(channel: str, used: set[str]) -> bool:
+    """Whether columns hold a channel; a length beside a stroke is that of the muscle at rest."""
+    return channel in used or (channel in STROKES and bool(used & set(STROKES)))
 
 
 def _one_of(found: list[NamedTable]) -> NamedTable | None:
@@ -241,7 +260,7 @@ def stacked(tables: list[NamedTable], title: str) -> NamedTable:
     taken: set[str] = set()
     for head in dict.fromkeys(head for found in constants for head in found):
         channel = _channel_of_constant(head)
-        if channel is None or channel in used or not all(head in found for found in constants):
+        if channel is None or _is_known(channel, used) or not all(head in found for found in constants):
             continue
         used.add(channel)
         taken.add(head)

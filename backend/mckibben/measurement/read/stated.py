@@ -46,6 +46,10 @@ _NO_PRESSURE = re.compile(
 _OTHER_GAUGES = re.compile(
     r"(?i)(?:strain|dial|length|load|force|displacement|feeler)[ -]*gau?ges?|gau?ge length"
 )
+#: Words behind a quantity that no other one follows, up to a sign or an "and".
+_OWN_BEHIND = re.compile(
+    r"[\s(]*([^,;:=()\d.]{0,60}?)(?=[,;().]|$|\s(?:and|with|und|mit|et|avec|con|com|og|och)\s)"
+)
 _WITHOUT = REMARK_WORDS["without"]
 _LONG = word_set("long lang lungo largo comprido dlugi длинный uzun")
 _AT_REST, _LOADS, _SUPPLIES = REMARK_WORDS["at rest"], REMARK_WORDS["load"], REMARK_WORDS["supply"]
@@ -139,7 +143,7 @@ def _quantities(text: str) -> Iterator[_Quantity]:
         before = re.split(r"[,;](?!\d)\s*(?=[^\W\d])", text[begin : found.start()])[-1]
         begin = found.end()
         behind = re.split(r"[,;.:(]", text[begin : begin + 40])[0]
-        own = re.match(r"[\s(]*([^,;:=()\d.]{0,60})(?=[,;().]|$)", text[begin:])
+        own = _OWN_BEHIND.match(text, begin)
         value = found[1].replace(",", ".")
         yield _Quantity(
             words_of(before), value, None if unit is None else unit.unit, words_of(behind),
