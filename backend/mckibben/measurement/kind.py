@@ -21,6 +21,9 @@ _GRAIN = 0.01  # share of the range; readings within it are the same level
 _MANY = 25  # levels from which the finer axis of a grid is a sweep rather than a map
 _JUMP = 0.02  # change of the load to the next level, share of the range
 _HELD_SHARE = 0.7  # of the rows, in which a hanging weight pulls with its weight alone
+_SECOND = 1.0  # s
+_SLOW = 0.2  # of the range of the stroke in a second; a ramp through it takes longer than five
+_FEWEST_STEPS = 20  # of time, in which the speed shows
 _FEWEST_IN_RUN = 5  # rows with the same load
 _MANY_EXTREMES = 200_000  # limit of the loop over extremes; longer signals are reduced to blocks
 
@@ -50,15 +53,19 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
     The rules in this order; "stroke" is length, contraction or displacement:
 
     1. time with a valve command: ``transient``.
-    2. force, pressure and stroke: ``transient`` with time and a stated load mass; ``isotonic`` when the force
-       is constant, throughout or in each run, and both others vary; ``isobaric``/``isometric`` when
+    2. force, pressure and stroke: ``transient`` with time and a stated load mass, unless the force is
+       constant and the muscle moves slowly; ``isotonic`` when the force is constant, throughout or in each
+       run, and both others vary; ``isobaric``/``isometric`` when
        pressure/stroke is constant throughout. Otherwise the occupied 1 % steps of both ranges are counted: a
        filled grid without time and direction is ``static`` (unless one axis is fine, >= 25 levels and 4 times
        the other); an axis with at most half the steps of the other is the constant one; without such an axis
        ``static``, or ``transient`` where over time the force leaves one level (2 %) in few rows only.
     3. diameter with pressure or stroke: ``diameter``.
-    4. pressure and stroke: ``transient`` with time, else ``isotonic``.
+    4. pressure and stroke: ``isotonic`` without time, or where a stated load moves slowly; else
+       ``transient``.
     5. time with pressure or stroke: ``transient``.
+
+    "Slowly" is by at most 20 % of the range within any second: inertia and damping do not show.
 
     Raises:
         InputError: no rule applies.
@@ -69,15 +76,20 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
     if timed and "command" in columns and (pressure is not None or stroke is not None):
         return "transient", "a valve command over time"
     if force is not None and pressure is not None and stroke is not None:
-        if timed and "load_mass" in conditions:
+        slow = timed and _moves_slowly(columns["time"], stroke)
+        if timed and "load_mass" in conditions and not (slow and _constant(force)):
             return "transient", "force, pressure and stroke over time with a load mass"
         found = _force_kind(pressure, stroke, force, swept=timed or "direction" in columns)
+        if found[0] == "static" and slow and _held_load(force):
+            return "isotonic", "the force keeps to one level while pressure and stroke change slowly"
         if found[0] == "static" and timed and _held_load(force):
             return "transient", "the force leaves one level only for short while pressure and stroke change"
         return found
     if "diameter" in columns and (pressure is not None or stroke is not None):
         return "diameter", "a diameter beside pressure or stroke"
     if pressure is not None and stroke is not None:
+        if timed and {"load_mass", "load_force"} & set(conditions) and _moves_slowly(columns["time"], stroke):
+            return "isotonic", "pressure and stroke change slowly under a stated load"
         return (
             ("transient", "pressure and stroke over time") if timed else ("isotonic", "strokes at pressures")
         )
@@ -123,6 +135,22 @@ def _held_load(force: Array) -> bool:
     """Whether most rows show one force: a weight that shakes only while it is moved."""
     level = float(np.median(force))
     return bool(level > 0.0 and np.mean(np.abs(force - level) <= 0.02 * level) >= _HELD_SHARE)
+
+
+def _moves_slowly(time: Array, stroke: Array) -> bool:
+    """Whether the stroke changes in any second by a small share of its range, noise apart."""
+    steps = np.diff(time)
+    steps = steps[steps > 0.0]
+    span = float(np.ptp(stroke))
+    if len(steps) < _FEWEST_STEPS or span == 0.0:
+        return False
+    ahead = max(1, round(_SECOND / float(np.median(steps))))
+    if ahead >= len(stroke):
+        return False
+    calm, _ = smoothed(stroke, noise=noise_of(stroke), swing=_SLOW * span)
+    near = np.abs(time[ahead:] - time[:-ahead]) <= 2.0 * max(_SECOND, float(np.median(steps)))
+    moved = np.abs(calm[ahead:] - calm[:-ahead])[near]
+    return bool(len(moved) and np.max(moved) <= _SLOW * span)
 
 
 def _constant_runs(force: Array, pressure: Array, stroke: Array) -> int:

@@ -10,12 +10,12 @@ from mckibben.measurement.read import Correction, preview, read_correction, read
 from mckibben.physics.errors import InputError
 
 CSV = (
-    b"# load_mass: 12 kg\ntime_s,p1,stroke_mm,F,note\n"
+    b"# load_mass: 12 kg\ntime_s,p1,stroke_mm,F_N,note\n"
     + b"".join(b"%d,%d,%d,%d,x\n" % (n, n + 1, 5 * n, 100 - n) for n in range(20))
     + b"20,nan,100,1,x\n21,7,,1,x\n22,seven,100,1,x\n"
 )
 MAPPING = {
-    "columns": {"p1": {"channel": "pressure", "unit": "bar"}, "F": None},
+    "columns": {"p1": {"channel": "pressure", "unit": "bar"}, "F_N": None},
     "kind": "transient",
     "conditions": {"load_mass": "6 kg", "supply_pressure": "7 bar"},
     "bad_rows": "skip",
@@ -31,7 +31,7 @@ def test_columns_units_kind_and_conditions_are_taken() -> None:
     assert (result.kind, result.kind_detected, result.rows) == ("transient", False, 20)
     np.testing.assert_allclose(result.columns["pressure"], (np.arange(20) + 1) * 1e5)
     assert "force" not in result.columns
-    assert result.ignored == ("F", "note")
+    assert result.ignored == ("F_N", "note")
     assert result.conditions == {"load_mass": 6.0, "supply_pressure": 7e5}
     assert result.skipped == {"not a finite number": 1, "an empty cell": 1, "not a number": 1}
 
@@ -121,10 +121,10 @@ def test_a_column_that_is_not_there() -> None:
 def test_preview_of_what_can_be_guessed() -> None:
     found = preview(CSV.replace(b"21,7,,1,x", b"21,7,seven,1,x"), "a.csv")
     by_header = {column.header: column for column in found.columns}
-    assert list(by_header) == ["time_s", "p1", "stroke_mm", "F", "note"]
+    assert list(by_header) == ["time_s", "p1", "stroke_mm", "F_N", "note"]
     assert [column.channel for column in found.columns] == ["time", None, "displacement", "force", None]
     assert (by_header["stroke_mm"].unit, by_header["stroke_mm"].unit_given) == ("mm", True)
-    assert (by_header["F"].unit, by_header["F"].unit_given) == ("N", False)
+    assert (by_header["F_N"].unit, by_header["F_N"].unit_given) == ("N", True)
     assert (by_header["stroke_mm"].minimum, by_header["stroke_mm"].maximum) == (0.0, 0.1)
     assert found.sample[0] == ("0", "1", "0", "100", "x")
     assert len(found.sample) == 8

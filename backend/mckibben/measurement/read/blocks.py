@@ -13,9 +13,9 @@ from mckibben.measurement.read.head_text import taken_apart
 from mckibben.measurement.read.header import plainly_known
 from mckibben.measurement.read.held import HeldQuantity, held_quantities
 from mckibben.measurement.read.locate import Run, TableHead, texts_of
+from mckibben.measurement.read.map_axes import axes_of_map, value_of_map
 from mckibben.measurement.read.qualified import qualified_groups, without_way
 from mckibben.measurement.read.recognise import recognise
-from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.values import GAP, NUMBER, TEXT, kind_of
 from mckibben.measurement.read.vocabulary import folded
 
@@ -149,7 +149,7 @@ def tables_of_run(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[
     if bases and not any(bases.values()) and len(first) == 1:  # heads of nothing but values
         known = [recognise(names[c]).channel for c in shared]
         held = [quantity.channel for quantity in _held_in(names[first[0]])]
-        value = _value_of_map([*(text for _, _, text in titles), grid.title], [*held, *known])
+        value = value_of_map([*(text for _, _, text in titles), grid.title], [*held, *known])
         table.names[-1] = value or UNNAMED
     table.names = _told_apart(table.names)
     table.units = [units[c] for c in order]
@@ -327,16 +327,12 @@ def _map(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[int, int,
     if len(across) < 2 or any(kind == TEXT for kind in kinds[axis + 1 :]):
         return None
     above = [text for _, _, text in titles] + [name for name in head.names if name]
-    parts = [
-        p.strip()
-        for p in re.split(r"\\|\||/(?![^\[(]*[\])])| vs\.? | x |×|→|↓", texts_of(corner)[axis])
-        if p.strip()
-    ]
-    names = parts if len(parts) == 2 else [*parts[:1], *[text for text in above if _is_axis(text)][:1]]
+    names = axes_of_map(texts_of(corner)[axis], axis, head.names, titles)
     channels = [recognise(name).channel for name in names]
     if len(names) != 2 or None in channels or channels[0] == channels[1]:
         return None
-    value = _value_of_map(above, channels)
+    above.insert(0, texts_of(corner)[axis])
+    value = value_of_map(above, channels)
     if value is None:
         return None
     place = grid.where(run.first, axis)
@@ -345,25 +341,18 @@ def _map(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[int, int,
         head_row=grid.line(run.first), parts=[],
     )  # fmt: skip
     table.parts.append(MapPart(grid, [(run.first, run.last)], (axis, axis, axis), (axis,)))
+    empty = _empty_cells(grid, run, across)
     table.messages.append(
         f"{place}: a map, read as {channels[0]} down, {channels[1]} across, '{value}' in the cells"
+        + (f"; {empty} empty cells hold no reading" if empty else "")
     )
     return table
 
 
-def _is_axis(text: str) -> bool:
-    known = recognise(text)
-    return known.channel is not None and known.unit is not None
-
-
-def _value_of_map(above: Sequence[str], channels: Sequence[str | None]) -> str | None:
-    """``"Static force [N] of DMSP-20"`` -> ``"Static force [N]"``."""
-    for text in above:
-        for found in re.finditer(r"([^\[(\])]*?)\s*[\[(]([^\])]*)[\])]", text):
-            unit = unit_of(found[2])
-            if unit is None or not dimension_of(unit.unit):
-                continue
-            name = f"{found[1].strip()} [{found[2]}]".strip()
-            if recognise(name).channel not in (None, *channels):
-                return name
-    return None
+def _empty_cells(grid: Grid, run: Run, across: Sequence[int]) -> int:
+    """Number of cells of a map in which nothing stands."""
+    return sum(
+        column >= len(cells) or kind_of(cells[column]) == GAP
+        for cells in (grid.cells(index) for index in range(run.first + 1, run.last))
+        for column in across
+    )

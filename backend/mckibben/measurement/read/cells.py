@@ -94,7 +94,7 @@ class Problems:
     """Bad rows: the first one to raise, or all of them counted by reason.
 
     Rows without a reading in a column that is used (an empty cell, ``NaN``, ``OL``) are left out and
-    counted, unless there are more of them than of others.
+    counted, unless there are more of them than of others and too few others.
 
     Args:
         place: the file (and sheet), for messages.
@@ -138,12 +138,21 @@ class Problems:
         ``kept``: number of good rows; None = not known yet.
         """
         first, rows = self.first, self.rows
-        if first is None and kept is not None and self.without > kept:
+        if first is None and kept is not None and self.without > kept and not _suffices(kept, self.without):
             first, rows = self.missing, self.without
         if first is None:
             return
         more = f" (and {rows - 1} more such rows)" if rows > 1 else ""
         raise InputError(first.message + more, field=first.field, hint=first.hint)
+
+
+def _suffices(kept: int, without: int) -> bool:
+    """Whether the rows with readings make a test although most others have none: a muscle that is slack."""
+    return kept >= _ENOUGH_ROWS and without <= _MOST_WITHOUT * kept
+
+
+_ENOUGH_ROWS = 20
+_MOST_WITHOUT = 4  # rows without a reading for each other one; more are a slow signal or a wrong column
 
 
 def read_cells(

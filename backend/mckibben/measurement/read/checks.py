@@ -88,9 +88,9 @@ def _units(evidence: Evidence) -> list[Question]:
         named = f"{evidence.noun} '{column.header}'"
         if column.unit_origin == "proposed":
             found = proposal(channel, raw)
-            if found.si_will_do:
+            if found.si_will_do and not (channel == "force" and _open_force(evidence, found.choices)):
                 continue
-            may = f"; {' or '.join(found.choices[:3])} would be plausible" if found.choices else ""
+            may = f"; {' or '.join(found.choices[:4])} would be plausible" if found.choices else ""
             asked.append(
                 Question(
                     f"unit of {channel}",
@@ -127,6 +127,16 @@ def _units(evidence: Evidence) -> list[Question]:
                 )
             )
     return asked
+
+
+def _open_force(evidence: Evidence, choices: tuple[str, ...]) -> bool:
+    """Whether a force without unit may be in several: N is sure only where the whole file is in SI."""
+    others = [
+        (channel, column.unit)
+        for channel, column in evidence.used.items()
+        if channel in ("pressure", *STROKES, "diameter")
+    ]
+    return len(choices) > 1 and any(unit not in (None, CHANNEL_UNITS[channel]) for channel, unit in others)
 
 
 _LONG_TEST = 900.0  # s; a test of readings by hand is shorter

@@ -105,6 +105,8 @@ def condition_value(
             if messages is not None:
                 messages.append(f"{key}: no unit given, read as {plain} {unit}")
             plain = f"{plain} {unit}"
+        if key == "temperature":
+            plain = re.sub(r"(?<=[0-9.])\s*[°º]?\s*([CF])$", r" deg\1", plain)
         number = si(plain, unit, field=where)
     else:
         number = float(value)

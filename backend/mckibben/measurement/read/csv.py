@@ -33,6 +33,7 @@ _CONTROL = re.compile(rb"[\x00-\x08\x0b\x0e-\x1f\x7f]")
 _PIECE = 1_000_000  # bytes
 _HEADER_WITHIN = 10_000  # lines
 _FOOTER_LINES = 100
+_LONGEST_COMMENT = 2000  # characters
 _LONGEST_LINE = 10_000  # characters
 _THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3}(?:\.\d{3})+,\d|(?<![\d.,])\d{1,3}(?:,\d{3})+\.\d")
 _QUOTED_THOUSANDS = re.compile(r'"\s*[+-]?\d{1,3}(?:,\d{3})+\.\d*\s*"')
@@ -91,7 +92,7 @@ def open_csv(data: bytes, name: str, correction: Correction | None = None) -> Ra
 
 def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
     """The table below the first line that is no comment, and whether it is one beyond doubt."""
-    notes, separator, header_line, row, body = _split(text, name)
+    notes, comments, separator, header_line, row, body = _split(text, name)
     headers = split_header(header_line, separator, name=name, row=row)
     body, below = without_footer(body, separator, row + 1)
     sample = first_rows(body, separator, SAMPLE_ROWS)
@@ -128,9 +129,10 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
         headers=headers,
         read=read,
         sample=sample,
-        notes=_with_name(in_known_words(notes), name),
+        notes=_with_texts(in_known_words(notes), comments, name),
         messages=messages + below,
         header_row=row,
+        rest=tuple(comments),
         raw=RawRows(shown_rows(_lines_of(text, separator), row), tuple(range(len(headers)))),
     )
     return source, sure
@@ -147,10 +149,10 @@ def _lines_of(text: str, separator: str) -> Iterator[tuple[int, list[str]]]:
         position = end + 1
 
 
-def _with_name(notes: list[Note], name: str) -> list[Note]:
-    """The conditions of a file, and those that its name says."""
+def _with_texts(notes: list[Note], texts: Sequence[tuple[str, str]], name: str) -> list[Note]:
+    """The conditions of a file, and those that the sentences of its comments and its name say."""
     known = {note.key for note in notes}
-    return notes + [note for note in statements([], name) if note.key not in known]
+    return notes + [note for note in statements(texts, name) if note.key not in known]
 
 
 def _has_thousands(body: str, separator: str) -> bool:
@@ -251,9 +253,10 @@ def _from_utf16(data: bytes, name: str) -> bytes:
         ) from error
 
 
-def _split(text: str, name: str) -> tuple[list[Note], str, str, int, str]:
-    """(conditions, separator, header line, row of the header, text below it)."""
+def _split(text: str, name: str) -> tuple[list[Note], list[tuple[str, str]], str, str, int, str]:
+    """(conditions, comments and where they stand, separator, header line, its row, text below it)."""
     notes: list[Note] = []
+    comments: list[tuple[str, str]] = []
     separator = None
     row, position = 0, 0
     while position < len(text):
@@ -268,14 +271,16 @@ def _split(text: str, name: str) -> tuple[list[Note], str, str, int, str]:
         row, position = row + 1, end + 1
         bare = line.strip()
         if bare.lstrip('"').startswith("#"):
-            note = note_of_line(bare.strip(';,\t "'), f"{name}, row {row}")
+            comment = bare.strip(';,\t "')
+            note = note_of_line(comment, f"{name}, row {row}")
             if note is not None:
                 notes.append(note)
+            comments.append((comment.lstrip("# ")[:_LONGEST_COMMENT], f"line {row}"))
         elif re.fullmatch(r"sep=[,;\t]", bare):  # a spreadsheet's own hint
             separator = bare[-1]
         elif bare.strip(",;\t "):
             separator = separator or next((s for s in "\t;," if s in line), ",")
-            return notes, separator, line, row, text[position:]
+            return notes, comments, separator, line, row, text[position:]
     raise InputError(
         f"{name}, row {row}: the header names no column", field=f"row {row}", hint=HEADER_EXAMPLE
     )

@@ -6,6 +6,7 @@ import json
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import in_known_words, statements
 from mckibben.measurement.read.table_source import source_of
 from mckibben.measurement.read.tables import choose, tables_of_grid
+from mckibben.measurement.read.unit_lists import names_units
 from mckibben.measurement.read.unit_words import unit_of
 from mckibben.physics.errors import InputError
 
@@ -62,8 +64,9 @@ def open_json(text: str, name: str, correction: Correction | None = None) -> Raw
         ) from error
     except (ValueError, TypeError):
         return None
-    records = lines if lines is not None else next(_records(document, 0), None)
-    if records is not None:
+    found = list(islice(_records(document, 0), 2)) if lines is None else []
+    records = lines if lines is not None else next(iter(found), None)
+    if records is not None and not _are_of_tests(document, found):
         return _of_records(records, document, name, correction)
     values = _values(document, 0)
     if not isinstance(values, dict):
@@ -130,6 +133,25 @@ def _records(value: Any, depth: int) -> Iterator[list[tuple[int, Record]]]:
             return
         for item in value[:1000]:
             yield from _records(item, depth + 1)
+
+
+def _are_of_tests(document: Any, found: Sequence[list[tuple[int, Record]]]) -> bool:
+    """Whether readings stand within the entries of a list, or in several objects, with conditions each."""
+    if len(found) > 1:
+        return set(found[0][0][1]) == set(found[1][0][1])
+    return bool(found) and next(_records(_without_lists_of_objects(document), 0), None) is None
+
+
+def _without_lists_of_objects(value: Any, depth: int = 0) -> Any:
+    """A document without what stands further in than an entry of a list of objects."""
+    if depth > _DEEPEST:
+        return None
+    if isinstance(value, dict):
+        return {key: _without_lists_of_objects(item, depth + 1) for key, item in value.items()}
+    if isinstance(value, list) and value and all(isinstance(item, dict) for item in value):
+        within = any(isinstance(inner, list) for item in value[:20] for inner in _flat(item).values())
+        return None if within else value
+    return value
 
 
 def _is_names(value: Any) -> bool:
@@ -298,6 +320,20 @@ def _with_quantities(value: Any, depth: int) -> Any:
     return {key: _with_quantities(item, depth + 1) for key, item in value.items()}
 
 
+def _columns_of_records(records: Sequence[Record]) -> dict[str, Any]:
+    """Records of readings as vectors: NaN where one lacks a number, words as texts."""
+    flat = [_flat(record) for record in records]
+    columns: dict[str, Any] = {}
+    for head in dict.fromkeys(key for record in flat for key in record):
+        cells = [record.get(head) for record in flat]
+        if any(isinstance(cell, str) for cell in cells):
+            columns[head] = ["" if cell is None else str(cell) for cell in cells]
+        else:
+            numbers = [float(c) if isinstance(c, (int, float)) else np.nan for c in cells]
+            columns[head] = np.array(numbers)
+    return columns
+
+
 def _values(value: Any, depth: int) -> Any:
     """A document as the readers of containers take it: lists of numbers as arrays, with NaN for null."""
     if depth > _DEEPEST:
@@ -320,6 +356,7 @@ def _values(value: Any, depth: int) -> Any:
             if (
                 isinstance(item, dict)
                 and item
+                and not names_units(key)
                 and not any(isinstance(v, (dict, list, np.ndarray)) for v in item.values())
             ):
                 loose |= {k: v for k, v in item.items() if k not in found}
@@ -330,6 +367,13 @@ def _values(value: Any, depth: int) -> Any:
             v is None or (isinstance(v, (int, float)) and not isinstance(v, bool)) for v in value
         ):
             return np.array([np.nan if v is None else float(v) for v in value])
+        if (
+            len(value) >= _FEWEST
+            and all(isinstance(v, dict) for v in value)
+            and _holds_numbers(value[:20])
+            and depth > 0
+        ):
+            return _columns_of_records(value)
         if value and all(isinstance(v, list) and len(v) == len(value[0]) for v in value):
             inner = [_values(v, depth + 1) for v in value]
             return np.array(inner) if all(isinstance(v, np.ndarray) and v.ndim == 1 for v in inner) else None

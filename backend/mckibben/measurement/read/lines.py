@@ -82,7 +82,8 @@ def located_text(text: str, name: str, correction: Correction, messages: Sequenc
     table.unread = [*table.unread, *chosen.unread, *reshaped.unread]
     found = in_known_words(notes)
     known = {note.key for note in found}
-    found += [note for note in statements(table.rest, name) if note.key not in known]
+    sentences = [(original[row - 1].strip('#;, \t"'), f"line {row}") for row in sorted(stated)]
+    found += [note for note in statements([*table.rest, *sentences], name) if note.key not in known]
     shown = (
         (number, [line] if keyed or number in stated else grid.cells(number - 1))
         for number, line in enumerate(original, start=1)

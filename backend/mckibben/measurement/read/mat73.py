@@ -9,7 +9,6 @@ every piece is unpacked here first, as far as its size, before HDF5 reads it.
 from __future__ import annotations
 
 import io
-import re
 import zlib
 from dataclasses import replace
 from math import prod
@@ -23,7 +22,7 @@ from mckibben.measurement.read.mat import choose
 from mckibben.measurement.read.mat5 import Foreign
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.source import RawTable
-from mckibben.measurement.read.unit_lists import names_units, units_of_columns
+from mckibben.measurement.read.unit_lists import names_units, unit_among, unit_said, units_of_columns
 from mckibben.measurement.read.unit_words import reference_of, unit_of
 from mckibben.physics.errors import InputError
 
@@ -39,7 +38,6 @@ _MAX_PIECES = 50_000
 _MAX_WORDS = 200_000
 _MAX_ATTRIBUTES = 200  # of a group or dataset
 _LONGEST_ATTRIBUTE = 100_000  # bytes
-_IS_UNIT = re.compile(r"(?i)(unit|units|einheit|unit_?label|uom)")
 _DEEPEST = 3  # structs within structs
 _AT_ONCE = 4_000_000  # bytes; other threads come in between
 
@@ -127,9 +125,7 @@ class _Mat73Reader:
             elif np.ndim(value) == 0 and np.asarray(value).dtype.kind in "biuf":
                 found[key] = np.asarray(value, dtype=float)
         for key in [key for key, value in found.items() if isinstance(value, np.ndarray)]:
-            unit = next(
-                (found[u] for u in (f"{key}_unit", f"{key}_units") if isinstance(found.get(u), str)), None
-            )
+            unit = unit_said(key, found)
             if unit is not None:
                 found[f"{key} [{unit}]"] = found.pop(key)
         return found
@@ -137,10 +133,8 @@ class _Mat73Reader:
     def _plain(self, key: str, dataset: Any) -> dict[str, Any]:
         """A dataset of another program: vectors with units, tables of named columns, texts."""
         attributes = self._attributes(dataset)
-        names = next(
-            (v for k, v in attributes.items() if isinstance(v, list) and "unit" not in k.lower()), None
-        )
-        unit = next((v for k, v in attributes.items() if isinstance(v, str) and _IS_UNIT.fullmatch(k)), None)
+        names = next((v for k, v in attributes.items() if isinstance(v, list) and not names_units(k)), None)
+        unit = unit_among(key, attributes)
         if dataset.shape is None or dataset.dtype.kind not in "biufSOV":
             return {key: None}
         if dataset.dtype.kind in "SO":
@@ -161,7 +155,7 @@ class _Mat73Reader:
             units = units_of_columns(names, attributes)
             columns = {_headed(n, u): table[:, i] for i, (n, u) in enumerate(zip(names, units, strict=True))}
             return {key: _beside(attributes, columns)}
-        said = {k: v for k, v in attributes.items() if isinstance(v, str) and not _IS_UNIT.fullmatch(k)}
+        said = {k: v for k, v in attributes.items() if isinstance(v, str) and not names_units(k)}
         reference = next((v for v in said.values() if reference_of(v) is not None), None)
         head = _headed(key, unit)
         return {head if reference is None else f"{head} ({reference})": values}

@@ -17,6 +17,7 @@ from mckibben.measurement.read.vocabulary import (
     REMARK_WORDS,
     channel_of_word,
     has_word,
+    other_quantity,
     reference_among,
     word_set,
     words_of,
@@ -34,6 +35,23 @@ _UNIT_FIRST = re.compile(rf"[\[(]\s*([^\])]+?)\s*[\])]\s*[:=;]?\s*({_NUMBER})(?!
 _GLUED = re.compile(
     rf"(?<![^\W_])([^\W\d_]{{0,12}}0?)[=]?((?<![0-9])[0-9]+(?:[.,][0-9]+)?)({_UNIT})(?![^\W_])"
 )
+_UNIT_IN_NAME = re.compile(
+    rf"(?P<name>[^\W\d_]\w*)_(?P<unit>[^\W\d_]+)\s*[:=]\s*(?P<number>{_NUMBER})(?!\s*[^\W\d_]|[\d.,]\d)"
+)
+#: "L_0", "L 0 =", "Lo =" are L0; "at 0 bar" is without pressure.
+_L_ZERO = re.compile(r"(?<![^\W_])[Ll](?:_\{?0\}?|_?o(?=\s*[=:≈])|[ ]0(?=\s*[=:≈]))")
+_NO_PRESSURE = re.compile(
+    r"(?<![\w.,])(?:p\s*=\s*)?0(?:[.,]0+)?\s*(?:mbar|bar|hPa|kPa|MPa|Pa|psig?)(?:\s*\(g\))?(?!\w)"
+)
+_OTHER_GAUGES = re.compile(
+    r"(?i)(?:strain|dial|length|load|force|displacement|feeler)[ -]*gau?ges?|gau?ge length"
+)
+#: Words behind a quantity that no other one follows, up to a sign or an "and".
+_OWN_BEHIND = re.compile(
+    r"[\s(]*([^,;:=()\d.]{0,60}?)(?=[,;().]|$|\s(?:and|with|und|mit|et|avec|con|com|og|och)\s)"
+)
+_WITHOUT = REMARK_WORDS["without"]
+_LONG = word_set("long lang lungo largo comprido dlugi длинный uzun")
 _AT_REST, _LOADS, _SUPPLIES = REMARK_WORDS["at rest"], REMARK_WORDS["load"], REMARK_WORDS["supply"]
 _SAMPLES, _DATES, _AMBIENT = REMARK_WORDS["sample"], REMARK_WORDS["date"], REMARK_WORDS["ambient"]
 _REST_LENGTHS = re.compile(
@@ -54,6 +72,7 @@ class _Quantity(NamedTuple):
     value: str
     unit: str | None
     behind: Sequence[str] = ()
+    own_behind: Sequence[str] = ()  # those that no other quantity follows
 
 
 def statements(rest: Iterable[tuple[str, str]], name: str) -> list[Note]:
@@ -67,7 +86,8 @@ def statements(rest: Iterable[tuple[str, str]], name: str) -> list[Note]:
     coded: list[tuple[str, str]] = []
     for text, where in rest:
         for key, value in _of_text(text):
-            found.setdefault(key, Note(where, key, value))
+            note = Note(where, key, value)
+            found.setdefault(key, _in_millimetres(note) if key == "nominal_length" else note)
         coded.append((text, where))
     stem = PurePath(name).stem
     coded.append((stem, NAME))
@@ -94,7 +114,7 @@ def statements(rest: Iterable[tuple[str, str]], name: str) -> list[Note]:
 def _of_text(text: str) -> Iterator[tuple[str, str]]:
     yield from signs_of(text)
     words = words_of(text)
-    reference = reference_among(words)
+    reference = reference_among(words_of(_OTHER_GAUGES.sub(" ", text)))
     about_muscle = not has_word(words, _AMBIENT | _SUPPLIES)
     if reference is not None and about_muscle and any(channel_of_word(word) == "pressure" for word in words):
         yield "pressure", "absolute" if reference else "gauge"
@@ -114,16 +134,28 @@ def _of_text(text: str) -> Iterator[tuple[str, str]]:
 
 
 def _quantities(text: str) -> Iterator[_Quantity]:
-    """The quantities of a text; each with the words since the one before it."""
-    text = _UNIT_FIRST.sub(r" \2 \1", text)
+    """The quantities of a text; each with the words since the one before it, and those up to the next one."""
+    text = _UNIT_IN_NAME.sub(_unit_behind, text)
+    text = _NO_PRESSURE.sub(" unpressurized ", _L_ZERO.sub("L0", _UNIT_FIRST.sub(r" \2 \1", text)))
     begin = 0
     for found in _QUANTITY.finditer(text):
         unit = (unit_of(found[2]) or unit_of(found[2].partition("(")[0])) if found[2] else None
         before = re.split(r"[,;](?!\d)\s*(?=[^\W\d])", text[begin : found.start()])[-1]
         begin = found.end()
         behind = re.split(r"[,;.:(]", text[begin : begin + 40])[0]
+        own = _OWN_BEHIND.match(text, begin)
         value = found[1].replace(",", ".")
-        yield _Quantity(words_of(before), value, None if unit is None else unit.unit, words_of(behind))
+        yield _Quantity(
+            words_of(before), value, None if unit is None else unit.unit, words_of(behind),
+            words_of(own[1]) if own else (),
+        )  # fmt: skip
+
+
+def _unit_behind(found: re.Match[str]) -> str:
+    """``L0_mm: 250`` as ``L0: 250 mm``, where the end of the name is a unit."""
+    unit = unit_of(found["unit"])
+    known = unit is not None and dimension_of(unit.unit) not in ("", "a plain number or a share")
+    return f"{found['name']}: {found['number']} {found['unit']}" if known else found[0]
 
 
 def _glued(text: str) -> Iterator[_Quantity]:
@@ -143,8 +175,10 @@ def _key_of(quantity: _Quantity) -> str | None:
     if words & LOADLESS:
         return None
     lengthy = any(channel_of_word(word) == "length" for word in quantity.words)
-    at_rest = has_word(quantity.words, _AT_REST) and (lengthy or "l0" in words)
+    at_rest = _is_at_rest(quantity.words) and (lengthy or "l0" in words)
     if (at_rest or _REST_LENGTHS.search(joined)) and measured in ("", "a length"):
+        return "nominal_length"
+    if measured == "a length" and _is_length_at_rest(quantity.own_behind, lengthy=lengthy):
         return "nominal_length"
     loaded = has_word([*quantity.words, *quantity.behind], _LOADS) or any(
         channel_of_word(w) == "force" and w.endswith("last") for w in quantity.words
@@ -156,6 +190,24 @@ def _key_of(quantity: _Quantity) -> str | None:
     if (has_word(quantity.words, _SUPPLIES) or joined in _SUPPLY_SYMBOLS) and measured == "a pressure":
         return "supply_pressure"
     return None
+
+
+def _is_at_rest(words: Sequence[str]) -> bool:
+    """Whether words say "at rest", also as "without pressure"."""
+    if has_word(list(words), _AT_REST):
+        return True
+    return any(
+        word in _WITHOUT and any(channel_of_word(other) == "pressure" for other in words[i + 1 : i + 3])
+        for i, word in enumerate(words)
+    )
+
+
+def _is_length_at_rest(behind: Sequence[str], *, lengthy: bool) -> bool:
+    """Whether the words behind a length say so: "250 mm rest length", "is 250 mm long when unpressurised"."""
+    if any(other_quantity(word, "length") not in (None, "a length at rest") for word in behind):
+        return False
+    named = any(word in _LONG or channel_of_word(word) == "length" for word in behind)
+    return bool((_is_at_rest(behind) and (lengthy or named)) or _REST_LENGTHS.search("".join(behind)))
 
 
 def _of_code(text: str) -> Iterator[tuple[str, str]]:

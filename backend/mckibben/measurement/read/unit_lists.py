@@ -5,15 +5,49 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
-from mckibben.measurement.read.unit_words import unit_of
+from mckibben.measurement.read.recognise import recognise
+from mckibben.measurement.read.unit_words import DIMENSIONS, dimension_of, unit_of
+from mckibben.measurement.read.vocabulary import UNIT_WORDS, words_of
 
 _PAIR = re.compile(r"\s*(?P<name>[^:=]+?)\s*(?:[:=]|->)\s*(?P<unit>.*?)\s*")
-_NAMES_UNITS = re.compile(r"(?i)(units?|einheit(en)?|unit(s|_labels?)?|uoms?|columns?_units?)")
+_MORE_WORDS = 2  # beside "unit" in the name of an attribute: "unit_label", "unité de mesure"
 
 
 def names_units(key: str) -> bool:
     """Whether the name of an attribute or field says that it holds units: ``units``, ``Einheiten``."""
-    return _NAMES_UNITS.fullmatch(key) is not None
+    words = words_of(key)
+    return len(words) <= 1 + _MORE_WORDS and any(word in UNIT_WORDS for word in words)
+
+
+def unit_said(name: str, said: Mapping[str, object]) -> str | None:
+    """The unit that an entry of its own says of a name: ``F_unit``, ``unidade_F``; None without one."""
+    own = words_of(name)
+    for key, value in said.items():
+        if isinstance(value, str) and unit_of(value) is not None:
+            words = words_of(key)
+            if len(words) > len(own) and [word for word in words if word not in UNIT_WORDS] == own:
+                return value
+    return None
+
+
+def unit_among(name: str, attributes: Mapping[str, object]) -> str | None:
+    """The unit of a variable among its attributes: the one that says so, else the only one that fits."""
+    texts = {key: value.strip() for key, value in attributes.items() if isinstance(value, str)}
+    for key, text in texts.items():
+        if names_units(key) and unit_of(text) is not None:
+            return text
+    fitting = {text for text in texts.values() if _can_be_unit(name, text)}
+    return fitting.pop() if len(fitting) == 1 else None
+
+
+def _can_be_unit(name: str, text: str) -> bool:
+    unit = unit_of(text)
+    dimension = dimension_of(unit.unit) if unit else ""
+    channel = recognise(name).channel
+    return dimension in (DIMENSIONS.get(channel, ()) if channel else _CARRIED)
+
+
+_CARRIED = ("a pressure", "a force")  # what is hardly ever written for something else
 
 
 def units_of_columns(names: Sequence[str], said: Mapping[str, object]) -> list[str | None]:
@@ -48,14 +82,17 @@ def _of_text(names: Sequence[str], text: str) -> list[str | None] | None:
     return None
 
 
+def units_in_text(text: str) -> dict[str, str]:
+    """Name -> unit of a text of pairs: ``"t: s, F: N"``."""
+    parts = [part.strip().strip("\"'") for part in re.split(r"[;,|\n]", text.strip().strip("{}[]()"))]
+    pairs = [_PAIR.fullmatch(part) for part in parts if part]
+    return {
+        pair["name"].strip(): pair["unit"] for pair in pairs if pair is not None and unit_of(pair["unit"])
+    }
+
+
 def _own(number: int, name: str, said: Mapping[str, object]) -> str | None:
-    for key in (
-        f"{name}_unit",
-        f"{name}_units",
-        f"unit_{name}",
-        f"FIELD_{number}_UNIT",
-        f"FIELD_{number}_UNITS",
-    ):
+    for key in (f"{name}_unit", f"{name}_units", f"FIELD_{number}_UNIT", f"FIELD_{number}_UNITS"):
         if isinstance(value := said.get(key), str):
             return value
-    return None
+    return unit_said(name, said)

@@ -89,6 +89,8 @@ LESS_WANTED = {
 NO_CHANNEL = {word: reason for reason, texts in words.NO_CHANNELS.items() for word in all_words(texts)}
 #: Remark -> its words: "at rest", "load", "supply", "ambient", "sample", "date".
 REMARK_WORDS = {what: frozenset(all_words(texts)) for what, texts in words.REMARKS.items()}
+#: Words with which an attribute or field says that it holds units.
+UNIT_WORDS = REMARK_WORDS["unit"]
 #: Words before a force or mass that is not the load of the muscle.
 LOADLESS = REMARK_WORDS["loadless"]
 #: Words with which the statistics below a table begin.

@@ -6,12 +6,14 @@ from __future__ import annotations
 REMARKS = {
     "at rest": {
         "en": (
-            "l0 rest unloaded relaxed free initial nominal gauge start sample specimen original "
-            "undeformed"
+            "l0 rest resting unloaded relaxed free initial nominal gauge start sample specimen original "
+            "undeformed unpressurized unpressurised depressurized depressurised uninflated deflated vented "
+            "unstretched unactuated"
         ),
-        "de": "ruhe anfang anfangs nenn einspann ausgangs ungedehnt drucklos",
-        "fr": "vide repos initiale libre origine", "it": "riposo iniziale libera nominale",
-        "es": "reposo inicial libre original nominal", "pt": "repouso inicial livre original",
+        "de": "ruhe anfang anfangs nenn einspann ausgangs ungedehnt drucklos unbelastet entlüftet",
+        "fr": "vide repos initiale libre origine dépressurisé",
+        "it": "riposo iniziale libera nominale", "es": "reposo inicial libre original nominal despresurizado",
+        "pt": "repouso inicial livre original despressurizado",
         "pl": "spoczynkowa początkowa swobodna", "cs": "klidová počáteční volná výchozí",
         "ru": "свободном свободная начальная исходная", "tr": "serbest başlangıç ilk",
         "nl": "rust begin vrije", "sv": "vila ursprunglig fri", "da": "hvile fri oprindelig",
@@ -31,10 +33,13 @@ REMARKS = {
         "et": "algpikkus",
     },
     "load": {
-        "en": "load mass weight hanging deadweight dead suspended",
-        "de": "last masse gewicht gehängt angehängt gewichtsstück", "fr": "charge poids masse",
-        "it": "carico massa peso appesa", "es": "carga masa peso", "pt": "carga peso massa",
-        "pl": "masa obciążenie ciężar obciążnik", "cs": "hmotnost závaží zátěž břemeno",
+        "en": "load mass weight hanging hung hangs deadweight dead suspended attached",
+        "de": "last masse gewicht gehängt angehängt hängt hängend gewichtsstück",
+        "fr": "charge poids masse suspendu suspendue accroché",
+        "it": "carico massa peso appesa appeso sospeso", "es": "carga masa peso colgado suspendido",
+        "pt": "carga peso massa suspenso pendurado",
+        "pl": "masa obciążenie ciężar obciążnik zawieszony podwieszony",
+        "cs": "hmotnost závaží zátěž břemeno",
         "ru": "масса груз нагрузка вес гиря груза", "tr": "yük kütle ağırlık", "nl": "massa gewicht",
         "sv": "massa vikt last", "ja": "質量 おもり 荷重 錘 重り 重錘 分銅 負荷",
         "zh": "质量 负载 砝码 载荷 重物 配重 重量 悬挂 负荷",
@@ -47,7 +52,8 @@ REMARKS = {
         "he": "משקל מסה",
     },
     "supply": {
-        "en": "supply", "de": "versorgung versorgungsdruck speisedruck vordruck netzdruck druckversorgung",
+        "en": "supply shop compressor",
+        "de": "versorgung versorgungsdruck speisedruck vordruck netzdruck druckversorgung",
         "fr": "alimentation réseau", "it": "alimentazione", "es": "alimentación", "pt": "alimentação",
         "pl": "zasilanie zasilania", "cs": "napájecí napájení",
         "ru": "питания питание магистрали магистраль", "tr": "besleme",
@@ -98,6 +104,22 @@ REMARKS = {
         "nl": "sensor voorspanning", "sv": "givare förspänning", "fi": "anturi", "da": "måler føler",
         "hu": "érzékelő szenzor cella", "ro": "senzor", "el": "αισθητήρας", "hr": "senzor",
         "ko": "센서 로드셀 정격", "ja": "センサ 定格 容量",
+    },
+    "without": {
+        "en": "no zero without", "de": "ohne kein null", "fr": "sans nulle", "it": "senza nulla",
+        "es": "sin nula", "pt": "sem nula", "pl": "bez", "cs": "bez", "ru": "без",
+        "nl": "zonder geen", "sv": "utan",
+        "da": "uden", "no": "uten", "fi": "ilman", "hu": "nulla", "ro": "fără", "el": "χωρίς", "uk": "без",
+        "bg": "без", "hr": "bez", "sl": "brez", "sk": "bez",
+    },
+    "unit": {
+        "en": "unit units uom", "de": "einheit einheiten", "fr": "unité unités", "it": "unità",
+        "es": "unidad unidades", "pt": "unidade unidades", "pl": "jednostka jednostki",
+        "cs": "jednotka jednotky", "ru": "единица единицы", "tr": "birim birimi birimler",
+        "nl": "eenheid eenheden", "sv": "enhet enheter", "da": "enhed enheder", "fi": "yksikkö yksiköt",
+        "hu": "egység mértékegység", "ro": "unitate unități", "el": "μονάδα μονάδες", "uk": "одиниця одиниці",
+        "hr": "jedinica jedinice", "sl": "enota enote", "ja": "単位", "zh": "单位 單位", "ko": "단위",
+        "id": "satuan", "ca": "unitat unitats", "lt": "vienetas vienetai", "et": "ühik ühikud",
     },
     "constant": {
         "en": "constant held fixed", "de": "konstant konstante", "fr": "constant", "it": "costante",

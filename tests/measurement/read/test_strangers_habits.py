@@ -1,0 +1,244 @@
+"""Files as strangers write them: conditions in sentences, units in attributes, tests in JSON, empty cells.
+
+Every value that is expected was put into the text by the test itself.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Mapping
+from typing import Any
+
+import h5py
+import numpy as np
+import pytest
+
+from mckibben.measurement.measurement import Measurement
+from mckibben.measurement.read import preview, read_measurement
+from mckibben.measurement.read.stated import statements
+from mckibben.physics.errors import InputError
+
+PRESSURES = np.linspace(1.0, 6.0, 30)  # bar
+POUND_FORCE = 4.4482216152605  # N, by definition
+INCH = 0.0254  # m, by definition
+
+
+def pull(length: float) -> np.ndarray:
+    """A force [N] that grows with pressure and length [mm], all above zero."""
+    return 60.0 * PRESSURES + (length - 200.0)
+
+
+def hanging(seconds: float, preamble: str, *, jump: bool = False) -> bytes:
+    """A weight lifted and lowered once within a time, or all at once, recorded at 20 Hz."""
+    time = np.arange(0.0, seconds, 0.05)
+    way = 1.0 - np.abs(2.0 * time / seconds - 1.0)
+    way = (time > 0.5 * seconds).astype(float) if jump else way
+    rows = zip(time, 10.0 + 60.0 * way, 11.0 - 2.0 * way, strict=True)
+    lines = "\n".join("\t".join(f"{value:.5f}" for value in row) for row in rows)
+    return f"{preamble}Time (s)\tPressure (psig)\tLength (in)\n{lines}\n".encode()
+
+
+def document(content: Any) -> bytes:
+    return json.dumps(content, default=lambda array: array.tolist()).encode()
+
+
+def hdf5(
+    root: Mapping[str, Any], columns: Mapping[str, Mapping[str, str]], group: Mapping[str, str]
+) -> bytes:
+    """A map of two lengths in a group of an HDF5 file with attributes."""
+    data = io.BytesIO()
+    values = (
+        np.tile(PRESSURES, 2),
+        np.repeat([300.0, 280.0], 30),
+        np.concatenate([pull(300.0), pull(280.0)]),
+    )
+    with h5py.File(data, "w") as file:
+        file.attrs.update(root)
+        place = file.create_group("medida")
+        place.attrs.update(group)
+        for (name, attributes), numbers in zip(columns.items(), values, strict=True):
+            place[name] = numbers
+            place[name].attrs.update(attributes)
+    return data.getvalue()
+
+
+def of_lengths(result: Measurement, *lengths: float) -> None:
+    """The measurement holds the readings of these lengths [mm], one group each."""
+    np.testing.assert_allclose(result.columns["pressure"], np.tile(PRESSURES, len(lengths)) * 1e5)
+    np.testing.assert_allclose(result.columns["length"], np.repeat(lengths, 30) / 1e3)
+    np.testing.assert_allclose(result.columns["force"], np.concatenate([pull(length) for length in lengths]))
+    assert len(np.unique(result.columns["group"])) == len(lengths)
+
+
+SENTENCES = {
+    "Muscle: DMSP-20, resting length 11 in (vented)": {"muscle": "DMSP-20", "nominal_length": "11 in"},
+    "the muscle is 250 mm long when unpressurised": {"nominal_length": "250 mm"},
+    "Länge bei 0 bar: 30 cm": {"nominal_length": "30 cm"},
+    "longueur sans pression 0,3 m": {"nominal_length": "0.3 m"},
+    "L_0 = 0.25 m, Masse angehängt 5 kg": {"nominal_length": "0.25 m", "load_mass": "5 kg"},
+    "L0_mm: 250": {"nominal_length": "250 mm"},
+    "stroke 30 mm rest length 250 mm": {"nominal_length": "250 mm"},
+    "12 kg hung from the lower end": {"load_mass": "12 kg"},
+    "shop air at 90 psi": {"supply_pressure": "90 psi"},
+    "pressure swept from 0 bar to 6 bar, length 283 mm": {},
+    "strain gauge amplifier, pressure sensor new": {},
+}
+
+
+@pytest.mark.parametrize("text", SENTENCES)
+def test_a_sentence_states_conditions(text: str) -> None:
+    assert {note.key: note.value for note in statements([(text, "line 1")], "a.csv")} == SENTENCES[text]
+
+
+PREAMBLES = [
+    "# Muscle: DMSP-20, resting length 11.0 in\n# Test: 25 lb dead weight hung from it\n",
+    "# student bench\n# the muscle is 11 in long at rest and carries a weight of 25 lb\n",
+    "bench 3\nresting length 11 in\ndead weight 25 lb\n",
+]
+
+
+@pytest.mark.parametrize("preamble", PREAMBLES)
+def test_a_weight_that_moves_slowly_is_isotonic_with_what_the_preamble_says(preamble: str) -> None:
+    result = read_measurement(hanging(60.0, preamble), "run.tsv")
+    assert result.kind == "isotonic"
+    assert result.conditions["nominal_length"] == pytest.approx(11.0 * INCH)
+    assert result.conditions["load_force"] == pytest.approx(25.0 * POUND_FORCE)
+
+
+def test_a_weight_that_jumps_or_is_not_known_is_transient() -> None:
+    jumping = read_measurement(hanging(60.0, PREAMBLES[0], jump=True), "run.tsv")
+    assert jumping.kind == "transient"
+    assert read_measurement(hanging(2.0, PREAMBLES[0]), "run.tsv").kind == "transient"
+    assert read_measurement(hanging(60.0, "# no word of a load\n"), "run.tsv").kind == "transient"
+
+
+UNITS = {
+    "in a word of the language": (
+        {}, {"pressao": {"unidade": "bar"}, "comprimento": {"unidade": "mm"}, "forca": {"unidade": "N"}}, {},
+    ),
+    "under any name": (
+        {}, {"pressao": {"esc": "bar"}, "comprimento": {"esc": "mm"}, "forca": {"esc": "N", "in": "ai0"}}, {},
+    ),
+    "of the group": (
+        {}, {"pressao": {}, "comprimento": {}, "forca": {}},
+        {"pressao_unidade": "bar", "unidade_comprimento": "mm", "forca_unidade": "N"},
+    ),
+    "in one text of the file": (
+        {"unidades": "pressao: bar, comprimento: mm, forca: N"},
+        {"pressao": {}, "comprimento": {}, "forca": {}}, {},
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("place", UNITS)
+def test_units_stand_in_attributes(place: str) -> None:
+    of_lengths(read_measurement(hdf5(*UNITS[place]), "m.h5"), 300.0, 280.0)
+
+
+def _nested() -> dict[str, Any]:
+    def run(length: float) -> dict[str, Any]:
+        signals = [("pressure", "bar", PRESSURES), ("force", "N", pull(length))]
+        return {
+            "length_mm": length, "signals": [{"name": n, "unit": u, "values": v} for n, u, v in signals],
+        }  # fmt: skip
+
+    def channels(length: float) -> dict[str, Any]:
+        return {
+            "conditions": {"length": {"value": length, "unit": "mm"}},
+            "channels": {"p": PRESSURES, "F": pull(length)},
+        }
+
+    def records(length: float) -> list[dict[str, float]]:
+        return [{"p_bar": float(p), "F_N": float(f)} for p, f in zip(PRESSURES, pull(length), strict=True)]
+
+    return {
+        "tests with data": {
+            "tests": [{"length_mm": n, "data": {"p_bar": PRESSURES, "F_N": pull(n)}} for n in (300.0, 280.0)]
+        },
+        "records in tests": {
+            "tests": [{"at": {"length_mm": n}, "readings": records(n)} for n in (300.0, 280.0)]
+        },
+        "rows below names in tests": {
+            "tests": [
+                {"length_mm": n, "columns": ["p [bar]", "F [N]"], "data": np.stack([PRESSURES, pull(n)]).T}
+                for n in (300.0, 280.0)
+            ]
+        },
+        "runs by name, units outside": {
+            "units": {"p": "bar", "F": "N"}, "runs": {"a": channels(300.0), "b": channels(280.0)},
+        },
+        "runs in tests": {"tests": [{"runs": [run(300.0)]}, {"runs": [run(280.0)]}]},
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("shape", _nested())
+def test_tests_are_nested_in_json_with_conditions_at_each_level(shape: str) -> None:
+    content = {**_nested()[shape], "specimen": {"rest_length_mm": 310.0}}
+    result = read_measurement(document(content), "a.json")
+    of_lengths(result, 300.0, 280.0)
+    assert result.conditions["nominal_length"] == pytest.approx(0.31)
+
+
+def test_one_test_in_a_list_keeps_its_length() -> None:
+    rows = [{"p_bar": float(p), "F_N": float(f)} for p, f in zip(PRESSURES, pull(300.0), strict=True)]
+    of_lengths(read_measurement(document({"tests": [{"length_mm": 300.0, "rows": rows}]}), "a.json"), 300.0)
+
+
+def test_runs_of_several_tests_are_groups_of_their_own() -> None:
+    def run(length: float) -> dict[str, Any]:
+        return {"length_mm": length, "p_bar": PRESSURES, "F_N": pull(length)}
+
+    tests = [{"runs": [run(300.0), run(290.0)]}, {"runs": [run(280.0), run(270.0)]}]
+    of_lengths(read_measurement(document({"tests": tests}), "a.json"), 300.0, 290.0, 280.0, 270.0)
+
+
+def test_a_mostly_slack_muscle_is_read_without_its_empty_rows() -> None:
+    forces = [(n, 260.0 - 10.0 * n) for n in range(60)]
+    rows = [f"{300 - n},2,{force if force > 0 else ''}" for n, force in forces]
+    result = read_measurement("\n".join(["length_mm,pressure_bar,force_N", *rows]).encode(), "a.csv")
+    assert result.columns["force"].tolist() == [force for _, force in forces if force > 0]
+    assert any("34 rows left out: an empty cell (first: row 28" in said for said in result.messages)
+    with pytest.raises(InputError, match=r"row 6, column 'force_N': the cell is empty"):
+        read_measurement(
+            "\n".join(["length_mm,pressure_bar,force_N", *rows[22:34]]).encode(), "a.csv"
+        )  # too few are left
+
+
+MAPS = {
+    "names above the corner": "Force [N], empty where slack;;\nContraction [%];Pressure [bar];\n;1;2;3\n",
+    "a sentence": "rows: contraction [%], columns: pressure [bar]\nForce [N]\n;1;2;3\n",
+    "the value in the corner": "Contraction [%];Pressure [bar];\nForce [N];1;2;3\n",
+}
+
+
+@pytest.mark.parametrize("above", MAPS)
+def test_a_map_says_its_axes_above(above: str) -> None:
+    result = read_measurement(f"{MAPS[above]}0;100;200;300\n5;;120;180\n10;;;90\n".encode(), "map.csv")
+    np.testing.assert_allclose(result.columns["force"], [100, 200, 300, 120, 180, 90])
+    np.testing.assert_allclose(result.columns["pressure"], np.array([1, 2, 3, 2, 3, 3]) * 1e5)
+    np.testing.assert_allclose(result.columns["contraction"], [0, 0, 0, 0.05, 0.05, 0.1])
+    assert any("3 empty cells hold no reading" in said for said in result.messages)
+
+
+def test_a_force_without_unit_is_asked_unless_the_file_is_in_si() -> None:
+    rows = [f"{p},{300 - n},{f}" for n, (p, f) in enumerate(zip(PRESSURES, pull(300.0), strict=True))]
+    found = preview("\n".join(["Pressure (bar),Length (mm),Force", *rows]).encode(), "a.csv")
+    (asked,) = [question for question in found.questions if question.stops]
+    assert asked.about == "unit of force"
+    assert {"N", "lbf", "kgf"} <= set(asked.choices)
+    rows = [
+        f"{1e5 * p},{0.3 - n / 1e3},{f}" for n, (p, f) in enumerate(zip(PRESSURES, pull(300.0), strict=True))
+    ]
+    result = read_measurement("\n".join(["pressure,length,force", *rows]).encode(), "a.csv")
+    np.testing.assert_allclose(result.columns["force"], pull(300.0))
+
+
+def test_the_length_of_a_muscle_beside_a_stroke_is_no_channel() -> None:
+    stroke = np.linspace(0.0, 29.0, 30)
+    held, force = np.full(30, 3.0), 600.0 - 15.0 * stroke
+    entry = {"length_mm": 300.0, "p_bar": held, "displacement_mm": stroke, "F_N": force}
+    for tests in ([entry], [entry, entry]):
+        result = read_measurement(document({"tests": tests}), "a.json")
+        assert "length" not in result.columns
+        np.testing.assert_allclose(result.columns["displacement"], np.tile(stroke, len(tests)) / 1e3)
