@@ -105,7 +105,7 @@ def signature(name: str, function: Callable[..., Any], *, bound: bool) -> list[s
                 arguments.append("*")
         arguments.append(_argument(parameter))
     returns = found.return_annotation
-    arrow = "" if returns is found.empty or name[:1] == "@" else f" -> {_annotation(returns)}"
+    arrow = "" if returns is found.empty else f" -> {_annotation(returns)}"
     line = f"{name}({', '.join(arguments)}){arrow}"
     if len(line) <= 88 or not arguments:
         return [line]

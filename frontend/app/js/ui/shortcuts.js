@@ -49,7 +49,7 @@ export function showShortcuts(table) {
     ),
     h(
       "p",
-      null,
+      { class: "reference-links" },
       "Reference, also offline: ",
       h("a", { href: "/help/python", target: "_blank" }, "Python"),
       ", ",
