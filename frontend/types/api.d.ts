@@ -64,6 +64,7 @@ export interface components {
   schemas: {
     /** What the accuracy of the measurement took up instead of the model: an error of a clamp or a sensor. */
     Absorbed: {
+      /** The channel. */
       channel: string;
       /** What it belongs to. */
       of: string;
@@ -73,36 +74,49 @@ export interface components {
       stderr: number;
       /** Stated or assumed standard deviation, SI. */
       accuracy: number;
+      /** SI unit of value, stderr and accuracy. */
       unit: string;
       /** What it changes of the predicted channel, SI. */
       rms: number;
     };
     /** The start model as given. */
     Baseline: {
+      /** Root mean square of the residual. */
       rmse: number;
+      /** RMSE over the largest measured magnitude. */
       nrmse_percent: number | null;
+      /** RMSE with whole groups left out of the fit. */
       holdout_rmse: number;
     };
     /** The start model with one more effect, all parameters refitted. */
     Candidate: {
+      /** Its id. */
       effect: string;
+      /** Its name. */
       title: string;
+      /** Root mean square of the residual with it. */
       rmse: number;
+      /** RMSE with whole groups left out of the fit. */
       holdout_rmse: number;
+      /** By how much it lowers the error of the start model. */
       gain_percent: number;
       /** Change of the score of the search; negative is better. */
       score_change: number;
       /** Older name of score_change, for this version only. */
       delta_bic: number;
+      /** Effect -> parameter -> value. */
       parameters: { [key: string]: components["schemas"]["FittedParameter"] };
       /** Candidates that these data cannot distinguish from it. */
       twins: string[];
+      /** What speaks for and against it. */
       why: string;
       /** LaTeX. */
       equation: string;
+      /** Constants of other effects that were fitted with it, as effect.parameter. */
       freed: string[];
       /** Experiment that separates it from its first twin. */
       next_measurement: string | null;
+      /** The model with it. */
       model: components["schemas"]["ModelJson"];
       /** That it, or one of its twins in the best model, is missing; null while the search runs. */
       probability: number | null;
@@ -124,16 +138,22 @@ export interface components {
     };
     /** A channel to which a column can be mapped. */
     ChannelChoice: {
+      /** Name of the channel. */
       name: string;
+      /** Its SI unit. */
       si_unit: string;
       /** Usual units; others are accepted too. */
       units: string[];
     };
     /** Error of one of several predicted channels, SI. */
     ChannelError: {
+      /** Root mean square of the residual. */
       rmse: number;
+      /** SI unit of the figures. */
       unit: string;
+      /** Noise of the channel. */
       noise_floor: number;
+      /** The largest measured magnitude. */
       full_scale: number;
     };
     /** Figures of the muscle at one pressure. */
@@ -157,18 +177,23 @@ export interface components {
       from: number;
       /** End. [s] */
       to: number;
+      /** Air flows in (fill) or out (exhaust). */
       side: "fill" | "exhaust";
     };
     /** A column of numbers in one unit. */
     Column: {
+      /** The unit, as a text. */
       unit: string;
+      /** The numbers, one per row. */
       values: number[];
     };
     /** The figures of the model's error, and the points. */
     ComparisonAnswer: {
       /** Measurement kind. */
       kind: string;
+      /** Number of rows of the measurements. */
       rows: number;
+      /** Number of compared rows. */
       rows_used: number;
       /** The predicted channel, or several. */
       predicted: string;
@@ -186,28 +211,39 @@ export interface components {
       noise_floor: number | null;
       /** How the noise was estimated. */
       noise_how: string;
+      /** Mean of the residual. */
       residual_mean: number | null;
       /** Error of each channel when there are several. */
       channels: { [key: string]: components["schemas"]["ChannelError"] };
       /** Effect -> parameter -> value. */
       parameters: { [key: string]: { [key: string]: components["schemas"]["FittedParameter"] } };
+      /** Correlations of the fitted parameters. */
       correlations: components["schemas"]["Correlation"][];
       /** Reason for leaving rows out -> number of rows. */
       excluded: { [key: string]: number };
+      /** The residual over each variable that it may depend on. */
       where: components["schemas"]["ResidualProfile"][];
+      /** The residual over two variables; null where there are too few points. */
       heat_map: components["schemas"]["HeatMap"] | null;
       /** What the squared residual is made of. */
       parts: components["schemas"]["ResidualPart"][];
+      /** Autocorrelation and runs of the residual: does it look like noise? */
       whiteness: components["schemas"]["WhitenessAnswer"];
+      /** Loops of the force residual, with the energy that the model misses. */
       loops: components["schemas"]["Loop"][];
       /** Where the model fails, as sentences. */
       sentences: string[];
+      /** The error on measurements not used for the fit; null without them. */
       validation: components["schemas"]["ValidationAnswer"] | null;
+      /** Remarks on the data. */
       messages: string[];
+      /** Geometry of the muscle, fitted where it was free. */
       geometry: components["schemas"]["MuscleGeometry"];
+      /** The points, curve by curve. */
       series: components["schemas"]["ComparisonSeries"][];
       /** Effects and values in the form of a request. */
       model: { [key: string]: { [key: string]: { [key: string]: number | string } } };
+      /** Remarks on the muscle. */
       flags: components["schemas"]["Flag"][];
       /** RMSE of what the accuracy of the readings does not explain; a diagnosis counts with it. */
       rmse_beyond_accuracy: number | null;
@@ -224,11 +260,13 @@ export interface components {
     ComparisonRequest: {
       /** Null: the drive's. */
       muscle?: components["schemas"]["MuscleInput"] | null;
+      /** The effects of the model; null: the drive's, or those of the muscle preset. */
       effects?: { [key: string]: { [key: string]: number | string } } | null;
       /** Valve, tube, supply and load of transient measurements with a command channel; the measured command replaces the one stated here. */
       drive?: components["schemas"]["DriveDocument"] | null;
       /** One measurement to fit to. */
       measurement?: string | null;
+      /** Measurements to fit to or to validate with, instead of 'measurement'. */
       measurements?: components["schemas"]["UsedMeasurement"][];
       /** Geometry to fit as well, within its tolerance. */
       free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
@@ -251,11 +289,13 @@ export interface components {
     };
     /** One curve of the comparison, e.g. all points of one pressure. */
     ComparisonSeries: {
+      /** Name of the curve. */
       label: string;
       /** The predicted channel. */
       channel: string;
       /** SI unit of measured, predicted and residual. */
       unit: string;
+      /** Used for the fit, or only for validation. */
       use: "fit" | "validation";
       /** Pressure of the series, when it has one. [Pa] */
       pressure: number | null;
@@ -280,20 +320,24 @@ export interface components {
     };
     /** The contraction at a force and pressure. */
     ContractionQuestion: {
+      /** The muscle. */
       muscle: components["schemas"]["MuscleInput"];
+      /** The effects of its model; null: those of the preset. */
       effects?: { [key: string]: { [key: string]: number | string } } | null;
       /** Temperature of the muscle. [K] */
       temperature?: number | string;
       /** Sign of dL/dt, for friction: -1 filling (shortening), 1 venting, 0 none. */
       direction?: -1 | 0 | 1;
+      /** Asks for a contraction. */
       question: "contraction";
       /** The force of the muscle. [N] */
       force: number | string;
-      /** [Pa] */
+      /** Gauge pressure in the muscle. [Pa] */
       pressure: number | string;
     };
     /** A sampled PID controller of the load's position. Gains without a unit are in percent of full command per mm (and s). */
     ControllerInput: {
+      /** Kind of the controller; there is one. */
       type?: "pid";
       /** Proportional gain, %/mm. [1/m] */
       kp: number | string;
@@ -313,111 +357,132 @@ export interface components {
       output_max?: number | string | null;
       /** Desired position, as a signal of time. [m] */
       reference: {
+        /** Name of the shape. */
         shape: "step";
-        /** [s] */
+        /** When it steps. [s] */
         at?: number | string;
-        /** [m] */
+        /** The value after the step, inside the pulse, or in the first part of a period. [m] */
         level: number | string;
-        /** [m] */
+        /** The value before the step, outside the pulse, or in the second part of a period. [m] */
         initial?: number | string;
       } | {
+        /** Name of the shape. */
         shape: "pulse";
-        /** [m] */
+        /** The value after the step, inside the pulse, or in the first part of a period. [m] */
         level: number | string;
-        /** [m] */
+        /** The value before the step, outside the pulse, or in the second part of a period. [m] */
         initial?: number | string;
-        /** [s] */
+        /** When the pulse begins. [s] */
         on?: number | string;
-        /** [s] */
+        /** When the pulse ends. [s] */
         off: number | string;
       } | {
+        /** Name of the shape. */
         shape: "square";
-        /** [m] */
+        /** The value after the step, inside the pulse, or in the first part of a period. [m] */
         level?: number | string;
-        /** [m] */
+        /** The value before the step, outside the pulse, or in the second part of a period. [m] */
         initial?: number | string;
-        /** [s] */
+        /** Duration of one period. [s] */
         period: number | string;
-        /** [1] */
+        /** Share of each period with the first level. [1] */
         duty?: number | string;
         /** Peak to peak, the full height: level - initial. [m] */
         amplitude?: number | string;
       } | {
+        /** Name of the shape. */
         shape: "triangle";
         /** Peak to peak, the full height: offset to offset + amplitude. [m] */
         amplitude: number | string;
-        /** [s] */
+        /** Duration of one period. [s] */
         period: number | string;
-        /** [m] */
+        /** The value that the amplitude is added to. [m] */
         offset?: number | string;
       } | {
+        /** Name of the shape. */
         shape: "ramp";
-        /** [m] */
+        /** The value before the ramp. [m] */
         from?: number | string;
-        /** [m] */
+        /** The value after the ramp. [m] */
         to: number | string;
-        /** [s] */
+        /** When the ramp begins. [s] */
         start?: number | string;
-        /** [s] */
+        /** How long the ramp lasts. [s] */
         duration: number | string;
       } | {
+        /** Name of the shape. */
         shape: "sine";
         /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [m] */
         amplitude: number | string;
-        /** [m] */
+        /** The value that the amplitude is added to. [m] */
         offset?: number | string;
-        /** [Hz] */
+        /** Periods per second; or give the period. [Hz] */
         frequency?: number | string;
-        /** [rad] */
+        /** Angle at t = 0. [rad] */
         phase?: number | string;
-        /** [s] */
+        /** Duration of one period. [s] */
         period?: number | string;
       } | {
+        /** Name of the shape. */
         shape: "chirp";
         /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [m] */
         amplitude: number | string;
-        /** [m] */
+        /** The value that the amplitude is added to. [m] */
         offset?: number | string;
-        /** [Hz] */
+        /** Frequency at the start. [Hz] */
         from: number | string;
-        /** [Hz] */
+        /** Frequency at the end of the duration and after it. [Hz] */
         to: number | string;
-        /** [s] */
+        /** How long the frequency changes. [s] */
         duration: number | string;
       } | {
+        /** Name of the shape. */
         shape: "random";
-        /** [s] */
+        /** How long each level lasts. [s] */
         hold: number | string;
+        /** Number that the levels follow from; the same seed gives the same levels. */
         seed?: number;
-        /** [m] */
+        /** Lowest level. [m] */
         lower?: number | string;
-        /** [m] */
+        /** Highest level. [m] */
         upper: number | string;
       } | {
+        /** Name of the shape. */
         shape: "table";
-        /** [s] */
+        /** Instants of the points, ascending. [s] */
         times: (number | string)[] | {
+          /** Unit of the values. */
           unit: string;
+          /** The numbers. */
           values: number[];
         };
-        /** [m] */
+        /** Values of the points, as many as instants. [m] */
         values: (number | string)[] | {
+          /** Unit of the values. */
           unit: string;
+          /** The numbers. */
           values: number[];
         };
+        /** Joined by lines, or each value held until the next. */
         interpolation?: "linear" | "hold";
       };
     };
     /** Correlation of two fitted parameters. */
     Correlation: {
+      /** First parameter, as effect.parameter. */
       a: string;
+      /** Second parameter, as effect.parameter. */
       b: string;
+      /** Coefficient of correlation, -1 to 1. */
       value: number;
     };
     /** Force over pressure and contraction. */
     CurveColumns: {
+      /** Gauge pressure. */
       pressure: components["schemas"]["Column"];
+      /** Contraction ratio. */
       contraction: components["schemas"]["Column"];
+      /** Force. */
       force: components["schemas"]["Column"];
     };
     /** Limits of the muscle; null where the preset does not state one. */
@@ -437,18 +502,31 @@ export interface components {
     };
     /** A reference curve of the maker: not a measurement. */
     CurvePresetAnswer: {
+      /** Version of the document. */
       schema: 1;
+      /** Says that it is a reference curve. */
       kind: "curve";
+      /** Its id; for the user's own, also the name of its file. */
       id: string;
+      /** Its name for display. */
       title: string;
+      /** Who makes the part; empty where nobody does. */
       maker?: string;
+      /** What it is, in a few sentences. */
       description?: string;
+      /** Sources for further reading. */
       references?: string[];
+      /** Id of the muscle preset that it belongs to. */
       muscle: string;
+      /** The numbers, column by column. */
       data_columns: components["schemas"]["CurveColumns"];
+      /** Rows that are not used. */
       excluded?: components["schemas"]["Exclusion"][];
+      /** Where the numbers come from, in a few words. */
       source: string;
+      /** S: read in the cited source; S2: read second-hand; C: computed from cited data; D: derived or fitted for this project; M: general knowledge, not verified; E: engineering estimate, not verified; user: given by the user */
       grade: "S" | "S2" | "C" | "D" | "M" | "E" | "user";
+      /** Remark on the numbers. */
       note?: string | null;
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
@@ -477,13 +555,19 @@ export interface components {
       diameter: (number | null)[];
       /** Outer diameter of the wall, at constant wall volume. [m] */
       outer_diameter: (number | null)[];
+      /** Limits of the muscle. */
       limits: components["schemas"]["CurveLimits"];
+      /** Figures of the muscle at each pressure. */
       characteristics: components["schemas"]["Characteristics"][];
+      /** Geometry of the muscle at rest, in all forms. */
       geometry: components["schemas"]["MuscleGeometry"];
+      /** The effects used, with all their values. */
       model: components["schemas"]["ModelAnswer"];
       /** Null without load and fixed length. */
       over_pressure: components["schemas"]["OverPressure"] | null;
+      /** The state at each pressure; empty without a load. */
       operating_points: components["schemas"]["OperatingPoint"][];
+      /** Remarks on the answer. */
       flags: components["schemas"]["Flag"][];
     };
     /** A muscle, and the pressures and range of its curves. */
@@ -510,18 +594,28 @@ export interface components {
       load?: number | string | null;
       /** Fixed length, for force over pressure. [m] */
       fixed_length?: number | string | null;
+      /** The muscle. */
       muscle: components["schemas"]["MuscleInput"];
+      /** The effects of its model; null: those of the preset. */
       effects?: { [key: string]: { [key: string]: number | string } } | null;
     };
     /** An example document of the Design view; its content is checked when it is used. */
     DesignAnswer: {
+      /** Version of the document. */
       schema: 1;
+      /** Says that it is a design. */
       kind: "design";
+      /** Its id; for the user's own, also the name of its file. */
       id: string;
+      /** Its name for display. */
       title: string;
+      /** Who makes the part; empty where nobody does. */
       maker?: string;
+      /** What it is, in a few sentences. */
       description?: string;
+      /** Sources for further reading. */
       references?: string[];
+      /** The document that the Design view opens. */
       document: { [key: string]: unknown };
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
@@ -530,28 +624,45 @@ export interface components {
     };
     /** What the model is missing, and how certain that is. */
     DiagnosisAnswer: {
+      /** Measurement kind. */
       kind: string;
+      /** Number of rows of the measurements. */
       rows: number;
+      /** Number of rows used. */
       rows_used: number;
       /** Reason for leaving rows out -> number of rows. */
       excluded: { [key: string]: number };
+      /** The predicted channel, or several. */
       predicted: string;
+      /** SI unit of the errors; "1" = relative to the noise of each channel. */
       unit: string;
+      /** Error of the start model as given. */
       baseline: components["schemas"]["Baseline"];
+      /** The error due to noise. */
       noise_floor: components["schemas"]["NoiseFloor"];
+      /** Error of each channel when there are several. */
       channels: { [key: string]: components["schemas"]["ChannelError"] };
+      /** The residual of the start model over each variable. */
       where: components["schemas"]["ResidualProfile"][];
+      /** The start model with one more effect, the best first. */
       candidates: components["schemas"]["Candidate"][];
+      /** The steps from the start model to the best one. */
       path: components["schemas"]["PathStep"][];
+      /** The verdict. */
       verdict: components["schemas"]["Verdict"];
+      /** Effect -> parameter -> value, of the best model. */
       parameters: { [key: string]: { [key: string]: components["schemas"]["FittedParameter"] } };
+      /** Correlations of the fitted parameters of the best model. */
       correlations: components["schemas"]["Correlation"][];
+      /** Geometry of the muscle of the best model. */
       geometry: components["schemas"]["MuscleGeometry"];
       /** Muscle and effects; of a transient also 'drive': the drive document with both inside, which a comparison takes. */
       model: { [key: string]: unknown };
+      /** Constants that the best model fitted as well, as effect.parameter. */
       freed: string[];
       /** Effects of the catalogue that were not tried, with the reason. */
       not_tried: components["schemas"]["NotTried"][];
+      /** Remarks on the data and the search. */
       messages: string[];
       /** Values of the experiment in which all measurements agree, each with its origin. */
       experiment: { [key: string]: components["schemas"]["ExperimentValue"] };
@@ -570,11 +681,13 @@ export interface components {
     DiagnosisRequest: {
       /** Null: the drive's. */
       muscle?: components["schemas"]["MuscleInput"] | null;
+      /** The effects of the model; null: the drive's, or those of the muscle preset. */
       effects?: { [key: string]: { [key: string]: number | string } } | null;
       /** Valve, tube, supply and load of transient measurements with a command channel; the measured command replaces the one stated here. */
       drive?: components["schemas"]["DriveDocument"] | null;
       /** One measurement to fit to. */
       measurement?: string | null;
+      /** Measurements to fit to or to validate with, instead of 'measurement'. */
       measurements?: components["schemas"]["UsedMeasurement"][];
       /** Geometry to fit as well, within its tolerance. */
       free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
@@ -603,7 +716,9 @@ export interface components {
       stated: number | null;
       /** What explains the data: SI value, or in words. */
       value: number | string | null;
+      /** Standard error of the value; null where there is none. */
       stderr: number | null;
+      /** SI unit of stated, value and stderr. */
       unit: string;
       /** Share of the error above the noise that it explains by itself. */
       explains: number;
@@ -617,19 +732,30 @@ export interface components {
       asked: boolean;
       /** Would be asked about, but the request keeps it. */
       kept: boolean;
+      /** The evidence, as a sentence. */
       sentence: string;
     };
     /** A drive document to start from; its content is checked when it is used. */
     DriveAnswer: {
+      /** Version of the document. */
       schema: 1;
+      /** Says that it is a drive. */
       kind: "drive";
+      /** Its id; for the user's own, also the name of its file. */
       id: string;
+      /** Its name for display. */
       title: string;
+      /** Who makes the part; empty where nobody does. */
       maker?: string;
+      /** What it is, in a few sentences. */
       description?: string;
+      /** Sources for further reading. */
       references?: string[];
+      /** The document to start from. */
       document: { [key: string]: unknown };
+      /** Path in the document -> source of the value. */
       grounds?: { [key: string]: components["schemas"]["Ground"] };
+      /** Published figures of the drive; null where there are none. */
       paper?: components["schemas"]["PaperFigures"] | null;
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
@@ -642,120 +768,144 @@ export interface components {
       schema?: 1;
       /** Title for display. */
       title?: string;
+      /** The muscle; both muscles of an antagonist pair. */
       muscle: components["schemas"]["MuscleInput"];
+      /** The effects of the model; null: those of the presets. */
       effects?: { [key: string]: { [key: string]: number | string } } | null;
+      /** The compressed air before the valve. */
       supply: components["schemas"]["SupplyInput"];
+      /** The valve. */
       valve: components["schemas"]["ValveInput"];
+      /** States that the valve is a pressure regulator; null: it is one only if its preset is. */
       regulator?: components["schemas"]["RegulatorInput"] | null;
       /** Default: the valve is on the muscle, but a diagnosis tries a typical tube (4 mm, 1 m) as an explanation. null: there is no tube, and a diagnosis tries none. */
       tube?: components["schemas"]["TubeInput"] | null;
       /** Fitting presets; they add their port volumes. */
       fittings?: string[];
+      /** The load. Default: none. */
       load?: components["schemas"]["LoadInput"];
       /** Opening of the valve: 1 fill, 0 closed, -1 exhaust; for a regulator, the share of its range. Where a shape has no value, e.g. outside a pulse, the valve exhausts (0 for a regulator). Not needed with a controller or a measurement, which supply the command. [1] */
       command?: {
+        /** Name of the shape. */
         shape: "step";
-        /** [s] */
+        /** When it steps. [s] */
         at?: number | string;
-        /** [1] */
+        /** The value after the step, inside the pulse, or in the first part of a period. [1] */
         level?: number | string;
-        /** [1] */
+        /** The value before the step, outside the pulse, or in the second part of a period. [1] */
         initial?: number | string;
       } | {
+        /** Name of the shape. */
         shape: "pulse";
-        /** [1] */
+        /** The value after the step, inside the pulse, or in the first part of a period. [1] */
         level?: number | string;
-        /** [1] */
+        /** The value before the step, outside the pulse, or in the second part of a period. [1] */
         initial?: number | string;
-        /** [s] */
+        /** When the pulse begins. [s] */
         on?: number | string;
-        /** [s] */
+        /** When the pulse ends. [s] */
         off: number | string;
       } | {
+        /** Name of the shape. */
         shape: "square";
-        /** [1] */
+        /** The value after the step, inside the pulse, or in the first part of a period. [1] */
         level?: number | string;
-        /** [1] */
+        /** The value before the step, outside the pulse, or in the second part of a period. [1] */
         initial?: number | string;
-        /** [s] */
+        /** Duration of one period. [s] */
         period: number | string;
-        /** [1] */
+        /** Share of each period with the first level. [1] */
         duty?: number | string;
         /** Peak to peak, the full height: level - initial. [1] */
         amplitude?: number | string;
       } | {
+        /** Name of the shape. */
         shape: "triangle";
         /** Peak to peak, the full height: offset to offset + amplitude. [1] */
         amplitude?: number | string;
-        /** [s] */
+        /** Duration of one period. [s] */
         period: number | string;
-        /** [1] */
+        /** The value that the amplitude is added to. [1] */
         offset?: number | string;
       } | {
+        /** Name of the shape. */
         shape: "ramp";
-        /** [1] */
+        /** The value before the ramp. [1] */
         from?: number | string;
-        /** [1] */
+        /** The value after the ramp. [1] */
         to?: number | string;
-        /** [s] */
+        /** When the ramp begins. [s] */
         start?: number | string;
-        /** [s] */
+        /** How long the ramp lasts. [s] */
         duration: number | string;
       } | {
+        /** Name of the shape. */
         shape: "sine";
         /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [1] */
         amplitude?: number | string;
-        /** [1] */
+        /** The value that the amplitude is added to. [1] */
         offset?: number | string;
-        /** [Hz] */
+        /** Periods per second; or give the period. [Hz] */
         frequency?: number | string;
-        /** [rad] */
+        /** Angle at t = 0. [rad] */
         phase?: number | string;
-        /** [s] */
+        /** Duration of one period. [s] */
         period?: number | string;
       } | {
+        /** Name of the shape. */
         shape: "chirp";
         /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [1] */
         amplitude?: number | string;
-        /** [1] */
+        /** The value that the amplitude is added to. [1] */
         offset?: number | string;
-        /** [Hz] */
+        /** Frequency at the start. [Hz] */
         from: number | string;
-        /** [Hz] */
+        /** Frequency at the end of the duration and after it. [Hz] */
         to: number | string;
-        /** [s] */
+        /** How long the frequency changes. [s] */
         duration: number | string;
       } | {
+        /** Name of the shape. */
         shape: "random";
-        /** [s] */
+        /** How long each level lasts. [s] */
         hold: number | string;
+        /** Number that the levels follow from; the same seed gives the same levels. */
         seed?: number;
-        /** [1] */
+        /** Lowest level. [1] */
         lower?: number | string;
-        /** [1] */
+        /** Highest level. [1] */
         upper?: number | string;
       } | {
+        /** Name of the shape. */
         shape: "table";
-        /** [s] */
+        /** Instants of the points, ascending. [s] */
         times: (number | string)[] | {
+          /** Unit of the values. */
           unit: string;
+          /** The numbers. */
           values: number[];
         };
-        /** [1] */
+        /** Values of the points, as many as instants. [1] */
         values: (number | string)[] | {
+          /** Unit of the values. */
           unit: string;
+          /** The numbers. */
           values: number[];
         };
+        /** Joined by lines, or each value held until the next. */
         interpolation?: "linear" | "hold";
       } | null;
       /** Controller that generates the command. */
       controller?: components["schemas"]["ControllerInput"] | null;
+      /** How the air behaves, and what surrounds the drive. */
       gas?: components["schemas"]["GasInput"];
+      /** The end stops. */
       stops?: components["schemas"]["StopsInput"];
       /** Length of the run. [s] */
       duration?: number | string;
       /** Gauge pressure in the muscle at t = 0. [Pa] */
       start_pressure?: number | string;
+      /** Where the load is released at t = 0. Default: where it rests. */
       start?: components["schemas"]["StartInput"];
     };
     /** Limits stated by the maker (null = not known), and the end stops. */
@@ -777,7 +927,9 @@ export interface components {
     EffectAnswer: {
       /** The name of the file that declares it. */
       id: string;
+      /** Its name. */
       title: string;
+      /** Part of the drive or branch of physics that it belongs to. */
       family: string;
       /** static, rate, hysteretic, dynamic or measurement. */
       type: string;
@@ -785,18 +937,24 @@ export interface components {
       cause: string;
       /** LaTeX. */
       equation: string;
+      /** The equation as MathML. */
       equation_mathml: string;
+      /** Its numbers. */
       parameters: components["schemas"]["EffectParameter"][];
       /** Measurement kinds that reveal it. */
       kinds: string[];
+      /** How it shows in the residual. */
       signature: components["schemas"]["Signature"];
+      /** Effects that look alike. */
       confused_with: components["schemas"]["Twin"][];
+      /** Where it is described. */
       references: components["schemas"]["SourceText"][];
       /** The places in the model where it acts. */
       slots: string[];
     };
     /** One number of an effect, in SI. */
     EffectParameter: {
+      /** Its key in a request. */
       name: string;
       /** LaTeX. */
       symbol: string;
@@ -814,16 +972,21 @@ export interface components {
       off: number | null;
       /** Whether a fit frees it by default. */
       fitted: boolean;
+      /** What it is. */
       description: string;
+      /** Source of the typical value. */
       source: components["schemas"]["SourceText"];
     };
     /** All known effects, and the effect files that could not be loaded. */
     EffectsAnswer: {
+      /** All known effects. */
       effects: components["schemas"]["EffectAnswer"][];
+      /** Effect files that could not be loaded. */
       problems: components["schemas"]["FileProblem"][];
     };
     /** The body of every error. */
     ErrorBody: {
+      /** What is wrong. */
       error: components["schemas"]["ErrorDetail"];
     };
     /** What is wrong, where, and what would be right. */
@@ -839,13 +1002,18 @@ export interface components {
     };
     /** A row that is not used, and why. */
     Exclusion: {
+      /** Number of the row, from 0. */
       index: number;
+      /** Why it is not used. */
       why: string;
     };
     /** An experiment that separates two effects that look alike. */
     Experiment: {
+      /** Ids of the two effects. */
       pair: string[];
+      /** What separates them according to the catalogue; empty without an entry. */
       declared: string;
+      /** How to do it, in words; empty where none of the known experiments separates them. */
       protocol: string;
       /** Expected difference, in standard deviations of one reading. */
       separation: number;
@@ -860,6 +1028,7 @@ export interface components {
     };
     /** What is said about the experiment of each measurement, and what is open. */
     ExperimentAnswer: {
+      /** One entry per measurement of the request. */
       measurements: components["schemas"]["StatedExperiment"][];
       /** What a diagnosis would assume, in the words with which it begins. */
       assumptions: string[];
@@ -900,6 +1069,7 @@ export interface components {
       choices: string[];
       /** Only the choices are allowed. */
       closed: boolean;
+      /** A valid value, as a text. */
       example: string;
       /** What says it on the command line. */
       option: string;
@@ -908,62 +1078,86 @@ export interface components {
     ExperimentInput: {
       /** Id of the preset of this specimen. Default: the file's, else that of the request. */
       muscle?: string | {
+        /** The value itself. */
         value: string;
+        /** Who says it. Default: you. */
         origin?: "you" | "suggested" | "preset";
       } | null;
       /** Length of this specimen without air and load. Default: the file's, else the length of the request's muscle; the preset's default is assumed and the answer says so. [m] */
       rest_length?: number | string | {
+        /** The value itself. */
         value: number | string;
+        /** Who says it. Default: you. */
         origin?: "you" | "suggested" | "preset";
       } | null;
       /** A mass or a force. Default: the file's, else the drive's. [kg or N] */
       load?: string | {
+        /** The value itself. */
         value: string;
+        /** Who says it. Default: you. */
         origin?: "you" | "suggested" | "preset";
       } | null;
       /** Supply pressure, gauge. Default: file, drive. [Pa] */
       supply?: number | string | {
+        /** The value itself. */
         value: number | string;
+        /** Who says it. Default: you. */
         origin?: "you" | "suggested" | "preset";
       } | null;
       /** Id of a valve preset. Default: the drive's. */
       valve?: string | {
+        /** The value itself. */
         value: string;
+        /** Who says it. Default: you. */
         origin?: "you" | "suggested" | "preset";
       } | null;
       /** Id of a tube preset, "4 mm x 1 m" or "none". Default: the drive's. */
       tube?: string | {
+        /** The value itself. */
         value: string;
+        /** Who says it. Default: you. */
         origin?: "you" | "suggested" | "preset";
       } | null;
       /** Contractions between which the load can move. Default: the drive's. */
       stops?: string | {
+        /** The value itself. */
         value: string;
+        /** Who says it. Default: you. */
         origin?: "you" | "suggested" | "preset";
       } | null;
       /** Angle between the motion of the load and the horizontal. Default: drive, 90 deg. [rad] */
       inclination?: number | string | {
+        /** The value itself. */
         value: number | string;
+        /** Who says it. Default: you. */
         origin?: "you" | "suggested" | "preset";
       } | null;
       /** Which end of the muscle is fixed. It is recorded; no figure depends on it. */
       fixed_end?: "upper" | "lower" | "both" | {
+        /** The value itself. */
         value: "upper" | "lower" | "both";
+        /** Who says it. Default: you. */
         origin?: "you" | "suggested" | "preset";
       } | null;
       /** Reading of the force sensor without force; it is subtracted. [N] */
       force_zero?: number | string | {
+        /** The value itself. */
         value: number | string;
+        /** Who says it. Default: you. */
         origin?: "you" | "suggested" | "preset";
       } | null;
       /** Reading of the pressure sensor at atmospheric pressure; it is subtracted. [Pa] */
       pressure_zero?: number | string | {
+        /** The value itself. */
         value: number | string;
+        /** Who says it. Default: you. */
         origin?: "you" | "suggested" | "preset";
       } | null;
       /** Standard deviation of each channel, as 'length 1 mm, force 0.5 %, pressure 20 mbar' (% of the largest value), or a sensor: 'length steel rule'. Default: that of the request. */
       accuracy?: string | {
+        /** The value itself. */
         value: string;
+        /** Who says it. Default: you. */
         origin?: "you" | "suggested" | "preset";
       } | null;
     };
@@ -980,12 +1174,15 @@ export interface components {
     };
     /** A simulated design that fulfils the task; coarse figures, for a plot of the alternatives. */
     ExploredDesign: {
+      /** Id of the preset. */
       muscle: string;
       /** Nominal length of each muscle. [m] */
       nominal_length: number;
       /** Number of parallel muscles. */
       parallel: number;
+      /** Id of the preset. */
       valve: string;
+      /** Id of the preset; null without a tube. */
       tube: string | null;
       /** Gauge pressure of the supply. [Pa] */
       pressure: number;
@@ -1002,7 +1199,9 @@ export interface components {
     };
     /** A file that was not loaded, and why. */
     FileProblem: {
+      /** Name of the file. */
       file: string;
+      /** Why it was not loaded. */
       message: string;
     };
     /** One parameter as used or fitted. */
@@ -1020,14 +1219,23 @@ export interface components {
     };
     /** A fitting or silencer, with the dead volume of its port. */
     FittingAnswer: {
+      /** Version of the document. */
       schema: 1;
+      /** Says that it is a fitting. */
       kind: "fitting";
+      /** Its id; for the user's own, also the name of its file. */
       id: string;
+      /** Its name for display. */
       title: string;
+      /** Who makes the part; empty where nobody does. */
       maker?: string;
+      /** What it is, in a few sentences. */
       description?: string;
+      /** Sources for further reading. */
       references?: string[];
+      /** Effect id -> parameter -> value: the effects that the model has by default. */
       effects?: { [key: string]: { [key: string]: components["schemas"]["Quantity"] } };
+      /** Catalogue data, by name. */
       data?: { [key: string]: components["schemas"]["Quantity"] };
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
@@ -1036,6 +1244,7 @@ export interface components {
     };
     /** A remark on an answer: a crossed limit, a value out of reach, an unverified figure. */
     Flag: {
+      /** Machine-readable kind. */
       code: string;
       /** Explanation for the user. */
       message: string;
@@ -1071,20 +1280,29 @@ export interface components {
     };
     /** The muscle at rest; an unknown wall thickness is left out. */
     Geometry: {
+      /** Bore. */
       inside_diameter: components["schemas"]["Quantity"];
+      /** Diameter of the braid at the braid angle. */
       braid_diameter: components["schemas"]["Quantity"];
+      /** Angle between thread and axis. */
       braid_angle: components["schemas"]["Quantity"];
+      /** Length between the fittings. */
       nominal_length: components["schemas"]["Quantity"];
+      /** Wall of the bladder. */
       wall_thickness?: components["schemas"]["Quantity"] | null;
     };
     /** Source of a value of a drive document. */
     Ground: {
+      /** Where the value comes from, in a few words. */
       source: string;
+      /** S: read in the cited source; S2: read second-hand; C: computed from cited data; D: derived or fitted for this project; M: general knowledge, not verified; E: engineering estimate, not verified; user: given by the user */
       grade: "S" | "S2" | "C" | "D" | "M" | "E" | "user";
+      /** Remark on the value. */
       note?: string | null;
     };
     /** The server is up. */
     Health: {
+      /** The word 'ok'. */
       status: "ok";
       /** Version of mckibben. */
       version: string;
@@ -1095,16 +1313,24 @@ export interface components {
     };
     /** The residual over two variables; rows are y, null where there are no points. */
     HeatMap: {
+      /** The variable of the columns. */
       x: string;
+      /** The variable of the rows. */
       y: string;
+      /** Boundaries of the columns, SI; one more than columns. */
       x_edges: (number | null)[];
+      /** Boundaries of the rows, SI; one more than rows. */
       y_edges: (number | null)[];
+      /** Mean residual of each cell, SI. */
       mean: ((number | null)[])[];
+      /** Root mean square of the residual of each cell, SI. */
       rms: ((number | null)[])[];
+      /** Number of points of each cell. */
       count: number[][];
     };
     /** One effect that the start model lacks. */
     Hidden: {
+      /** What is hidden, in a few words. */
       title: string;
       /** What it does, and how it shows in the data. */
       what: string;
@@ -1113,9 +1339,11 @@ export interface components {
     };
     /** An earlier model in the user's history. */
     HistoryStep: {
+      /** What the model is called in the report. */
       label: string;
       /** As in the request. */
       effects?: { [key: string]: { [key: string]: number | string } } | null;
+      /** Additional parameters that were fitted, as effect.parameter. */
       freed?: string[];
       /** Null: that of the request. */
       muscle?: components["schemas"]["MuscleInput"] | null;
@@ -1133,6 +1361,7 @@ export interface components {
     };
     /** The requested value in SI, with flags. */
     InverseAnswer: {
+      /** The question that was asked. */
       question: "pressure" | "contraction" | "working_range" | "stroke_pressure";
       /** The answer; null when there is none (a flag says why). */
       value: number | null;
@@ -1140,6 +1369,7 @@ export interface components {
       unit: string;
       /** Further figures in SI. */
       details: { [key: string]: number | null };
+      /** Remarks on the answer. */
       flags: components["schemas"]["Flag"][];
     };
     /** The pulley of an antagonist pair, and its second muscle. */
@@ -1157,11 +1387,17 @@ export interface components {
     };
     /** Limits stated by the maker; unknown ones are left out. */
     Limits: {
+      /** Highest gauge pressure. */
       max_pressure?: components["schemas"]["Quantity"] | null;
+      /** Highest force. */
       max_force?: components["schemas"]["Quantity"] | null;
+      /** Highest contraction, share of the nominal length. */
       max_contraction?: components["schemas"]["Quantity"] | null;
+      /** Highest stretch beyond the nominal length, share of it. */
       max_pretension?: components["schemas"]["Quantity"] | null;
+      /** Shortest muscle that is made. */
       min_nominal_length?: components["schemas"]["Quantity"] | null;
+      /** Longest muscle that is made. */
       max_nominal_length?: components["schemas"]["Quantity"] | null;
     };
     /** The load of the muscle. */
@@ -1170,98 +1406,113 @@ export interface components {
       mass?: number | string;
       /** External force against the pull: a constant, or a signal of time. [N] */
       force?: number | string | {
+        /** Name of the shape. */
         shape: "step";
-        /** [s] */
+        /** When it steps. [s] */
         at?: number | string;
-        /** [N] */
+        /** The value after the step, inside the pulse, or in the first part of a period. [N] */
         level: number | string;
-        /** [N] */
+        /** The value before the step, outside the pulse, or in the second part of a period. [N] */
         initial?: number | string;
       } | {
+        /** Name of the shape. */
         shape: "pulse";
-        /** [N] */
+        /** The value after the step, inside the pulse, or in the first part of a period. [N] */
         level: number | string;
-        /** [N] */
+        /** The value before the step, outside the pulse, or in the second part of a period. [N] */
         initial?: number | string;
-        /** [s] */
+        /** When the pulse begins. [s] */
         on?: number | string;
-        /** [s] */
+        /** When the pulse ends. [s] */
         off: number | string;
       } | {
+        /** Name of the shape. */
         shape: "square";
-        /** [N] */
+        /** The value after the step, inside the pulse, or in the first part of a period. [N] */
         level?: number | string;
-        /** [N] */
+        /** The value before the step, outside the pulse, or in the second part of a period. [N] */
         initial?: number | string;
-        /** [s] */
+        /** Duration of one period. [s] */
         period: number | string;
-        /** [1] */
+        /** Share of each period with the first level. [1] */
         duty?: number | string;
         /** Peak to peak, the full height: level - initial. [N] */
         amplitude?: number | string;
       } | {
+        /** Name of the shape. */
         shape: "triangle";
         /** Peak to peak, the full height: offset to offset + amplitude. [N] */
         amplitude: number | string;
-        /** [s] */
+        /** Duration of one period. [s] */
         period: number | string;
-        /** [N] */
+        /** The value that the amplitude is added to. [N] */
         offset?: number | string;
       } | {
+        /** Name of the shape. */
         shape: "ramp";
-        /** [N] */
+        /** The value before the ramp. [N] */
         from?: number | string;
-        /** [N] */
+        /** The value after the ramp. [N] */
         to: number | string;
-        /** [s] */
+        /** When the ramp begins. [s] */
         start?: number | string;
-        /** [s] */
+        /** How long the ramp lasts. [s] */
         duration: number | string;
       } | {
+        /** Name of the shape. */
         shape: "sine";
         /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [N] */
         amplitude: number | string;
-        /** [N] */
+        /** The value that the amplitude is added to. [N] */
         offset?: number | string;
-        /** [Hz] */
+        /** Periods per second; or give the period. [Hz] */
         frequency?: number | string;
-        /** [rad] */
+        /** Angle at t = 0. [rad] */
         phase?: number | string;
-        /** [s] */
+        /** Duration of one period. [s] */
         period?: number | string;
       } | {
+        /** Name of the shape. */
         shape: "chirp";
         /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [N] */
         amplitude: number | string;
-        /** [N] */
+        /** The value that the amplitude is added to. [N] */
         offset?: number | string;
-        /** [Hz] */
+        /** Frequency at the start. [Hz] */
         from: number | string;
-        /** [Hz] */
+        /** Frequency at the end of the duration and after it. [Hz] */
         to: number | string;
-        /** [s] */
+        /** How long the frequency changes. [s] */
         duration: number | string;
       } | {
+        /** Name of the shape. */
         shape: "random";
-        /** [s] */
+        /** How long each level lasts. [s] */
         hold: number | string;
+        /** Number that the levels follow from; the same seed gives the same levels. */
         seed?: number;
-        /** [N] */
+        /** Lowest level. [N] */
         lower?: number | string;
-        /** [N] */
+        /** Highest level. [N] */
         upper: number | string;
       } | {
+        /** Name of the shape. */
         shape: "table";
-        /** [s] */
+        /** Instants of the points, ascending. [s] */
         times: (number | string)[] | {
+          /** Unit of the values. */
           unit: string;
+          /** The numbers. */
           values: number[];
         };
-        /** [N] */
+        /** Values of the points, as many as instants. [N] */
         values: (number | string)[] | {
+          /** Unit of the values. */
           unit: string;
+          /** The numbers. */
           values: number[];
         };
+        /** Joined by lines, or each value held until the next. */
         interpolation?: "linear" | "hold";
       };
       /** Angle between the motion of the load and the horizontal. Default 90 deg. [rad] */
@@ -1279,6 +1530,7 @@ export interface components {
     };
     /** Area of the force residual over a closed path: energy dissipation that the model misses. */
     Loop: {
+      /** Number of the sweep or cycle. */
       group: number;
       /** Positive: the model lacks friction. [J] */
       area: number;
@@ -1287,7 +1539,9 @@ export interface components {
     };
     /** The range of a quantity in the data of a model. */
     MeasuredRange: {
+      /** Smallest value. */
       least: number;
+      /** Largest value. */
       most: number;
       /** SI unit; pressures are gauge. */
       unit: string;
@@ -1304,6 +1558,7 @@ export interface components {
       kind_detected: boolean;
       /** Why this kind was detected; empty when it was stated. */
       kind_reason: string;
+      /** Number of rows that were read. */
       rows: number;
       /** Rows with a usable measurement. */
       usable_rows: number;
@@ -1311,6 +1566,7 @@ export interface components {
       excluded: { [key: string]: number };
       /** Reason why rows could not be read -> number of rows. */
       skipped: { [key: string]: number };
+      /** The used columns. */
       channels: components["schemas"]["Channel"][];
       /** Columns that are not used. */
       ignored: string[];
@@ -1320,6 +1576,7 @@ export interface components {
       missing: components["schemas"]["MissingCondition"][];
       /** Number of sweeps or cycles of the rows. */
       groups: number;
+      /** How the rows are divided into sweeps. */
       segments: components["schemas"]["Segmentation"];
       /** Remarks on the file. */
       messages: string[];
@@ -1332,8 +1589,11 @@ export interface components {
     };
     /** Force over pressure and length. */
     MeasurementColumns: {
+      /** Gauge pressure. */
       pressure: components["schemas"]["Column"];
+      /** Length of the muscle. */
       length: components["schemas"]["Column"];
+      /** Force. */
       force: components["schemas"]["Column"];
     };
     /** A measurement with its data. */
@@ -1348,6 +1608,7 @@ export interface components {
       kind_detected: boolean;
       /** Why this kind was detected; empty when it was stated. */
       kind_reason: string;
+      /** Number of rows that were read. */
       rows: number;
       /** Rows with a usable measurement. */
       usable_rows: number;
@@ -1355,6 +1616,7 @@ export interface components {
       excluded: { [key: string]: number };
       /** Reason why rows could not be read -> number of rows. */
       skipped: { [key: string]: number };
+      /** The used columns. */
       channels: components["schemas"]["Channel"][];
       /** Columns that are not used. */
       ignored: string[];
@@ -1364,6 +1626,7 @@ export interface components {
       missing: components["schemas"]["MissingCondition"][];
       /** Number of sweeps or cycles of the rows. */
       groups: number;
+      /** How the rows are divided into sweeps. */
       segments: components["schemas"]["Segmentation"];
       /** Remarks on the file. */
       messages: string[];
@@ -1378,22 +1641,39 @@ export interface components {
     };
     /** Published measured points; ``slack`` marks rows where the muscle did not pull (not a measured zero). */
     MeasurementPresetAnswer: {
+      /** Version of the document. */
       schema: 1;
+      /** Says that it is a measurement. */
       kind: "measurement";
+      /** Its id; for the user's own, also the name of its file. */
       id: string;
+      /** Its name for display. */
       title: string;
+      /** Who makes the part; empty where nobody does. */
       maker?: string;
+      /** What it is, in a few sentences. */
       description?: string;
+      /** Sources for further reading. */
       references?: string[];
+      /** Id of the muscle preset that it belongs to. */
       muscle: string;
+      /** The numbers, column by column. */
       data_columns: components["schemas"]["MeasurementColumns"];
+      /** Rows that are not used. */
       excluded?: components["schemas"]["Exclusion"][];
+      /** Where the numbers come from, in a few words. */
       source: string;
+      /** S: read in the cited source; S2: read second-hand; C: computed from cited data; D: derived or fitted for this project; M: general knowledge, not verified; E: engineering estimate, not verified; user: given by the user */
       grade: "S" | "S2" | "C" | "D" | "M" | "E" | "user";
+      /** Remark on the numbers. */
       note?: string | null;
+      /** How it was measured. */
       measurement_kind: "isobaric" | "isometric" | "isotonic" | "diameter" | "transient" | "static";
+      /** Length of the muscle at rest. */
       nominal_length: components["schemas"]["Quantity"];
+      /** What was measured. */
       sample: string;
+      /** 1 for each row in which the muscle did not pull; empty: it pulled in all. */
       slack?: (0 | 1)[];
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
@@ -1415,29 +1695,47 @@ export interface components {
     };
     /** The effects used, with all their values in SI. */
     ModelAnswer: {
+      /** Effect id -> parameter -> value in SI. */
       effects: { [key: string]: { [key: string]: number } };
     };
     /** A model in the form of a request. */
     ModelJson: {
+      /** Effect id -> its parameters, SI. */
       effects: { [key: string]: { [key: string]: number | string } };
     };
     /** A muscle: geometry, limits, catalogue data and the effects its model has by default. Attributes: extrapolated: why its force is not known from a curve or a measurement; None when it is. Sizing ranks such a muscle behind all others. */
     MuscleAnswer: {
+      /** Version of the document. */
       schema: 1;
+      /** Says that it is a muscle. */
       kind: "muscle";
+      /** Its id; for the user's own, also the name of its file. */
       id: string;
+      /** Its name for display. */
       title: string;
+      /** Who makes the part; empty where nobody does. */
       maker?: string;
+      /** What it is, in a few sentences. */
       description?: string;
+      /** Sources for further reading. */
       references?: string[];
+      /** Effect id -> parameter -> value: the effects that the model has by default. */
       effects?: { [key: string]: { [key: string]: components["schemas"]["Quantity"] } };
+      /** Series of the maker. */
       series?: string;
+      /** The muscle at rest. */
       geometry: components["schemas"]["Geometry"];
+      /** How far a fit may change the geometry. */
       tolerance?: components["schemas"]["Tolerance"];
+      /** Limits stated by the maker. */
       limits?: components["schemas"]["Limits"];
+      /** Further catalogue data, by name. */
       data?: { [key: string]: components["schemas"]["Quantity"] };
+      /** Id of a curve preset of the maker. */
       reference_curve?: string | null;
+      /** Id of a measurement preset of this muscle. */
       measurement?: string | null;
+      /** Why its force is not known from a curve or a measurement; null when it is. */
       extrapolated?: string | null;
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
@@ -1465,6 +1763,7 @@ export interface components {
     };
     /** A preset id, or a length with exactly one of: diameter and angle, thread length and turns, rhombus. With a preset, the stated fields override its values. */
     MuscleInput: {
+      /** Id of a muscle preset; null: the geometry is stated. */
       preset?: string | null;
       /** Length between the fittings at rest. [m] */
       nominal_length?: number | string | null;
@@ -1480,30 +1779,49 @@ export interface components {
       thread_length?: number | string | null;
       /** Turns a thread makes around the muscle. [1] */
       turns?: number | string | null;
+      /** The lattice of the braid, instead of diameter and angle. */
       rhombus?: components["schemas"]["RhombusInput"] | null;
     };
     /** A muscle: geometry, limits, catalogue data and the effects its model has by default. Attributes: extrapolated: why its force is not known from a curve or a measurement; None when it is. Sizing ranks such a muscle behind all others. */
     MusclePreset: {
+      /** Version of the document. */
       schema: 1;
+      /** Says that it is a muscle. */
       kind: "muscle";
+      /** Its id; for the user's own, also the name of its file. */
       id: string;
+      /** Its name for display. */
       title: string;
+      /** Who makes the part; empty where nobody does. */
       maker?: string;
+      /** What it is, in a few sentences. */
       description?: string;
+      /** Sources for further reading. */
       references?: string[];
+      /** Effect id -> parameter -> value: the effects that the model has by default. */
       effects?: { [key: string]: { [key: string]: components["schemas"]["Quantity"] } };
+      /** Series of the maker. */
       series?: string;
+      /** The muscle at rest. */
       geometry: components["schemas"]["Geometry"];
+      /** How far a fit may change the geometry. */
       tolerance?: components["schemas"]["Tolerance"];
+      /** Limits stated by the maker. */
       limits?: components["schemas"]["Limits"];
+      /** Further catalogue data, by name. */
       data?: { [key: string]: components["schemas"]["Quantity"] };
+      /** Id of a curve preset of the maker. */
       reference_curve?: string | null;
+      /** Id of a measurement preset of this muscle. */
       measurement?: string | null;
+      /** Why its force is not known from a curve or a measurement; null when it is. */
       extrapolated?: string | null;
     };
     /** A measurement to practise on; without the solution. */
     Mystery: {
+      /** Its id. */
       id: string;
+      /** Its name. */
       title: string;
       /** The situation, as an engineer would describe it. */
       story: string;
@@ -1522,8 +1840,11 @@ export interface components {
     NextExperiment: {
       /** The effects, that of the model first. */
       group: string[];
+      /** How to do it, in words. */
       protocol: string;
+      /** How long it takes. */
       minutes: number;
+      /** How well it tells each pair of the group apart. */
       separations: components["schemas"]["PairSeparation"][];
       /** Number of the run of each set point; time starts anew in each. */
       run: number[];
@@ -1532,14 +1853,18 @@ export interface components {
     };
     /** The error due to noise; a smaller one cannot be reached. */
     NoiseFloor: {
+      /** The error; null where it cannot be estimated. */
       rmse: number | null;
+      /** How it was estimated. */
       how: string;
       /** From the scatter of neighbouring readings to all that no variable explains; null where a structure remains. */
       interval: number[] | null;
     };
     /** An effect that these data cannot show, or that the request excludes. */
     NotTried: {
+      /** Its id. */
       effect: string;
+      /** The reason. */
       why: string;
     };
     /** What the file leaves open. */
@@ -1584,10 +1909,13 @@ export interface components {
       pressure: number[];
       /** The load. [N] */
       load: number | null;
+      /** While shortening; null without a load. */
       filling: components["schemas"]["OverPressureBranch"] | null;
+      /** While lengthening; null without a load. */
       venting: components["schemas"]["OverPressureBranch"] | null;
       /** The fixed length. [m] */
       fixed_length: number | null;
+      /** Force over pressure; null without a fixed length. */
       force_at_fixed_length: components["schemas"]["ForceAtLength"] | null;
       /** Width of the loop; null without a load. */
       loop?: components["schemas"]["HysteresisLoop"] | null;
@@ -1625,51 +1953,70 @@ export interface components {
     };
     /** By how many standard deviations of one reading an experiment tells two effects apart. */
     PairSeparation: {
+      /** Ids of the two effects. */
       pair: string[];
+      /** The number of standard deviations. */
       separation: number;
     };
     /** Published figures of a drive. Attributes: figure: number of the figure. figures: "extend.rise_time" -> value; names of the timing table, or explained in the description. tolerance: permitted relative deviation of a figure, by the same names. excluded: reason why a figure is not compared, by the same names. */
     PaperFigures: {
+      /** Number of the figure. */
       figure: string;
+      /** Figure of the timing table, as extend.rise_time -> published value. */
       figures?: { [key: string]: components["schemas"]["Quantity"] };
+      /** Permitted relative deviation of a figure, by the same names. */
       tolerance?: { [key: string]: number };
+      /** Why a figure is not compared, by the same names. */
       excluded?: { [key: string]: string };
     };
     /** The error after adding an effect; first the start model as given, then its own numbers refitted. */
     PathStep: {
+      /** The added effect; null in the steps of the start model. */
       added: string | null;
       /** The start model with its own numbers fitted, before any effect. */
       refitted: boolean;
       /** The added effect is kept, but not called missing. */
       correction: boolean;
+      /** Root mean square of the residual. */
       rmse: number;
+      /** RMSE with whole groups left out of the fit. */
       holdout_rmse: number;
+      /** The model after the step. */
       model: components["schemas"]["ModelJson"];
+      /** Constants fitted as well, as effect.parameter. */
       freed: string[];
     };
     /** A preset file that was not loaded, and why. */
     PresetProblem: {
+      /** Name of the file. */
       file: string;
       /** Where in the file. */
       field: string | null;
+      /** What is wrong with it. */
       message: string;
       /** What would be right. */
       hint: string | null;
     };
     /** All presets of one kind, and the files that could not be loaded. */
     PresetsAnswer: {
+      /** The requested kind. */
       kind: "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs" | "drives" | "tasks";
+      /** The presets, by id. */
       presets: (components["schemas"]["MuscleAnswer"] | components["schemas"]["ValveAnswer"] | components["schemas"]["TubeAnswer"] | components["schemas"]["FittingAnswer"] | components["schemas"]["MeasurementPresetAnswer"] | components["schemas"]["CurvePresetAnswer"] | components["schemas"]["DesignAnswer"] | components["schemas"]["DriveAnswer"] | components["schemas"]["TaskAnswer"])[];
+      /** Preset files that could not be loaded. */
       problems: components["schemas"]["PresetProblem"][];
     };
     /** The pressure for a force at a length or contraction. */
     PressureQuestion: {
+      /** The muscle. */
       muscle: components["schemas"]["MuscleInput"];
+      /** The effects of its model; null: those of the preset. */
       effects?: { [key: string]: { [key: string]: number | string } } | null;
       /** Temperature of the muscle. [K] */
       temperature?: number | string;
       /** Sign of dL/dt, for friction: -1 filling (shortening), 1 venting, 0 none. */
       direction?: -1 | 0 | 1;
+      /** Asks for a pressure. */
       question: "pressure";
       /** The required force. [N] */
       force: number | string;
@@ -1680,6 +2027,7 @@ export interface components {
     };
     /** How a file would be read; nothing is stored. */
     PreviewAnswer: {
+      /** Name of the file. */
       name: string;
       /** csv, json, xlsx, mat, hdf5 or tdms. */
       format: string;
@@ -1691,10 +2039,13 @@ export interface components {
       rows: number;
       /** Rows that can be read. */
       valid_rows: number;
+      /** Rows that cannot be read, by reason. */
       skipped: components["schemas"]["SkippedRows"][];
       /** The kind; null while the file cannot be used. */
       kind: string | null;
+      /** Detected from the data, not stated in the file. */
       kind_detected: boolean;
+      /** Why this kind was detected; empty when it was stated. */
       kind_reason: string;
       /** Conditions in the file or in the mapping, SI. */
       conditions: { [key: string]: string | number | null };
@@ -1708,7 +2059,9 @@ export interface components {
       only_bad_rows: boolean;
       /** Assumptions made. */
       messages: string[];
+      /** Channels to which a column can be mapped. */
       channel_choices: components["schemas"]["ChannelChoice"][];
+      /** Kinds that a mapping may state. */
       kind_choices: string[];
       /** What the file leaves open; 'problem' refuses it while one of them stops the reading. */
       questions: components["schemas"]["OpenQuestion"][];
@@ -1839,19 +2192,28 @@ export interface components {
     };
     /** A short formula for a residual that no catalogued effect explains, proven on groups left out. */
     ProposedTerm: {
+      /** The formula, as a custom effect takes it. */
       formula: string;
+      /** Its constants, SI. */
       coefficients: { [key: string]: number };
       /** Share of the residual's mean square that it removes. */
       share: number;
+      /** The model with the term. */
       model: components["schemas"]["ModelJson"];
+      /** The term and the residual. */
       curve: components["schemas"]["TermCurve"];
     };
     /** A value with its unit (text), source (short) and grade (a key of `physics.parameter.GRADES`). */
     Quantity: {
+      /** The number, in its unit. */
       value: number;
+      /** The unit, as a text. */
       unit: string;
+      /** Where the value comes from, in a few words. */
       source: string;
+      /** S: read in the cited source; S2: read second-hand; C: computed from cited data; D: derived or fitted for this project; M: general knowledge, not verified; E: engineering estimate, not verified; user: given by the user */
       grade: "S" | "S2" | "C" | "D" | "M" | "E" | "user";
+      /** Remark on the value. */
       note?: string | null;
     };
     /** A row of a file. */
@@ -1863,6 +2225,7 @@ export interface components {
     };
     /** The first rows of a file as they stand in it; where the head is far down, rows between are left out. */
     RawTable: {
+      /** The rows, in the order of the file. */
       rows: components["schemas"]["RawRow"][];
       /** The row of the column names. */
       head: number | null;
@@ -1891,12 +2254,16 @@ export interface components {
     };
     /** Figures of a pressure regulator: full-scale gauge pressure and time constant. */
     RegulatorPart: {
+      /** Gauge pressure at full command. */
       range: components["schemas"]["Quantity"];
+      /** Time constant of the regulated pressure. */
       time: components["schemas"]["Quantity"];
     };
     /** A rejected candidate. */
     RejectedAnswer: {
+      /** Id of the preset. */
       muscle: string;
+      /** Number of parallel muscles. */
       parallel: number;
       /** Null = with any valve. */
       valve: string | null;
@@ -1915,11 +2282,13 @@ export interface components {
     ReportRequest: {
       /** Null: the drive's. */
       muscle?: components["schemas"]["MuscleInput"] | null;
+      /** The effects of the model; null: the drive's, or those of the muscle preset. */
       effects?: { [key: string]: { [key: string]: number | string } } | null;
       /** Valve, tube, supply and load of transient measurements with a command channel; the measured command replaces the one stated here. */
       drive?: components["schemas"]["DriveDocument"] | null;
       /** One measurement to fit to. */
       measurement?: string | null;
+      /** Measurements to fit to or to validate with, instead of 'measurement'. */
       measurements?: components["schemas"]["UsedMeasurement"][];
       /** Geometry to fit as well, within its tolerance. */
       free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
@@ -1955,6 +2324,7 @@ export interface components {
     };
     /** The residual over one variable. */
     ResidualProfile: {
+      /** The variable. */
       over: string;
       /** Share of its mean square explained by this variable. */
       share_explained: number;
@@ -1964,17 +2334,22 @@ export interface components {
       rmse: number;
       /** Boundaries of the ranges, SI; one more than ranges. */
       edges: (number | null)[];
+      /** Mean residual of each range, SI. */
       mean: (number | null)[];
+      /** Root mean square of the residual of each range, SI. */
       rms: (number | null)[];
+      /** Number of points of each range. */
       count: number[];
     };
     /** The hidden effects, compared with the user's diagnosis. */
     RevealAnswer: {
+      /** The hidden effects; none if the start model explains the data. */
       hidden: components["schemas"]["Hidden"][];
       /** For each hidden effect: whether the user named it. */
       found: boolean[];
       /** Effects of the user that are neither hidden nor of the start model. */
       surplus: string[];
+      /** The solution in words. */
       text: string;
     };
     /** The user's diagnosis. */
@@ -2015,7 +2390,9 @@ export interface components {
     };
     /** Values of one set point, in its SI unit. */
     SetPoints: {
+      /** The SI unit. */
       unit: string;
+      /** One value per row. */
       values: (number | null)[];
     };
     /** How the effect shows in the residual. */
@@ -2077,6 +2454,7 @@ export interface components {
       contact: boolean[];
       /** Whether the muscle hangs slack: it is then longer than its fittings are apart. */
       slack: boolean[];
+      /** Where the load is at t = 0, and why there. */
       start: components["schemas"]["StartPosition"];
       /** How the air in the muscle is modelled. */
       gas: string;
@@ -2086,22 +2464,29 @@ export interface components {
       joint: components["schemas"]["Joint"] | null;
       /** Choked intervals of the whole run, whatever rows are requested. */
       choked: components["schemas"]["Choked"][];
+      /** Times, speeds and air of the first fill and the exhaust after it. */
       timing: components["schemas"]["Timing"];
       /** Tracking figures of a controlled run. */
       tracking: components["schemas"]["TrackingAnswer"] | null;
+      /** How the run ended; only a completed one has all rows. */
       outcome: "completed" | "stuck" | "diverged" | "timed_out" | "cancelled";
       /** Advice if the run did not complete. */
       message: string | null;
       /** Computing time of the integration in ms. */
       wall_ms: number;
+      /** The integrator used. */
       engine: "rodas" | "lsoda";
       /** Steps of the integrator. */
       steps: number;
+      /** Remarks on the run. */
       flags: components["schemas"]["Flag"][];
       /** Field -> remark, including those of timing and tracking. */
       notes: { [key: string]: string };
+      /** Limits stated by the maker, and the end stops. */
       limits: components["schemas"]["DriveLimits"];
+      /** Geometry of the muscle at rest, in all forms. */
       geometry: components["schemas"]["MuscleGeometry"];
+      /** The effects used, with all their values. */
       model: components["schemas"]["ModelAnswer"];
       /** Duration of the whole run. [s] */
       duration: number;
@@ -2135,9 +2520,11 @@ export interface components {
       simulated: number;
       /** Number of transient runs for probabilities. */
       specimens: number;
+      /** How the search ended; only a completed one has tried everything. */
       outcome: "completed" | "timed_out" | "cancelled";
       /** Advice if the search did not complete. */
       message: string | null;
+      /** Remarks on the task. */
       flags: components["schemas"]["Flag"][];
       /** Computing time of the search in ms. */
       wall_ms: number;
@@ -2157,6 +2544,7 @@ export interface components {
       schema?: 1;
       /** Title for display. */
       title?: string;
+      /** The load. */
       load: components["schemas"]["TaskLoad"];
       /** Stroke of the load; a pair has an angle instead. [m] */
       stroke?: number | string | null;
@@ -2174,9 +2562,13 @@ export interface components {
       supply_pressure?: number | string;
       /** Ambient temperature. Default 20 °C. [K] */
       ambient_temperature?: number | string;
+      /** What a proposed drive may need at most, and its reserves. */
       limits?: components["schemas"]["TaskLimits"];
+      /** Parts that may be used. Default: all that are known well enough. */
       catalogue?: components["schemas"]["TaskCatalogue"];
+      /** Cycles a year and price of air, for the cost of its air. */
       operation?: components["schemas"]["TaskOperation"];
+      /** Expected deviations of real drives, for the probability of success. */
       uncertainty?: components["schemas"]["TaskUncertainty"];
       /** Order of the proposals. Balanced: by air consumption times the square root of installed length and number of muscles. Drives that probably fail come last in any order. */
       rank_by?: "balanced" | "air" | "time" | "length" | "reserve" | "probability";
@@ -2185,15 +2577,20 @@ export interface components {
     };
     /** Rows of the file that cannot be read, for one reason. */
     SkippedRows: {
+      /** Why they cannot be read. */
       reason: string;
+      /** Number of these rows. */
       rows: number;
       /** Where the first of them is. */
       first: string;
     };
     /** An effect that lowers the error, but not by more than an inexact form of another one explains. */
     SmallCorrection: {
+      /** Its id. */
       effect: string;
+      /** Error without it. */
       rmse_before: number;
+      /** Error with it. */
       rmse_after: number;
       /** That it is missing nevertheless. */
       probability: number;
@@ -2211,11 +2608,13 @@ export interface components {
     Specimen: {
       /** Name of the file or preset. */
       file: string;
+      /** Number of rows used. */
       rows_used: number;
       /** Error of the model on it; of the best model in a diagnosis. */
       rmse: number | null;
       /** The same with whole groups left out of the fit. */
       holdout_rmse: number | null;
+      /** Values of its experiment, each with its origin. */
       experiment: { [key: string]: components["schemas"]["ExperimentValue"] };
     };
     /** Where the load is at t = 0. */
@@ -2234,6 +2633,7 @@ export interface components {
     };
     /** A condition of the test and who says it. */
     StatedCondition: {
+      /** Name of the condition. */
       key: string;
       /** In SI, or a text. */
       value: string | number | null;
@@ -2248,7 +2648,9 @@ export interface components {
       id: string;
       /** Name of the file or preset. */
       name: string;
+      /** Measurement kind. */
       kind: string;
+      /** Its fields. */
       experiment: components["schemas"]["ExperimentField"][];
     };
     /** End stops as contraction ratios; below 0 the muscle may be stretched. */
@@ -2262,14 +2664,17 @@ export interface components {
     };
     /** The pressure that lifts a load by a stroke. */
     StrokePressureQuestion: {
+      /** The muscle. */
       muscle: components["schemas"]["MuscleInput"];
+      /** The effects of its model; null: those of the preset. */
       effects?: { [key: string]: { [key: string]: number | string } } | null;
       /** Temperature of the muscle. [K] */
       temperature?: number | string;
       /** Sign of dL/dt, for friction: -1 filling (shortening), 1 venting, 0 none. */
       direction?: -1 | 0 | 1;
+      /** Asks for the pressure of a stroke. */
       question: "stroke_pressure";
-      /** [N] */
+      /** The load to lift. [N] */
       load: number | string;
       /** From the nominal length. [m] */
       stroke: number | string;
@@ -2281,20 +2686,30 @@ export interface components {
     };
     /** A sheet, group or struct of a file. */
     TableOption: {
+      /** Its name. */
       name: string;
       /** It is read now, alone or with others of the same columns. */
       is_read: boolean;
     };
     /** A sizing task to start from; its content is checked when it is used. */
     TaskAnswer: {
+      /** Version of the document. */
       schema: 1;
+      /** Says that it is a sizing task. */
       kind: "task";
+      /** Its id; for the user's own, also the name of its file. */
       id: string;
+      /** Its name for display. */
       title: string;
+      /** Who makes the part; empty where nobody does. */
       maker?: string;
+      /** What it is, in a few sentences. */
       description?: string;
+      /** Sources for further reading. */
       references?: string[];
+      /** The document to start from. */
       document: { [key: string]: unknown };
+      /** Path in the document -> source of the value. */
       grounds?: { [key: string]: components["schemas"]["Ground"] };
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
@@ -2374,9 +2789,13 @@ export interface components {
     };
     /** The proposed term and the residual it explains, over one variable. */
     TermCurve: {
+      /** The variable. */
       x: string;
+      /** Its values, SI. */
       values: (number | null)[];
+      /** The term there, SI. */
       term: (number | null)[];
+      /** The residual that it is to explain, SI. */
       residual: (number | null)[];
     };
     /** The timing table of the first fill and the exhaust after it. */
@@ -2390,9 +2809,13 @@ export interface components {
     };
     /** How far (+-) a fit may change a geometry value. */
     Tolerance: {
+      /** Of the braid angle. */
       braid_angle?: components["schemas"]["Quantity"] | null;
+      /** Of the braid diameter. */
       braid_diameter?: components["schemas"]["Quantity"] | null;
+      /** Of the length between the fittings. */
       nominal_length?: components["schemas"]["Quantity"] | null;
+      /** Of the wall of the bladder. */
       wall_thickness?: components["schemas"]["Quantity"] | null;
     };
     /** How well the position follows the reference. */
@@ -2403,19 +2826,30 @@ export interface components {
       max: number;
       /** Delay with the best correlation; null if none fits. [s] */
       lag: number | null;
+      /** Every step of the reference. */
       overshoot: components["schemas"]["Overshoot"][];
+      /** Figure -> why it is null, or a remark on it. */
       notes: { [key: string]: string };
     };
     /** A tube; its conductance is given for ``reference_length``. */
     TubeAnswer: {
+      /** Version of the document. */
       schema: 1;
+      /** Says that it is a tube. */
       kind: "tube";
+      /** Its id; for the user's own, also the name of its file. */
       id: string;
+      /** Its name for display. */
       title: string;
+      /** Who makes the part; empty where nobody does. */
       maker?: string;
+      /** What it is, in a few sentences. */
       description?: string;
+      /** Sources for further reading. */
       references?: string[];
+      /** Effect id -> parameter -> value: the effects that the model has by default. */
       effects?: { [key: string]: { [key: string]: components["schemas"]["Quantity"] } };
+      /** Catalogue data, by name. */
       data?: { [key: string]: components["schemas"]["Quantity"] };
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
@@ -2424,8 +2858,9 @@ export interface components {
     };
     /** The tube between valve and muscle. */
     TubeInput: {
+      /** Id of a tube preset; null: diameter and length are stated. */
       preset?: string | null;
-      /** [m] */
+      /** Bore of the tube. Default: that of the preset. [m] */
       inside_diameter?: number | string | null;
       /** Length of the tube. Default: that for which the preset is specified. [m] */
       length?: number | string | null;
@@ -2455,23 +2890,38 @@ export interface components {
     };
     /** The error of the model on measurements not used for the fit. */
     ValidationAnswer: {
+      /** Root mean square of the residual. */
       rmse: number | null;
+      /** RMSE over the largest measured magnitude. */
       nrmse_percent: number | null;
+      /** Number of compared rows. */
       rows_used: number;
+      /** The points, curve by curve. */
       series: components["schemas"]["ComparisonSeries"][];
     };
     /** A valve, or with ``regulator`` a pressure regulator; its conductances are needed to simulate it. */
     ValveAnswer: {
+      /** Version of the document. */
       schema: 1;
+      /** Says that it is a valve. */
       kind: "valve";
+      /** Its id; for the user's own, also the name of its file. */
       id: string;
+      /** Its name for display. */
       title: string;
+      /** Who makes the part; empty where nobody does. */
       maker?: string;
+      /** What it is, in a few sentences. */
       description?: string;
+      /** Sources for further reading. */
       references?: string[];
+      /** Effect id -> parameter -> value: the effects that the model has by default. */
       effects?: { [key: string]: { [key: string]: components["schemas"]["Quantity"] } };
+      /** Catalogue data, by name. */
       data?: { [key: string]: components["schemas"]["Quantity"] };
+      /** What it does: "5/3-way proportional valve". */
       function: string;
+      /** Figures of a pressure regulator; null of a valve. */
       regulator?: components["schemas"]["RegulatorPart"] | null;
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
@@ -2480,6 +2930,7 @@ export interface components {
     };
     /** A valve preset, or flow values for filling and venting; values override those of the preset. */
     ValveInput: {
+      /** Id of a valve or regulator preset; null: the flow values are stated. */
       preset?: string | null;
       /** Conductance of filling, ISO 6358. [m^3/(s*Pa)] */
       sonic_conductance?: number | string | null;
@@ -2494,10 +2945,13 @@ export interface components {
     };
     /** The verdict of the diagnosis. */
     Verdict: {
+      /** The verdict as a word for programs. */
       status: "adequate" | "missing_effects" | "ambiguous" | "unknown_effect";
       /** The status in words. */
       title: string;
+      /** Ids of the missing effects. */
       effects: string[];
+      /** Groups of effects that the data cannot distinguish. */
       indistinguishable: string[][];
       /** Effect -> probability that it, or one of its group, is missing; a group shares one. */
       probabilities: { [key: string]: number };
@@ -2505,19 +2959,26 @@ export interface components {
       applied: { [key: string]: string };
       /** Effects that lower the error but are not called missing. */
       corrections: components["schemas"]["SmallCorrection"][];
+      /** Share of the residual that is left to explain, 0 to 1. */
       unexplained_share: number;
+      /** Variables that this part depends on. */
       unexplained_in: string[];
+      /** A formula for it; null where none was proven. */
       proposed_term: components["schemas"]["ProposedTerm"] | null;
       /** Without a formula: the ranges in which the unexplained error is largest. */
       where_to_look: string | null;
+      /** Recommended next measurement; null where none is needed. */
       next_measurement: string | null;
+      /** For each pair of effects that the data cannot distinguish. */
       experiments: components["schemas"]["Experiment"][];
       /** For each group of effects the experiment that splits it best, the best first. */
       next_experiments: components["schemas"]["NextExperiment"][];
+      /** The verdict in one to four sentences. */
       sentence: string;
     };
     /** Whether the residual looks like noise. */
     WhitenessAnswer: {
+      /** Autocorrelation of the residual at the lags 1, 2, ... within sweeps. */
       autocorrelation: (number | null)[];
       /** Half-width of the 95 % band of noise. */
       band: number;
@@ -2525,18 +2986,22 @@ export interface components {
       outside: number;
       /** Number of runs of one sign over that expected of noise. */
       runs: number;
+      /** Few lags are outside the band, and the number of runs is that of noise. */
       white: boolean;
     };
     /** The stroke from the preload without pressure to the load at the highest pressure. The start is taken while venting and the end while filling, whatever ``direction`` is. */
     WorkingRangeQuestion: {
+      /** The muscle. */
       muscle: components["schemas"]["MuscleInput"];
+      /** The effects of its model; null: those of the preset. */
       effects?: { [key: string]: { [key: string]: number | string } } | null;
       /** Temperature of the muscle. [K] */
       temperature?: number | string;
       /** Sign of dL/dt, for friction: -1 filling (shortening), 1 venting, 0 none. */
       direction?: -1 | 0 | 1;
+      /** Asks for the stroke between two loads. */
       question: "working_range";
-      /** [N] */
+      /** Load at the end of the stroke. [N] */
       load: number | string;
       /** The highest gauge pressure. [Pa] */
       pressure: number | string;

@@ -48,6 +48,15 @@ def test_axe_finds_nothing_in_the_design_view(page: Page, theme: Literal["light"
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
+def test_axe_finds_nothing_in_the_help(page: Page, theme: Literal["light", "dark"]) -> None:
+    page.emulate_media(color_scheme=theme)
+    for path in ("/help", "/help/python", "/help/http"):
+        page.goto(path)
+        marked(page, f'[data-theme="{theme}"]')
+        assert violations(page) == [], path
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
 def test_axe_finds_nothing_in_the_catalogue(page: Page, theme: Literal["light", "dark"]) -> None:
     page.emulate_media(color_scheme=theme)
     open_catalogue(page)

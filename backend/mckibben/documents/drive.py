@@ -82,7 +82,9 @@ class SupplyInput(Strict):
 class ValveInput(Strict):
     """A valve preset, or flow values for filling and venting; values override those of the preset."""
 
-    preset: Id | None = None
+    preset: Id | None = Field(
+        None, description="Id of a valve or regulator preset; null: the flow values are stated."
+    )
     sonic_conductance: Conductance | None = Field(None, description="Conductance of filling, ISO 6358.")
     exhaust_conductance: Conductance | None = Field(
         None, description="Conductance of venting. Default: that of filling."
@@ -109,8 +111,10 @@ class RegulatorInput(Strict):
 class TubeInput(Strict):
     """The tube between valve and muscle."""
 
-    preset: Id | None = None
-    inside_diameter: Diameter | None = None
+    preset: Id | None = Field(None, description="Id of a tube preset; null: diameter and length are stated.")
+    inside_diameter: Diameter | None = Field(
+        default=None, description="Bore of the tube. Default: that of the preset."
+    )
     length: Length | None = Field(
         None, description="Length of the tube. Default: that for which the preset is specified."
     )
@@ -146,7 +150,7 @@ class ControllerInput(Strict):
     per mm (and s).
     """
 
-    type: Literal["pid"] = "pid"
+    type: Literal["pid"] = Field("pid", description="Kind of the controller; there is one.")
     kp: Gain = Field(description="Proportional gain, %/mm.", examples=[2.0])
     ki: IntegralGain | None = Field(None, description="Integral gain, %/(mm s).", examples=[10.0])
     kd: DerivativeGain | None = Field(None, description="Derivative gain, % s/mm.", examples=[0.01])
@@ -212,11 +216,16 @@ class DriveDocument(Strict):
 
     schema_version: Literal[1] = Field(1, alias="schema", description="Version of the document.")
     title: Annotated[str, Field(max_length=200)] = Field("", description="Title for display.")
-    muscle: MuscleInput
-    effects: EffectsInput | None = None
-    supply: SupplyInput
-    valve: ValveInput
-    regulator: RegulatorInput | None = None
+    muscle: MuscleInput = Field(description="The muscle; both muscles of an antagonist pair.")
+    effects: EffectsInput | None = Field(
+        None, description="The effects of the model; null: those of the presets."
+    )
+    supply: SupplyInput = Field(description="The compressed air before the valve.")
+    valve: ValveInput = Field(description="The valve.")
+    regulator: RegulatorInput | None = Field(
+        None,
+        description="States that the valve is a pressure regulator; null: it is one only if its preset is.",
+    )
     tube: TubeInput | None = Field(
         None,
         description="Default: the valve is on the muscle, but a diagnosis tries a typical tube (4 mm, "
@@ -225,7 +234,9 @@ class DriveDocument(Strict):
     fittings: list[Id] = Field(
         default_factory=list, max_length=20, description="Fitting presets; they add their port volumes."
     )
-    load: LoadInput = Field(default_factory=lambda: LoadInput.model_validate({}))
+    load: LoadInput = Field(
+        default_factory=lambda: LoadInput.model_validate({}), description="The load. Default: none."
+    )
     command: Command | None = Field(
         None,
         description="Opening of the valve: 1 fill, 0 closed, -1 exhaust; for a regulator, the share of its "
@@ -234,11 +245,19 @@ class DriveDocument(Strict):
         examples=[{"shape": "pulse", "on": "0 s", "off": "2 s"}],
     )
     controller: ControllerInput | None = Field(None, description="Controller that generates the command.")
-    gas: GasInput = Field(default_factory=lambda: GasInput.model_validate({}))
-    stops: StopsInput = Field(default_factory=lambda: StopsInput.model_validate({}))
+    gas: GasInput = Field(
+        default_factory=lambda: GasInput.model_validate({}),
+        description="How the air behaves, and what surrounds the drive.",
+    )
+    stops: StopsInput = Field(
+        default_factory=lambda: StopsInput.model_validate({}), description="The end stops."
+    )
     duration: Duration = Field(4.0, description="Length of the run.")
     start_pressure: Pressure = Field(0.0, description="Gauge pressure in the muscle at t = 0.")
-    start: StartInput = Field(default_factory=lambda: StartInput.model_validate({}))
+    start: StartInput = Field(
+        default_factory=lambda: StartInput.model_validate({}),
+        description="Where the load is released at t = 0. Default: where it rests.",
+    )
 
     @model_validator(mode="before")
     @classmethod

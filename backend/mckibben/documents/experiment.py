@@ -135,7 +135,10 @@ def _taken_apart(value: object) -> tuple[object, SaidOrigin]:
 def _with_origin(value: dict[str, Any]) -> dict[str, Any]:
     return {
         "type": "object",
-        "properties": {"value": value, "origin": {"enum": list(get_args(SaidOrigin))}},
+        "properties": {
+            "value": {**value, "description": "The value itself."},
+            "origin": {"enum": list(get_args(SaidOrigin)), "description": "Who says it. Default: you."},
+        },
         "required": ["value"],
         "additionalProperties": False,
     }

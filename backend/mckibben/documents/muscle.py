@@ -24,7 +24,7 @@ class MuscleInput(Strict):
     With a preset, the stated fields override its values.
     """
 
-    preset: Id | None = None
+    preset: Id | None = Field(None, description="Id of a muscle preset; null: the geometry is stated.")
     nominal_length: Length | None = Field(None, description="Length between the fittings at rest.")
     inside_diameter: Diameter | None = Field(None, description="Bore at rest.")
     braid_diameter: Diameter | None = Field(
@@ -34,7 +34,9 @@ class MuscleInput(Strict):
     wall_thickness: Thickness | None = Field(None, description="Wall of the bladder at rest.")
     thread_length: Length | None = Field(None, description="Length of one thread of the braid.")
     turns: Turns | None = Field(None, description="Turns a thread makes around the muscle.")
-    rhombus: RhombusInput | None = None
+    rhombus: RhombusInput | None = Field(
+        None, description="The lattice of the braid, instead of diameter and angle."
+    )
 
 
 ParameterValue = Annotated[

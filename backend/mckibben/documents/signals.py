@@ -17,12 +17,40 @@ from mckibben.simulation.command.signals import MAX_SEGMENTS, SHAPES, SYNONYMS
 _UNITS = {"time": "s", "share": "1", "frequency": "Hz", "angle": "rad"}
 _REPLACES = {"amplitude": "level", "period": "frequency"}  # a key -> the key that it may replace
 _FROM_THE_MIDDLE = "From the middle to the peak, half the height: offset - amplitude to offset + amplitude."
-# (shape, key) -> what an amplitude is in it.
+# (shape, key) -> what the key is in this shape.
 _MEANING = {
     ("triangle", "amplitude"): "Peak to peak, the full height: offset to offset + amplitude.",
     ("square", "amplitude"): "Peak to peak, the full height: level - initial.",
     ("sine", "amplitude"): _FROM_THE_MIDDLE,
     ("chirp", "amplitude"): _FROM_THE_MIDDLE,
+    ("chirp", "from"): "Frequency at the start.",
+    ("chirp", "to"): "Frequency at the end of the duration and after it.",
+    ("chirp", "duration"): "How long the frequency changes.",
+    ("ramp", "from"): "The value before the ramp.",
+    ("ramp", "to"): "The value after the ramp.",
+    ("ramp", "duration"): "How long the ramp lasts.",
+}
+# A key -> what it is in every shape that `_MEANING` does not name.
+_KEYS = {
+    "at": "When it steps.",
+    "level": "The value after the step, inside the pulse, or in the first part of a period.",
+    "initial": "The value before the step, outside the pulse, or in the second part of a period.",
+    "on": "When the pulse begins.",
+    "off": "When the pulse ends.",
+    "period": "Duration of one period.",
+    "frequency": "Periods per second; or give the period.",
+    "duty": "Share of each period with the first level.",
+    "amplitude": "Height of the wave.",
+    "offset": "The value that the amplitude is added to.",
+    "phase": "Angle at t = 0.",
+    "start": "When the ramp begins.",
+    "hold": "How long each level lasts.",
+    "seed": "Number that the levels follow from; the same seed gives the same levels.",
+    "lower": "Lowest level.",
+    "upper": "Highest level.",
+    "times": "Instants of the points, ascending.",
+    "values": "Values of the points, as many as instants.",
+    "interpolation": "Joined by lines, or each value held until the next.",
 }
 _EXAMPLES = {"s": "0.5 s", "1": "50 %", "Hz": "2 Hz", "rad": "90 deg", "m": "20 mm", "N": "120 N"}
 
@@ -73,22 +101,23 @@ def _quantity(unit: str) -> JsonSchemaValue:
 
 def _shape_schema(name: str, unit: str) -> JsonSchemaValue:
     kind = SHAPES[name]
-    properties: dict[str, Any] = {"shape": {"const": name, "type": "string"}}
+    properties: dict[str, Any] = {
+        "shape": {"const": name, "type": "string", "description": "Name of the shape."}
+    }
     required = ["shape"]
     for item in fields(kind):
         if "kind" not in item.metadata:
             continue
         label, default = item.metadata["name"] or item.name, item.metadata["default"]
         properties[label] = _key_schema(item.name, item.metadata["kind"], unit)
-        if (name, label) in _MEANING:
-            properties[label]["description"] = _MEANING[name, label]
         needed = default is MISSING or (default == "full" and unit != "1")
         if needed and not any(_REPLACES[synonym] == label for synonym in SYNONYMS.get(kind, ())):
             required.append(label)
     for label in SYNONYMS.get(kind, ()):
         properties[label] = _quantity("s" if label == "period" else unit)
-        if (name, label) in _MEANING:
-            properties[label]["description"] = _MEANING[name, label]
+    for label, schema in properties.items():
+        if label != "shape":
+            schema["description"] = _MEANING.get((name, label)) or _KEYS[label]
     description = " ".join((kind.__doc__ or "").split("\n\n")[0].split()).replace("``", "")
     return {
         "type": "object",
@@ -111,8 +140,8 @@ def _key_schema(name: str, kind: str, unit: str) -> JsonSchemaValue:
         table = {
             "type": "object",
             "properties": {
-                "unit": {"type": "string"},
-                "values": {"type": "array", "items": {"type": "number"}},
+                "unit": {"type": "string", "description": "Unit of the values."},
+                "values": {"type": "array", "items": {"type": "number"}, "description": "The numbers."},
             },
             "required": ["unit", "values"],
         }

@@ -218,7 +218,7 @@ class SizingTask(Strict):
 
     schema_version: Literal[1] = Field(1, alias="schema", description="Version of the document.")
     title: Annotated[str, Field(max_length=200)] = Field("", description="Title for display.")
-    load: TaskLoad
+    load: TaskLoad = Field(description="The load.")
     stroke: Stroke | None = Field(None, description="Stroke of the load; a pair has an angle instead.")
     time: TaskTime | None = Field(None, description="Time for the stroke. Leave empty for no limit.")
     time_down: TaskTime | None = Field(
@@ -237,10 +237,22 @@ class SizingTask(Strict):
         6e5, description="Gauge pressure of the supply. Default 6 bar, the limit of most muscles."
     )
     ambient_temperature: Temperature = Field(293.15, description="Ambient temperature. Default 20 °C.")
-    limits: TaskLimits = Field(default_factory=lambda: TaskLimits.model_validate({}))
-    catalogue: TaskCatalogue = Field(default_factory=lambda: TaskCatalogue.model_validate({}))
-    operation: TaskOperation = Field(default_factory=lambda: TaskOperation.model_validate({}))
-    uncertainty: TaskUncertainty = Field(default_factory=lambda: TaskUncertainty.model_validate({}))
+    limits: TaskLimits = Field(
+        default_factory=lambda: TaskLimits.model_validate({}),
+        description="What a proposed drive may need at most, and its reserves.",
+    )
+    catalogue: TaskCatalogue = Field(
+        default_factory=lambda: TaskCatalogue.model_validate({}),
+        description="Parts that may be used. Default: all that are known well enough.",
+    )
+    operation: TaskOperation = Field(
+        default_factory=lambda: TaskOperation.model_validate({}),
+        description="Cycles a year and price of air, for the cost of its air.",
+    )
+    uncertainty: TaskUncertainty = Field(
+        default_factory=lambda: TaskUncertainty.model_validate({}),
+        description="Expected deviations of real drives, for the probability of success.",
+    )
     rank_by: Literal["balanced", "air", "time", "length", "reserve", "probability"] = Field(
         "balanced",
         description="Order of the proposals. Balanced: by air consumption times the square root of installed "

@@ -11,10 +11,11 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from mckibben.physics.errors import InputError
 from mckibben.physics.muscle import NEUTRAL_ANGLE
-from mckibben.physics.parameter import UNVERIFIED_GRADES
+from mckibben.physics.parameter import GRADES, UNVERIFIED_GRADES
 from mckibben.physics.units import convert, is_unit
 
 Grade = Literal["S", "S2", "C", "D", "M", "E", "user"]
+GRADES_IN_WORDS = "; ".join(f"{key}: {meaning}" for key, meaning in GRADES.items())
 Text = Annotated[str, Field(min_length=1, max_length=300, pattern=r"\S")]
 # No physical value is near this size; without the bound a unit factor could overflow to infinity.
 Number = Annotated[float, Field(ge=-1e30, le=1e30)]
@@ -40,11 +41,11 @@ class PresetModel(BaseModel):
 class Quantity(PresetModel):
     """A value with its unit (text), source (short) and grade (a key of `physics.parameter.GRADES`)."""
 
-    value: Number
-    unit: Annotated[str, Field(min_length=1, max_length=40)]
-    source: Text
-    grade: Grade
-    note: Note | None = None
+    value: Number = Field(description="The number, in its unit.")
+    unit: Annotated[str, Field(min_length=1, max_length=40)] = Field(description="The unit, as a text.")
+    source: Text = Field(description="Where the value comes from, in a few words.")
+    grade: Grade = Field(description=GRADES_IN_WORDS)
+    note: Note | None = Field(default=None, description="Remark on the value.")
 
     @property
     def verified(self) -> bool:
@@ -63,8 +64,10 @@ class Quantity(PresetModel):
 class Column(PresetModel):
     """A column of numbers in one unit."""
 
-    unit: Annotated[str, Field(min_length=1, max_length=40)]
-    values: Annotated[list[Number], Field(min_length=1, max_length=20_000)]
+    unit: Annotated[str, Field(min_length=1, max_length=40)] = Field(description="The unit, as a text.")
+    values: Annotated[list[Number], Field(min_length=1, max_length=20_000)] = Field(
+        description="The numbers, one per row."
+    )
 
 
 class Expected(NamedTuple):

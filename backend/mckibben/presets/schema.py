@@ -10,6 +10,7 @@ from pydantic import Field, PrivateAttr
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.parameter import UNVERIFIED_GRADES, Parameter
 from mckibben.presets.quantity import (
+    GRADES_IN_WORDS,
     Expected,
     Finding,
     Grade,
@@ -36,13 +37,21 @@ Share = Annotated[float, Field(gt=0.0, le=1.0)]
 class Preset(PresetModel):
     """Fields and methods of all presets."""
 
-    schema_version: Literal[1] = Field(alias="schema")
-    kind: Any  # each kind of preset narrows it to its own word
-    id: PresetId
-    title: Annotated[str, Field(min_length=1, max_length=120, pattern=r"\S")]
-    maker: Annotated[str, Field(max_length=120)] = ""
-    description: Annotated[str, Field(max_length=2000)] = ""
-    references: list[Text] = Field(default_factory=list)
+    schema_version: Literal[1] = Field(alias="schema", description="Version of the document.")
+    kind: Any = Field(
+        description="What kind of preset it is."
+    )  # each kind of preset narrows it to its own word
+    id: PresetId = Field(description="Its id; for the user's own, also the name of its file.")
+    title: Annotated[str, Field(min_length=1, max_length=120, pattern=r"\S")] = Field(
+        description="Its name for display."
+    )
+    maker: Annotated[str, Field(max_length=120)] = Field(
+        "", description="Who makes the part; empty where nobody does."
+    )
+    description: Annotated[str, Field(max_length=2000)] = Field(
+        "", description="What it is, in a few sentences."
+    )
+    references: list[Text] = Field(default_factory=list, description="Sources for further reading.")
 
     _origin: Origin = PrivateAttr(default="built-in")
 
@@ -78,37 +87,44 @@ class Preset(PresetModel):
 class Geometry(PresetModel):
     """The muscle at rest; an unknown wall thickness is left out."""
 
-    inside_diameter: Quantity
-    braid_diameter: Quantity
-    braid_angle: Quantity
-    nominal_length: Quantity
-    wall_thickness: Quantity | None = None
+    inside_diameter: Quantity = Field(description="Bore.")
+    braid_diameter: Quantity = Field(description="Diameter of the braid at the braid angle.")
+    braid_angle: Quantity = Field(description="Angle between thread and axis.")
+    nominal_length: Quantity = Field(description="Length between the fittings.")
+    wall_thickness: Quantity | None = Field(default=None, description="Wall of the bladder.")
 
 
 class Tolerance(PresetModel):
     """How far (+-) a fit may change a geometry value."""
 
-    braid_angle: Quantity | None = None
-    braid_diameter: Quantity | None = None
-    nominal_length: Quantity | None = None
-    wall_thickness: Quantity | None = None
+    braid_angle: Quantity | None = Field(default=None, description="Of the braid angle.")
+    braid_diameter: Quantity | None = Field(default=None, description="Of the braid diameter.")
+    nominal_length: Quantity | None = Field(default=None, description="Of the length between the fittings.")
+    wall_thickness: Quantity | None = Field(default=None, description="Of the wall of the bladder.")
 
 
 class Limits(PresetModel):
     """Limits stated by the maker; unknown ones are left out."""
 
-    max_pressure: Quantity | None = None
-    max_force: Quantity | None = None
-    max_contraction: Quantity | None = None
-    max_pretension: Quantity | None = None
-    min_nominal_length: Quantity | None = None
-    max_nominal_length: Quantity | None = None
+    max_pressure: Quantity | None = Field(default=None, description="Highest gauge pressure.")
+    max_force: Quantity | None = Field(default=None, description="Highest force.")
+    max_contraction: Quantity | None = Field(
+        default=None, description="Highest contraction, share of the nominal length."
+    )
+    max_pretension: Quantity | None = Field(
+        default=None, description="Highest stretch beyond the nominal length, share of it."
+    )
+    min_nominal_length: Quantity | None = Field(default=None, description="Shortest muscle that is made.")
+    max_nominal_length: Quantity | None = Field(default=None, description="Longest muscle that is made.")
 
 
 class _WithEffects(Preset):
     """A part with default effects in its model."""
 
-    effects: dict[Key, dict[Key, Quantity]] = Field(default_factory=dict)
+    effects: dict[Key, dict[Key, Quantity]] = Field(
+        default_factory=dict,
+        description="Effect id -> parameter -> value: the effects that the model has by default.",
+    )
 
     _parameter_units: dict[str, dict[str, str]] = PrivateAttr(default_factory=dict)
 
@@ -158,15 +174,19 @@ class MusclePreset(_WithEffects):
             such a muscle behind all others.
     """
 
-    kind: Literal["muscle"]
-    series: Annotated[str, Field(max_length=60)] = ""
-    geometry: Geometry
-    tolerance: Tolerance = Tolerance()
-    limits: Limits = Limits()
-    data: dict[Key, Quantity] = Field(default_factory=dict)
-    reference_curve: PresetId | None = None
-    measurement: PresetId | None = None
-    extrapolated: Text | None = None
+    kind: Literal["muscle"] = Field(description="Says that it is a muscle.")
+    series: Annotated[str, Field(max_length=60)] = Field(default="", description="Series of the maker.")
+    geometry: Geometry = Field(description="The muscle at rest.")
+    tolerance: Tolerance = Field(default=Tolerance(), description="How far a fit may change the geometry.")
+    limits: Limits = Field(default=Limits(), description="Limits stated by the maker.")
+    data: dict[Key, Quantity] = Field(default_factory=dict, description="Further catalogue data, by name.")
+    reference_curve: PresetId | None = Field(default=None, description="Id of a curve preset of the maker.")
+    measurement: PresetId | None = Field(
+        default=None, description="Id of a measurement preset of this muscle."
+    )
+    extrapolated: Text | None = Field(
+        default=None, description="Why its force is not known from a curve or a measurement; null when it is."
+    )
 
     def findings(self, effects: EffectTable | None = None) -> Iterator[Finding]:
         """Adds: the braid is wider than the bore."""
@@ -193,49 +213,53 @@ def _parameter_findings(
 
 
 class _Part(_WithEffects):
-    data: dict[Key, Quantity] = Field(default_factory=dict)
+    data: dict[Key, Quantity] = Field(default_factory=dict, description="Catalogue data, by name.")
 
 
 class RegulatorPart(PresetModel):
     """Figures of a pressure regulator: full-scale gauge pressure and time constant."""
 
-    range: Quantity
-    time: Quantity
+    range: Quantity = Field(description="Gauge pressure at full command.")
+    time: Quantity = Field(description="Time constant of the regulated pressure.")
 
 
 class ValvePreset(_Part):
     """A valve, or with ``regulator`` a pressure regulator; its conductances are needed to simulate it."""
 
-    kind: Literal["valve"]
-    function: Annotated[str, Field(min_length=1, max_length=120)]
-    regulator: RegulatorPart | None = None
+    kind: Literal["valve"] = Field(description="Says that it is a valve.")
+    function: Annotated[str, Field(min_length=1, max_length=120)] = Field(
+        description='What it does: "5/3-way proportional valve".'
+    )
+    regulator: RegulatorPart | None = Field(
+        default=None, description="Figures of a pressure regulator; null of a valve."
+    )
 
 
 class TubePreset(_Part):
     """A tube; its conductance is given for ``reference_length``."""
 
-    kind: Literal["tube"]
+    kind: Literal["tube"] = Field(description="Says that it is a tube.")
 
 
 class FittingPreset(_Part):
     """A fitting or silencer, with the dead volume of its port."""
 
-    kind: Literal["fitting"]
+    kind: Literal["fitting"] = Field(description="Says that it is a fitting.")
 
 
 class DesignPreset(Preset):
     """An example document of the Design view; its content is checked when it is used."""
 
-    kind: Literal["design"]
-    document: dict[str, Any]
+    kind: Literal["design"] = Field(description="Says that it is a design.")
+    document: dict[str, Any] = Field(description="The document that the Design view opens.")
 
 
 class Ground(PresetModel):
     """Source of a value of a drive document."""
 
-    source: Text
-    grade: Grade
-    note: Note | None = None
+    source: Text = Field(description="Where the value comes from, in a few words.")
+    grade: Grade = Field(description=GRADES_IN_WORDS)
+    note: Note | None = Field(default=None, description="Remark on the value.")
 
 
 class PaperFigures(PresetModel):
@@ -248,10 +272,17 @@ class PaperFigures(PresetModel):
         excluded: reason why a figure is not compared, by the same names.
     """
 
-    figure: Text
-    figures: dict[FigureName, Quantity] = Field(default_factory=dict)
-    tolerance: dict[FigureName, Share] = Field(default_factory=dict)
-    excluded: dict[FigureName, Text] = Field(default_factory=dict)
+    figure: Text = Field(description="Number of the figure.")
+    figures: dict[FigureName, Quantity] = Field(
+        default_factory=dict,
+        description="Figure of the timing table, as extend.rise_time -> published value.",
+    )
+    tolerance: dict[FigureName, Share] = Field(
+        default_factory=dict, description="Permitted relative deviation of a figure, by the same names."
+    )
+    excluded: dict[FigureName, Text] = Field(
+        default_factory=dict, description="Why a figure is not compared, by the same names."
+    )
 
 
 class _DocumentPreset(Preset):
@@ -261,8 +292,10 @@ class _DocumentPreset(Preset):
         grounds: sources of its values, by their path in the document.
     """
 
-    document: dict[str, Any]
-    grounds: dict[FigureName, Ground] = Field(default_factory=dict)
+    document: dict[str, Any] = Field(description="The document to start from.")
+    grounds: dict[FigureName, Ground] = Field(
+        default_factory=dict, description="Path in the document -> source of the value."
+    )
 
     @property
     def verified(self) -> bool:
@@ -275,11 +308,13 @@ class _DocumentPreset(Preset):
 class DrivePreset(_DocumentPreset):
     """A drive document to start from; its content is checked when it is used."""
 
-    kind: Literal["drive"]
-    paper: PaperFigures | None = None
+    kind: Literal["drive"] = Field(description="Says that it is a drive.")
+    paper: PaperFigures | None = Field(
+        default=None, description="Published figures of the drive; null where there are none."
+    )
 
 
 class TaskPreset(_DocumentPreset):
     """A sizing task to start from; its content is checked when it is used."""
 
-    kind: Literal["task"]
+    kind: Literal["task"] = Field(description="Says that it is a sizing task.")

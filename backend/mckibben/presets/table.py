@@ -12,40 +12,50 @@ from pydantic import Field
 from mckibben.physics.errors import InputError
 from mckibben.physics.parameter import UNVERIFIED_GRADES
 from mckibben.physics.units import convert
-from mckibben.presets.quantity import COLUMN_UNITS, Column, Finding, Grade, Note, PresetModel, Quantity, Text
+from mckibben.presets.quantity import (
+    COLUMN_UNITS,
+    GRADES_IN_WORDS,
+    Column,
+    Finding,
+    Grade,
+    Note,
+    PresetModel,
+    Quantity,
+    Text,
+)
 from mckibben.presets.schema import EffectTable, Preset, PresetId
 
 
 class Exclusion(PresetModel):
     """A row that is not used, and why."""
 
-    index: Annotated[int, Field(ge=0)]
-    why: Text
+    index: Annotated[int, Field(ge=0)] = Field(description="Number of the row, from 0.")
+    why: Text = Field(description="Why it is not used.")
 
 
 class CurveColumns(PresetModel):
     """Force over pressure and contraction."""
 
-    pressure: Column
-    contraction: Column
-    force: Column
+    pressure: Column = Field(description="Gauge pressure.")
+    contraction: Column = Field(description="Contraction ratio.")
+    force: Column = Field(description="Force.")
 
 
 class MeasurementColumns(PresetModel):
     """Force over pressure and length."""
 
-    pressure: Column
-    length: Column
-    force: Column
+    pressure: Column = Field(description="Gauge pressure.")
+    length: Column = Field(description="Length of the muscle.")
+    force: Column = Field(description="Force.")
 
 
 class _Table(Preset):
-    muscle: PresetId
-    data_columns: Any
-    excluded: list[Exclusion] = Field(default_factory=list)
-    source: Text
-    grade: Grade
-    note: Note | None = None
+    muscle: PresetId = Field(description="Id of the muscle preset that it belongs to.")
+    data_columns: Any = Field(description="The numbers, column by column.")
+    excluded: list[Exclusion] = Field(default_factory=list, description="Rows that are not used.")
+    source: Text = Field(description="Where the numbers come from, in a few words.")
+    grade: Grade = Field(description=GRADES_IN_WORDS)
+    note: Note | None = Field(default=None, description="Remark on the numbers.")
 
     @property
     def verified(self) -> bool:
@@ -92,19 +102,24 @@ def _si_column(name: str, column: Column) -> NDArray[np.float64]:
 class CurvePreset(_Table):
     """A reference curve of the maker: not a measurement."""
 
-    kind: Literal["curve"]
-    data_columns: CurveColumns
+    kind: Literal["curve"] = Field(description="Says that it is a reference curve.")
+    data_columns: CurveColumns = Field(description="The numbers, column by column.")
 
 
 class MeasurementPreset(_Table):
     """Published measured points; ``slack`` marks rows where the muscle did not pull (not a measured zero)."""
 
-    kind: Literal["measurement"]
-    measurement_kind: Literal["isobaric", "isometric", "isotonic", "diameter", "transient", "static"]
-    nominal_length: Quantity
-    sample: Text
-    data_columns: MeasurementColumns
-    slack: list[Literal[0, 1]] = Field(default_factory=list)
+    kind: Literal["measurement"] = Field(description="Says that it is a measurement.")
+    measurement_kind: Literal["isobaric", "isometric", "isotonic", "diameter", "transient", "static"] = Field(
+        description="How it was measured."
+    )
+    nominal_length: Quantity = Field(description="Length of the muscle at rest.")
+    sample: Text = Field(description="What was measured.")
+    data_columns: MeasurementColumns = Field(description="The numbers, column by column.")
+    slack: list[Literal[0, 1]] = Field(
+        default_factory=list,
+        description="1 for each row in which the muscle did not pull; empty: it pulled in all.",
+    )
 
     def findings(self, effects: EffectTable | None = None) -> Iterator[Finding]:
         """Adds: one slack mark per row."""

@@ -46,4 +46,4 @@ def tag(name: str, /, *children: Child, **attributes: str | float | None) -> Htm
     return Html(f"<{name}{words}>{html(*children)}</{name}>")
 
 
-_EMPTY = frozenset({"meta", "br", "path", "line", "rect", "circle"})
+_EMPTY = frozenset({"meta", "link", "br", "path", "line", "rect", "circle"})

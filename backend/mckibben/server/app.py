@@ -22,6 +22,7 @@ from mckibben.server.routes import (
     effects,
     experiments,
     health,
+    help,
     inverse,
     measurements,
     mysteries,
@@ -111,6 +112,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         reports,
         mysteries,
         description,
+        help,
         static,
     ):
         app.include_router(noun.router)

@@ -142,8 +142,8 @@ export function shell(views, { examples, help }) {
     h("button", {
       type: "button",
       class: "quiet",
-      "aria-label": "Keyboard shortcuts",
-      title: "Keyboard  (?)",
+      "aria-label": "Keyboard shortcuts and reference",
+      title: "Keyboard and reference  (?)",
       onclick: help,
     }, icon("help")),
   );

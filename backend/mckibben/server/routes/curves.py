@@ -6,6 +6,7 @@ from fastapi import APIRouter
 from fastapi.concurrency import run_in_threadpool
 
 from mckibben.application.curves import curves
+from mckibben.server import examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StudioDep
 from mckibben.server.questions.curves import curves_question
@@ -15,7 +16,12 @@ from mckibben.server.schemas.curves import CurvesAnswer, CurvesRequest
 router = APIRouter(prefix="/api/curves", tags=["curves"], route_class=StrictRoute)
 
 
-@router.post("", response_model=CurvesAnswer, responses=errors(400, 413, 415, 422))
+@router.post(
+    "",
+    response_model=CurvesAnswer,
+    responses=errors(400, 413, 415, 422),
+    openapi_extra=examples.worked("curves"),
+)
 async def compute_curves(body: CurvesRequest, studio: StudioDep) -> JsonAnswer:
     """Force, stiffness, volume and diameter over the length for each pressure, and their limits."""
 

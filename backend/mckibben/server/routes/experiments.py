@@ -5,6 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter
 
 from mckibben.application.experiment_form import experiment_forms
+from mckibben.server import examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.questions.models import model_question, said_measurements
@@ -16,7 +17,12 @@ router = APIRouter(prefix="/api/experiments", tags=["experiments"], route_class=
 
 
 # In a worker thread: it reads the measurements.
-@router.post("", response_model=ExperimentAnswer, responses=errors(400, 404, 413, 415, 422))
+@router.post(
+    "",
+    response_model=ExperimentAnswer,
+    responses=errors(400, 404, 413, 415, 422),
+    openapi_extra=examples.worked("experiments"),
+)
 def describe_experiments(body: DiagnosisRequest, studio: StudioDep, store: StoreDep) -> JsonAnswer:
     """The experiment of each measurement of a diagnosis, before it is asked for."""
     measurements = said_measurements(body, studio, store)

@@ -7,6 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter, Path
 
 from mckibben.application.mysteries import mysteries, reveal
+from mckibben.server import examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StudioDep
 from mckibben.server.schemas.common import errors
@@ -22,7 +23,12 @@ def list_mysteries(studio: StudioDep) -> JsonAnswer:
     return JsonAnswer(mysteries(studio.library))
 
 
-@router.post("/{mystery_id}/reveal", response_model=RevealAnswer, responses=errors(400, 404, 413, 415, 422))
+@router.post(
+    "/{mystery_id}/reveal",
+    response_model=RevealAnswer,
+    responses=errors(400, 404, 413, 415, 422),
+    openapi_extra=examples.worked("reveal"),
+)
 def reveal_mystery(
     mystery_id: Annotated[str, Path(max_length=64, description="Its id.", examples=["the-dip"])],
     body: RevealRequest,

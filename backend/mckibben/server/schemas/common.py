@@ -23,13 +23,13 @@ class ErrorDetail(Strict):
 class ErrorBody(Strict):
     """The body of every error."""
 
-    error: ErrorDetail
+    error: ErrorDetail = Field(description="What is wrong.")
 
 
 class Flag(Strict):
     """A remark on an answer: a crossed limit, a value out of reach, an unverified figure."""
 
-    code: str = Field(examples=["over_force_limit"])
+    code: str = Field(examples=["over_force_limit"], description="Machine-readable kind.")
     message: str = Field(description="Explanation for the user.")
     field: str | None = Field(default=None, description="The input it belongs to.")
 

@@ -42,14 +42,20 @@ class ModelRequest(Strict):
     """A model and the measurements it is compared with."""
 
     muscle: MuscleInput | None = Field(None, description="Null: the drive's.")
-    effects: EffectsInput | None = None
+    effects: EffectsInput | None = Field(
+        None, description="The effects of the model; null: the drive's, or those of the muscle preset."
+    )
     drive: DriveDocument | None = Field(
         None,
         description="Valve, tube, supply and load of transient measurements with a command channel; the "
         "measured command replaces the one stated here.",
     )
     measurement: MeasurementId | None = Field(None, description="One measurement to fit to.")
-    measurements: list[UsedMeasurement] = Field(default=[], max_length=16)
+    measurements: list[UsedMeasurement] = Field(
+        default=[],
+        max_length=16,
+        description="Measurements to fit to or to validate with, instead of 'measurement'.",
+    )
     free: list[FreeGeometry] = Field(
         default=[], max_length=5, description="Geometry to fit as well, within its tolerance."
     )
@@ -114,18 +120,18 @@ class FittedParameter(Strict):
 class Correlation(Strict):
     """Correlation of two fitted parameters."""
 
-    a: str
-    b: str
-    value: float = Field(ge=-1.0000001, le=1.0000001)
+    a: str = Field(description="First parameter, as effect.parameter.")
+    b: str = Field(description="Second parameter, as effect.parameter.")
+    value: float = Field(ge=-1.0000001, le=1.0000001, description="Coefficient of correlation, -1 to 1.")
 
 
 class ComparisonSeries(Strict):
     """One curve of the comparison, e.g. all points of one pressure."""
 
-    label: str = Field(examples=["3 bar"])
+    label: str = Field(examples=["3 bar"], description="Name of the curve.")
     channel: str = Field(description="The predicted channel.", examples=["force"])
     unit: str = Field(description="SI unit of measured, predicted and residual.")
-    use: Literal["fit", "validation"]
+    use: Literal["fit", "validation"] = Field(description="Used for the fit, or only for validation.")
     pressure: float | None = si_field("Pa", "Pressure of the series, when it has one.")
     time: Series | None = si_field("s", "Time of each point.")
     contraction: Series = si_field("1", "Contraction of each point.")
@@ -141,35 +147,35 @@ class ComparisonSeries(Strict):
 class ChannelError(Strict):
     """Error of one of several predicted channels, SI."""
 
-    rmse: float
-    unit: str
-    noise_floor: float
-    full_scale: float
+    rmse: float = Field(description="Root mean square of the residual.")
+    unit: str = Field(description="SI unit of the figures.")
+    noise_floor: float = Field(description="Noise of the channel.")
+    full_scale: float = Field(description="The largest measured magnitude.")
 
 
 class ResidualProfile(Strict):
     """The residual over one variable."""
 
-    over: str = Field(examples=["pressure"])
+    over: str = Field(examples=["pressure"], description="The variable.")
     share_explained: float = Field(description="Share of its mean square explained by this variable.")
     worst: str = Field(description="The range with the largest error.", examples=["pressure 5.5 to 6 bar"])
     rmse: float = Field(description="Error in that range.")
     edges: Series = Field(description="Boundaries of the ranges, SI; one more than ranges.")
-    mean: Series
-    rms: Series
-    count: list[int]
+    mean: Series = Field(description="Mean residual of each range, SI.")
+    rms: Series = Field(description="Root mean square of the residual of each range, SI.")
+    count: list[int] = Field(description="Number of points of each range.")
 
 
 class HeatMap(Strict):
     """The residual over two variables; rows are y, null where there are no points."""
 
-    x: str
-    y: str
-    x_edges: Series
-    y_edges: Series
-    mean: list[Series]
-    rms: list[Series]
-    count: list[list[int]]
+    x: str = Field(description="The variable of the columns.")
+    y: str = Field(description="The variable of the rows.")
+    x_edges: Series = Field(description="Boundaries of the columns, SI; one more than columns.")
+    y_edges: Series = Field(description="Boundaries of the rows, SI; one more than rows.")
+    mean: list[Series] = Field(description="Mean residual of each cell, SI.")
+    rms: list[Series] = Field(description="Root mean square of the residual of each cell, SI.")
+    count: list[list[int]] = Field(description="Number of points of each cell.")
 
 
 class ResidualPart(Strict):
@@ -184,17 +190,19 @@ class ResidualPart(Strict):
 class WhitenessAnswer(Strict):
     """Whether the residual looks like noise."""
 
-    autocorrelation: Series
+    autocorrelation: Series = Field(
+        description="Autocorrelation of the residual at the lags 1, 2, ... within sweeps."
+    )
     band: float = Field(description="Half-width of the 95 % band of noise.")
     outside: float = Field(description="Share of the lags outside the band.")
     runs: float = Field(description="Number of runs of one sign over that expected of noise.")
-    white: bool
+    white: bool = Field(description="Few lags are outside the band, and the number of runs is that of noise.")
 
 
 class Loop(Strict):
     """Area of the force residual over a closed path: energy dissipation that the model misses."""
 
-    group: int
+    group: int = Field(description="Number of the sweep or cycle.")
     area: float = si_field("J", "Positive: the model lacks friction.")
     span: float = si_field("m", "Travel between the reversals.")
 
@@ -202,18 +210,18 @@ class Loop(Strict):
 class ValidationAnswer(Strict):
     """The error of the model on measurements not used for the fit."""
 
-    rmse: float | None
-    nrmse_percent: float | None
-    rows_used: int
-    series: list[ComparisonSeries]
+    rmse: float | None = Field(description="Root mean square of the residual.")
+    nrmse_percent: float | None = Field(description="RMSE over the largest measured magnitude.")
+    rows_used: int = Field(description="Number of compared rows.")
+    series: list[ComparisonSeries] = Field(description="The points, curve by curve.")
 
 
 class ComparisonAnswer(Strict):
     """The figures of the model's error, and the points."""
 
     kind: str = Field(description="Measurement kind.")
-    rows: int
-    rows_used: int
+    rows: int = Field(description="Number of rows of the measurements.")
+    rows_used: int = Field(description="Number of compared rows.")
     predicted: str = Field(description="The predicted channel, or several.", examples=["force"])
     unit: str = Field(
         description='SI unit of the error; "1" = relative to the noise of each channel.', examples=["N"]
@@ -224,23 +232,31 @@ class ComparisonAnswer(Strict):
     holdout_rmse: float | None = Field(description="RMSE with whole groups left out of the fit.")
     noise_floor: float | None = Field(description="Noise of the data, if it can be estimated.")
     noise_how: str = Field(description="How the noise was estimated.")
-    residual_mean: float | None
+    residual_mean: float | None = Field(description="Mean of the residual.")
     channels: dict[str, ChannelError] = Field(description="Error of each channel when there are several.")
     parameters: dict[str, dict[str, FittedParameter]] = Field(description="Effect -> parameter -> value.")
-    correlations: list[Correlation]
+    correlations: list[Correlation] = Field(description="Correlations of the fitted parameters.")
     excluded: dict[str, int] = Field(description="Reason for leaving rows out -> number of rows.")
-    where: list[ResidualProfile]
-    heat_map: HeatMap | None
+    where: list[ResidualProfile] = Field(description="The residual over each variable that it may depend on.")
+    heat_map: HeatMap | None = Field(
+        description="The residual over two variables; null where there are too few points."
+    )
     parts: list[ResidualPart] = Field(description="What the squared residual is made of.")
-    whiteness: WhitenessAnswer
-    loops: list[Loop]
+    whiteness: WhitenessAnswer = Field(
+        description="Autocorrelation and runs of the residual: does it look like noise?"
+    )
+    loops: list[Loop] = Field(
+        description="Loops of the force residual, with the energy that the model misses."
+    )
     sentences: list[str] = Field(description="Where the model fails, as sentences.")
-    validation: ValidationAnswer | None
-    messages: list[str]
-    geometry: MuscleGeometry
-    series: list[ComparisonSeries]
+    validation: ValidationAnswer | None = Field(
+        description="The error on measurements not used for the fit; null without them."
+    )
+    messages: list[str] = Field(description="Remarks on the data.")
+    geometry: MuscleGeometry = Field(description="Geometry of the muscle, fitted where it was free.")
+    series: list[ComparisonSeries] = Field(description="The points, curve by curve.")
     model: dict[str, EffectsJson] = Field(description="Effects and values in the form of a request.")
-    flags: list[Flag]
+    flags: list[Flag] = Field(description="Remarks on the muscle.")
     rmse_beyond_accuracy: float | None = Field(
         description="RMSE of what the accuracy of the readings does not explain; a diagnosis counts with it."
     )

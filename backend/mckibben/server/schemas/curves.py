@@ -44,8 +44,10 @@ class CurvesOptions(Strict):
 class CurvesRequest(CurvesOptions):
     """A muscle, and the pressures and range of its curves."""
 
-    muscle: MuscleInput
-    effects: EffectsInput | None = None
+    muscle: MuscleInput = Field(description="The muscle.")
+    effects: EffectsInput | None = Field(
+        None, description="The effects of its model; null: those of the preset."
+    )
 
 
 class CurveLimits(MakerLimits):
@@ -92,7 +94,7 @@ class MuscleGeometry(Strict):
 class ModelAnswer(Strict):
     """The effects used, with all their values in SI."""
 
-    effects: dict[str, dict[str, float]]
+    effects: dict[str, dict[str, float]] = Field(description="Effect id -> parameter -> value in SI.")
 
 
 class OverPressureBranch(Strict):
@@ -125,10 +127,12 @@ class OverPressure(Strict):
 
     pressure: list[float] = si_field("Pa", "Gauge pressure.")
     load: float | None = si_field("N", "The load.")
-    filling: OverPressureBranch | None
-    venting: OverPressureBranch | None
+    filling: OverPressureBranch | None = Field(description="While shortening; null without a load.")
+    venting: OverPressureBranch | None = Field(description="While lengthening; null without a load.")
     fixed_length: float | None = si_field("m", "The fixed length.")
-    force_at_fixed_length: ForceAtLength | None
+    force_at_fixed_length: ForceAtLength | None = Field(
+        description="Force over pressure; null without a fixed length."
+    )
     loop: HysteresisLoop | None = Field(None, description="Width of the loop; null without a load.")
 
 
@@ -158,10 +162,12 @@ class CurvesAnswer(Strict):
     volume: Series = si_field("m3", "Enclosed volume at the highest pressure.")
     diameter: Series = si_field("m", "Braid diameter at the highest pressure.")
     outer_diameter: Series = si_field("m", "Outer diameter of the wall, at constant wall volume.")
-    limits: CurveLimits
-    characteristics: list[Characteristics]
-    geometry: MuscleGeometry
-    model: ModelAnswer
+    limits: CurveLimits = Field(description="Limits of the muscle.")
+    characteristics: list[Characteristics] = Field(description="Figures of the muscle at each pressure.")
+    geometry: MuscleGeometry = Field(description="Geometry of the muscle at rest, in all forms.")
+    model: ModelAnswer = Field(description="The effects used, with all their values.")
     over_pressure: OverPressure | None = Field(description="Null without load and fixed length.")
-    operating_points: list[OperatingPoint]
-    flags: list[Flag]
+    operating_points: list[OperatingPoint] = Field(
+        description="The state at each pressure; empty without a load."
+    )
+    flags: list[Flag] = Field(description="Remarks on the answer.")

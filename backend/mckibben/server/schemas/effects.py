@@ -11,7 +11,7 @@ from mckibben.server.schemas.common import SourceText
 class EffectParameter(Strict):
     """One number of an effect, in SI."""
 
-    name: str = Field(examples=["shear_modulus"])
+    name: str = Field(examples=["shear_modulus"], description="Its key in a request.")
     symbol: str = Field(description="LaTeX.", examples=["C_{10}"])
     symbol_mathml: str = Field(description="The symbol as MathML.")
     unit: str = Field(description="SI unit of all figures here.", examples=["Pa"])
@@ -20,8 +20,8 @@ class EffectParameter(Strict):
     upper: float = Field(description="Upper bound of the plausible range.")
     off: float | None = Field(description="The value at which the effect vanishes.")
     fitted: bool = Field(description="Whether a fit frees it by default.")
-    description: str
-    source: SourceText
+    description: str = Field(description="What it is.")
+    source: SourceText = Field(description="Source of the typical value.")
 
 
 class Signature(Strict):
@@ -45,29 +45,31 @@ class EffectAnswer(Strict):
     """One physical effect, as its file declares it."""
 
     id: str = Field(description="The name of the file that declares it.")
-    title: str
-    family: str = Field(examples=["elastomer"])
+    title: str = Field(description="Its name.")
+    family: str = Field(
+        examples=["elastomer"], description="Part of the drive or branch of physics that it belongs to."
+    )
     type: str = Field(description="static, rate, hysteretic, dynamic or measurement.")
     cause: str = Field(description="Why it exists.")
     equation: str = Field(description="LaTeX.")
-    equation_mathml: str
-    parameters: list[EffectParameter]
+    equation_mathml: str = Field(description="The equation as MathML.")
+    parameters: list[EffectParameter] = Field(description="Its numbers.")
     kinds: list[str] = Field(description="Measurement kinds that reveal it.")
-    signature: Signature
-    confused_with: list[Twin]
-    references: list[SourceText]
+    signature: Signature = Field(description="How it shows in the residual.")
+    confused_with: list[Twin] = Field(description="Effects that look alike.")
+    references: list[SourceText] = Field(description="Where it is described.")
     slots: list[str] = Field(description="The places in the model where it acts.")
 
 
 class FileProblem(Strict):
     """A file that was not loaded, and why."""
 
-    file: str
-    message: str
+    file: str = Field(description="Name of the file.")
+    message: str = Field(description="Why it was not loaded.")
 
 
 class EffectsAnswer(Strict):
     """All known effects, and the effect files that could not be loaded."""
 
-    effects: list[EffectAnswer]
-    problems: list[FileProblem]
+    effects: list[EffectAnswer] = Field(description="All known effects.")
+    problems: list[FileProblem] = Field(description="Effect files that could not be loaded.")

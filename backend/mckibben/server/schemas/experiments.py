@@ -75,7 +75,7 @@ class ExperimentField(Strict):
     most: float | None = Field(description="Largest allowed value, SI.")
     choices: list[str] = Field(description="Allowed texts, or proposals of texts; empty = any.")
     closed: bool = Field(description="Only the choices are allowed.")
-    example: str = Field(examples=["250 mm"])
+    example: str = Field(examples=["250 mm"], description="A valid value, as a text.")
     option: str = Field(description="What says it on the command line.", examples=['--rest-length "250 mm"'])
 
 
@@ -84,14 +84,14 @@ class StatedExperiment(Strict):
 
     id: str = Field(description="Id as in the request.")
     name: str = Field(description="Name of the file or preset.")
-    kind: str
-    experiment: list[ExperimentField]
+    kind: str = Field(description="Measurement kind.")
+    experiment: list[ExperimentField] = Field(description="Its fields.")
 
 
 class ExperimentAnswer(Strict):
     """What is said about the experiment of each measurement, and what is open."""
 
-    measurements: list[StatedExperiment]
+    measurements: list[StatedExperiment] = Field(description="One entry per measurement of the request.")
     assumptions: list[str] = Field(
         description="What a diagnosis would assume, in the words with which it begins."
     )
@@ -103,12 +103,12 @@ class ExperimentAnswer(Strict):
 class Absorbed(Strict):
     """What the accuracy of the measurement took up instead of the model: an error of a clamp or a sensor."""
 
-    channel: str = Field(examples=["length"])
+    channel: str = Field(examples=["length"], description="The channel.")
     of: str = Field(description="What it belongs to.", examples=["clamped at 251.2 mm"])
     value: float = Field(description="Estimated error of the reading, SI.")
     stderr: float = Field(description="Its standard error, SI.")
     accuracy: float = Field(description="Stated or assumed standard deviation, SI.")
-    unit: str = Field(examples=["m"])
+    unit: str = Field(examples=["m"], description="SI unit of value, stderr and accuracy.")
     rms: float = Field(description="What it changes of the predicted channel, SI.")
 
 
@@ -116,7 +116,9 @@ class Specimen(Strict):
     """One measurement of several."""
 
     file: str = Field(description="Name of the file or preset.")
-    rows_used: int
+    rows_used: int = Field(description="Number of rows used.")
     rmse: float | None = Field(description="Error of the model on it; of the best model in a diagnosis.")
     holdout_rmse: float | None = Field(description="The same with whole groups left out of the fit.")
-    experiment: dict[str, ExperimentValue]
+    experiment: dict[str, ExperimentValue] = Field(
+        description="Values of its experiment, each with its origin."
+    )

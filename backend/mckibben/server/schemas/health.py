@@ -12,7 +12,7 @@ from mckibben.documents.strict import Strict
 class Health(Strict):
     """The server is up."""
 
-    status: Literal["ok"]
+    status: Literal["ok"] = Field(description="The word 'ok'.")
     version: str = Field(description="Version of mckibben.", examples=["0.1.0"])
     plotly: str = Field(description="Version of the plotly bundle, for its link's ``?v=``.")
     can_save_presets: bool = Field(description="Whether the server has a folder for the user's presets.")

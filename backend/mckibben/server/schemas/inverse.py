@@ -14,8 +14,10 @@ from mckibben.server.schemas.curves import Direction
 
 
 class _Question(Strict):
-    muscle: MuscleInput
-    effects: EffectsInput | None = None
+    muscle: MuscleInput = Field(description="The muscle.")
+    effects: EffectsInput | None = Field(
+        None, description="The effects of its model; null: those of the preset."
+    )
     temperature: Temperature = Field(293.15, description="Temperature of the muscle.")
     direction: Direction = 0
 
@@ -23,7 +25,7 @@ class _Question(Strict):
 class PressureQuestion(_Question):
     """The pressure for a force at a length or contraction."""
 
-    question: Literal["pressure"]
+    question: Literal["pressure"] = Field(description="Asks for a pressure.")
     force: Load = Field(description="The required force.")
     length: Length | None = Field(None, description="The length; or give the contraction.")
     contraction: Contraction | None = Field(None, description="The contraction; or give the length.")
@@ -32,9 +34,9 @@ class PressureQuestion(_Question):
 class ContractionQuestion(_Question):
     """The contraction at a force and pressure."""
 
-    question: Literal["contraction"]
+    question: Literal["contraction"] = Field(description="Asks for a contraction.")
     force: Load = Field(description="The force of the muscle.")
-    pressure: Pressure
+    pressure: Pressure = Field(description="Gauge pressure in the muscle.")
 
 
 class WorkingRangeQuestion(_Question):
@@ -43,8 +45,8 @@ class WorkingRangeQuestion(_Question):
     The start is taken while venting and the end while filling, whatever ``direction`` is.
     """
 
-    question: Literal["working_range"]
-    load: Load
+    question: Literal["working_range"] = Field(description="Asks for the stroke between two loads.")
+    load: Load = Field(description="Load at the end of the stroke.")
     pressure: PositivePressure = Field(description="The highest gauge pressure.")
     preload: Load = Field(0.0, description="Load at the start of the stroke.")
 
@@ -52,8 +54,8 @@ class WorkingRangeQuestion(_Question):
 class StrokePressureQuestion(_Question):
     """The pressure that lifts a load by a stroke."""
 
-    question: Literal["stroke_pressure"]
-    load: Load
+    question: Literal["stroke_pressure"] = Field(description="Asks for the pressure of a stroke.")
+    load: Load = Field(description="The load to lift.")
     stroke: Length = Field(description="From the nominal length.")
     direction: Direction = -1
 
@@ -67,8 +69,10 @@ InverseRequest = Annotated[
 class InverseAnswer(Strict):
     """The requested value in SI, with flags."""
 
-    question: Literal["pressure", "contraction", "working_range", "stroke_pressure"]
+    question: Literal["pressure", "contraction", "working_range", "stroke_pressure"] = Field(
+        description="The question that was asked."
+    )
     value: float | None = Field(description="The answer; null when there is none (a flag says why).")
     unit: str = Field(description="SI unit of the value.", examples=["Pa"])
     details: dict[str, float | None] = Field(description="Further figures in SI.")
-    flags: list[Flag]
+    flags: list[Flag] = Field(description="Remarks on the answer.")

@@ -52,7 +52,7 @@ class UnreadColumn(Strict):
 class StatedCondition(Strict):
     """A condition of the test and who says it."""
 
-    key: str = Field(examples=["nominal_length"])
+    key: str = Field(examples=["nominal_length"], description="Name of the condition.")
     value: str | float | None = Field(description="In SI, or a text.")
     origin: str = Field(description="file or you.", examples=["file"])
     where: str = Field(description="Line or cell of the file; empty for the user's own.", examples=["line 4"])
@@ -84,18 +84,18 @@ class MeasurementAnswer(Strict):
     kind: str = Field(description="isobaric, isometric, isotonic, diameter, transient or static.")
     kind_detected: bool = Field(description="Detected from the data, not stated in the file.")
     kind_reason: str = Field(description="Why this kind was detected; empty when it was stated.")
-    rows: int
+    rows: int = Field(description="Number of rows that were read.")
     usable_rows: int = Field(description="Rows with a usable measurement.")
     excluded: dict[str, int] = Field(
         description="Reason why rows are not usable -> number of rows.", examples=[{"slack": 66}]
     )
     skipped: dict[str, int] = Field(description="Reason why rows could not be read -> number of rows.")
-    channels: list[Channel]
+    channels: list[Channel] = Field(description="The used columns.")
     ignored: list[str] = Field(description="Columns that are not used.")
     conditions: dict[str, str | float | None] = Field(description="Conditions of the test, SI.")
     missing: list[MissingCondition] = Field(description="Conditions to ask for.")
     groups: int = Field(description="Number of sweeps or cycles of the rows.")
-    segments: Segmentation
+    segments: Segmentation = Field(description="How the rows are divided into sweeps.")
     messages: list[str] = Field(description="Remarks on the file.")
     unread: list[UnreadColumn] = Field(description="All columns that nothing is read from, and why.")
     stated: list[StatedCondition] = Field(description="The conditions with their origin.")
@@ -137,23 +137,23 @@ class PreviewColumn(Strict):
 class SkippedRows(Strict):
     """Rows of the file that cannot be read, for one reason."""
 
-    reason: str = Field(examples=["not a number"])
-    rows: int
+    reason: str = Field(examples=["not a number"], description="Why they cannot be read.")
+    rows: int = Field(description="Number of these rows.")
     first: str = Field(description="Where the first of them is.", examples=["row 7, column 'force_N'"])
 
 
 class ChannelChoice(Strict):
     """A channel to which a column can be mapped."""
 
-    name: str = Field(examples=["pressure"])
-    si_unit: str = Field(examples=["Pa"])
+    name: str = Field(examples=["pressure"], description="Name of the channel.")
+    si_unit: str = Field(examples=["Pa"], description="Its SI unit.")
     units: list[str] = Field(description="Usual units; others are accepted too.", examples=[["bar", "kPa"]])
 
 
 class TableOption(Strict):
     """A sheet, group or struct of a file."""
 
-    name: str = Field(examples=["Messung 1"])
+    name: str = Field(examples=["Messung 1"], description="Its name.")
     is_read: bool = Field(description="It is read now, alone or with others of the same columns.")
 
 
@@ -169,7 +169,7 @@ class RawRow(Strict):
 class RawTable(Strict):
     """The first rows of a file as they stand in it; where the head is far down, rows between are left out."""
 
-    rows: list[RawRow]
+    rows: list[RawRow] = Field(description="The rows, in the order of the file.")
     head: int | None = Field(description="The row of the column names.", examples=[6])
     units: int | None = Field(description="The row of the units, where they stand apart.", examples=[7])
     head_moves: bool = Field(description="'head' of a mapping may name another row.")
@@ -182,16 +182,16 @@ class RawTable(Strict):
 class PreviewAnswer(Strict):
     """How a file would be read; nothing is stored."""
 
-    name: str
+    name: str = Field(description="Name of the file.")
     format: str = Field(description="csv, json, xlsx, mat, hdf5 or tdms.")
     columns: list[PreviewColumn] = Field(description="All columns of the file, in its order.")
     sample: list[list[str]] = Field(description="The first rows as written in the file, up to 8.")
     rows: int = Field(description="Rows below the header.")
     valid_rows: int = Field(description="Rows that can be read.")
-    skipped: list[SkippedRows]
+    skipped: list[SkippedRows] = Field(description="Rows that cannot be read, by reason.")
     kind: str | None = Field(description="The kind; null while the file cannot be used.")
-    kind_detected: bool
-    kind_reason: str
+    kind_detected: bool = Field(description="Detected from the data, not stated in the file.")
+    kind_reason: str = Field(description="Why this kind was detected; empty when it was stated.")
     conditions: dict[str, str | float | None] = Field(
         description="Conditions in the file or in the mapping, SI."
     )
@@ -204,8 +204,8 @@ class PreviewAnswer(Strict):
         description="The only problem are bad rows: the mapping {'bad_rows': 'skip'} leaves them out."
     )
     messages: list[str] = Field(description="Assumptions made.")
-    channel_choices: list[ChannelChoice]
-    kind_choices: list[str]
+    channel_choices: list[ChannelChoice] = Field(description="Channels to which a column can be mapped.")
+    kind_choices: list[str] = Field(description="Kinds that a mapping may state.")
     questions: list[OpenQuestion] = Field(
         description="What the file leaves open; 'problem' refuses it while one of them stops the reading."
     )

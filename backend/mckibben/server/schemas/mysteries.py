@@ -13,8 +13,8 @@ from mckibben.server.schemas.comparisons import EffectsJson
 class Mystery(Strict):
     """A measurement to practise on; without the solution."""
 
-    id: str = Field(examples=["two-lines-per-pressure"])
-    title: str
+    id: str = Field(examples=["two-lines-per-pressure"], description="Its id.")
+    title: str = Field(description="Its name.")
     story: str = Field(description="The situation, as an engineer would describe it.")
     kind: str = Field(description="Measurement kind.")
     muscle: dict[str, Any] = Field(description="In the form of a comparison request.")
@@ -36,7 +36,7 @@ class RevealRequest(Strict):
 class Hidden(Strict):
     """One effect that the start model lacks."""
 
-    title: str
+    title: str = Field(description="What is hidden, in a few words.")
     what: str = Field(description="What it does, and how it shows in the data.")
     effects: list[str] = Field(description="Effect ids accepted as right answers.")
 
@@ -44,9 +44,9 @@ class Hidden(Strict):
 class RevealAnswer(Strict):
     """The hidden effects, compared with the user's diagnosis."""
 
-    hidden: list[Hidden]
+    hidden: list[Hidden] = Field(description="The hidden effects; none if the start model explains the data.")
     found: list[bool] = Field(description="For each hidden effect: whether the user named it.")
     surplus: list[str] = Field(
         description="Effects of the user that are neither hidden nor of the start model."
     )
-    text: str
+    text: str = Field(description="The solution in words.")

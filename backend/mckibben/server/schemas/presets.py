@@ -59,15 +59,15 @@ PresetAnswer = Annotated[Union[_ANSWERS], Field(discriminator="kind")]  # noqa: 
 class PresetProblem(Strict):
     """A preset file that was not loaded, and why."""
 
-    file: str
+    file: str = Field(description="Name of the file.")
     field: str | None = Field(description="Where in the file.")
-    message: str
+    message: str = Field(description="What is wrong with it.")
     hint: str | None = Field(description="What would be right.")
 
 
 class PresetsAnswer(Strict):
     """All presets of one kind, and the files that could not be loaded."""
 
-    kind: PresetKind
-    presets: list[PresetAnswer]  # type: ignore[valid-type]
-    problems: list[PresetProblem]
+    kind: PresetKind = Field(description="The requested kind.")
+    presets: list[PresetAnswer] = Field(description="The presets, by id.")  # type: ignore[valid-type]
+    problems: list[PresetProblem] = Field(description="Preset files that could not be loaded.")

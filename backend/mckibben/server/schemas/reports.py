@@ -14,9 +14,13 @@ from mckibben.server.schemas.comparisons import ComparisonRequest, ParameterPath
 class HistoryStep(Strict):
     """An earlier model in the user's history."""
 
-    label: str = Field(max_length=200, examples=["start model"])
+    label: str = Field(
+        max_length=200, examples=["start model"], description="What the model is called in the report."
+    )
     effects: EffectsInput | None = Field(None, description="As in the request.")
-    freed: list[ParameterPath] = Field(default=[], max_length=64)
+    freed: list[ParameterPath] = Field(
+        default=[], max_length=64, description="Additional parameters that were fitted, as effect.parameter."
+    )
     muscle: MuscleInput | None = Field(None, description="Null: that of the request.")
 
 

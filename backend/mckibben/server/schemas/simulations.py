@@ -64,8 +64,8 @@ class TrackingAnswer(Strict):
     rms: float = si_field("m", "Root mean square of the error over time.")
     max: float = si_field("m", "Largest error.")
     lag: float | None = si_field("s", "Delay with the best correlation; null if none fits.")
-    overshoot: list[Overshoot]
-    notes: dict[str, str]
+    overshoot: list[Overshoot] = Field(description="Every step of the reference.")
+    notes: dict[str, str] = Field(description="Figure -> why it is null, or a remark on it.")
 
 
 class Choked(Strict):
@@ -73,7 +73,7 @@ class Choked(Strict):
 
     begin: float = Field(alias="from", description="Start.", json_schema_extra={"unit": "s"})
     end: float = Field(alias="to", description="End.", json_schema_extra={"unit": "s"})
-    side: Literal["fill", "exhaust"]
+    side: Literal["fill", "exhaust"] = Field(description="Air flows in (fill) or out (exhaust).")
 
 
 class StartPosition(Strict):
@@ -138,25 +138,27 @@ class SimulationAnswer(Strict):
     slack: list[bool] = Field(
         description="Whether the muscle hangs slack: it is then longer than its fittings are apart."
     )
-    start: StartPosition
+    start: StartPosition = Field(description="Where the load is at t = 0, and why there.")
     gas: str = Field(description="How the air in the muscle is modelled.")
     readings: Readings | None = Field(description="Null if no effect changes the sensor readings.")
     joint: Joint | None = Field(description="Joint of an antagonist pair.")
     choked: list[Choked] = Field(
         description="Choked intervals of the whole run, whatever rows are requested."
     )
-    timing: Timing
+    timing: Timing = Field(description="Times, speeds and air of the first fill and the exhaust after it.")
     tracking: TrackingAnswer | None = Field(description="Tracking figures of a controlled run.")
-    outcome: Literal["completed", "stuck", "diverged", "timed_out", "cancelled"]
+    outcome: Literal["completed", "stuck", "diverged", "timed_out", "cancelled"] = Field(
+        description="How the run ended; only a completed one has all rows."
+    )
     message: str | None = Field(description="Advice if the run did not complete.")
     wall_ms: float = Field(description="Computing time of the integration in ms.")
-    engine: Literal["rodas", "lsoda"]
+    engine: Literal["rodas", "lsoda"] = Field(description="The integrator used.")
     steps: int = Field(description="Steps of the integrator.")
-    flags: list[Flag]
+    flags: list[Flag] = Field(description="Remarks on the run.")
     notes: dict[str, str] = Field(description="Field -> remark, including those of timing and tracking.")
-    limits: DriveLimits
-    geometry: MuscleGeometry
-    model: ModelAnswer
+    limits: DriveLimits = Field(description="Limits stated by the maker, and the end stops.")
+    geometry: MuscleGeometry = Field(description="Geometry of the muscle at rest, in all forms.")
+    model: ModelAnswer = Field(description="The effects used, with all their values.")
     duration: float = si_field("s", "Duration of the whole run.")
 
 

@@ -19,11 +19,11 @@ _MARGINS = "Limit -> margin as a share of the limit; limits that are not set are
 class ExploredDesign(Strict):
     """A simulated design that fulfils the task; coarse figures, for a plot of the alternatives."""
 
-    muscle: str
+    muscle: str = Field(description="Id of the preset.")
     nominal_length: float = si_field("m", "Nominal length of each muscle.")
     parallel: int = Field(description="Number of parallel muscles.")
-    valve: str
-    tube: str | None
+    valve: str = Field(description="Id of the preset.")
+    tube: str | None = Field(description="Id of the preset; null without a tube.")
     pressure: float = si_field("Pa", "Gauge pressure of the supply.")
     time: float = si_field("s", "Time for the stroke.")
     air_volume_anr: float = si_field("m^3", "Air per cycle at ANR.")
@@ -87,8 +87,8 @@ class ProposalAnswer(Strict):
 class RejectedAnswer(Strict):
     """A rejected candidate."""
 
-    muscle: str
-    parallel: int
+    muscle: str = Field(description="Id of the preset.")
+    parallel: int = Field(description="Number of parallel muscles.")
     valve: str | None = Field(description="Null = with any valve.")
     tube: str | None = Field(description="Null = with any tube.")
     why: str = Field(description="The reason, with figures.")
@@ -112,7 +112,9 @@ class SizingAnswer(Strict):
     pruned: int = Field(description="Number of them ruled out in closed form.")
     simulated: int = Field(description="Number of transient runs, without those of specimens.")
     specimens: int = Field(description="Number of transient runs for probabilities.")
-    outcome: Literal["completed", "timed_out", "cancelled"]
+    outcome: Literal["completed", "timed_out", "cancelled"] = Field(
+        description="How the search ended; only a completed one has tried everything."
+    )
     message: str | None = Field(description="Advice if the search did not complete.")
-    flags: list[Flag]
+    flags: list[Flag] = Field(description="Remarks on the task.")
     wall_ms: float = Field(description="Computing time of the search in ms.")

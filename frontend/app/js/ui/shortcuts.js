@@ -38,7 +38,7 @@ export const control = (key, shift = false) => (/** @type {KeyboardEvent} */ e) 
 export function showShortcuts(table) {
   const rows = [...table.map((s) => [s.keys, s.what]), ...ELSEWHERE];
   openDialog(
-    { title: "Keyboard" },
+    { title: "Keyboard and reference" },
     h(
       "dl",
       { class: "keys" },
@@ -46,6 +46,15 @@ export function showShortcuts(table) {
         h("dt", null, ...keys.split(" ").map((k) => h("kbd", null, k))),
         h("dd", null, what),
       ]),
+    ),
+    h(
+      "p",
+      { class: "reference-links" },
+      "Reference, also offline: ",
+      h("a", { href: "/help/python", target: "_blank" }, "Python"),
+      ", ",
+      h("a", { href: "/help/http", target: "_blank" }, "HTTP"),
+      ".",
     ),
   );
 }
