@@ -279,7 +279,7 @@ WRONG = {
     ),
     "bad row": (["bad.csv", "--muscle", "m.json"], ["bad.csv", "abc", "4"]),
     "no table": (["text.csv", "--muscle", "m.json"], ["text.csv"]),
-    "two kinds": (["rubbing.csv", "map.csv", "--muscle", "m.json"], ["map.csv", "static", "isobaric"]),
+    "two kinds": (["rubbing.csv", "lift.csv", "--muscle", "m.json"], ["lift.csv", "isotonic", "isobaric"]),
     "command without a drive": (["trace.csv", "--muscle", "m.json"], ["trace.csv", "--drive"]),
     "transient without a load": (["pull.csv", "--muscle", "m.json"], ["pull.csv", "load_mass"]),
     "noise of several channels": (["trace.csv", "--drive", "drive.json", "--noise", "5"], ["noise"]),
@@ -291,6 +291,7 @@ FILES = {
     "bad.csv": "# kind: static\npressure_bar,length_mm,force_N\n1,290,100\nabc,290,200\n",
     "text.csv": "just a text\n",
     "map.csv": "# kind: static\npressure_bar,length_mm,force_N\n1,290,100\n2,290,200\n3,280,210\n",
+    "lift.csv": "# kind: isotonic\n# load_mass: 5 kg\npressure_bar,length_mm\n1,290\n2,280\n3,270\n",
     "pull.csv": "time_s,pressure_bar,displacement_mm\n0,0,0\n0.1,1,2\n0.2,2,3\n0.3,2,3\n",
     "trace.csv": "time_s,command,pressure_bar,displacement_mm\n0,1,0,0\n0.1,1,1,2\n0.2,0,2,3\n0.3,0,2,3\n",
 }

@@ -179,6 +179,8 @@ def test_a_proposed_unit_is_marked_and_confirmed_or_changed(case: Page) -> None:
     expect(cell).to_contain_text("4.00 bar")
     with read_anew(case):
         dialog.locator(".ask[data-about='unit of displacement']").get_by_role("button", name="mm").click()
+    with read_anew(case):
+        dialog.locator(".ask[data-about='unit of force']").get_by_role("button").first.click()
     expect(dialog.locator(".ask:not(.may-wait)")).to_have_count(0)
 
 
@@ -307,9 +309,11 @@ def test_everything_by_key(case: Page) -> None:
     expect(panel(case).locator(".ask[data-about='unit of pressure'] button").first).to_be_focused()
     with read_anew(case):
         case.keyboard.press("Enter")
-    expect(panel(case).locator(".ask[data-about='unit of displacement'] button").first).to_be_focused()
-    with read_anew(case):
-        case.keyboard.press("Enter")
+    for channel in ("displacement", "force"):
+        asked = panel(case).locator(f".ask[data-about='unit of {channel}'] button")
+        expect(asked.first).to_be_focused()
+        with read_anew(case):
+            case.keyboard.press("Enter")
     expect(panel(case).get_by_label("Rest length")).to_be_focused()
     case.keyboard.type("250")
     case.keyboard.press("Enter")

@@ -126,7 +126,8 @@ class _Source(importlib.machinery.SourceFileLoader):
 
 def _load(path: Path) -> Effect:
     name = f"mckibben.physics.effects.{path.stem}"
-    spec = importlib.util.spec_from_loader(name, _Source(name, str(path)))
+    file = str(path.absolute())
+    spec = importlib.util.spec_from_file_location(name, file, loader=_Source(name, file))
     if spec is None or spec.loader is None:
         raise ImportError(f"{path} cannot be imported")
     module = importlib.util.module_from_spec(spec)

@@ -132,12 +132,7 @@ EFFECT = Effect(
     ),
     examples=(
         Example(
-            "slot:friction",
-            -3.0,
-            1e-12,
-            _DEFINITION,
-            {"force": 5.0},
-            _SIZE_20,
+            *("slot:friction", -3.0, 1e-12, _DEFINITION, {"force": 5.0}, _SIZE_20),
             {"filling": 0.6, "length": 0.3, "pressure": 3e5},
         ),
         Example(
