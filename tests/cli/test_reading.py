@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Run
+from tests.cli.conftest import Run, write
 from tests.measurement.read.open_files import WRITERS, OpenFile
 from tests.measurement.read.sealed_files import italian, stacked_workbook
 
@@ -120,3 +120,19 @@ def test_a_bad_option_is_told_in_a_line(run: Run, arguments: list[str], words: l
     assert len(err.strip().splitlines()) == 1
     for word in words:
         assert word in err
+
+
+def test_readings_in_json_may_be_larger_than_a_list_of_files(run: Run) -> None:
+    rows = [
+        {"pressure_bar": 1 + n % 5, "length_mm": 300 - n % 60, "force_N": round(900.0 - 12.5 * (n % 60), 6)}
+        for n in range(24_000)
+    ]
+    assert len(json.dumps(rows)) > 1_100_000
+    write("large.json", rows)
+    write("small.json", rows[:300])
+    errors = []
+    for name in ("small.json", "large.json"):
+        code, out, err = run("compare", name, *MUSCLE, "--rest-length", "300 mm", "--json")
+        assert code == 0, err
+        errors.append(json.loads(out)["rmse"])
+    assert errors[0] == pytest.approx(errors[1])  # the same rows, eighty times

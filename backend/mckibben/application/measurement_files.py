@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -47,11 +48,20 @@ def measurements_of(
         for entry in _entries(name):
             reading = correction or Correction()
             own = dict(said or {})
-            if len(entry) > 1:
-                reading = _read_as(entry, name, reading)
-                own |= _said_in(entry, name)
-            found.append(SaidMeasurement(_read(str(entry["file"]), studio, reading, given or {}), own))
+            if entry.words:
+                reading = _read_as(entry.words, name, reading)
+                own |= _said_in(entry.words, name)
+            found.append(SaidMeasurement(_read(entry, studio, reading, given or {}), own))
     return found
+
+
+@dataclass(frozen=True)
+class _Entry:
+    """One file or preset: its name, what a list says about it, and its document where it is a preset file."""
+
+    name: str
+    words: Mapping[str, Any] = field(default_factory=dict)
+    preset: dict[str, Any] | None = None
 
 
 def _holds_readings(document: Any) -> bool:
@@ -63,22 +73,22 @@ def _holds_readings(document: Any) -> bool:
     ) and any(isinstance(entry, (dict, list)) and len(entry) > 1 for entry in document)  # fmt: skip
 
 
-def _entries(name: str) -> list[dict[str, Any]]:
+def _entries(name: str) -> list[_Entry]:
     """The files of a list in JSON with what it says about each; a single file otherwise.
 
     Raises:
         InputError: the list cannot be used.
     """
-    from mckibben.presets.reading import BadDocumentError, read_file
+    from mckibben.presets.reading import BadDocumentError
 
-    if not name.lower().endswith(".json") or not _exists(name):
-        return [{"file": name}]
     try:
-        document = read_file(Path(name), follow_links=True)
+        document = _small_document(name)
     except BadDocumentError as bad:
         raise InputError(f"{name}: {bad.findings[0].message}", hint=bad.findings[0].hint) from bad
-    if is_preset(document) or _holds_readings(document):
-        return [{"file": name}]
+    if is_preset(document):
+        return [_Entry(name, preset=document)]
+    if document is None or _holds_readings(document):
+        return [_Entry(name)]
     if not isinstance(document, list) or not document:
         raise InputError(f"{name}: is no list of measurements", hint=_LIST_EXAMPLE)
     entries = []
@@ -92,8 +102,28 @@ def _entries(name: str) -> list[dict[str, Any]]:
                     f"{name}: entry {place + 1}: {key} is not known", hint=did_you_mean(str(key), known)
                 )
         beside = Path(name).parent / entry["file"]
-        entries.append({**entry, "file": str(beside) if beside.exists() else entry["file"]})
+        file = str(beside) if beside.exists() else entry["file"]
+        try:
+            inner = _small_document(file)
+        except BadDocumentError:
+            inner = None  # told when it is read as a measurement
+        words = {key: value for key, value in entry.items() if key != "file"}
+        entries.append(_Entry(file, words, inner if is_preset(inner) else None))
     return entries
+
+
+def _small_document(name: str) -> object:
+    """The content of a JSON file that can be a list of files or a preset; None for everything else.
+
+    Raises:
+        BadDocumentError: it is not JSON.
+    """
+    from mckibben.presets.reading import MAX_BYTES, read_file
+
+    path = Path(name)
+    if not name.lower().endswith(".json") or not _exists(name) or path.stat().st_size > MAX_BYTES:
+        return None
+    return read_file(path, follow_links=True)
 
 
 def _read_as(entry: Mapping[str, Any], source: str, correction: Correction) -> Correction:
@@ -185,43 +215,32 @@ def option_of(name: str) -> str:
     return f"--experiment {name}" if option == "--experiment" else option
 
 
-def _read(name: str, studio: Studio, correction: Correction, given: Mapping[str, bytes]) -> Points:
+def _read(entry: _Entry, studio: Studio, correction: Correction, given: Mapping[str, bytes]) -> Points:
     """A file, the file of a preset with points, or a preset of the catalogue when there is no such file."""
+    name = entry.name
     if name in given:
         return Points(read_file(name, correction, given[name]))
-    preset = _preset_in(name, studio) if _exists(name) else find_preset(name, studio.library)
-    if preset is not None:
-        if correction.columns or correction.sheet or correction.head:
-            raise InputError(
-                f"{name}: a preset states how it is read", hint="leave --column, --sheet and the like out"
-            )
-        return preset
-    return Points(read_file(name, correction))
+    if entry.preset is not None:
+        preset = _points_in(entry.preset, name, studio)
+    else:
+        preset = None if _exists(name) else find_preset(name, studio.library)
+    if preset is None:
+        return Points(read_file(name, correction))
+    if correction.columns or correction.sheet or correction.head:
+        raise InputError(
+            f"{name}: a preset states how it is read", hint="leave --column, --sheet and the like out"
+        )
+    return preset
 
 
-def _document(name: str) -> object:
-    """The content of a JSON file; None for everything else."""
-    from mckibben.presets.reading import BadDocumentError, read_file
-
-    if not name.lower().endswith(".json") or not _exists(name):
-        return None
-    try:
-        return read_file(Path(name), follow_links=True)
-    except BadDocumentError:
-        return None  # told when it is read as a measurement
-
-
-def _preset_in(name: str, studio: Studio) -> Points | None:
-    """The points of a preset file; None for a file that is none.
+def _points_in(document: dict[str, Any], name: str, studio: Studio) -> Points | None:
+    """The points of the document of a preset file.
 
     Raises:
         InputError: a preset that cannot be used, or of a kind without points.
     """
     from mckibben.presets.reading import BadDocumentError, parse
 
-    document = _document(name)
-    if not is_preset(document):
-        return None
     kind = document["kind"]
     model = POINT_PRESETS.get(kind)
     if model is None:
