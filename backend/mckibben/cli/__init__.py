@@ -360,9 +360,9 @@ def run(arguments: list[str]) -> int:
     except (KeyboardInterrupt, typer.Abort):
         return 130
     except (BrokenPipeError, SystemExit) as stop:
-        # The reader of the pipe has closed it, which click and rich turn into an exit with 1: no more output,
-        # also not by the interpreter on exit.
-        if isinstance(stop, SystemExit) and stop.code != 1:
+        # The reader of the pipe has closed it, which click and rich turn into an exit: no more output, also
+        # not by the interpreter on exit.
+        if not any(isinstance(error, BrokenPipeError) for error in (stop, stop.__context__)):
             raise
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         return 0
