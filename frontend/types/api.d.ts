@@ -1,4 +1,4 @@
-// Generated from openapi.json by `python frontend/types/generate.py`. Do not edit.
+// Generated from openapi.json by `python -m tests.server.typescript`. Do not edit.
 
 export interface paths {
   "/api/comparisons": {

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import importlib.util
 from collections.abc import Iterator
-from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
-ROOT = Path(__file__).parents[2]
+from tests.server import typescript
+
 PATHS = {
     "/api/health": {"get"},
     "/api/effects": {"get"},
@@ -113,20 +111,9 @@ def test_there_is_no_documentation_page_that_loads_scripts_from_elsewhere(shared
         assert shared_client.get(path).status_code == 404
 
 
-@pytest.fixture(scope="module")
-def generator() -> ModuleType:
-    """frontend/types/generate.py as a module."""
-    spec = importlib.util.spec_from_file_location("generate", ROOT / "frontend" / "types" / "generate.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+def test_the_committed_types_are_up_to_date() -> None:
+    assert not typescript.stale_files(), f"run: {typescript.COMMAND}"
 
 
-def test_the_committed_types_are_up_to_date(generator: ModuleType) -> None:
-    assert not generator.stale_files(), f"run: {generator.COMMAND}"
-
-
-def test_the_types_do_not_depend_on_the_settings(generator: ModuleType, app: FastAPI) -> None:
-    assert generator.typescript(app.openapi()) == generator.generated_files()["api.d.ts"]
+def test_the_types_do_not_depend_on_the_settings(app: FastAPI) -> None:
+    assert typescript.typescript(app.openapi()) == typescript.generated_files()["api.d.ts"]

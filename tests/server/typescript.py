@@ -1,7 +1,7 @@
-"""Write ``openapi.json`` and ``api.d.ts`` from the server's own description of its interface.
+"""Write ``openapi.json`` and ``api.d.ts`` of `frontend/types` from the server's own description.
 
-    python frontend/types/generate.py           writes both
-    python frontend/types/generate.py --check   exit 1 when they are out of date, writes nothing
+    python -m tests.server.typescript           writes both
+    python -m tests.server.typescript --check   exit 1 when they are out of date, writes nothing
 
 The frontend's JavaScript is checked against ``api.d.ts``; a field renamed on the server is an error there.
 """
@@ -18,8 +18,8 @@ from typing import Any
 
 from mckibben.server.app import create_app
 
-FOLDER = Path(__file__).resolve().parent
-COMMAND = "python frontend/types/generate.py"
+FOLDER = Path(__file__).resolve().parents[2] / "frontend" / "types"
+COMMAND = "python -m tests.server.typescript"
 _HEADER = f"// Generated from openapi.json by `{COMMAND}`. Do not edit.\n\n"
 _SIMPLE = {"string": "string", "number": "number", "integer": "number", "boolean": "boolean", "null": "null"}
 _METHODS = ("get", "put", "post", "delete", "patch")
