@@ -5,7 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter
 
 from mckibben.application.compare import compare
-from mckibben.server import examples
+from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.questions.models import model_question
@@ -20,7 +20,7 @@ router = APIRouter(prefix="/api/comparisons", tags=["comparisons"], route_class=
     "",
     response_model=ComparisonAnswer,
     responses=errors(400, 404, 413, 415, 422),
-    openapi_extra=examples.worked("comparison"),
+    openapi_extra=request_examples.worked("comparison"),
 )
 def compare_with_measurement(body: ComparisonRequest, studio: StudioDep, store: StoreDep) -> JsonAnswer:
     """The model's error on measurements, with or without a fit: figures, where it fails, the points."""

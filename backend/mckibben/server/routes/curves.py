@@ -6,7 +6,7 @@ from fastapi import APIRouter
 from fastapi.concurrency import run_in_threadpool
 
 from mckibben.application.curves import curves
-from mckibben.server import examples
+from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StudioDep
 from mckibben.server.questions.curves import curves_question
@@ -20,7 +20,7 @@ router = APIRouter(prefix="/api/curves", tags=["curves"], route_class=StrictRout
     "",
     response_model=CurvesAnswer,
     responses=errors(400, 413, 415, 422),
-    openapi_extra=examples.worked("curves"),
+    openapi_extra=request_examples.worked("curves"),
 )
 async def compute_curves(body: CurvesRequest, studio: StudioDep) -> JsonAnswer:
     """Force, stiffness, volume and diameter over the length for each pressure, and their limits."""

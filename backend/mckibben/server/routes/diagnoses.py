@@ -6,7 +6,7 @@ from fastapi import APIRouter, Request, Response
 
 from mckibben.application.diagnose import TIME_LIMIT, prepare
 from mckibben.application.json_text import to_json
-from mckibben.server import examples
+from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.long_work import events, finished, prepared, wants_events
@@ -21,7 +21,7 @@ router = APIRouter(prefix="/api/diagnoses", tags=["diagnoses"], route_class=Stri
     "",
     response_model=DiagnosisAnswer,
     responses={**errors(400, 404, 413, 415, 422), **DiagnosisEvents},
-    openapi_extra=examples.worked("diagnosis"),
+    openapi_extra=request_examples.worked("diagnosis"),
 )
 async def diagnose_model(
     body: DiagnosisRequest, request: Request, studio: StudioDep, store: StoreDep

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter
 
 from mckibben.application.experiment_form import experiment_forms
-from mckibben.server import examples
+from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.questions.models import model_question, said_measurements
@@ -21,7 +21,7 @@ router = APIRouter(prefix="/api/experiments", tags=["experiments"], route_class=
     "",
     response_model=ExperimentAnswer,
     responses=errors(400, 404, 413, 415, 422),
-    openapi_extra=examples.worked("experiments"),
+    openapi_extra=request_examples.worked("experiments"),
 )
 def describe_experiments(body: DiagnosisRequest, studio: StudioDep, store: StoreDep) -> JsonAnswer:
     """The experiment of each measurement of a diagnosis, before it is asked for."""

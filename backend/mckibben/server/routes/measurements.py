@@ -13,7 +13,7 @@ from mckibben.application.measurements import details_of, preview_of, summary_of
 from mckibben.measurement.read import Correction, preview, read_correction
 from mckibben.measurement.read.correction import MAX_LENGTH
 from mckibben.measurement.store import MAX_NAME, clean_name
-from mckibben.server import examples
+from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.schemas.common import errors
@@ -39,7 +39,7 @@ _BODY = {
         "description": "The file as it is, up to 64 MB: CSV, JSON, .xlsx, .mat (v5 to v7.3), HDF5 or .tdms.",
         "content": {
             kind: {"schema": {"type": "string", "format": "binary"}}
-            | ({"example": examples.FILE} if kind in _TEXTS else {})
+            | ({"example": request_examples.FILE} if kind in _TEXTS else {})
             for kind in _CONTENT_TYPES
         },
     }

@@ -7,7 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter, Path
 
 from mckibben.application.mysteries import mysteries, reveal
-from mckibben.server import examples
+from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StudioDep
 from mckibben.server.schemas.common import errors
@@ -27,7 +27,7 @@ def list_mysteries(studio: StudioDep) -> JsonAnswer:
     "/{mystery_id}/reveal",
     response_model=RevealAnswer,
     responses=errors(400, 404, 413, 415, 422),
-    openapi_extra=examples.worked("reveal"),
+    openapi_extra=request_examples.worked("reveal"),
 )
 def reveal_mystery(
     mystery_id: Annotated[str, Path(max_length=64, description="Its id.", examples=["the-dip"])],

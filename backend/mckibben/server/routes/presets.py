@@ -7,7 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter, Path
 
 from mckibben.presets import MusclePreset
-from mckibben.server import examples
+from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StudioDep
 from mckibben.server.schemas.common import errors
@@ -46,7 +46,7 @@ def read_preset(
     status_code=201,
     response_model=MuscleAnswer,
     responses=errors(400, 409, 413, 415, 422),
-    openapi_extra=examples.worked("muscle"),
+    openapi_extra=request_examples.worked("muscle"),
 )
 def save_muscle(body: MusclePreset, studio: StudioDep) -> JsonAnswer:
     """Save a muscle as a user preset; replaces one of the same id, never a built-in one."""

@@ -11,7 +11,7 @@ from mckibben.documents.studio import Studio
 from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError
 from mckibben.report.diagnosis.gather import ReportOptions, prepare
-from mckibben.server import examples
+from mckibben.server import request_examples
 from mckibben.server.answer import StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.long_work import finished, prepared
@@ -26,7 +26,7 @@ router = APIRouter(prefix="/api/reports", tags=["reports"], route_class=StrictRo
     "",
     response_class=Response,  # errors are still JSON
     responses={**ReportAnswer, **errors(400, 404, 413, 415, 422)},
-    openapi_extra=examples.worked("report"),
+    openapi_extra=request_examples.worked("report"),
 )
 async def write_report(body: ReportRequest, request: Request, studio: StudioDep, store: StoreDep) -> Response:
     """The comparison and the diagnosis of a model as one file for archive and print."""

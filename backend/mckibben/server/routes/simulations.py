@@ -10,7 +10,7 @@ from mckibben.application.json_text import to_json
 from mckibben.application.simulate import SimulationResult, prepare
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import fields_inside
-from mckibben.server import examples
+from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StudioDep
 from mckibben.server.long_work import events, finished, prepared, wants_events
@@ -26,7 +26,7 @@ router = APIRouter(prefix="/api/simulations", tags=["simulations"], route_class=
     "",
     response_model=SimulationAnswer,
     responses={**errors(400, 413, 415, 422), **SimulationEvents},
-    openapi_extra=examples.worked("simulation"),
+    openapi_extra=request_examples.worked("simulation"),
 )
 async def simulate_drive(body: SimulationRequest, request: Request, studio: StudioDep) -> Response:
     """Motion, pressures, force, flows and timing table of a drive; closing the connection ends the run."""

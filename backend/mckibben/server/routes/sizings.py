@@ -13,7 +13,7 @@ from mckibben.application.size import SizingResult, prepare, sizing_question
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.report.sizing.gather import prepare_report
-from mckibben.server import examples
+from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StudioDep
 from mckibben.server.long_work import events, finished, prepared, wants_events
@@ -28,7 +28,9 @@ router = APIRouter(prefix="/api/sizings", tags=["sizings"], route_class=StrictRo
 _RESPONSES: dict[int | str, dict[str, Any]] = {**errors(400, 413, 415, 422), **SimulationEvents}
 
 
-@router.post("", response_model=SizingAnswer, responses=_RESPONSES, openapi_extra=examples.worked("task"))
+@router.post(
+    "", response_model=SizingAnswer, responses=_RESPONSES, openapi_extra=request_examples.worked("task")
+)
 async def size_drives(body: SizingTask, request: Request, studio: StudioDep) -> Response:
     """Ranked drives for a task, and rejected ones with reasons; closing the connection ends the search."""
     work = await prepared(request, _search_of, body, studio)
@@ -45,7 +47,7 @@ def _search_of(body: SizingTask, studio: Studio) -> Callable[[Watch], SizingResu
     "/reports",
     response_class=Response,  # errors are still JSON
     responses={**ReportAnswer, **errors(400, 413, 415, 422)},
-    openapi_extra=examples.worked("sizing_report"),
+    openapi_extra=request_examples.worked("sizing_report"),
 )
 async def write_sizing_report(body: SizingReportRequest, request: Request, studio: StudioDep) -> Response:
     """A new search, and one of its drives as a file for archive and print; disconnecting ends the search."""

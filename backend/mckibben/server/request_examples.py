@@ -1,7 +1,7 @@
 """One worked example of each request body, for the OpenAPI document and the help page.
 
-They are in examples.json; the tests send them as they stand. Their measurements are presets, so that nothing
-has to be uploaded first.
+They are in request_examples.json; the tests send them as they stand. Their measurements are presets, so that
+nothing has to be uploaded first.
 """
 
 from __future__ import annotations
