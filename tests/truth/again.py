@@ -10,7 +10,7 @@ import numpy as np
 from tests.truth.bench import force_rows, length_rows
 from tests.truth.cases import BOOK, Case
 from tests.truth.composition import Record, Truth
-from tests.truth.experiments import FINE, Path
+from tests.truth.experiments import FINE, RecordBuilder
 from tests.truth.laboratory import watched
 from tests.truth.muscle import Array
 from tests.truth.sensors import Noise
@@ -47,7 +47,7 @@ def played(case: Case, run: Array, columns: Mapping[str, Array]) -> str:
 
 
 def _record(run: Array, columns: Mapping[str, Array]) -> Record:
-    path = Path()
+    path = RecordBuilder()
     loads = []
     for number in np.unique(run):
         of_run = run == number

@@ -14,7 +14,7 @@ FINE = 10  # fine rows per written row
 _PAUSE = 3.0  # s between two loops
 
 
-class Path:
+class RecordBuilder:
     """Rows of a record as they are collected."""
 
     def __init__(self) -> None:
@@ -105,7 +105,7 @@ def isobaric(
         rows: written rows per loop.
         droop: share by which the regulator lets the pressure rise and fall with the muscle's volume.
     """
-    path = Path()
+    path = RecordBuilder()
     rest = truth.muscle.nominal
     for level in levels:
         reach = min(high, truth.longest_contraction(level))
@@ -129,7 +129,7 @@ def held(
     rows: int = 60,
 ) -> Record:
     """Moves at held pressure with rests in between, during which force relaxes."""
-    path = Path()
+    path = RecordBuilder()
     rest = truth.muscle.nominal
     for level in levels:
         reach = min(max(stops), truth.longest_contraction(level))
@@ -154,7 +154,7 @@ def isometric(
     steps: float = 0.0,
 ) -> Record:
     """Force over pressure at held lengths; with ``steps`` the pressure jumps with that time constant [s]."""
-    path = Path()
+    path = RecordBuilder()
     for contraction in contractions:
         length = truth.muscle.nominal * (1.0 - contraction)
         low = max(3e4, truth.least_pressure(length))
@@ -182,7 +182,7 @@ def pressure_cycles(
     *, low: float, high: float, loads: Sequence[float], rows: int, seconds: float = 60.0
 ) -> Record:
     """Pressure up and down under held loads; the length follows and is filled in by the bench."""
-    path = Path()
+    path = RecordBuilder()
     carried = []
     for load in loads:
         half = np.linspace(low, high, rows * FINE // 2)

@@ -150,14 +150,14 @@ def test_a_correction_is_said_with_its_errors_and_probability() -> None:
     leak = SimpleNamespace(effect="leak", before=2.1, after=1.9, probability=0.12, kept=True)
     found.corrections = (leak,)
     assert corrections_sentence(found, TITLES) == (
-        "Not called missing, but kept in the model as a correction: Leak (from 2.1 to 1.9 N, 12 %); a "
-        "slightly inexact form of the effects above explains as much, but the model predicts groups left out "
-        "better so."
+        "Not called missing, but kept in the model as a correction: Leak (from 2.1 to 1.9 N, 12 %). A "
+        "slightly inexact form of the effects above would explain as much, but with it the model predicts "
+        "left-out groups better."
     )
     found.corrections = (SimpleNamespace(effect="leak", before=2.1, after=1.9, probability=0.12, kept=False),)
     assert corrections_sentence(found, TITLES) == (
-        "Neither called missing nor kept: Leak (from 2.1 to 1.9 N, 12 %); an inexact form of the effects "
-        "above explains as much, and these data do not test what it would predict elsewhere."
+        "Neither called missing nor kept: Leak (from 2.1 to 1.9 N, 12 %). An inexact form of the effects "
+        "above would explain as much, and these data do not test what it would predict elsewhere."
     )
     assert corrections_sentence(result("adequate", 2.0, 2.0), TITLES) == ""
 

@@ -152,13 +152,14 @@ def corrections_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:
     texts = []
     if kept:
         texts.append(
-            f"Not called missing, but kept in the model as a correction: {listed(kept)}; a slightly inexact "
-            "form of the effects above explains as much, but the model predicts groups left out better so."
+            f"Not called missing, but kept in the model as a correction: {listed(kept)}. A slightly inexact "
+            "form of the effects above would explain as much, but with it the model predicts left-out groups "
+            "better."
         )
     if others:
         texts.append(
-            f"Neither called missing nor kept: {listed(others)}; an inexact form of the effects above "
-            "explains as much, and these data do not test what it would predict elsewhere."
+            f"Neither called missing nor kept: {listed(others)}. An inexact form of the effects above would "
+            "explain as much, and these data do not test what it would predict elsewhere."
         )
     return " ".join(texts)
 

@@ -90,7 +90,9 @@ def _units(evidence: Evidence) -> list[Question]:
             found = proposal(channel, raw)
             if found.si_will_do and not (channel == "force" and _open_force(evidence, found.choices)):
                 continue
-            may = f"; {' or '.join(found.choices[:4])} would be plausible" if found.choices else ""
+            *others, last = found.choices[:4] or ("",)
+            likely = f"{', '.join(others)} or {last}" if others else last
+            may = f"; {likely} would be plausible" if likely else ""
             asked.append(
                 Question(
                     f"unit of {channel}",

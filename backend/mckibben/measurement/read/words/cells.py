@@ -16,7 +16,7 @@ UNITS = {
     "bar": "бар 巴 バール bari", "mbar": "мбар", "Pa": "па 帕", "kPa": "кпа 千帕 kilopascal",
     "MPa": "мпа 兆帕", "torr": "mmhg torr", "mm": "мм 毫米 ミリ millimeter millimetre milímetro 밀리미터",
     "cm": "см 厘米", "m": "м 米 meter metre", "in": "zoll \" inch inches pouces pollici",
-    "%": "percent prozent procent процент проц ％ pct", "permille": "promille promil permil per-mille ‰",
+    "%": "percent prozent procent процент проц ％ pct", "permille": "promille promil permil per-mille",
     "V": "vol volt volts в", "kg": "кг 千克 公斤",
     "g": "г gram grams", "µm": "um мкм", "degC": "°с ℃ c° celsius °c. grad", "degF": "℉ fahrenheit",
 }  # fmt: skip
