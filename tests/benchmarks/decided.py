@@ -10,13 +10,12 @@ both files together names the hidden effect, and none of those any more.
 from __future__ import annotations
 
 import argparse
-import multiprocessing
-import os
 import sys
 from dataclasses import dataclass
 from typing import Any
 
-from tests.benchmarks.diagnosis import _studio, say, subject_and_start
+from tests.benchmarks.diagnosis import say, subject_and_start
+from tests.benchmarks.workers import in_parallel, own_studio
 from tests.truth.again import played
 from tests.truth.cases import Case
 from tests.truth.generate import all_cases
@@ -47,7 +46,7 @@ def decided(case: Case) -> list[Line]:
     """Diagnose a case, play the experiments that it designs, and diagnose both files together."""
     from mckibben.identification.diagnose.diagnosis import diagnose
 
-    studio = _studio()
+    studio = own_studio()
     predictor, fit_model = subject_and_start(case, studio)
     result = diagnose(predictor, fit_model, catalogue=studio.catalogue)
     lines = []
@@ -105,14 +104,11 @@ def main() -> None:
         and case.unknown is None
         and case.hidden
     ]
-    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
-        os.environ.setdefault(name, "1")
     lines: list[Line] = []
-    with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
-        for some in pool.imap_unordered(decided, chosen):
-            for line in some:
-                lines.append(line)
-                say(text_of(line))
+    for some in in_parallel(decided, chosen):
+        for line in some:
+            lines.append(line)
+            say(text_of(line))
     played_ones = [line for line in lines if line.promised]
     count = sum(line.decided for line in played_ones)
     say(f"\ndecided  {count} of {len(played_ones)}, wanted 80 %")

@@ -11,8 +11,6 @@ is in no catalogue, it is added and refitted: *taken* is the share of the excess
 from __future__ import annotations
 
 import argparse
-import multiprocessing
-import os
 import statistics
 import sys
 import time
@@ -22,10 +20,9 @@ from typing import Any
 
 import numpy as np
 
+from tests.benchmarks.workers import in_parallel, own_studio
 from tests.truth.cases import Case
 from tests.truth.generate import all_cases
-
-_STATE: dict[str, Any] = {}
 
 
 @dataclass
@@ -61,7 +58,7 @@ def diagnosed(case: Case) -> Line:
     from mckibben.identification.diagnose.diagnosis import diagnose
 
     line = Line(case.name, case.seed, case.kind, len(case.hidden), case.unknown is not None)
-    studio = _studio()
+    studio = own_studio()
     try:
         predictor, fit_model = subject_and_start(case, studio)
         began = time.perf_counter()
@@ -127,17 +124,6 @@ def _taken(predictor: Any, result: Any, floor: float) -> float:
     return 1.0 - max(fitted_model.mean_square - floor**2, 0.0) / excess if excess > 0.0 else 1.0
 
 
-def _studio() -> Any:
-    if not _STATE:
-        from mckibben.documents.studio import Studio
-        from mckibben.resources import presets_folder
-        from mckibben.simulation.integrate.engine import kernel
-
-        kernel.warm().join()
-        _STATE["studio"] = Studio(presets=presets_folder())
-    return _STATE["studio"]
-
-
 def summary(lines: Sequence[Line]) -> list[tuple[str, str, str]]:
     """The figures that were promised: name, reached, wanted."""
     known = [line for line in lines if not line.unknown]
@@ -182,13 +168,10 @@ def main() -> None:
             or (given.kind == "static") == (case.kind != "transient")
         )
     ]
-    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
-        os.environ.setdefault(name, "1")
     lines = []
-    with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
-        for line in pool.imap_unordered(diagnosed, [replace(case) for case in chosen]):
-            lines.append(line)
-            say(text_of(line))
+    for line in in_parallel(diagnosed, [replace(case) for case in chosen]):
+        lines.append(line)
+        say(text_of(line))
     say("")
     for name, reached, wanted in summary(lines):
         say(f"{name:34}{reached:>18}   {wanted}")

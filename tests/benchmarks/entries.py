@@ -10,14 +10,13 @@ table instead, whose entries are right: none may be asked about.
 from __future__ import annotations
 
 import argparse
-import multiprocessing
-import os
 import time
 from dataclasses import dataclass
 from typing import Any
 
 from mckibben.physics.errors import InputError
-from tests.benchmarks.diagnosis import _studio, say, subject_and_start, true_floor
+from tests.benchmarks.diagnosis import say, subject_and_start, true_floor
+from tests.benchmarks.workers import in_parallel, own_studio
 from tests.truth.cases import Case
 from tests.truth.generate import all_cases
 from tests.truth.wrong_entries import ALONE, APART, Mistake, mistaken
@@ -45,7 +44,7 @@ def doubted(given: tuple[frozenset[str], Case]) -> Line:
     from mckibben.identification.diagnose.entries import statements
 
     right, case = given
-    studio = _studio()
+    studio = own_studio()
     line = Line(f"{case.name}-{case.seed}", right, len(case.hidden), [], [])
     try:
         predictor, start, measurement, rebuilt = parts_of(case, studio)
@@ -118,16 +117,13 @@ def main() -> None:
         for seed in seeds:
             pairs += mistaken(seed, APART) if given.apart else mistaken(seed)
         chosen = [(mistake.right, case) for mistake, case in pairs if given.only in case.name]
-    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
-        os.environ.setdefault(name, "1")
     lines = []
-    with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
-        for line in pool.imap_unordered(doubted, chosen):
-            lines.append(line)
-            first = bool(line.named) and line.named[0] in line.right if line.right else not line.named
-            first = first or line.status == "asked"
-            mark = "ok" if first else "~ " if line.right & set(line.listed) else "--"
-            say(f"{mark} {line.case:44} {line.status:16} {line.seconds:5.1f} s {line.text}")
+    for line in in_parallel(doubted, chosen):
+        lines.append(line)
+        first = bool(line.named) and line.named[0] in line.right if line.right else not line.named
+        first = first or line.status == "asked"
+        mark = "ok" if first else "~ " if line.right & set(line.listed) else "--"
+        say(f"{mark} {line.case:44} {line.status:16} {line.seconds:5.1f} s {line.text}")
     if given.right is not None:
         say(f"right entries doubted: {sum(bool(line.named) for line in lines)} of {len(lines)}")
         return

@@ -11,8 +11,6 @@ predict the second one differently by more than half the noise; the band over th
 from __future__ import annotations
 
 import argparse
-import multiprocessing
-import os
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -20,7 +18,8 @@ from typing import Any
 
 import numpy as np
 
-from tests.benchmarks.diagnosis import _studio, say, subject_and_start
+from tests.benchmarks.diagnosis import say, subject_and_start
+from tests.benchmarks.workers import in_parallel, own_studio
 from tests.truth.cases import Case
 from tests.truth.generate import all_cases
 
@@ -50,7 +49,7 @@ def predicted(case: Case) -> Line:
     from mckibben.identification.diagnose.diagnosis import diagnose
 
     line = Line(case.id, case.kind)
-    studio = _studio()
+    studio = own_studio()
     try:
         predictor, fit_model = subject_and_start(case, studio)
         result = diagnose(predictor, fit_model, catalogue=studio.catalogue)
@@ -110,13 +109,10 @@ def main() -> None:
             or (given.kind == "static") == (case.kind != "transient")
         )
     ]
-    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
-        os.environ.setdefault(name, "1")
     lines = []
-    with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
-        for line in pool.imap_unordered(predicted, chosen):
-            lines.append(line)
-            say(text_of(line))
+    for line in in_parallel(predicted, chosen):
+        lines.append(line)
+        say(text_of(line))
     say("")
     for text in summary(lines):
         say(text)

@@ -9,8 +9,6 @@ noise, noise of the inputs, coarse digits, outlying groups of rows.
 from __future__ import annotations
 
 import argparse
-import multiprocessing
-import os
 from collections.abc import Callable
 from dataclasses import replace
 from types import MappingProxyType
@@ -18,8 +16,9 @@ from typing import Any
 
 import numpy as np
 
-from tests.benchmarks.diagnosis import _studio, say
+from tests.benchmarks.diagnosis import say
 from tests.benchmarks.entries import parts_of
+from tests.benchmarks.workers import in_parallel, own_studio
 from tests.truth.generate import case
 
 BASES = (
@@ -79,7 +78,7 @@ def judged(given: tuple[str, str, int]) -> tuple[str, str, int, str, str]:
 
     base, noise, seed = given
     made = case(base, seed)
-    predictor, start, measurement, _ = parts_of(made, _studio())
+    predictor, start, measurement, _ = parts_of(made, own_studio())
     random = np.random.default_rng([seed, sum(map(ord, base + noise))])
     (channel,) = predictor.channels
     name = channel.name
@@ -113,7 +112,7 @@ def judged(given: tuple[str, str, int]) -> tuple[str, str, int, str, str]:
 
     try:
         result = diagnose(
-            again(()), start, catalogue=_studio().catalogue, statements=statements(changed, start, again)
+            again(()), start, catalogue=own_studio().catalogue, statements=statements(changed, start, again)
         )
     except Exception as error:
         return base, noise, seed, "problem", f"{type(error).__name__}: {error}"[:90]
@@ -133,14 +132,11 @@ def main() -> None:
     given = parser.parse_args()
     seeds = [int(seed) for seed in given.seeds.split(",")]
     todo = [(b, n, s) for s in seeds for b in BASES for n in (*NOISES, *INPUTS) if given.only in f"{b} {n}"]
-    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
-        os.environ.setdefault(name, "1")
     results = []
-    with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
-        for line in pool.imap_unordered(judged, todo):
-            results.append(line)
-            mark = "ok" if line[3] in ("adequate", "skipped") else "--"
-            say(f"{mark} {line[0]:30}{line[1]:18}{line[2]}  {line[3]:16}{line[4]}")
+    for line in in_parallel(judged, todo):
+        results.append(line)
+        mark = "ok" if line[3] in ("adequate", "skipped") else "--"
+        say(f"{mark} {line[0]:30}{line[1]:18}{line[2]}  {line[3]:16}{line[4]}")
     judged_lines = [line for line in results if line[3] != "skipped"]
     wrong = sum(line[3] != "adequate" for line in judged_lines)
     say(f"not adequate: {wrong} of {len(judged_lines)}")

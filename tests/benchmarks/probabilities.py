@@ -11,8 +11,6 @@ and printed; the table is over the even ones.
 from __future__ import annotations
 
 import argparse
-import multiprocessing
-import os
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -21,7 +19,8 @@ from typing import Any
 
 import numpy as np
 
-from tests.benchmarks.diagnosis import _studio, subject_and_start
+from tests.benchmarks.diagnosis import subject_and_start
+from tests.benchmarks.workers import in_parallel, own_studio
 from tests.truth.cases import Case
 from tests.truth.generate import all_cases, names
 
@@ -62,7 +61,7 @@ def events_of(question: tuple[Case, float]) -> list[Event]:
     from mckibben.identification.diagnose.diagnosis import diagnose
 
     case, factor = question
-    studio = _studio()
+    studio = own_studio()
     predictor, fit_model = subject_and_start(case, studio)
     data = with_noise(case, predictor, factor)
     if data is None:
@@ -113,16 +112,13 @@ def main() -> None:
     parser.add_argument("--kind", default="static", help="transient, static or all")
     parser.add_argument("--noise", default="1,0.15", help="factors of the noise")
     given = parser.parse_args()
-    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
-        os.environ.setdefault(name, "1")
     chosen = [
         (case, float(factor))
         for case in all_cases(seeds=[int(seed) for seed in given.seeds.split(",")])
         for factor in given.noise.split(",")
         if given.kind == "all" or (given.kind == "static") == (case.kind != "transient")
     ]
-    with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
-        events = [event for each in pool.imap_unordered(events_of, chosen) for event in each]
+    events = [event for each in in_parallel(events_of, chosen) for event in each]
     order = {name: number for number, name in enumerate(names())}
     odd = [event for event in events if order[event.case] % 2]
     even = [event for event in events if not order[event.case] % 2]

@@ -10,8 +10,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import multiprocessing
-import os
 import sys
 import time
 import zipfile
@@ -21,7 +19,8 @@ from pathlib import Path
 
 import numpy as np
 
-from tests.benchmarks.diagnosis import _studio, say
+from tests.benchmarks.diagnosis import say
+from tests.benchmarks.workers import in_parallel, own_studio
 
 CASES = Path(__file__).parents[1] / "second_truth" / "cases.zip"
 WANTED = 1.2  # largest error over the noise of a prediction that holds
@@ -69,7 +68,7 @@ def diagnosed(case: str) -> Line:
         train, held, given, answer = (
             archive.read(f"{case}/{name}") for name in ("train.csv", "held.csv", "given.json", "answer.json")
         )
-    studio, truth = _studio(), json.loads(answer)
+    studio, truth = own_studio(), json.loads(answer)
     muscle = stated_muscle(MuscleInput.model_validate(json.loads(given)["muscle"]))
     model = studio.static_model(studio.start_model(muscle, {}))
     start = FitModel(model.muscle, model.effects, model.values)
@@ -138,13 +137,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--only", default="", help="cases, separated by commas")
     chosen = [name for name in parser.parse_args().only.split(",") if name] or names()
-    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
-        os.environ.setdefault(name, "1")
     lines = []
-    with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
-        for line in pool.imap(diagnosed, chosen):
-            lines.append(line)
-            say(text_of(line))
+    for line in in_parallel(diagnosed, chosen):
+        lines.append(line)
+        say(text_of(line))
     say("")
     for text in summary(lines):
         say(text)
