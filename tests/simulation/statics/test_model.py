@@ -151,3 +151,12 @@ def test_limits_flag_every_crossing():
     assert [flag.code for flag in limits.flags(contraction=-0.05)] == ["over_pretension_limit"]
     assert limits.flags(pressure=6e5, force=1500.0, contraction=0.25) == []
     assert MuscleLimits().flags(pressure=9e9, force=9e9, contraction=0.9) == []
+
+
+def test_a_value_out_of_bounds_is_told_with_its_unit_and_a_share_without_one():
+    with pytest.raises(InputError, match=r"is 1e\+09 N, outside 0 to") as force:
+        StaticModel(MUSCLE, {"coulomb_friction": {"force": 1e9}})
+    assert force.value.hint == "a typical value is 10 N"
+    with pytest.raises(InputError, match=r"is 5, outside 0 to 1$") as share:
+        StaticModel(MUSCLE, {"pressure_hysteresis": {"along_area": 5.0}})
+    assert share.value.hint == "a typical value is 0"

@@ -181,11 +181,12 @@ def checked_values(effects: EffectValues, catalogue: Mapping[str, Effect]) -> di
                 )
             parameter = known[name]
             if not isfinite(value) or not parameter.lower <= value <= parameter.upper:
+                unit = "" if parameter.unit == "1" else f" {parameter.unit}"
                 raise InputError(
-                    f"{name.replace('_', ' ')} of '{effect_id}' is {value:g} {parameter.unit}, outside "
-                    f"{parameter.lower:g} to {parameter.upper:g} {parameter.unit}",
+                    f"{name.replace('_', ' ')} of '{effect_id}' is {value:g}{unit}, outside "
+                    f"{parameter.lower:g} to {parameter.upper:g}{unit}",
                     field=field,
-                    hint=f"a typical value is {parameter.default:g} {parameter.unit}",
+                    hint=f"a typical value is {parameter.default:g}{unit}",
                 )
         values[effect_id] = {**effect.defaults, **stated}
     return values

@@ -30,7 +30,8 @@ const signedText = (si) => `${si < 0 ? "−" : "+"}${asText(Math.abs(si))}`;
 /** "31.8 → 15.0 N" @param {number} from @param {number} to */
 export const fallText = (from, to) => `${asText(from, false)} → ${asText(to)}`;
 
-const CORRECTION = "Not called missing: a slightly inexact form of the effects above would explain as much. " +
+const CORRECTION =
+  "Not called missing: a slightly inexact form of the effects above would explain as much. " +
   "The model keeps it because it predicts left-out groups better with it.";
 
 /** How likely an effect is missing. @param {number} probability 0…1 */
