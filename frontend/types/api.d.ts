@@ -40,6 +40,9 @@ export interface paths {
   "/api/presets/muscles": {
     post: operations["save_muscle"];
   };
+  "/api/presets/muscles/fitted": {
+    post: operations["keep_fitted_muscle"];
+  };
   "/api/presets/{kind}": {
     get: operations["list_presets"];
   };
@@ -476,6 +479,13 @@ export interface components {
       /** Coefficient of correlation, -1 to 1. */
       value: number;
     };
+    /** Covariance of fitted parameters: how sure each is, and how far one can replace another. */
+    Covariance: {
+      /** effect.parameter, or a dimension of the muscle; those that the data determine. */
+      names: string[];
+      /** Products of their SI units, one row per name. */
+      matrix: number[][];
+    };
     /** Force over pressure and contraction. */
     CurveColumns: {
       /** Gauge pressure. */
@@ -555,6 +565,8 @@ export interface components {
       diameter: (number | null)[];
       /** Outer diameter of the wall, at constant wall volume. [m] */
       outer_diameter: (number | null)[];
+      /** Where new readings of the force are expected; null where the model was not fitted. */
+      interval: components["schemas"]["ForceInterval"] | null;
       /** Limits of the muscle. */
       limits: components["schemas"]["CurveLimits"];
       /** Figures of the muscle at each pressure. */
@@ -676,6 +688,8 @@ export interface components {
       context: components["schemas"]["DoubtfulEntry"][];
       /** Quantity -> range of the data: rest_length, pressure, contraction, speed, temperature, load, mass, supply, as far as they were measured or stated. */
       envelope: { [key: string]: components["schemas"]["MeasuredRange"] };
+      /** Of the fitted values of the best model; null where the data cannot separate them. */
+      covariance: components["schemas"]["FittedCovariance"] | null;
     };
     /** The start model and the measurements to explain. */
     DiagnosisRequest: {
@@ -1204,6 +1218,59 @@ export interface components {
       /** Why it was not loaded. */
       message: string;
     };
+    /** How the values of a muscle were fitted to measurements. */
+    FitRecord: {
+      /** Measurements it was fitted to. */
+      files: string[];
+      /** Date and time, ISO 8601, UTC. */
+      made: string;
+      /** Predicted channel -> error left (rms), SI. */
+      errors: { [key: string]: number };
+      /** Quantity -> range in which it was measured. */
+      envelope?: { [key: string]: components["schemas"]["MeasuredSpan"] };
+      /** Of the fitted values; null where the data cannot separate them. */
+      covariance?: components["schemas"]["Covariance"] | null;
+    };
+    /** Covariance of the fitted values that the data determine. */
+    FittedCovariance: {
+      /** effect.parameter, or a dimension of the muscle. */
+      names: string[];
+      /** Products of their SI units, one row per name. */
+      matrix: number[][];
+    };
+    /** A fitted model with its measurements, and the id of the preset that it becomes. */
+    FittedMuscleRequest: {
+      /** Null: the drive's. */
+      muscle?: components["schemas"]["MuscleInput"] | null;
+      /** The effects of the model; null: the drive's, or those of the muscle preset. */
+      effects?: { [key: string]: { [key: string]: number | string } } | null;
+      /** Valve, tube, supply and load of transient measurements with a command channel; the measured command replaces the one stated here. */
+      drive?: components["schemas"]["DriveDocument"] | null;
+      /** One measurement to fit to. */
+      measurement?: string | null;
+      /** Measurements to fit to or to validate with, instead of 'measurement'. */
+      measurements?: components["schemas"]["UsedMeasurement"][];
+      /** Geometry to fit as well, within its tolerance. */
+      free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
+      /** Additional parameters to fit, as effect.parameter. */
+      freed?: string[];
+      /** Standard deviation of the predicted channel in SI, when it is known. */
+      noise?: number | null;
+      /** For every measurement that does not say it in its own 'experiment'. */
+      experiment?: components["schemas"]["ExperimentInput"] | null;
+      /** Standard deviation of each channel of all measurements (% of the largest value), or sensors: 'length steel rule'. */
+      accuracy?: string | null;
+      /** Refuse instead of assuming what nobody said. */
+      strict?: boolean;
+      /** Entries of a diagnosis's 'context' that are wrong as stated: the channel is read in the other way, a quantity is fitted in diagnoses and fits. */
+      use?: string[];
+      /** Entries of 'context' that are right as stated. */
+      keep?: string[];
+      /** Of the preset: letters, digits, hyphens. */
+      id: string;
+      /** Its name for display; empty = the id. */
+      title?: string;
+    };
     /** One parameter as used or fitted. */
     FittedParameter: {
       /** Value in SI. */
@@ -1257,6 +1324,15 @@ export interface components {
       filling: (number | null)[];
       /** While lengthening. [N] */
       venting: (number | null)[];
+    };
+    /** Where new readings of the force are expected, where the model was measured; wider elsewhere. */
+    ForceInterval: {
+      /** Lower ends. [N] */
+      low: ((number | null)[])[];
+      /** Upper ends. [N] */
+      high: ((number | null)[])[];
+      /** Share of the readings between them. [1] */
+      share: number;
     };
     /** A force that depends on the position of the load, linear between the points. */
     ForceOverStroke: {
@@ -1546,6 +1622,15 @@ export interface components {
       /** SI unit; pressures are gauge. */
       unit: string;
     };
+    /** The range of a quantity in the data of a model. */
+    MeasuredSpan: {
+      /** Least value, SI. */
+      least: number;
+      /** Largest value, SI. */
+      most: number;
+      /** SI unit. */
+      unit: string;
+    };
     /** A measurement as it was read. */
     MeasurementAnswer: {
       /** SHA-256 of the file's content (and of the mapping, if there is one). */
@@ -1737,6 +1822,8 @@ export interface components {
       measurement?: string | null;
       /** Why its force is not known from a curve or a measurement; null when it is. */
       extrapolated?: string | null;
+      /** How its values were fitted to measurements; null where they were not. With it, answers have intervals and say where the muscle was not measured. */
+      fit?: components["schemas"]["FitRecord"] | null;
       /** No figure is general knowledge (M) or an estimate (E). */
       verified: boolean;
       /** Part of the program, or saved by the user. */
@@ -1816,6 +1903,8 @@ export interface components {
       measurement?: string | null;
       /** Why its force is not known from a curve or a measurement; null when it is. */
       extrapolated?: string | null;
+      /** How its values were fitted to measurements; null where they were not. With it, answers have intervals and say where the muscle was not measured. */
+      fit?: components["schemas"]["FitRecord"] | null;
     };
     /** A measurement to practise on; without the solution. */
     Mystery: {
@@ -1985,6 +2074,15 @@ export interface components {
       model: components["schemas"]["ModelJson"];
       /** Constants fitted as well, as effect.parameter. */
       freed: string[];
+    };
+    /** Where new readings of the position are expected, where the model was measured; wider elsewhere. */
+    PositionInterval: {
+      /** Lower ends. [m] */
+      low: (number | null)[];
+      /** Upper ends. [m] */
+      high: (number | null)[];
+      /** Share of the readings between them. [1] */
+      share: number;
     };
     /** A preset file that was not loaded, and why. */
     PresetProblem: {
@@ -2462,6 +2560,8 @@ export interface components {
       readings: components["schemas"]["Readings"] | null;
       /** Joint of an antagonist pair. */
       joint: components["schemas"]["Joint"] | null;
+      /** Where new readings of the position are expected; null where the model was not fitted. */
+      interval: components["schemas"]["PositionInterval"] | null;
       /** Choked intervals of the whole run, whatever rows are requested. */
       choked: components["schemas"]["Choked"][];
       /** Times, speeds and air of the first fill and the exhaust after it. */
@@ -3074,6 +3174,21 @@ export interface operations {
       400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Keep a fitted model as a user preset, as it is, with the covariance and the range of its data. */
+  keep_fitted_muscle: {
+    requestBody: { content: { "application/json": components["schemas"]["FittedMuscleRequest"] } };
+    responses: {
+      201: { content: { "application/json": components["schemas"]["MuscleAnswer"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };

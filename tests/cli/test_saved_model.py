@@ -336,3 +336,35 @@ def test_what_cannot_be_freed_is_told(run: Run, name: str, word: str) -> None:
 def test_a_place_that_takes_no_file_is_told_before_the_search(run: Run, place: str) -> None:
     err = refused(run("diagnose", "not-even-read.csv", "--muscle", "DMSP-20", "--save", place))
     assert "--save" in err
+
+
+def test_a_diagnosed_model_becomes_a_muscle_of_the_user(run: Run) -> None:
+    data, mine = rubbing(), ["--data", "data"]
+    muscle = write("muscle.json", BRAID)
+    _, model = saved(run, data, "--muscle", muscle, "--save-preset", "bench-3", *mine)
+    by_id = answer_of(run("curves", "--muscle", "bench-3", "--json", *mine))
+    by_file = answer_of(run("curves", "--model", "model.json", "--json"))
+    assert by_id["force"] == by_file["force"]
+    assert by_id["interval"] == by_file["interval"]
+    # 1 N of noise; friction is known to far less than that.
+    width = np.array(by_id["interval"]["high"]) - np.array(by_id["force"])
+    assert float(np.median(width)) == pytest.approx(1.645, rel=0.25)
+    assert any("the model was measured up to" in flag["message"] for flag in by_id["flags"])
+    changed = answer_of(run("curves", "--model", "model.json", "--ideal", "--json"))
+    assert changed["interval"] is None
+    lift = {name: part for name, part in LIFT.items() if name != "effects"} | {
+        "muscle": {"preset": "bench-3"}
+    }
+    moved = answer_of(run("simulate", write("lift.json", lift), "--json", *mine))
+    assert len(moved["interval"]["low"]) == len(moved["position"])
+    assert "90 % of new readings lie within about ±" in "".join(
+        run("curves", "--muscle", "bench-3", *mine)[1:]
+    )
+    assert model["covariance"]["names"]
+
+
+def test_a_preset_id_that_cannot_be_used_is_told(run: Run) -> None:
+    muscle, mine = write("muscle.json", BRAID), ["--data", "data"]
+    told = refused(run("diagnose", rubbing(), "--muscle", muscle, "--save-preset", "DMSP-20", *mine))
+    assert "--save-preset DMSP-20" in told
+    assert "taken by a built-in preset" in told

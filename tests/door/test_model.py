@@ -207,3 +207,19 @@ def test_bad_arguments_are_one_sentence(call: Callable[[mk.Model], object], word
     assert "\n" not in str(caught.value)
     for word in words:
         assert word in str(caught.value)
+
+
+def test_a_fitted_model_is_kept_as_a_muscle_with_intervals() -> None:
+    data = mk.read("martens-dmsp-20-300")
+    fitted = mk.Model.preset("DMSP-20", length="300 mm").compare(data, fit=True).model
+    mine = fitted.keep("bench-4", title="Bench 4")
+    assert mine.name.startswith("bench-4")
+    interval = mine.curves("3 bar").interval
+    assert interval is not None
+    low, high = interval
+    assert (low <= high).all()
+    assert low.shape == high.shape == mine.curves("3 bar").force.shape
+    assert mk.Model.preset("DMSP-20").curves("3 bar").interval is None
+    assert fitted.with_effect("creep").curves("3 bar").interval is None
+    with pytest.raises(mk.Problem, match="taken by a built-in"):
+        fitted.keep("DMSP-20")

@@ -29,6 +29,7 @@ from tests.frontend.comparing import (
     watch_shifts,
 )
 from tests.frontend.diagnoses import alter, remember
+from tests.frontend.guard import PageGuard
 from tests.frontend.importing import CORPUS, answer_everything
 from tests.frontend.views import open_compare, open_design, run
 
@@ -180,6 +181,28 @@ def test_the_board_compares_pinned_models(page: Page, sweeps: FilePayload, tmp_p
     expect(page.locator(".in-model")).to_have_count(0)
     board.get_by_role("button", name="Unpin Ideal muscle").click()
     expect(head).to_have_count(2)
+
+
+def test_the_model_becomes_a_muscle_whose_curves_show_how_sure_they_are(
+    page: Page, sweeps: FilePayload, page_guard: PageGuard
+) -> None:
+    page_guard.allow("status of 409")
+    opened(page, sweeps)
+    changed(page, page.locator("#add-all").click)
+    page.get_by_role("button", name="My preset").click()
+    dialog = page.get_by_role("dialog", name="Save as my preset")
+    dialog.get_by_label("Id").fill("DMSP-20")
+    dialog.get_by_role("button", name="Save").click()
+    expect(dialog.get_by_role("alert")).to_contain_text("taken by a built-in preset")
+    dialog.get_by_label("Id").fill("of-the-case")
+    dialog.get_by_role("button", name="Save").click()
+    expect(dialog).to_have_count(0)
+    page.get_by_role("button", name="Design", exact=True).click()
+    page.locator("#preset").select_option("of-the-case")
+    # Two dotted ends beside each of the lines.
+    expect(page.locator("#force .scatterlayer .tracelow0")).to_have_count(1)
+    expect(page.locator("#force .scatterlayer .tracehigh0")).to_have_count(1)
+    expect(page.locator("main")).to_contain_text("the model was measured up to")
 
 
 def test_probabilities_reasons_and_minutes_of_the_server_are_shown(page: Page, sweeps: FilePayload) -> None:

@@ -17,6 +17,7 @@ PATHS = {
     "/api/presets/{kind}": {"get"},
     "/api/presets/{kind}/{preset_id}": {"get"},
     "/api/presets/muscles": {"post"},
+    "/api/presets/muscles/fitted": {"post"},
     "/api/curves": {"post"},
     "/api/inverse": {"post"},
     "/api/measurements": {"put"},

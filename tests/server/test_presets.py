@@ -143,3 +143,29 @@ def test_only_muscles_can_be_saved(client: TestClient) -> None:
 def test_the_app_needs_no_user_folder_to_exist(app: FastAPI, settings: Settings) -> None:
     assert settings.user_presets is not None
     assert not settings.user_presets.exists()
+
+
+def test_a_fitted_model_becomes_a_muscle_with_intervals(client: TestClient) -> None:
+    """As the page keeps it: the model with its values, and the measurements that it was fitted to."""
+    asked = {
+        "muscle": {"preset": "DMSP-20", "nominal_length": "300 mm"},
+        "effects": {"bladder_elasticity": {}, "effectiveness": {}},
+        "measurement": "martens-dmsp-20-300",
+    }
+    fitted = post(client, "/api/comparisons", asked | {"fit": True}).json()
+    model = asked | {"effects": fitted["model"]["effects"]}
+    answer = post(client, "/api/presets/muscles/fitted", model | {"id": "bench-3", "title": "Bench 3"})
+    assert answer.status_code == 201, answer.text
+    fit = answer.json()["fit"]
+    assert fit["errors"]["force"] == pytest.approx(fitted["rmse"], rel=1e-6)
+    table = fit["covariance"]
+    stated = fitted["parameters"]["effectiveness"]["factor"]
+    place = table["names"].index("effectiveness.factor")
+    # Nothing is fitted again: how sure the values are is that of the fit before.
+    assert table["matrix"][place][place] ** 0.5 == pytest.approx(stated["stderr"], rel=1e-3)
+    curves = post(client, "/api/curves", {"muscle": {"preset": "bench-3"}}).json()
+    assert curves["interval"]["share"] == 0.9
+    refused = post(client, "/api/presets/muscles/fitted", model | {"id": "DMSP-20"})
+    assert_error(refused, 409, code="conflict", field="id")
+    refused = post(client, "/api/presets/muscles/fitted", model | {"id": "a b"})
+    assert_error(refused, 422, field="id")

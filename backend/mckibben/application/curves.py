@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from mckibben.application.envelope import MeasuredRange, range_of, use_notices
 from mckibben.application.muscle_summary import (
     GeometrySummary,
     MakerLimits,
@@ -16,6 +17,7 @@ from mckibben.application.muscle_summary import (
     start_notices,
 )
 from mckibben.application.operating_limits import load_notices, pressure_notices, temperature_notices
+from mckibben.application.prediction_interval import Interval, force_interval
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
@@ -38,7 +40,7 @@ from mckibben.simulation.statics.characteristics import (
     operating_points,
     pressure_branch,
 )
-from mckibben.simulation.statics.model import StaticModel
+from mckibben.simulation.statics.model import Curves, StaticModel
 
 #: Gauge pressures of curves where none are stated [Pa].
 DEFAULT_PRESSURES = (1e5, 2e5, 3e5, 4e5, 5e5, 6e5)
@@ -141,6 +143,7 @@ class CurvesResult:
         force, stiffness, stiffness_closed: shape (P, N).
         braid_angle, volume, diameter, outer_diameter: shape (N,); at the highest pressure if the pressure
             stretches the braid.
+        interval: where new readings of the force are expected, of a model that was fitted; else None.
         model: the effects with all their values.
         over_pressure: None without load and fixed length.
     """
@@ -155,6 +158,7 @@ class CurvesResult:
     volume: Array
     diameter: Array
     outer_diameter: Array
+    interval: Interval | None
     limits: CurveLimits
     characteristics: list[Characteristics]
     geometry: GeometrySummary
@@ -204,15 +208,19 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
     under_load = held_contractions(model, pressures, grid, question.load, conditions)
     contraction = _range(question, model, under_load.free)
     length = model.muscle.nominal_length * (1.0 - contraction)
-    columns = model.curves(
-        pressures,
-        length,
-        direction=conditions.direction,
-        temperature=conditions.temperature,
-        clipped=not question.unclipped,
-        dead_volume=conditions.dead_volume,
-        polytropic_exponent=conditions.polytropic_exponent,
-    )
+
+    def curves_of(model: StaticModel) -> Curves:
+        return model.curves(
+            pressures,
+            length,
+            direction=conditions.direction,
+            temperature=conditions.temperature,
+            clipped=not question.unclipped,
+            dead_volume=conditions.dead_volume,
+            polytropic_exponent=conditions.polytropic_exponent,
+        )
+
+    columns = curves_of(model)
     points: list[OperatingPoint] = []
     crossed = [flag for p in question.pressures for flag in model.limits.flags(pressure=p)]
     if question.load is not None:
@@ -232,6 +240,7 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
         volume=columns.volume[top],
         diameter=columns.diameter[top],
         outer_diameter=columns.outer_diameter[top],
+        interval=force_interval(start.fit, model, columns, curves_of),
         limits=CurveLimits(
             max_pressure=model.limits.max_pressure,
             max_force=model.limits.max_force,
@@ -251,8 +260,20 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
             *pressure_notices({f"pressures.{i}": p for i, p in enumerate(question.pressures)}),
             *load_notices(start, question.load),
             *temperature_notices(start, conditions.temperature, "temperature"),
+            *use_notices(start.fit, _use(question, model, contraction)),
         ],
     )
+
+
+def _use(question: CurvesQuestion, model: StaticModel, contraction: Array) -> dict[str, MeasuredRange]:
+    """The ranges in which curves use a model; slow ones, so without a speed."""
+    use = (
+        range_of("rest_length", model.muscle.nominal_length)
+        | range_of("pressure", *question.pressures)
+        | range_of("contraction", float(contraction[0]), float(contraction[-1]))
+        | range_of("temperature", question.conditions.temperature)
+    )
+    return use if question.load is None else use | range_of("load", question.load)
 
 
 def _range(question: CurvesQuestion, model: StaticModel, free: Array) -> Array:

@@ -233,6 +233,7 @@ def _result(
         absorbed=list(diagnosis.absorbed),
         context=doubtful_entries(diagnosis.context, titles),
         envelope=envelope,
+        covariance=None if diagnosis.fit is None else diagnosis.fit.covariance,
     )
 
 

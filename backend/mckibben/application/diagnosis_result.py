@@ -19,6 +19,7 @@ from mckibben.application.next_experiment import ExperimentProposal, NextExperim
 from mckibben.identification.diagnose.diagnosis import NotTried
 from mckibben.identification.diagnose.verdict import Status
 from mckibben.identification.fit.comparison import ChannelMisfit, Correlation, ParameterTable, ParameterValue
+from mckibben.identification.fit.least_squares import FittedCovariance
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.identification.residual.profiles import Profile
 from mckibben.measurement.experiment import Experiment
@@ -213,6 +214,7 @@ class DiagnosisResult:
         context: entries that may be wrong instead, the most convincing first.
         absorbed: errors of readings within the accuracy.
         envelope: quantity -> range in which the model was measured.
+        covariance: of the fitted values; None where the data cannot separate them.
     """
 
     rows: int
@@ -241,3 +243,4 @@ class DiagnosisResult:
     absorbed: list[AbsorbedError]
     context: list[DoubtfulEntry]
     envelope: dict[str, MeasuredRange]
+    covariance: FittedCovariance | None

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.application.muscle_summary import Notice
 from mckibben.application.specimens import Specimen, Specimens
 from mckibben.identification.predict import Predictor
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.measurement.measurement import STROKES
+from mckibben.presets.fit import FitRecord
 
+#: Code of the notice that a fitted model is used where it was not measured.
+OUTSIDE_MEASURED = "outside_measured_range"
 _MARGIN = {"speed": 0.2}  # share of the largest magnitude that data may lie outside; a speed is less certain
 _USUAL_MARGIN = 0.02
 _FASTEST = 99.0  # percentile of the speeds: single ones are noise of the differentiation
@@ -107,6 +112,25 @@ def _of_drive(specimen: Specimen) -> dict[str, float]:
         if value is not None and (name != "supply" or "command" in measurement.columns):
             values[name] = float(value)
     return values
+
+
+def range_of(name: str, *values: float) -> dict[str, MeasuredRange]:
+    """The range of a quantity of an answer, from its least and largest values; empty without finite ones."""
+    finite = [value for value in values if isfinite(value)]
+    return {name: MeasuredRange(min(finite), max(finite), _UNITS[name])} if finite else {}
+
+
+def use_notices(fit: FitRecord | None, use: Envelope) -> list[Notice]:
+    """Where the use of a fitted model leaves the ranges that it was measured in; nowhere without a fit.
+
+    Args:
+        fit: how the model was fitted.
+        use: the ranges of the answer.
+    """
+    if fit is None:
+        return []
+    known = {name: MeasuredRange(span.least, span.most, span.unit) for name, span in fit.envelope.items()}
+    return [Notice(OUTSIDE_MEASURED, message) for message in beyond(known, use)]
 
 
 def beyond(known: Envelope, data: Envelope) -> list[str]:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from datetime import UTC, datetime
 from typing import Any
 
-from mckibben.application.compare import Compared, ComparisonResult
+from mckibben.application.compare import Compared, ComparisonResult, compared_whole
 from mckibben.application.diagnosis_result import DiagnosisResult
 from mckibben.application.envelope import MeasuredRange
 from mckibben.application.experiment_result import SpecimenResult
@@ -15,6 +15,8 @@ from mckibben.application.model_question import ModelQuestion
 from mckibben.application.specimens import Specimen
 from mckibben.documents.saved_model import SavedModel, read_saved_model
 from mckibben.documents.studio import Studio
+from mckibben.identification.fit.comparison import determined
+from mckibben.identification.fit.least_squares import FittedCovariance
 from mckibben.identification.predict.fit_model import LOAD, FitModel
 from mckibben.measurement.experiment import place_of, shown_value, title_of
 from mckibben.physics.muscle import GEOMETRY, Muscle, assumption
@@ -95,6 +97,7 @@ def saved_model(question: ModelQuestion, result: DiagnosisResult, studio: Studio
         drive=result.model.drive,
         verdict=result.verdict.title,
         error=(last.rmse, last.holdout_rmse, result.noise_floor.rmse),
+        covariance=result.covariance,
     )
 
 
@@ -119,6 +122,38 @@ def fitted_model(question: ModelQuestion, compared: Compared, studio: Studio) ->
         drive=drive_of_model(question, compared.comparison.fit_model, studio),
         verdict="fitted, not diagnosed",
         error=(result.rmse, result.holdout_rmse, result.noise_floor),
+        covariance=None if (fit := compared.comparison.fit) is None else fit.covariance,
+    )
+
+
+def present_model(question: ModelQuestion, studio: Studio) -> SavedModel:
+    """The model of a question as it is, without a fit: its values were found by one before.
+
+    Args:
+        question: the model, and the data that it was fitted to.
+        studio: presets.
+
+    Raises:
+        InputError: the data do not allow the comparison.
+    """
+    compared = compared_whole(question)
+    fit = determined(
+        compared.comparison.predictor,
+        compared.comparison.fit_model,
+        geometry=question.free_geometry(),
+        freed=question.freed,
+    )
+    result = compared.result
+    return _saved(
+        question,
+        result,
+        studio,
+        freed=question.freed,
+        envelope=compared.envelope,
+        drive=None,
+        verdict="as it was kept",
+        error=(result.rmse, result.holdout_rmse, result.noise_floor),
+        covariance=None if fit is None else fit.covariance,
     )
 
 
@@ -132,6 +167,7 @@ def _saved(
     drive: Mapping[str, object] | None,
     verdict: str,
     error: tuple[float, float | None, float | None],
+    covariance: FittedCovariance | None,
 ) -> SavedModel:
     """The document; ``error``: rmse, hold-out rmse, noise."""
     of_geometry = result.parameters.get("geometry", {})
@@ -151,6 +187,7 @@ def _saved(
             name: {"least": found.least, "most": found.most, "unit": found.unit}
             for name, found in envelope.items()
         },
+        "errors": {name: item.rmse for name, item in result.channels.items()} or {result.predicted: error[0]},
         "assumed": _assumed(question, result.model.effects, drive, fitted),
         "origin": {
             "program": f"mckibben {__version__}",
@@ -165,6 +202,8 @@ def _saved(
             ],
         },
     }
+    if covariance is not None:
+        document["covariance"] = {"names": covariance.names, "matrix": covariance.matrix}
     if LOAD in of_geometry and question.predictor.unknown_load is not None:
         document["load_force"] = of_geometry[LOAD].value
     if drive is not None:

@@ -8,6 +8,8 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from mckibben.application.curves import EffectSettings
+from mckibben.application.drive_run import measured_interval, run_drive, use_of_run
+from mckibben.application.envelope import use_notices
 from mckibben.application.muscle_summary import (
     GeometrySummary,
     MakerLimits,
@@ -23,14 +25,12 @@ from mckibben.application.operating_limits import (
     temperature_notices,
     valve_notices,
 )
+from mckibben.application.prediction_interval import Interval
 from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
-from mckibben.simulation.drive.controlled import simulate_controlled
-from mckibben.simulation.drive.transient import Run, segments_of
-from mckibben.simulation.drive.transient import simulate as run_by_command
-from mckibben.simulation.integrate.engine import engine_by_size
+from mckibben.simulation.drive.transient import Run
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.statics.limits import FlagCode, LimitFlag
 from mckibben.simulation.timing.of_run import (
@@ -134,6 +134,7 @@ class SimulationResult:
         gas: how the air in the muscle is modelled.
         readings: None if no effect changes the readings.
         joint: of an antagonist pair.
+        interval: where new readings of the position are expected, of a model that was fitted; else None.
         choked: intervals of choked flow in the whole run.
         tracking: of a controlled run.
         outcome: how the run ended.
@@ -170,6 +171,7 @@ class SimulationResult:
     gas: str
     readings: SensorReadings | None
     joint: JointMotion | None
+    interval: Interval | None
     choked: list[ChokedInterval]
     timing: TimingTable
     tracking: Tracking | None
@@ -205,7 +207,12 @@ def prepare(question: SimulationQuestion) -> Callable[[Watch], SimulationResult]
 
     def work(watch: Watch) -> SimulationResult:
         run = run_drive(question.annotated, grid, watch, question.engine)
-        return result_of(question.annotated, grid, run)
+        return result_of(
+            question.annotated,
+            grid,
+            run,
+            measured_interval(question.annotated, grid, run, watch, question.engine),
+        )
 
     return work
 
@@ -219,20 +226,9 @@ def simulate(question: SimulationQuestion, watch: Watch | None = None) -> Simula
     return prepare(question)(watch or Watch())
 
 
-def single_run_engine(annotated: AnnotatedDrive) -> str:
-    """The engine for a single run: loading the kernel takes longer than LSODA for a few segments."""
-    return engine_by_size(len(segments_of(annotated.drive)[0]))
-
-
-def run_drive(annotated: AnnotatedDrive, grid: Grid, watch: Watch | None = None, engine: str = "auto") -> Run:
-    """The run on the fine grid; with a controller it waits for the compiled kernel."""
-    with np.errstate(all="ignore"):  # a diverging run ends with an outcome, not with warnings
-        if annotated.drive.controller is not None:
-            return simulate_controlled(annotated.drive, grid=grid.time, watch=watch)
-        return run_by_command(annotated.drive, grid=grid.time, watch=watch, engine=engine)
-
-
-def result_of(annotated: AnnotatedDrive, grid: Grid, run: Run) -> SimulationResult:
+def result_of(
+    annotated: AnnotatedDrive, grid: Grid, run: Run, interval: Interval | None = None
+) -> SimulationResult:
     """The complete result of a run."""
     drive, out, states = run.drive, run.outputs, run.states
     rows = grid.rows[grid.rows < len(run.time)]
@@ -278,6 +274,7 @@ def result_of(annotated: AnnotatedDrive, grid: Grid, run: Run) -> SimulationResu
         gas=drive.gas_closure,
         readings=_readings(run, rows),
         joint=_joint(run, rows),
+        interval=interval,
         choked=choked_of(run),
         timing=table,
         tracking=follows,
@@ -294,6 +291,7 @@ def result_of(annotated: AnnotatedDrive, grid: Grid, run: Run) -> SimulationResu
             *suspended_notices(annotated.start, drive.load),
             *temperature_notices(annotated.start, drive.temperature, "gas.temperature"),
             *valve_notices(annotated),
+            *use_notices(annotated.start.fit, use_of_run(run)),
         ],
         notes=notes,
         limits=_bounds(annotated),

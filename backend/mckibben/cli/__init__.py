@@ -95,9 +95,10 @@ def serve(
 
 @app.command()
 def curves(
-    muscle: MuscleText,
+    muscle: MuscleText = "",
     ideal: Ideal = False,
     effect: EffectIds = None,
+    model: SavedModelFile = "",
     pressure: str | None = typer.Option(
         None, help='Gauge pressures, e.g. "1 bar,3 bar"; 1 to 6 bar when left out.'
     ),
@@ -112,7 +113,7 @@ def curves(
 
     run(
         open_studio(presets, effects, data),
-        model=ModelOptions(muscle, ideal, effect or ()),
+        model=ModelOptions(muscle, ideal, effect or (), model=model),
         pressure=pressure,
         as_json=as_json,
     )
@@ -195,6 +196,12 @@ def diagnose(
     save: Annotated[
         Path | None, typer.Option("--save", metavar="FILE", help="Also write the model found, for --model.")
     ] = None,
+    save_preset: Annotated[
+        str | None,
+        typer.Option(
+            "--save-preset", metavar="ID", help="Also keep the model found as a muscle of your own."
+        ),
+    ] = None,
     schedule: Annotated[
         Path | None,
         typer.Option(
@@ -246,6 +253,7 @@ def diagnose(
         as_json=as_json,
         report=report,
         save=save,
+        save_preset=save_preset,
         schedule=schedule,
     )
 

@@ -31,4 +31,4 @@ def run(
     if as_json:
         write_json(result)
         return
-    write_summary(summary_of(result, model.muscle))
+    write_summary(summary_of(result, model.muscle or model.model))

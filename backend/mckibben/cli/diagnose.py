@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from mckibben.application.diagnose import prepare
+from mckibben.application.keep import keep
 from mckibben.application.measurement_files import measurements_of
 from mckibben.application.next_experiment import NO_EXPERIMENT, schedule_csv
 from mckibben.application.saved_model import model_text, saved_model
@@ -21,6 +22,7 @@ from mckibben.cli.output import (
     write_json,
     write_summary,
 )
+from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import ExperimentValue
 from mckibben.measurement.read import Correction
@@ -41,6 +43,7 @@ def run(
     as_json: bool,
     report: Path | None = None,
     save: Path | None = None,
+    save_preset: str | None = None,
     schedule: Path | None = None,
 ) -> None:
     """Print the diagnosis, and write a report, the model and the next experiment if requested.
@@ -63,6 +66,8 @@ def run(
         from mckibben.cli.report import write
 
         write(report, studio, question, result)
+    if save_preset is not None:
+        _keep(saved_model(question, result, studio), studio, save_preset)
     if save is not None:
         write_file(save, "--save", "model", model_text(saved_model(question, result, studio)))
     if schedule is not None:
@@ -75,6 +80,21 @@ def run(
         write_json(result)
         return
     write_summary(summary_of(result))
+
+
+def _keep(saved: SavedModel, studio: Studio, preset_id: str) -> None:
+    """Keep the model as a preset, and say how it is used.
+
+    Raises:
+        InputError: the id cannot be used, or the model cannot be a preset.
+    """
+    try:
+        preset = keep(saved, studio, id=preset_id)
+    except InputError as error:
+        raise InputError(
+            f"--save-preset {preset_id}: {error.message}", hint=error.hint, code=error.code
+        ) from error
+    remark(f"kept as {preset.id}: use it with --muscle {preset.id}, in sizing tasks and in the page")
 
 
 def _level(text: str, unit: str) -> float:

@@ -165,7 +165,12 @@ def start_model(
             )
     chosen = _chosen(options, stated)
     if not options.muscle and "muscle" in document:
-        return start_of_input(studio, with_length(document["muscle"], rest_length), chosen, source)
+        start = start_of_input(studio, with_length(document["muscle"], rest_length), chosen, source)
+        if not options.model:
+            return start
+        from mckibben.documents.saved_model import with_record
+
+        return with_record(start, saved_model(options.model), studio)
     muscle = options.muscle or named
     name, separator, length = muscle.partition(":")
     if not name:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from mckibben.application.simulate import SimulationQuestion, simulate, single_run_engine
+from mckibben.application.drive_run import single_run_engine
+from mckibben.application.simulate import SimulationQuestion, simulate
 from mckibben.application.text_file import write_text
 from mckibben.application.trace import trace_text
 from mckibben.cli.output import remark, write_json, write_summary

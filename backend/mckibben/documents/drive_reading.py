@@ -91,7 +91,8 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
             for part in parts
             for name, values in part.effect_values().items()
         }
-        start = replace(start, effects={**start.effects, **preset_effects})
+        # What the parts of the drive add changes nothing of the muscle that was measured.
+        start = replace(start, effects={**start.effects, **preset_effects}, fitted=start.fit)
     model = studio.static_model(start)
     regulator = regulator_of(document.regulator, valve_preset)
     valve = valve_of(document.valve, valve_preset)

@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from mckibben.documents.convert import stated_muscle
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.muscle import EffectsInput, MuscleInput
 from mckibben.documents.problems import first_problem
 from mckibben.documents.strict import Strict
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import GEOMETRY
+from mckibben.presets.fit import Covariance, FitRecord, MeasuredSpan
+
+if TYPE_CHECKING:
+    from mckibben.documents.start_model import StartModel
+    from mckibben.documents.studio import Studio
 
 _HINT = "the file of: mckibben diagnose DATA --save MODEL.json"
 Text = Annotated[str, Field(max_length=2000)]
@@ -79,6 +86,12 @@ class SavedModel(Strict):
     envelope: dict[str, RangeInput] = Field(
         default_factory=dict, description="Quantity -> range in which the model was measured."
     )
+    errors: dict[str, Annotated[float, Field(ge=0.0)]] = Field(
+        default_factory=dict, description="Predicted channel -> error left (rms), SI."
+    )
+    covariance: Covariance | None = Field(
+        None, description="Of the fitted values; null where the data cannot separate them."
+    )
     assumed: list[Text] = Field(default_factory=list, description="What nobody said and was assumed.")
     origin: SavedOrigin | None = None
 
@@ -115,6 +128,33 @@ class SavedModel(Strict):
                 "drive.effects are not the effects of the model", field="drive.effects", hint="change both"
             )
         return self
+
+
+def fit_record(saved: SavedModel) -> FitRecord | None:
+    """How a saved model was fitted; None where it does not say from what."""
+    origin = saved.origin
+    if origin is None:
+        return None
+    return FitRecord(
+        files=[file.name[:300] for file in origin.files],
+        made=origin.made,
+        errors=dict(saved.errors),
+        envelope={
+            name: MeasuredSpan(least=span.least, most=span.most, unit=span.unit)
+            for name, span in saved.envelope.items()
+        },
+        covariance=saved.covariance,
+    )
+
+
+def with_record(start: StartModel, saved: SavedModel, studio: Studio) -> StartModel:
+    """A start model with how it was fitted, as long as it is the saved model, whatever its length."""
+    own = studio.start_model(
+        stated_muscle(saved.muscle.model_copy(update={"nominal_length": start.muscle.nominal_length})),
+        saved.effects,
+    )
+    same = (start.muscle, start.effects) == (own.muscle, own.effects)
+    return replace(start, fitted=fit_record(saved)) if same else start
 
 
 def read_saved_model(document: object, subject: str) -> SavedModel:

@@ -16,6 +16,7 @@ from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import GEOMETRY, Muscle
 from mckibben.physics.units import si
 from mckibben.presets import MusclePreset, Quantity
+from mckibben.presets.fit import FitRecord
 from mckibben.presets.quantity import quantities
 from mckibben.simulation.statics.limits import MuscleLimits
 
@@ -67,6 +68,7 @@ class PresetFacts:
         unverified: names of the unverified values that the model uses.
         suspended_mass: largest mass that may hang freely on the muscle, None where not known [kg].
         coldest, hottest: ambient temperatures it is made for, None where not known [K].
+        fit: how its values were fitted to measurements, None where they were not.
     """
 
     id: str
@@ -80,6 +82,7 @@ class PresetFacts:
     suspended_mass: float | None = None
     coldest: float | None = None
     hottest: float | None = None
+    fit: FitRecord | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,6 +97,7 @@ class StartModel:
         catalogue: the known effects, and the custom effect of the model if it has one.
         term: text of the custom term.
         assumed: fields of the muscle that an effect needs and that are not stated; they hold a typical value.
+        fitted: how muscle and effects were fitted, where something else than the preset says so.
     """
 
     muscle: Muscle
@@ -103,6 +107,19 @@ class StartModel:
     catalogue: Mapping[str, Effect] = field(default_factory=dict)
     term: str | None = None
     assumed: tuple[str, ...] = ()
+    fitted: FitRecord | None = None
+
+    @property
+    def fit(self) -> FitRecord | None:
+        """How the values were fitted to measurements; None where they were not, or were changed since.
+
+        Another length is no change: what was measured says whether the model may be used at it.
+        """
+        preset = self.preset
+        if self.fitted is not None or preset is None or preset.fit is None:
+            return self.fitted
+        own = preset.muscle._replace(nominal_length=self.muscle.nominal_length)
+        return preset.fit if (self.muscle, self.effects) == (own, preset.effects) else None
 
     @property
     def limits(self) -> MuscleLimits:
@@ -145,6 +162,7 @@ def preset_facts(preset: MusclePreset, catalogue: EffectCatalogue) -> PresetFact
         suspended_mass=_optional(preset.data.get("max_suspended_mass"), "kg"),
         coldest=_optional(preset.data.get("min_temperature"), "K"),
         hottest=_optional(preset.data.get("max_temperature"), "K"),
+        fit=preset.fit,
     )
 
 

@@ -54,6 +54,16 @@ class Curves(Result):
         return read_only(self._result.force)
 
     @property
+    def interval(self) -> tuple[FloatArray, FloatArray] | None:
+        """Ends between which 90 % of new readings of the force lie [N], each of shape (P, N).
+
+        From the covariance of the fitted values and the error that the fit left; None for a model that was
+        not fitted, or was changed since.
+        """
+        found = self._result.interval
+        return None if found is None else (read_only(found.low), read_only(found.high))
+
+    @property
     def stiffness(self) -> FloatArray:
         """dF/dL at constant pressure [N/m], shape (P, N)."""
         return read_only(self._result.stiffness)

@@ -9,7 +9,8 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
-from mckibben.application.simulate import POINTS, SimulationQuestion, prepare, single_run_engine
+from mckibben.application.drive_run import single_run_engine
+from mckibben.application.simulate import POINTS, SimulationQuestion, prepare
 from mckibben.application.text_file import write_text
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_files import named_document, preset_document, read_document

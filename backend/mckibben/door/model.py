@@ -5,16 +5,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from os import PathLike
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 from mckibben.application.compare import compared_whole
 from mckibben.application.curves import DEFAULT_PRESSURES, CurvesQuestion, curves
 from mckibben.application.diagnose import prepare
 from mckibben.application.muscle_summary import GeometrySummary, geometry_of
 from mckibben.application.saved_model import fitted_model, model_text, saved_model
-from mckibben.application.text_file import write_text
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
@@ -24,7 +21,7 @@ from mckibben.door.diagnosis import Diagnosis
 from mckibben.door.problem import reported
 from mckibben.door.questions import Data, DocumentedDrive, StatedModel, question_of, watch_of
 from mckibben.door.rendering import notebook_cell, plain_text
-from mckibben.door.result import Frozen
+from mckibben.door.savable import Savable
 from mckibben.door.statics import at_least_two, force_of, optional_number, pressures_in
 from mckibben.door.values import FloatArray, Quantities, Quantity
 from mckibben.door.workspace import studio
@@ -39,7 +36,7 @@ if TYPE_CHECKING:
 _SHORTEST = 0.05  # shortest length accepted, share of the nominal length; no muscle contracts so far
 
 
-class Model(Frozen):
+class Model(Savable):
     """A muscle with its effects; SI inside, arguments are SI numbers or texts with a unit.
 
     Tension of the ideal muscle: F = (π D0² p / 4) (a (1 - κ)² - b), a = 3 / tan² α, b = 1 / sin² α, with the
@@ -100,7 +97,7 @@ class Model(Frozen):
         stated.sample(of)
 
     @classmethod
-    def of(cls, stated: StatedModel, of: Studio) -> Model:
+    def of(cls, stated: StatedModel, of: Studio) -> Self:
         """The model of documents, for the rest of the door."""
         model = cls.__new__(cls)
         model._make(stated, of)
@@ -354,15 +351,6 @@ class Model(Frozen):
         saved = saved_model(question, result, self._studio)
         model = Model.of(StatedModel.of_saved(saved, "the diagnosed model"), self._studio)
         return Diagnosis(result, model, names, question, self._studio)
-
-    @reported
-    def save(self, path: str | PathLike[str]) -> None:
-        """Write the model as JSON, for `mckibben.load` and the option ``--model`` of the command line.
-
-        Raises:
-            Problem: the file cannot be written.
-        """
-        write_text(Path(path), model_text(self._saved()))
 
     def _saved(self) -> SavedModel:
         return self._stated.to_saved(self._studio)

@@ -18,7 +18,7 @@ from mckibben.documents.drive import DriveDocument
 from mckibben.documents.located import at_file
 from mckibben.documents.model_files import drive_document, saved_model
 from mckibben.documents.muscle_files import Effects, preset_of_file, start_of_input, with_length
-from mckibben.documents.saved_model import SavedModel, read_saved_model
+from mckibben.documents.saved_model import SavedModel, read_saved_model, with_record
 from mckibben.documents.start_model import PresetFacts, StartModel
 from mckibben.documents.studio import Studio
 from mckibben.door.measurement import Measurement, read
@@ -130,7 +130,8 @@ class StatedModel:
             InputError: muscle or effects cannot be used, or there is no length.
         """
         document = with_length(dict(self.muscle), rest_length)
-        return start_of_input(studio, document, self.effects, self._place, facts=self.facts)
+        start = start_of_input(studio, document, self.effects, self._place, facts=self.facts)
+        return start if self.saved is None else with_record(start, self.saved, studio)
 
     def sample(self, studio: Studio) -> StartModel:
         """The start model; of some length if it has none."""
@@ -164,7 +165,8 @@ class StatedModel:
             if not changed:
                 return self.saved
             # What was said of the fit no longer holds.
-            document.pop("origin", None)
+            for name in ("origin", "errors", "covariance"):
+                document.pop(name, None)
             document["freed"] = [
                 name for name in document.get("freed", []) if name.partition(".")[0] in effects
             ]

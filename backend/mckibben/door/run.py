@@ -50,6 +50,12 @@ class Run(Result):
         return read_only(self._result.position)
 
     @property
+    def interval(self) -> tuple[FloatArray, FloatArray] | None:
+        """Ends between which 90 % of new readings of the position lie [m]; see `Curves.interval`."""
+        found = self._result.interval
+        return None if found is None else (read_only(found.low), read_only(found.high))
+
+    @property
     def velocity(self) -> FloatArray:
         """Speed of the load [m/s]."""
         return read_only(self._result.velocity)

@@ -9,6 +9,7 @@ from pydantic import Field, PrivateAttr
 
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.parameter import UNVERIFIED_GRADES, Parameter
+from mckibben.presets.fit import FitRecord
 from mckibben.presets.quantity import (
     GRADES_IN_WORDS,
     Expected,
@@ -186,6 +187,11 @@ class MusclePreset(_WithEffects):
     )
     extrapolated: Text | None = Field(
         default=None, description="Why its force is not known from a curve or a measurement; null when it is."
+    )
+    fit: FitRecord | None = Field(
+        default=None,
+        description="How its values were fitted to measurements; null where they were not. With it, answers "
+        "have intervals and say where the muscle was not measured.",
     )
 
     def findings(self, effects: EffectTable | None = None) -> Iterator[Finding]:

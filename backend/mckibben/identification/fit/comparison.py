@@ -260,6 +260,24 @@ def fit_of(predictor: Predictor, fit_model: FitModel, choice: Sequence[Free]) ->
     return Misfit(predictor, fit_model, choice).fit(final_effort(simulated=predictor.simulated))
 
 
+def determined(
+    predictor: Predictor, fit_model: FitModel, *, geometry: Sequence[Free] = (), freed: Sequence[str] = ()
+) -> FitResult | None:
+    """How sure the values of a model are that was fitted before, without a change; None without free ones.
+
+    Args:
+        predictor: the data.
+        fit_model: the model with its fitted values.
+        geometry, freed: what the fit changed besides the parameters of the effects.
+    """
+    predictor = allowing_for_errors(predictor, fit_model)
+    free = free_numbers(fit_model, geometry, freed, load=predictor.unknown_load)
+    if not free:
+        return None
+    numbers = np.array([fit_model.number(parameter.name) for parameter in free])
+    return Misfit(predictor, fit_model, free).report(numbers)
+
+
 def holdout_rmse(predictor: Predictor, fit_model: FitModel, choice: Sequence[Free]) -> float | None:
     """Error over whole groups that are left out of the fit; None for a single group."""
     if len(np.unique(predictor.folds[0])) < 2:

@@ -27,12 +27,29 @@ class Fitted:
 
 
 @dataclass(frozen=True, slots=True)
+class FittedCovariance:
+    """Covariance of the fitted parameters that the data determine.
+
+    Attributes:
+        names: of the parameters; one at a bound is none of them.
+        matrix: products of their SI units, shape (names, names).
+    """
+
+    names: list[str]
+    matrix: list[list[float]]
+
+
+@dataclass(frozen=True, slots=True)
 class FitResult:
-    """The fitted parameters, their correlations above 0.95 and notes for the user."""
+    """The fitted parameters, their correlations above 0.95 and notes for the user.
+
+    ``covariance`` is None where the data cannot separate the parameters, or where none was determined.
+    """
 
     parameters: tuple[Fitted, ...]
     correlations: tuple[tuple[str, str, float], ...]
     messages: tuple[str, ...]
+    covariance: FittedCovariance | None = None
 
     @property
     def numbers(self) -> list[float]:
@@ -76,12 +93,20 @@ def least_squares_fit(
         if best is None or minimum.squares < best.squares * (1.0 - 1e-9):
             best = minimum
     assert best is not None  # noqa: S101 - there is always at least the first start
-    return _report(best.numbers, best.jacobian, best.residuals, free)
+    return fit_report(best.numbers, best.jacobian, best.residuals, free)
 
 
-def _report(
+def fit_report(
     numbers: np.ndarray, jacobian: np.ndarray, residuals: np.ndarray, free: Sequence[Free]
 ) -> FitResult:
+    """What a fit that ended at these numbers determines.
+
+    Args:
+        numbers: values of the free parameters.
+        jacobian: derivatives of the residuals, shape (residuals, free).
+        residuals: there.
+        free: the free parameters with their bounds.
+    """
     span = np.array([parameter.upper - parameter.lower for parameter in free])
     at_bound = [
         bool(min(x - p.lower, p.upper - x) < _AT_BOUND * s)
@@ -90,6 +115,7 @@ def _report(
     inner = np.flatnonzero(~np.array(at_bound))
     errors: list[float | None] = [None] * len(free)
     correlations: list[tuple[str, str, float]] = []
+    covariance = None
     messages = [f"{p.name} ends at its bound" for p, bound in zip(free, at_bound, strict=True) if bound]
     freedom = len(residuals) - len(free)
     scale = np.linalg.norm(jacobian[:, inner], axis=0)
@@ -102,12 +128,15 @@ def _report(
         unit = jacobian[:, inner] / scale
         normal = unit.T @ unit
         if np.linalg.cond(normal) > _UNDETERMINED:
-            names = ", ".join(free[index].name for index in inner)
-            messages.append(f"the data cannot separate {names}: no standard errors are given")
+            alike = ", ".join(free[index].name for index in inner)
+            messages.append(f"the data cannot separate {alike}: no standard errors are given")
         else:
             inverse = np.linalg.inv(normal)
             variance = float(residuals @ residuals) / freedom
             deviation = np.sqrt(np.diag(inverse))
+            matrix = variance * inverse / np.outer(scale, scale)
+            names = [free[index].name for index in inner]
+            covariance = FittedCovariance(names, (0.5 * (matrix + matrix.T)).tolist())
             for place, index in enumerate(inner):
                 errors[index] = float(np.sqrt(variance) * deviation[place] / scale[place])
             correlation = inverse / np.outer(deviation, deviation)
@@ -123,4 +152,5 @@ def _report(
         ),
         tuple(correlations),
         tuple(messages),
+        covariance,
     )

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mckibben.identification.fit.effort import FitEffort
-from mckibben.identification.fit.least_squares import FitResult, least_squares_fit
+from mckibben.identification.fit.least_squares import FitResult, fit_report, least_squares_fit
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
@@ -69,6 +69,10 @@ class Misfit:
     def _weighted(self, slopes: np.ndarray) -> np.ndarray:
         finite = np.all(np.isfinite(slopes), axis=1, keepdims=True)
         return self._predictor.weighted(np.where(finite, slopes, 0.0))
+
+    def report(self, numbers: np.ndarray) -> FitResult:
+        """What the data determine at these numbers, as after a fit that ended there."""
+        return fit_report(numbers, self.derivatives(numbers), self.value(numbers), self._free)
 
     def fit(self, effort: FitEffort) -> FitResult:
         """Least squares over the free parameters, see `least_squares_fit`."""

@@ -9,8 +9,9 @@ from collections.abc import Callable, Mapping
 from datetime import datetime
 from math import ceil
 
+from mckibben.application.drive_run import run_drive
 from mckibben.application.json_text import to_json
-from mckibben.application.simulate import result_of, run_drive
+from mckibben.application.simulate import result_of
 from mckibben.application.size import Searched, prepare_search, sizing_question
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio

@@ -44,4 +44,11 @@ def summary_of(result: CurvesResult, muscle: str) -> Summary:
             for name, item in zip(bars, result.characteristics, strict=True)
         ],
     )
-    return [force, per_pressure, *(notice.message for notice in result.flags)]
+    sure = []
+    if result.interval is not None:
+        half = float(np.nanmedian(result.interval.high - result.force))
+        sure.append(
+            f"{100.0 * result.interval.share:.0f} % of new readings lie within about ±{half:.3g} N "
+            "of a curve, where the model was measured"
+        )
+    return [force, per_pressure, *sure, *(notice.message for notice in result.flags)]

@@ -106,6 +106,14 @@ class OverPressureBranch(Strict):
     outer_diameter: Series = si_field("m", "Outer diameter of the wall at the load.")
 
 
+class ForceInterval(Strict):
+    """Where new readings of the force are expected, where the model was measured; wider elsewhere."""
+
+    low: Rows = si_field("N", "Lower ends.")
+    high: Rows = si_field("N", "Upper ends.")
+    share: float = si_field("1", "Share of the readings between them.")
+
+
 class ForceAtLength(Strict):
     """Force over pressure at the fixed length, in both directions of motion."""
 
@@ -162,6 +170,9 @@ class CurvesAnswer(Strict):
     volume: Series = si_field("m3", "Enclosed volume at the highest pressure.")
     diameter: Series = si_field("m", "Braid diameter at the highest pressure.")
     outer_diameter: Series = si_field("m", "Outer diameter of the wall, at constant wall volume.")
+    interval: ForceInterval | None = Field(
+        description="Where new readings of the force are expected; null where the model was not fitted."
+    )
     limits: CurveLimits = Field(description="Limits of the muscle.")
     characteristics: list[Characteristics] = Field(description="Figures of the muscle at each pressure.")
     geometry: MuscleGeometry = Field(description="Geometry of the muscle at rest, in all forms.")

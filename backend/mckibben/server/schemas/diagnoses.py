@@ -228,6 +228,15 @@ class MeasuredRange(Strict):
     unit: str = Field(description="SI unit; pressures are gauge.")
 
 
+class FittedCovariance(Strict):
+    """Covariance of the fitted values that the data determine."""
+
+    names: list[str] = Field(
+        description="effect.parameter, or a dimension of the muscle.", examples=[["dahl.force"]]
+    )
+    matrix: list[list[float]] = Field(description="Products of their SI units, one row per name.")
+
+
 class DiagnosisAnswer(Strict):
     """What the model is missing, and how certain that is."""
 
@@ -276,6 +285,9 @@ class DiagnosisAnswer(Strict):
     envelope: dict[str, MeasuredRange] = Field(
         description="Quantity -> range of the data: rest_length, pressure, contraction, speed, temperature, "
         "load, mass, supply, as far as they were measured or stated."
+    )
+    covariance: FittedCovariance | None = Field(
+        description="Of the fitted values of the best model; null where the data cannot separate them."
     )
 
 

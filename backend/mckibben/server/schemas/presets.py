@@ -19,6 +19,17 @@ from mckibben.presets import (
     TubePreset,
     ValvePreset,
 )
+from mckibben.server.schemas.comparisons import ModelRequest
+
+
+class FittedMuscleRequest(ModelRequest):
+    """A fitted model with its measurements, and the id of the preset that it becomes."""
+
+    id: str = Field(
+        max_length=64, examples=["bench-3-fitted"], description="Of the preset: letters, digits, hyphens."
+    )
+    title: str = Field("", max_length=120, description="Its name for display; empty = the id.")
+
 
 PresetKind = Literal[
     "muscles", "valves", "tubes", "fittings", "measurements", "curves", "designs", "drives", "tasks"

@@ -99,6 +99,14 @@ class Readings(Strict):
     position: Series = si_field("m", "Position of the load.")
 
 
+class PositionInterval(Strict):
+    """Where new readings of the position are expected, where the model was measured; wider elsewhere."""
+
+    low: Series = si_field("m", "Lower ends.")
+    high: Series = si_field("m", "Upper ends.")
+    share: float = si_field("1", "Share of the readings between them.")
+
+
 class Joint(Strict):
     """The pulley of an antagonist pair, and its second muscle."""
 
@@ -142,6 +150,9 @@ class SimulationAnswer(Strict):
     gas: str = Field(description="How the air in the muscle is modelled.")
     readings: Readings | None = Field(description="Null if no effect changes the sensor readings.")
     joint: Joint | None = Field(description="Joint of an antagonist pair.")
+    interval: PositionInterval | None = Field(
+        description="Where new readings of the position are expected; null where the model was not fitted."
+    )
     choked: list[Choked] = Field(
         description="Choked intervals of the whole run, whatever rows are requested."
     )

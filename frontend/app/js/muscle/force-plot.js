@@ -48,6 +48,25 @@ export function curveFamily(v, p, what, quantity, dash) {
   }));
 }
 
+/** Ends of the range of new readings, where the model was fitted. @param {View} v @param {Palette} p
+ * @returns {Trace[]} */
+function intervalTraces(v, p) {
+  const { interval, pressure, force } = v.curves;
+  if (!interval) return [];
+  const x = xColumn(v);
+  return pressure.flatMap((level, i) => {
+    const color = pressureColour(shareOf(level, v.curves), p);
+    // Where the muscle hangs slack there is no reading.
+    const pulling = (/** @type {(number | null)[]} */ row) => row.map((y, k) => force[i][k] === 0 ? null : y);
+    return /** @type {const} */ (["low", "high"]).map((end) => ({
+      id: `${end}${i}`,
+      x,
+      y: shown(pulling(interval[end][i]), "force", v.system),
+      line: { color, width: 1, dash: "dot" },
+    }));
+  });
+}
+
 /** The measured points or the curve of the maker; `left`: indices of those left out. @param {View} v */
 function referencePoints(v) {
   const columns = v.reference?.data_columns;
@@ -122,6 +141,7 @@ export function forceSpec(v, p) {
       : undefined,
     traces: [
       ...points,
+      ...intervalTraces(v, p),
       ...lines,
       {
         id: "operating-points",

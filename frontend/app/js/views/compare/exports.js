@@ -2,13 +2,14 @@
 // Exports of this view: data with residuals, plots, the report, the model for the Design view.
 import { units } from "../../state.js";
 import { openDesign } from "../../muscle/document.js";
-import { ApiError, postForText } from "../../server/client.js";
+import { ApiError, post, postForText } from "../../server/client.js";
 import { scaleOf, toShown } from "../../format.js";
 import { status } from "../../store.js";
 import { saveSheet } from "../../plots/export.js";
 import { downloadText, fileName, toCsv } from "../../ui/table.js";
 import { answer, compare, diagnosis, files, preset } from "./answers.js";
 import { effectValues } from "../../muscle/preset.js";
+import { presetDialog } from "../../muscle/preset-dialog.js";
 import { overlays } from "./where/overlay.js";
 import { allSeries } from "./where/pictures.js";
 import { modelBody, used } from "./request.js";
@@ -101,6 +102,18 @@ export async function saveReport() {
     if (!(error instanceof ApiError)) throw error;
     status.value = `The report could not be written: ${error.words}`;
   }
+}
+
+/** Keeps the model as a muscle of the user, with the covariance of its values and the range of its data. */
+export function keepAsPreset() {
+  const body = modelBody(compare.peek()), base = preset.peek();
+  presetDialog({
+    id: `${base?.id ?? "muscle"}-fitted`,
+    title: `${base?.title ?? "Muscle"} (fitted)`,
+    note: "Keeps the model as it is now, with how sure its values are and where it was measured. " +
+      "Design, Transient and Sizing then offer it among the muscles.",
+    save: (id, title) => post("/api/presets/muscles/fitted", { ...body, id, title }),
+  });
 }
 
 /** Takes muscle and effects over into the Design view, which knows effects of the catalogue only. */

@@ -3,7 +3,7 @@
 import { h, icon } from "../../dom.js";
 import { signal } from "../../reactive.js";
 import { answer, stale } from "./answers.js";
-import { saveCsv, saveModel, savePlots, saveReport, useInDesign } from "./exports.js";
+import { keepAsPreset, saveCsv, saveModel, savePlots, saveReport, useInDesign } from "./exports.js";
 import { openSteps, state } from "./list/state.js";
 import { hasAssumed } from "./strip/facts.js";
 
@@ -64,6 +64,7 @@ export const takeCard = () =>
       way("braces", "Model", "JSON: muscle and effects with their values", saveModel),
       way("table", "Data", "CSV: every point with its residual", saveCsv),
       way("wave", "Plots", "PNG: one sheet", () => savePlots("png")),
+      way("pin", "My preset", "your own muscle: its curves and runs show how sure they are", keepAsPreset),
       way("export", "Use in Design", "predict other conditions", useInDesign),
     ),
   );

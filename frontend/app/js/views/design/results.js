@@ -82,7 +82,8 @@ function characteristics() {
 }
 
 /** The flag that is only a note; all others are about limits. */
-const NOTE = "unverified";
+/** Remarks that are no limits of the muscle. */
+const NOTES = ["unverified", "outside_measured_range"];
 
 /** Whether the muscle holds the load within its limits, and which limits it crosses. */
 function verdict() {
@@ -90,9 +91,10 @@ function verdict() {
   if (!c) {
     return h("p", { class: "muted" }, fault.value ? "No valid model yet." : "Waiting for curves…");
   }
-  const hard = c.flags.filter((f) => f.code !== NOTE), notes = c.flags.filter((f) => f.code === NOTE);
+  const hard = c.flags.filter((f) => !NOTES.includes(f.code)),
+    notes = c.flags.filter((f) => NOTES.includes(f.code));
   const points = c.operating_points.filter((o) => o.contraction != null);
-  const sound = points.filter((o) => !o.flags.some((code) => code !== NOTE));
+  const sound = points.filter((o) => !o.flags.some((code) => !NOTES.includes(code)));
   const best = sound.at(-1) ?? points.at(-1);
   const grade = !sound.length ? "bad" : hard.length ? "warn" : "good";
   const reach = best
@@ -117,8 +119,8 @@ function verdict() {
     ...[...hard, ...notes].map((f) =>
       h(
         "p",
-        { class: `flag ${f.code === NOTE ? "note" : "bad"}` },
-        icon(f.code === NOTE ? "info" : "warn"),
+        { class: `flag ${NOTES.includes(f.code) ? "note" : "bad"}` },
+        icon(NOTES.includes(f.code) ? "info" : "warn"),
         h("span", { title: f.message }, f.message),
       )
     ),

@@ -1,14 +1,11 @@
 // @ts-check
 // "Save as my preset": the muscle with its effects as it is now; values that were not changed keep their sources.
-import { h } from "../../dom.js";
-import { signal } from "../../reactive.js";
-import { ApiError, post } from "../../server/client.js";
+import { post } from "../../server/client.js";
 import { design, editDesign } from "../../muscle/document.js";
-import { loadKind } from "../../server/presets.js";
-import { effectsById, status } from "../../store.js";
-import { openDialog } from "../../ui/dialog.js";
+import { effectsById } from "../../store.js";
 import { curves } from "./model.js";
 import { muscle, preset } from "../../muscle/preset.js";
+import { presetDialog } from "../../muscle/preset-dialog.js";
 
 /** @typedef {import("../../types.js").PresetValue} PresetValue */
 
@@ -61,58 +58,12 @@ function presetDocument(id, title) {
   };
 }
 
-export function saveDialog() {
-  const wrong = signal("");
-  const start = `${preset.peek()?.id ?? "muscle"}-mine`;
-  const id = h("input", { id: "save-id", type: "text", value: start, maxlength: 64, autocomplete: "off" });
-  const title = h("input", {
-    id: "save-title",
-    type: "text",
-    value: `${preset.peek()?.title ?? "Muscle"} (mine)`,
-    maxlength: 120,
-    autocomplete: "off",
+export const saveDialog = () =>
+  presetDialog({
+    id: `${preset.peek()?.id ?? "muscle"}-mine`,
+    title: `${preset.peek()?.title ?? "Muscle"} (mine)`,
+    note: "Saves geometry and effects as they are now. Values you did not change keep their sources.",
+    save: (id, title) => post("/api/presets/muscles", presetDocument(id, title)),
+    then: (id) =>
+      editDesign({ muscle: { preset: id, form: "braid", values: {} }, effects: null }, `preset ${id}`),
   });
-  /** @param {Event} event */
-  const save = async (event) => {
-    event.preventDefault();
-    if (!/^[A-Za-z0-9][A-Za-z0-9-]{0,63}$/.test(id.value)) {
-      wrong.value = "An id has letters, digits and hyphens, at most 64 of them, for example DMSP-20-mine.";
-      return id.focus();
-    }
-    if (!title.value.trim()) {
-      wrong.value = "Give the preset a title.";
-      return title.focus();
-    }
-    try {
-      await post("/api/presets/muscles", presetDocument(id.value, title.value.trim()));
-      await loadKind("muscles");
-      editDesign(
-        { muscle: { preset: id.value, form: "braid", values: {} }, effects: null },
-        `preset ${id.value}`,
-      );
-      status.value = `Saved as “${title.value}”.`;
-      dialog.close();
-    } catch (error) {
-      wrong.value = error instanceof ApiError ? error.words : String(error);
-    }
-  };
-  const dialog = openDialog(
-    { title: "Save as my preset" },
-    h(
-      "form",
-      { onsubmit: save },
-      h(
-        "p",
-        { class: "muted" },
-        "Saves geometry and effects as they are now. Values you did not change keep their sources.",
-      ),
-      h("label", { for: "save-id" }, "Id"),
-      id,
-      h("label", { for: "save-title" }, "Title"),
-      title,
-      h("p", { class: "error", role: "alert" }, () => wrong.value),
-      h("div", { class: "foot" }, h("button", { type: "submit", class: "primary" }, "Save")),
-    ),
-  );
-  id.select();
-}

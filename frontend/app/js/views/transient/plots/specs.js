@@ -136,6 +136,13 @@ export function positionSpec(v, p) {
       width: 1.6,
     });
   }
+  if (run.interval) {
+    const { low, high, share } = run.interval, percent = Math.round(100 * share);
+    for (const [id, values] of /** @type {const} */ ([["low", low], ["high", high]])) {
+      const name = `${percent} % of readings, ${id} end`;
+      lines.push({ id: `interval-${id}`, name, values, color: p.accent, dash: "dot", width: 1 });
+    }
+  }
   lines.push({ id: "position", name: "position", values: run.position, color: p.accent });
   return overTime(v, p, {
     key: "position",
