@@ -8,7 +8,12 @@ from typing import Any
 
 import pytest
 
+from mckibben.application.keep import keep
+from mckibben.documents.saved_model import read_saved_model
+from mckibben.documents.studio import Studio
+from mckibben.resources import presets_folder
 from mckibben.server.schemas.sizing_answer import SizingAnswer
+from tests.application.test_keep import MODEL
 from tests.cli.conftest import Run, result_of, write
 from tests.server.test_sizings import IMPOSSIBLE, TASK
 
@@ -25,6 +30,23 @@ def test_a_task_gives_one_json_object_and_its_drive_runs(run: Run) -> None:
     timing: dict[str, Any] = json.loads(out)["timing"]
     # One process per run integrates by LSODA, the search by the kernel.
     assert timing["extend"]["positioning_time"] == pytest.approx(best["time"], rel=0.01)
+
+
+def test_a_fitted_muscle_is_told_where_it_was_not_measured(run: Run) -> None:
+    """The sizing takes the muscle that a diagnosis kept; it was measured to 5 bar, slowly, at 250 mm."""
+    studio = Studio(presets=presets_folder(), user_presets=Path("data") / "presets")
+    keep(read_saved_model(MODEL, "the model"), studio, id="mine")
+    task = {
+        "load": {"mass": "20 kg"}, "stroke": "40 mm", "time": "1 s", "supply_pressure": "6 bar",
+        "catalogue": {"muscles": ["mine"], "valves": ["MPYE-5-1/8-HF"], "tube_length": "1 m"},
+    }  # fmt: skip
+    code, out, _ = run("size", write("task.json", task), "--json", "--data", "data")
+    assert code == 0
+    best = result_of(out)["proposals"][0]
+    (note,) = (note for note in best["notes"] if "was not measured" in note)
+    assert note.startswith("mine is used where it was not measured: ")
+    assert ("pressures up to" in note) == (best["pressure"] > 5e5)
+    assert "the model was measured without time" in note
 
 
 def test_tables_name_the_drives_and_the_reasons(run: Run) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from mckibben.application.drive_of_design import drive_document
+from mckibben.application.envelope import MeasuredRange, range_of, use_notices
 from mckibben.application.muscle_summary import Notice, unverified_notice
 from mckibben.application.operating_limits import pressure_notices
 from mckibben.application.task_reading import catalogue_of, task_of
@@ -322,11 +323,25 @@ def _notes(proposal: Proposal, task: Task, document: SizingTask) -> list[str]:
         )
     if group.muscle.extrapolated is not None:
         notes.append(f"Test a sample of {group.muscle.id} first: {group.muscle.extrapolated}.")
+    if left := use_notices(group.muscle.fit, _use(proposal, document)):
+        outside = "; ".join(notice.message for notice in left)
+        notes.append(f"{group.muscle.id} is used where it was not measured: {outside}.")
     if document.load.force_over_stroke is not None:
         notes.append("The simulation uses a straight line above the force over the stroke.")
     if proposal.trial.figures.time_down is None:
         notes.append(f"The load does not return within {task.vent_time:.3g} s.")
     return notes
+
+
+def _use(proposal: Proposal, document: SizingTask) -> dict[str, MeasuredRange]:
+    """The ranges in which a proposal uses the model of its muscle."""
+    design, lever = proposal.design, document.load.lever_ratio
+    return (
+        range_of("rest_length", design.length)
+        | range_of("pressure", design.pressure)
+        | range_of("contraction", design.contraction)
+        | range_of("speed", 0.0, proposal.max_speed * lever)
+    )
 
 
 def _rejected(item: Rejection) -> RejectedParts:

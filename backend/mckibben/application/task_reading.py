@@ -190,6 +190,7 @@ def _muscle(preset: Preset, studio: Studio) -> MusclePart:
         hottest=ends[1],
         suspended_mass=facts.suspended_mass,
         extrapolated=preset.extrapolated,
+        fit=preset.fit,
     )
 
 

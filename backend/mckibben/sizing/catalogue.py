@@ -9,6 +9,7 @@ from functools import cached_property, lru_cache
 from mckibben.physics import gas
 from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import Muscle
+from mckibben.presets.fit import FitRecord
 from mckibben.simulation.command.signals import Signal, signal_from
 from mckibben.simulation.drive.parts import Drive, Load, Tube, Valve
 from mckibben.simulation.statics.limits import MuscleLimits
@@ -42,6 +43,7 @@ class MusclePart(CataloguePart):
         coldest, hottest: permitted ambient temperature [K].
         suspended_mass: largest mass that may hang freely on it [kg]; None where not known.
         extrapolated: why its force is not known from a curve; None when it is.
+        fit: how its values were fitted to measurements; None where they were not.
     """
 
     muscle: Muscle
@@ -53,6 +55,7 @@ class MusclePart(CataloguePart):
     hottest: float | None = None
     suspended_mass: float | None = None
     extrapolated: str | None = None
+    fit: FitRecord | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
