@@ -9,9 +9,10 @@ from mckibben.measurement.read.column_lists import listed_columns
 from mckibben.measurement.read.grid import BLANKS, Grid, TextGrid
 from mckibben.measurement.read.held import held_quantities
 from mckibben.measurement.read.locate import Run, TableHead, names_channel, texts_of
-from mckibben.measurement.read.recognise import recognise
+from mckibben.measurement.read.recognise import BY_UNIT, recognise
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.values import NUMBER, TEXT, kind_of
+from mckibben.measurement.read.vocabulary import reference_among, words_of
 
 _HEAD_ROWS = 8  # most rows of a head
 _LISTED_WITHIN = 200  # rows above a head in which its channels may be listed
@@ -117,15 +118,33 @@ def _without_row_names(grid: Grid, run: Run, names: Sequence[str]) -> bool:
 def _listed_above(grid: Grid, index: int) -> dict[str, str]:
     """The names of a row behind which the file says above what they are: ``CH1`` and ``CH1,Pressure,DC,10V``.
 
-    Two such rows make a list of channels; a word beside the name that is no channel's says nothing.
+    A list of channels has such a row for two of the names, and names two channels, one of them perhaps by its
+    unit only (``CH1,P muscle,...,kPa``); a word beside the name that is no channel's says nothing. What a row
+    says of absolute or gauge goes with it.
     """
     unknown = {name for name in texts_of(grid.cells(index)) if name and not names_channel(name)}
     said: dict[str, str] = {}
+    sure: set[str] = set()
     for above in range(max(0, index - _LISTED_WITHIN), index):
         cells = [cell for cell in texts_of(grid.cells(above)) if cell]
-        if len(cells) > 1 and cells[0] in unknown and names_channel(cells[1]):
-            said[cells[0]] = cells[1]
-    return said if len(said) > 1 else {}
+        if len(cells) < 2 or cells[0] not in unknown or cells[0] in sure:
+            continue
+        units = [cell for cell in cells[2:] if (unit := unit_of(cell)) and dimension_of(unit.unit)]
+        plain = names_channel(cells[1])
+        if not plain and not any(recognise(cells[1], u).channel and _lettered(cells[1], u) for u in units):
+            continue
+        mark = next((c for c in cells[2:] if reference_among(words_of(c)) is not None), "")
+        said[cells[0]] = cells[1] if reference_among(words_of(cells[1])) is not None or not mark else (
+            f"{cells[1]} {mark}"
+        )  # fmt: skip
+        if plain:
+            sure.add(cells[0])
+    return said if len(said) > 1 and sure else {}
+
+
+def _lettered(name: str, unit: str) -> bool:
+    """Whether a name says a channel by itself or by a letter that fits the unit, not by the unit alone."""
+    return recognise(name, unit).penalty < BY_UNIT
 
 
 def _placed_units(names: str, units: str) -> list[str] | None:

@@ -30,7 +30,7 @@ KIND_SAID = "kind_said"  # text: "isotonic"
 _NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
 _UNIT = r"(?:[^\W\d_]|[°%\"'])+(?:/[^\W\d_]+[2²]?)?"
 _QUANTITY = re.compile(rf"(?<![\w.,-])({_NUMBER})\s*({_UNIT}(?:\s*\([a-zü]+\))?)?(?![\w.,]*\d)")
-_UNIT_FIRST = re.compile(rf"[\[(]\s*([^\])]+?)\s*[\])]\s*[:=;]?\s*({_NUMBER})(?!\s*[A-Za-z])")
+_UNIT_FIRST = re.compile(rf"[\[(]\s*([^\])]+?)\s*[\])]\s*[:=;]?\s*({_NUMBER})(?![\d.,]*\d|\s*[A-Za-z])")
 #: A symbol, a number and a unit in one word, as in names of files: ``L200mm``, ``m5kg``, ``ps6bar``.
 _GLUED = re.compile(
     rf"(?<![^\W_])([^\W\d_]{{0,12}}0?)[=]?((?<![0-9])[0-9]+(?:[.,][0-9]+)?)({_UNIT})(?![^\W_])"
@@ -50,6 +50,8 @@ _OTHER_GAUGES = re.compile(
 _OWN_BEHIND = re.compile(
     r"[\s(]*([^,;:=()\d.]{0,60}?)(?=[,;().]|$|\s(?:and|with|und|mit|et|avec|con|com|og|och)\s)"
 )
+_CLAUSE = re.compile(r"[;|]|[.,:](?!\d)\s")
+_OF_OTHER_AIR = ("the supply", "the surrounding air")
 _WITHOUT = REMARK_WORDS["without"]
 _LONG = word_set("long lang lungo largo comprido dlugi длинный uzun")
 _AT_REST, _LOADS, _SUPPLIES = REMARK_WORDS["at rest"], REMARK_WORDS["load"], REMARK_WORDS["supply"]
@@ -114,9 +116,8 @@ def statements(rest: Iterable[tuple[str, str]], name: str) -> list[Note]:
 def _of_text(text: str) -> Iterator[tuple[str, str]]:
     yield from signs_of(text)
     words = words_of(text)
-    reference = reference_among(words_of(_OTHER_GAUGES.sub(" ", text)))
-    about_muscle = not has_word(words, _AMBIENT | _SUPPLIES)
-    if reference is not None and about_muscle and any(channel_of_word(word) == "pressure" for word in words):
+    reference = _reference_of_text(text)
+    if reference is not None:
         yield "pressure", "absolute" if reference else "gauge"
     kinds = {kind for word in words for kind, stem in _KINDS.items() if word.startswith(stem)}
     if len(kinds) == 1:
@@ -133,10 +134,28 @@ def _of_text(text: str) -> Iterator[tuple[str, str]]:
         yield "date", day[0]
 
 
+def _reference_of_text(text: str) -> bool | None:
+    """What a text says the pressure of the muscle counts from: True = vacuum; None = it does not say.
+
+    Clauses about the supply or the air outside say nothing of it. Clauses that contradict each other: None.
+    """
+    said: set[bool] = set()
+    for clause in _CLAUSE.split(_OTHER_GAUGES.sub(" ", text)):
+        words = words_of(clause)
+        if has_word(words, _AMBIENT | _SUPPLIES) or any(
+            other_quantity(word, "pressure") in _OF_OTHER_AIR for word in words
+        ):
+            continue
+        reference = reference_among(words)
+        if reference is not None and any(channel_of_word(word) == "pressure" for word in words):
+            said.add(reference)
+    return said.pop() if len(said) == 1 else None
+
+
 def _quantities(text: str) -> Iterator[_Quantity]:
     """The quantities of a text; each with the words since the one before it, and those up to the next one."""
     text = _UNIT_IN_NAME.sub(_unit_behind, text)
-    text = _NO_PRESSURE.sub(" unpressurized ", _L_ZERO.sub("L0", _UNIT_FIRST.sub(r" \2 \1", text)))
+    text = _NO_PRESSURE.sub(" unpressurized ", _L_ZERO.sub("L0", _UNIT_FIRST.sub(_unit_after, text)))
     begin = 0
     for found in _QUANTITY.finditer(text):
         unit = (unit_of(found[2]) or unit_of(found[2].partition("(")[0])) if found[2] else None
@@ -149,6 +168,11 @@ def _quantities(text: str) -> Iterator[_Quantity]:
             words_of(before), value, None if unit is None else unit.unit, words_of(behind),
             words_of(own[1]) if own else (),
         )  # fmt: skip
+
+
+def _unit_after(found: re.Match[str]) -> str:
+    """``[mm] 250`` as ``250 mm``; brackets around other words stay."""
+    return f" {found[2]} {found[1]}" if unit_of(found[1]) is not None else found[0]
 
 
 def _unit_behind(found: re.Match[str]) -> str:
