@@ -18,6 +18,7 @@ from mckibben.measurement.read.channels import ChannelReading, read_channels
 from mckibben.measurement.read.checks import questions_of
 from mckibben.measurement.read.conditions import ATMOSPHERE, key_of, read_conditions
 from mckibben.measurement.read.constants import notes_with_constants, with_constants
+from mckibben.measurement.read.contradictions import condition_questions
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.evidence import Evidence, is_numeric
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning, map_headers
@@ -153,6 +154,9 @@ def assemble(
     for reason, left_out in skipped.items():
         messages.append(f"{left_out.rows} rows left out: {reason} (first: {left_out.first})")
     questions = questions_of(_evidence(source, meaning, reading, by_use, columns, correction))
+    weighed = {*correction.conditions, *(column.key for column in meaning.constants)}
+    questions += condition_questions(source.rest, source.notes, conditions, columns, weighed)
+    questions.sort(key=lambda question: not question.stops)
     if asked is not None:
         asked += questions
     elif (open_questions := refusal(name, questions, strict=correction.strict)) is not None:

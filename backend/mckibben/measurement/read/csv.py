@@ -113,6 +113,7 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
         and len(first) in (0, len(headers))
         and not words
         and not gaps
+        and not _may_be_tall(headers, first, known)
         and len(pressures) < 2
         and "\n#" not in body  # titles of blocks
         and not _has_thousands(body, separator)
@@ -136,6 +137,12 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
         raw=RawRows(shown_rows(_lines_of(text, separator), row), tuple(range(len(headers)))),
     )
     return source, sure
+
+
+def _may_be_tall(headers: Sequence[str], first: Sequence[str], known: Sequence[int]) -> bool:
+    """Whether no head names a reading and words stand beside the numbers: perhaps one value per line."""
+    named = {recognise(headers[index]).channel for index in known}
+    return named <= {"time", "group", "direction"} and any(kind_of(cell) == TEXT for cell in first)
 
 
 def _lines_of(text: str, separator: str) -> Iterator[tuple[int, list[str]]]:

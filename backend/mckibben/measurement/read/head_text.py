@@ -54,6 +54,12 @@ _NEWTONS = {"n": UnitText("N")}  # behind a name of a force only; alone it count
 _PATH = re.compile(r"/?(?P<first>[A-Za-z_]\w*)[./](?:[A-Za-z_]\w*[./])*(?P<name>[A-Za-z_]\w*)")
 
 
+#: The number of a channel before or instead of its name: "CH1", "AI 0", "Kanal 3".
+CHANNEL_NUMBER = re.compile(
+    r"(?i)(?:ch|chan|channel|kanal|canal|voie|ai|input|in|c)[ _-]?[0-9]{1,2}(?![^\W_])"
+)
+
+
 class Head(NamedTuple):
     """A head taken apart: its name, unit and reference, the pressure it names."""
 

@@ -7,12 +7,13 @@ from collections.abc import Mapping, Sequence
 
 from mckibben.measurement.read.column_lists import listed_columns
 from mckibben.measurement.read.grid import BLANKS, Grid, TextGrid
+from mckibben.measurement.read.head_text import CHANNEL_NUMBER
 from mckibben.measurement.read.held import held_quantities
 from mckibben.measurement.read.locate import Run, TableHead, names_channel, texts_of
 from mckibben.measurement.read.recognise import BY_UNIT, recognise
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.values import NUMBER, TEXT, kind_of
-from mckibben.measurement.read.vocabulary import reference_among, words_of
+from mckibben.measurement.read.vocabulary import UNIT_WORDS, reference_among, words_of
 
 _HEAD_ROWS = 8  # most rows of a head
 _LISTED_WITHIN = 200  # rows above a head in which its channels may be listed
@@ -56,6 +57,8 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
         units_at = below[0] if below else None
     if units_at is None and not any(recognise(name).unit for name in names if name):
         units_at = _units_in_preamble(grid, named, names)
+    if units_at is None and not any(recognise(name).unit for name in names if name):
+        units_at = _labelled_units(grid, named, names)
     if units_at is not None and units_at > named and _divides(names, _padded(texts[units_at], width)):
         units_at = None  # units, and words that divide the names above
     units: list[str | None] = [None] * width
@@ -78,8 +81,40 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
                 for name, f, o in zip(names, filled, other, strict=False)
             ]
             continue
-        names = [name or (o if names_channel(o) else "") for name, o in zip(names, other, strict=False)]
+        names = _completed(names, other)
     return TableHead(names, units, named, units_at, tuple(rows))
+
+
+def _completed(names: Sequence[str], other: Sequence[str]) -> list[str]:
+    """Names with what another row of the head says: "Label,Pressure" and "TIME,CH1" are TIME, CH1 Pressure.
+
+    The first name may be that of the row; numbers of channels go before names that stand once.
+    """
+    channels = {recognise(name).channel for name in names if name}
+    full = sum(map(bool, other)) >= sum(map(bool, names)) > 1
+    result = []
+    for column, (name, cell) in enumerate(zip(names, other, strict=False)):
+        label = full and column == 0 and not names_channel(name) and recognise(name).unit is None
+        label = label and recognise(cell).channel not in channels
+        if (not name or label) and names_channel(cell):
+            name = cell
+        elif full and names_channel(name) and CHANNEL_NUMBER.fullmatch(cell) and list(names).count(name) == 1:
+            name = f"{cell} {name}"
+        result.append(name)
+    return result
+
+
+def _labelled_units(grid: Grid, named: int, names: Sequence[str]) -> int | None:
+    """A row above the names that a word labels as units: "Vertical Units,V,V"; that of the times is none."""
+    for index in range(named - 1, max(-1, named - 1 - _UNITS_WITHIN), -1):
+        label, *cells = [*texts_of(grid.cells(index)), ""]
+        units = [unit_of(cell) for cell in cells[: len(names) - 1]]
+        if len(units) < len(names) - 1 or len(names) < 3 or not set(words_of(label)) & UNIT_WORDS:
+            continue
+        found = [dimension_of(unit.unit) for unit in units if unit is not None]
+        if len(found) == len(names) - 1 and all(found) and set(found) != {"a time"}:
+            return index
+    return None
 
 
 def _listed(grid: Grid, run: Run, rows: Sequence[int]) -> TableHead | None:

@@ -51,6 +51,7 @@ _OWN_BEHIND = re.compile(
     r"[\s(]*([^,;:=()\d.]{0,60}?)(?=[,;().]|$|\s(?:and|with|und|mit|et|avec|con|com|og|och)\s)"
 )
 _CLAUSE = re.compile(r"[;|]|[.,:](?!\d)\s")
+_BEFORE = frozenset(("mm", "cm", "kg", "bar", "mbar", "kPa", "MPa", "hPa", "psi", "kN", "lbf", "inch"))
 _OF_OTHER_AIR = ("the supply", "the surrounding air")
 _WITHOUT = REMARK_WORDS["without"]
 _LONG = word_set("long lang lungo largo comprido dlugi длинный uzun")
@@ -113,6 +114,14 @@ def statements(rest: Iterable[tuple[str, str]], name: str) -> list[Note]:
     return list(found.values())
 
 
+def values_stated(rest: Iterable[tuple[str, str]]) -> Iterator[tuple[str, str, str]]:
+    """(condition, value, place) of everything that texts state, not only the first of each condition."""
+    for text, where in rest:
+        for key, value in _of_text(text):
+            note = Note(where, key, value)
+            yield key, str((_in_millimetres(note) if key == "nominal_length" else note).value), where
+
+
 def _of_text(text: str) -> Iterator[tuple[str, str]]:
     yield from signs_of(text)
     words = words_of(text)
@@ -128,7 +137,9 @@ def _of_text(text: str) -> Iterator[tuple[str, str]]:
             yield key, f"{quantity.value} {quantity.unit}" if quantity.unit else quantity.value
     if words and words[0] in _SAMPLES:
         value = re.sub(r"^\s*[^\s:;=,]+\s*(?:label|name|nr\.?|no\.?|id)?\s*[:;=,]?\s*", "", text).strip()
-        if value and not re.match(r"(?i)rate|freq|interval|s\b|time|period|=|\d+\s*(Hz|ms|s)\b", value):
+        if value and not re.match(
+            r"(?i)rate|freq|interval|attenuation|s\b|time|period|=|\d+\s*(Hz|ms|s)\b", value
+        ):
             yield "sample", value
     if words and words[0] in _DATES and (day := re.search(r"[0-9]{1,4}[./-][0-9]{1,2}[./-][0-9]{1,4}", text)):
         yield "date", day[0]
@@ -164,6 +175,8 @@ def _quantities(text: str) -> Iterator[_Quantity]:
         behind = re.split(r"[,;.:(]", text[begin : begin + 40])[0]
         own = _OWN_BEHIND.match(text, begin)
         value = found[1].replace(",", ".")
+        if unit is None and (last := re.search(r"([^\s:=]{2,5})[\s:=]*$", before)) is not None:
+            unit = unit_of(last[1]) if last[1] in _BEFORE else None  # a cell of its own: "L0 | cm | 18.5"
         yield _Quantity(
             words_of(before), value, None if unit is None else unit.unit, words_of(behind),
             words_of(own[1]) if own else (),
@@ -297,7 +310,9 @@ def _in_millimetres(note: Note) -> Note:
         number = float(str(note.value).replace(",", "."))
     except ValueError:
         return note
-    return note._replace(value=f"{number:.10g} mm") if number >= _LONGEST_METRES else note
+    if number < _LONGEST_METRES:
+        return note
+    return note._replace(value=f"{number:.10g} mm", where=f"{note.where}, no unit: read as mm".lstrip(", "))
 
 
 _LONGEST_METRES = 10.0  # no muscle is longer; a larger number without unit counts millimetres
