@@ -92,10 +92,11 @@ def _completed(names: Sequence[str], other: Sequence[str]) -> list[str]:
     """
     channels = {recognise(name).channel for name in names if name}
     full = sum(map(bool, other)) >= sum(map(bool, names)) > 1
+    numbered = all(CHANNEL_NUMBER.fullmatch(cell) or names_channel(cell) for cell in other[1:] if cell)
     result = []
     for column, (name, cell) in enumerate(zip(names, other, strict=False)):
         label = full and column == 0 and not names_channel(name) and recognise(name).unit is None
-        label = label and recognise(cell).channel not in channels
+        label = label and recognise(cell).channel == "time" and "time" not in channels and numbered
         if (not name or label) and names_channel(cell):
             name = cell
         elif full and names_channel(name) and CHANNEL_NUMBER.fullmatch(cell) and list(names).count(name) == 1:
