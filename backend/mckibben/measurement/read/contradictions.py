@@ -12,6 +12,7 @@ from mckibben.measurement.question import Question
 from mckibben.measurement.read.conditions import Note, condition_value, key_of
 from mckibben.measurement.read.evidence import Array
 from mckibben.measurement.read.stated import NAME, values_stated
+from mckibben.measurement.read.words.cells import NUMBER_WORDS
 from mckibben.physics.errors import InputError
 
 _SAME = 2e-3  # relative; values that differ by less are the same one, rounded
@@ -23,6 +24,11 @@ _ASKED = {
 # No braid lets a muscle become longer than 1.25 of its length at rest, nor shorter than 0.4: at 54.7 degrees
 # it is locked, from 20 degrees on that is cos(54.7 deg)/cos(20 deg) = 0.61.
 _LONGEST, _SHORTEST = 1.25, 0.4
+_NUMBERS = " ".join(NUMBER_WORDS.values()).split()
+_IN_WORDS = re.compile(
+    rf"(?i)(?<![^\W_])(?:{'|'.join(sorted(_NUMBERS, key=len, reverse=True))})\s+"
+    r"(?:m?bar|[kM]?Pa|psi|kg|Newton|mm|cm|bars|kilos?|millimet(?:er|re)s?)(?![^\W_])"
+)
 _SHEET = re.compile(r"sheet '.*?'|")
 
 
@@ -45,6 +51,19 @@ def condition_questions(
     if "nominal_length" not in given and not any(key == "nominal_length" for key, _ in asked):
         found += _impossible(notes, conditions, channels)
     return found
+
+
+def numbers_in_words(texts: Iterable[tuple[str, str]]) -> list[str]:
+    """Messages for quantities whose number is a word, "drei Bar": they are not read.
+
+    >>> numbers_in_words([("bei drei Bar aufgenommen", "line 2")])
+    ["'drei Bar' (line 2) is a number in words and is not read; write it in digits"]
+    """
+    return [
+        f"'{found[0]}' ({where}) is a number in words and is not read; write it in digits"
+        for text, where in texts
+        for found in _IN_WORDS.finditer(text)
+    ]
 
 
 def _twice(

@@ -105,6 +105,16 @@ def taken_apart(header: str, unit_below: str | None = None) -> Head:
     return Head(text.strip(" _"), None if unit is None else unit.unit, absolute, held)
 
 
+def channel_number(text: str) -> str:
+    """The number of a channel with which a text begins: "ch1" of "CH 1: pressure"; "" = none.
+
+    >>> channel_number("Kanal 3 absolut"), channel_number("pressure")
+    ('ch3', '')
+    """
+    found = CHANNEL_NUMBER.match(text.strip())
+    return "" if found is None else f"ch{int(re.sub(r'[^0-9]', '', found[0]))}"
+
+
 def without_paths(names: Sequence[str]) -> list[str]:
     """Names without the path that most of them share the beginning of; a unit behind ``/`` is no name.
 

@@ -9,7 +9,7 @@ from pathlib import PurePath
 from typing import NamedTuple
 
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, Note, key_of
-from mckibben.measurement.read.head_text import taken_apart
+from mckibben.measurement.read.head_text import channel_number, taken_apart
 from mckibben.measurement.read.signs import signs_of
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.vocabulary import (
@@ -26,6 +26,7 @@ from mckibben.resources import presets_folder
 
 NAME = "the file's name"
 #: Conditions that only these texts say, besides those with a unit.
+REFERENCE_OF = "reference_of_"  # and the number of a channel: "absolute" or "gauge"
 KIND_SAID = "kind_said"  # text: "isotonic"
 _NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
 _UNIT = r"(?:[^\W\d_]|[°%\"'])+(?:/[^\W\d_]+[2²]?)?"
@@ -125,9 +126,9 @@ def values_stated(rest: Iterable[tuple[str, str]]) -> Iterator[tuple[str, str, s
 def _of_text(text: str) -> Iterator[tuple[str, str]]:
     yield from signs_of(text)
     words = words_of(text)
-    reference = _reference_of_text(text)
-    if reference is not None:
-        yield "pressure", "absolute" if reference else "gauge"
+    for channel, absolute in _references_of_text(text).items():
+        key = f"{REFERENCE_OF}{channel}" if channel else "pressure"
+        yield key, "absolute" if absolute else "gauge"
     kinds = {kind for word in words for kind, stem in _KINDS.items() if word.startswith(stem)}
     if len(kinds) == 1:
         yield KIND_SAID, kinds.pop()
@@ -145,12 +146,13 @@ def _of_text(text: str) -> Iterator[tuple[str, str]]:
         yield "date", day[0]
 
 
-def _reference_of_text(text: str) -> bool | None:
-    """What a text says the pressure of the muscle counts from: True = vacuum; None = it does not say.
+def _references_of_text(text: str) -> dict[str, bool]:
+    """What a text says the pressure of the muscle counts from: True = vacuum, by the number of the channel.
 
-    Clauses about the supply or the air outside say nothing of it. Clauses that contradict each other: None.
+    "" is what it says of no channel in particular. Clauses about the supply or the air outside say nothing of
+    the muscle; what clauses contradict is left out.
     """
-    said: set[bool] = set()
+    said: dict[str, set[bool]] = {}
     for clause in _CLAUSE.split(_OTHER_GAUGES.sub(" ", text)):
         words = words_of(clause)
         if has_word(words, _AMBIENT | _SUPPLIES) or any(
@@ -159,8 +161,8 @@ def _reference_of_text(text: str) -> bool | None:
             continue
         reference = reference_among(words)
         if reference is not None and any(channel_of_word(word) == "pressure" for word in words):
-            said.add(reference)
-    return said.pop() if len(said) == 1 else None
+            said.setdefault(channel_number(clause), set()).add(reference)
+    return {channel: marks.pop() for channel, marks in said.items() if len(marks) == 1}
 
 
 def _quantities(text: str) -> Iterator[_Quantity]:
