@@ -106,13 +106,13 @@ def taken_apart(header: str, unit_below: str | None = None) -> Head:
 
 
 def channel_number(text: str) -> str:
-    """The number of a channel with which a text begins: "ch1" of "CH 1: pressure"; "" = none.
+    """The one number of a channel that a text names: "ch1" of "CH 1: pressure"; "" = none, or several.
 
-    >>> channel_number("Kanal 3 absolut"), channel_number("pressure")
+    >>> channel_number("Note: Kanal 3 absolut"), channel_number("pressure")
     ('ch3', '')
     """
-    found = CHANNEL_NUMBER.match(text.strip())
-    return "" if found is None else f"ch{int(re.sub(r'[^0-9]', '', found[0]))}"
+    found = {int(re.sub(r"[^0-9]", "", match[0])) for match in CHANNEL_NUMBER.finditer(text)}
+    return f"ch{found.pop()}" if len(found) == 1 else ""
 
 
 def without_paths(names: Sequence[str]) -> list[str]:

@@ -15,6 +15,7 @@ from mckibben.measurement.read.held import HeldQuantity, held_pressure
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import NAME
 from mckibben.measurement.read.vocabulary import REMARK_WORDS, has_word, words_of
+from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
 
 
@@ -24,16 +25,27 @@ def hold_pressure(
 ) -> None:  # fmt: skip
     """Forces over a stroke without any pressure are at the one that a line states, else the file's name.
 
-    A line beats the name, and a message says where they differ. Lines that state several pressures say none.
+    A line beats the name, and a message says where they differ. Of several lines the one counts that the name
+    agrees with.
+
+    Raises:
+        InputError: lines state several pressures, and the name none of them.
     """
     if "pressure" in columns or "force" not in columns or not set(columns) & set(STROKES):
         return
     stated = {_pascal(said, conditions): (said, where) for said, where in _stated(source)}
     named = held_pressure(PurePath(name).stem)
     if len(stated) > 1:
-        shown = ", ".join(f"'{said.text}' ({where})" for said, where in stated.values())
-        messages.append(f"pressure is not taken from the texts, they state several: {shown}")
-        return
+        agreed = None if named is None else stated.get(_pascal(named, conditions))
+        if agreed is None:
+            shown = ", ".join(f"'{said.text}' ({where})" for said, where in stated.values())
+            raise InputError(
+                f"{name}: no column holds the pressure, and the texts state several: {shown}; at which one "
+                "was it measured",
+                field="pressure",
+                hint="leave one of them in the file, or write the pressure as a column, 'pressure_bar'",
+            )
+        stated = {0.0: agreed}
     said, where = next(iter(stated.values()), (named, NAME))
     if said is None:
         return

@@ -53,6 +53,7 @@ _OWN_BEHIND = re.compile(
 )
 _CLAUSE = re.compile(r"[;|]|[.,:](?!\d)\s")
 _BEFORE = frozenset(("mm", "cm", "kg", "bar", "mbar", "kPa", "MPa", "hPa", "psi", "kN", "lbf", "inch"))
+_VALUED = re.compile(rf"(?P<name>[^\W\d_]+)\s*(?:[=:]|is|was|ist|war)?\s*{_NUMBER}\s*(?:{_UNIT})")
 _OF_OTHER_AIR = ("the supply", "the surrounding air")
 _WITHOUT = REMARK_WORDS["without"]
 _LONG = word_set("long lang lungo largo comprido dlugi длинный uzun")
@@ -153,7 +154,7 @@ def _references_of_text(text: str) -> dict[str, bool]:
     the muscle; what clauses contradict is left out.
     """
     said: dict[str, set[bool]] = {}
-    for clause in _CLAUSE.split(_OTHER_GAUGES.sub(" ", text)):
+    for clause in _CLAUSE.split(_OTHER_GAUGES.sub(" ", _VALUED.sub(_without_air, text))):
         words = words_of(clause)
         if has_word(words, _AMBIENT | _SUPPLIES) or any(
             other_quantity(word, "pressure") in _OF_OTHER_AIR for word in words
@@ -163,6 +164,11 @@ def _references_of_text(text: str) -> dict[str, bool]:
         if reference is not None and any(channel_of_word(word) == "pressure" for word in words):
             said.setdefault(channel_number(clause), set()).add(reference)
     return {channel: marks.pop() for channel, marks in said.items() if len(marks) == 1}
+
+
+def _without_air(found: re.Match[str]) -> str:
+    """Nothing in the place of the pressure of the air outside with its value; other values stay."""
+    return ";" if has_word(words_of(found["name"]), _AMBIENT) else found[0]
 
 
 def _quantities(text: str) -> Iterator[_Quantity]:
